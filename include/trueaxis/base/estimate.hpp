@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace trueaxis {
+
+/// A result: value, standard uncertainty u (GUM), unit; or, in `why_not`, why there is none.
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double u = std::numeric_limits<double>::quiet_NaN();  ///< standard uncertainty, k = 1
+  std::string unit;                                     ///< unit of value and u, as at the edge ("mm", "deg", "1")
+  std::string why_not;  ///< why value or u is missing; empty when both are there
+
+  bool determined() const { return std::isfinite(value); }
+};
+
+}  // namespace trueaxis

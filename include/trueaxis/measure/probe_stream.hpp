@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trueaxis {
+
+/// What the probe moves along while it reads.
+enum class StreamKind {
+  lateral,  ///< reads X_M (radius) at (C, Z): cone, cylinder, section
+  face,     ///< reads Z_M at (C, X): plane
+};
+
+/// Whether readings are positions or only differences.
+enum class Indication {
+  absolute,  ///< X_M is the machine position of the contact (or of the ball's centre)
+  relative,  ///< a gauge: X_M up to an unknown constant; a nominal radius is needed
+};
+
+/// A probe stream, structure of arrays; every column has `size()` entries or none.
+/// Machine frame, mm, rad, s; X_M is a radius. Nothing is dropped: row i of the file is entry i.
+struct ProbeStream {
+  StreamKind kind = StreamKind::lateral;
+  Indication indication = Indication::absolute;
+  std::vector<double> reading_mm;   ///< X_M, or Z_M for a face
+  std::vector<double> c_rad;        ///< spindle angle, running (a wrapped column is unwrapped by the reader)
+  std::vector<double> position_mm;  ///< Z, or X for a face; empty: one section without Z
+  std::vector<double> time_s;       ///< empty when the stream has no t
+  std::vector<int> pass;            ///< empty when the stream has no pass column
+  std::vector<int> setup;           ///< empty when the stream has no setup column
+
+  std::optional<double> nominal_radius_mm;  ///< metadata nominal_radius
+  std::optional<double> sensor_noise_mm;    ///< metadata sensor_noise, standard deviation
+  std::optional<double> spindle_rpm;        ///< metadata spindle_rpm, signed like C
+  std::map<std::string, std::string> metadata;  ///< every "# key: value", those above included
+
+  std::string source;      ///< file name, or "-" for standard input
+  std::string input_hash;  ///< "xxh3-64:<16 hex digits>" of the bytes read
+
+  std::size_t size() const { return reading_mm.size(); }
+  bool has_position() const { return !position_mm.empty(); }
+};
+
+}  // namespace trueaxis
