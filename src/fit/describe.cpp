@@ -13,11 +13,13 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double cylinder_sds = 3.0;   // a half angle within 3 u of zero cannot be told from a cylinder
-constexpr double cylinder_tan = 1e-10; // below, noise-free: 0.01 nm over 100 mm
+constexpr double cylinder_sds =
+    3.0;  // a half angle within 3 u of zero cannot be told from a cylinder
+constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
 
 Rows as_rows(const std::vector<double>& values, Eigen::Index columns) {
-  return Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
+  return Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns,
+                                columns);
 }
 
 Eigen::Index index_of(std::span<const std::string_view> names, std::string_view name) {
@@ -27,21 +29,26 @@ Eigen::Index index_of(std::span<const std::string_view> names, std::string_view 
 
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
 void report_parameters(const Surface::Reported& reported, const Rows& jacobian,
-                       const Eigen::MatrixXd& covariance, const Determination& determination, FitResult& result) {
+                       const Eigen::MatrixXd& covariance, const Determination& determination,
+                       FitResult& result) {
   const SurfaceInfo& info = surface_info(result.surface);
   const Rows edge = jacobian * covariance * jacobian.transpose();
   result.covariance.assign(edge.data(), edge.data() + edge.size());
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    FitParameter parameter{std::string(info.parameters[i]), {reported.value[i], std::sqrt(edge(row, row)), std::string(info.units[i]), ""}};
+    FitParameter parameter{
+        std::string(info.parameters[i]),
+        {reported.value[i], std::sqrt(edge(row, row)), std::string(info.units[i]), ""}};
     const double whole = jacobian.row(row).norm();
     for (Eigen::Index j = 0; j < determination.free_directions.cols(); ++j) {
       const Eigen::VectorXd direction = determination.free_directions.col(j);
       const double along = std::abs(jacobian.row(row).dot(direction));
-      if (along > 1e-6 * whole * direction.norm()) parameter.estimate.why_not = "not determined by these readings";
+      if (along > 1e-6 * whole * direction.norm())
+        parameter.estimate.why_not = "not determined by these readings";
     }
     if (parameter.estimate.why_not.empty() && !std::isfinite(parameter.estimate.u)) {
-      parameter.estimate.why_not = "no uncertainty: as many readings as parameters, and no sensor noise given";
+      parameter.estimate.why_not =
+          "no uncertainty: as many readings as parameters, and no sensor noise given";
     } else if (!parameter.estimate.why_not.empty()) {
       parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
     }
@@ -58,34 +65,41 @@ void withdraw(FitResult& result, std::string_view name, const std::string& why) 
 }
 
 /// A cone whose half angle is zero within its uncertainty has no apex.
-void check_cone(const Surface& surface, std::span<const double> working, const Eigen::MatrixXd& covariance,
-                FitResult& result) {
+void check_cone(const Surface& surface, std::span<const double> working,
+                const Eigen::MatrixXd& covariance, FitResult& result) {
   const Eigen::Index tan = index_of(surface.working_names(), "tan_half_angle");
   if (tan < 0 || !result.not_determined.empty()) return;
   const double value = working[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
   if (std::abs(value) > std::max(cylinder_sds * u, cylinder_tan)) return;
   char text[160];
-  std::snprintf(text, sizeof text, "k and half_angle: the cone cannot be told from a cylinder, half angle %.2g° ± %.2g°",
-                std::atan(value) / rad_per_deg, u / rad_per_deg);
+  std::snprintf(
+      text, sizeof text,
+      "k and half_angle: the cone cannot be told from a cylinder, half angle %.2g° ± %.2g°",
+      std::atan(value) / rad_per_deg, u / rad_per_deg);
   result.not_determined.push_back(text);
   withdraw(result, "k", "the cone cannot be told from a cylinder");
   withdraw(result, "half_angle", "the cone cannot be told from a cylinder");
 }
 
-void report_axis(const Surface& surface, std::span<const double> working, const Eigen::MatrixXd& covariance,
-                 FitResult& result) {
+void report_axis(const Surface& surface, std::span<const double> working,
+                 const Eigen::MatrixXd& covariance, FitResult& result) {
   result.axis.axis = surface.axis(working);
   result.shape = surface.shape(working);
-  const Rows jacobian = as_rows(surface.axis_jacobian(working), static_cast<Eigen::Index>(working.size()));
+  const Rows jacobian =
+      as_rows(surface.axis_jacobian(working), static_cast<Eigen::Index>(working.size()));
   const Rows axis = jacobian * covariance * jacobian.transpose();
   std::copy_n(axis.data(), 16, result.axis.covariance.begin());
 }
 
-FitParameter length(std::string name, double value, double u) { return {std::move(name), {value, u, "mm", ""}}; }
+FitParameter length(std::string name, double value, double u) {
+  return {std::move(name), {value, u, "mm", ""}};
+}
 
-/// u of |v| for a plane vector v with covariance c: along v, or in the worse direction where v is within its u.
+/// u of |v| for a plane vector v with covariance c: along v, or in the worse direction where v is
+/// within its u.
 double u_of_norm(const Eigen::Vector2d& v, const Eigen::Matrix2d& c) {
-  const double worst = std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c).eigenvalues()(1)));
+  const double worst =
+      std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c).eigenvalues()(1)));
   if (v.norm() <= worst) return worst;
   return std::sqrt(std::max(0.0, v.dot(c * v))) / v.norm();
 }
@@ -93,7 +107,8 @@ double u_of_norm(const Eigen::Vector2d& v, const Eigen::Matrix2d& c) {
 void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, FitResult& result) {
   const Eigen::Index radius = index_of(surface.working_names(), "radius");
   if (result.surface == "cone" && radius >= 0) {
-    result.derived.push_back(length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
+    result.derived.push_back(
+        length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
   const Rows axis = Eigen::Map<const Rows>(result.axis.covariance.data(), 4, 4);
   const Axis& line = result.axis.axis;
@@ -101,7 +116,8 @@ void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, F
     Eigen::Matrix<double, 2, 4> at;
     at << 1, 0, z - line.z_ref_mm, 0, 0, 1, 0, z - line.z_ref_mm;
     const auto [x, y] = line.at(z);
-    result.derived.push_back(length(name, std::hypot(x, y), u_of_norm({x, y}, at * axis * at.transpose())));
+    result.derived.push_back(
+        length(name, std::hypot(x, y), u_of_norm({x, y}, at * axis * at.transpose())));
   };
   if (result.surface == "section") offset("eccentricity", line.z_ref_mm);
   if (result.surface == "cone" || result.surface == "cylinder") {
@@ -111,30 +127,34 @@ void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, F
   if (result.surface == "section") return;
   const Eigen::Vector2d slope(line.slope_x, line.slope_y);
   const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
-  result.derived.push_back({"tilt", {std::atan(slope.norm()) / rad_per_deg, u / rad_per_deg, "deg", ""}});
+  result.derived.push_back(
+      {"tilt", {std::atan(slope.norm()) / rad_per_deg, u / rad_per_deg, "deg", ""}});
 }
 
 void report_rms(FitResult& result) {
   double sum = 0.0;
   std::size_t next = 0;
   for (std::size_t i = 0; i < result.residual_mm.size(); ++i) {
-    const bool out = result.loss == Loss::tukey && next < result.rejected.size() && result.rejected[next].row == i + 1;
+    const bool out = result.loss == Loss::tukey && next < result.rejected.size() &&
+                     result.rejected[next].row == i + 1;
     if (out) {
       ++next;
     } else {
       sum += result.residual_mm[i] * result.residual_mm[i];
     }
   }
-  result.rms_mm = std::sqrt(sum / std::max<double>(1.0, static_cast<double>(result.residual_mm.size() - next)));
+  result.rms_mm =
+      std::sqrt(sum / std::max<double>(1.0, static_cast<double>(result.residual_mm.size() - next)));
 }
 
 }  // namespace
 
-void describe(const Surface& surface, Association& association, const ProbeStream& stream, const Noise& noise,
-              const FitOptions& options, FitResult& result) {
+void describe(const Surface& surface, Association& association, const ProbeStream& stream,
+              const Noise& noise, const FitOptions& options, FitResult& result) {
   const std::vector<double>& working = association.minimum.working;
   const std::vector<double> scale = surface.working_scale_mm(working);
-  // The weights of a robust loss are in its factor (see estimate_noise), so the plain matrix is inverted.
+  // The weights of a robust loss are in its factor (see estimate_noise), so the plain matrix is
+  // inverted.
   const NormalMatrix normal = association.scale_mm > 0.0
                                   ? accumulate(surface, working, PreparedStream(stream), {})
                                   : association.minimum.normal;
@@ -154,7 +174,8 @@ void describe(const Surface& surface, Association& association, const ProbeStrea
   report_parameters(reported, jacobian, covariance, determination, result);
   for (const Source& source : sources) {
     BudgetLine line{source.name, source.type, {}};
-    const Eigen::VectorXd variance = (jacobian * source.covariance * jacobian.transpose()).diagonal();
+    const Eigen::VectorXd variance =
+        (jacobian * source.covariance * jacobian.transpose()).diagonal();
     for (const double v : variance) line.u.push_back(std::sqrt(std::max(0.0, v)));
     result.budget.push_back(std::move(line));
   }

@@ -5,9 +5,9 @@
 
 namespace trueaxis {
 
-/// Turns a minimum into the result: what is determined, parameters with uncertainties and budget, the
-/// axis, what was rejected. Residuals move into the result.
-void describe(const Surface& surface, Association& association, const ProbeStream& stream, const Noise& noise,
-              const FitOptions& options, FitResult& result);
+/// Turns a minimum into the result: what is determined, parameters with uncertainties and budget,
+/// the axis, what was rejected. Residuals move into the result.
+void describe(const Surface& surface, Association& association, const ProbeStream& stream,
+              const Noise& noise, const FitOptions& options, FitResult& result);
 
 }  // namespace trueaxis

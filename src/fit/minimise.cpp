@@ -11,8 +11,10 @@
 namespace trueaxis {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_parameters + 1, max_parameters>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters + 1, 1>;
+// Sizes are bounded, so that nothing is allocated in the hot path.
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_parameters,
+                             max_parameters>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters, 1>;
 
 /// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.
 void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
@@ -24,7 +26,8 @@ void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
   const Vector scaled_g = d.cwiseInverse().asDiagonal() * g;
   const Eigen::LLT<Matrix> llt(scaled);
   const double smallest = llt.matrixLLT().diagonal().cwiseAbs().minCoeff();
-  if (llt.info() == Eigen::Success && smallest > 1e-6) {  // pivots of a unit-diagonal matrix: cond < 1e12
+  if (llt.info() == Eigen::Success &&
+      smallest > 1e-6) {  // pivots of a unit-diagonal matrix: cond < 1e12
     z = llt.matrixL().solve(scaled_g);
     r = Matrix(llt.matrixU()) * d.asDiagonal();
     return;
@@ -32,13 +35,14 @@ void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
   const Vector values = eigen.eigenvalues();
   const Vector root = values.cwiseMax(0.0).cwiseSqrt();
-  const Vector inverse = (values.array() > 1e-15 * values.maxCoeff()).select(root.cwiseInverse(), 0.0);
+  const Vector inverse =
+      (values.array() > 1e-15 * values.maxCoeff()).select(root.cwiseInverse(), 0.0);
   z = inverse.asDiagonal() * eigen.eigenvectors().transpose() * scaled_g;
   r = root.asDiagonal() * eigen.eigenvectors().transpose() * d.asDiagonal();
 }
 
-/// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks for
-/// the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
+/// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
+/// for the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
 class CompressedCost final : public ceres::CostFunction {
  public:
   CompressedCost(const Surface& surface, const PreparedStream& stream, const LossScale& loss)
@@ -47,14 +51,17 @@ class CompressedCost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->push_back(static_cast<int32_t>(surface.parameter_count()));
   }
 
-  bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
     const std::size_t p = surface_.parameter_count();
     const std::span<const double> working(parameters[0], p);
     if (!std::ranges::equal(working, last_.working)) {
       last_.working.assign(working.begin(), working.end());
       last_.normal = accumulate(surface_, working, stream_, loss_);
       ++passes_;
-      if (last_.normal.valid && (!best_.normal.valid || last_.normal.sum_rho < best_.normal.sum_rho)) best_ = last_;
+      if (last_.normal.valid &&
+          (!best_.normal.valid || last_.normal.sum_rho < best_.normal.sum_rho))
+        best_ = last_;
     }
     if (!last_.normal.valid) return false;
     Matrix r;
@@ -64,9 +71,8 @@ class CompressedCost final : public ceres::CostFunction {
     Eigen::Map<Vector>(residuals, rows) = z;
     residuals[p] = std::sqrt(std::max(0.0, last_.normal.sum_rho - z.squaredNorm()));
     if (jacobians != nullptr && jacobians[0] != nullptr) {
-      Eigen::Map<Matrix> jacobian(jacobians[0], rows + 1, rows);
-      jacobian.topRows(rows) = -r;
-      jacobian.row(rows).setZero();
+      Eigen::Map<Matrix>(jacobians[0], rows, rows) = -r;
+      std::fill_n(jacobians[0] + p * p, p, 0.0);
     }
     return true;
   }
@@ -113,10 +119,11 @@ Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vect
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.max_num_iterations = max_iterations;
-  options.initial_trust_region_radius = 1e12;  // Gauss-Newton until a step fails: the start is close
+  options.initial_trust_region_radius =
+      1e12;  // Gauss-Newton until a step fails: the start is close
   options.max_trust_region_radius = 1e32;
-  // A step that changes the cost by less is below 1e-6 of the noise, and the point it leads to (which
-  // is kept, see best()) is closer by the factor noise / radius again.
+  // A step that changes the cost by less is below 1e-6 of the noise, and the point it leads to
+  // (which is kept, see best()) is closer by the factor noise / radius again.
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-15;
   options.gradient_tolerance = 1e-300;

@@ -15,8 +15,8 @@ struct Minimum {
   bool converged = false;
 };
 
-/// Minimises ½Σρ(reading − prediction) with Ceres' Levenberg-Marquardt on the (p + 1)-row factor of the
-/// normal matrix: the same minimum as one residual a reading, without ever holding N residuals.
+/// Minimises ½Σρ(reading − prediction) with Ceres' Levenberg-Marquardt on the (p + 1)-row factor of
+/// the normal matrix: the same minimum as one residual a reading, without ever holding N residuals.
 Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
                  const LossScale& loss, int max_iterations);
 

@@ -15,11 +15,13 @@ constexpr double huber_k = 1.345, tukey_c = 4.685;  // 95 % efficiency on Gaussi
 constexpr double huber_listed = 6.0;                // σ: beyond it a Huber weight is below 0.23
 constexpr std::size_t start_blocks = 8;             // 1024 readings fix a start well enough
 
-/// Readings for the start: all of a short stream, else whole blocks spread by the golden ratio, so that
-/// no period of the sampling is met.
+/// Readings for the start: all of a short stream, else whole blocks spread by the golden ratio, so
+/// that no period of the sampling is met.
 struct Sample {
   std::vector<double> reading, cos_c, sin_c, position;
-  ReadingBlock view() const { return {reading.data(), cos_c.data(), sin_c.data(), position.data()}; }
+  ReadingBlock view() const {
+    return {reading.data(), cos_c.data(), sin_c.data(), position.data()};
+  }
 };
 
 void take(const ReadingBlock& block, std::size_t count, Sample& sample) {
@@ -48,14 +50,16 @@ Sample sample_of(const PreparedStream& stream) {
 }
 
 /// Residuals of the sample at `working`, through the same evaluation as the fit.
-std::vector<double> sample_residuals(const Surface& surface, std::span<const double> working, const Sample& sample) {
+std::vector<double> sample_residuals(const Surface& surface, std::span<const double> working,
+                                     const Sample& sample) {
   std::vector<double> out;
   PredictionBlock prediction;
   for (std::size_t begin = 0; begin < sample.reading.size(); begin += block_size) {
     const std::size_t count = std::min(block_size, sample.reading.size() - begin);
     Sample padded;
     take({sample.reading.data() + begin, sample.cos_c.data() + begin, sample.sin_c.data() + begin,
-          sample.position.data() + begin}, count, padded);
+          sample.position.data() + begin},
+         count, padded);
     for (auto* column : {&padded.reading, &padded.cos_c, &padded.sin_c, &padded.position}) {
       column->resize(block_size, column->back());
     }
@@ -67,7 +71,8 @@ std::vector<double> sample_residuals(const Surface& surface, std::span<const dou
 }
 
 /// Outliers pull an algebraic start: refit twice on the readings within 3 σ of the last one.
-std::vector<double> trimmed_start(const Surface& surface, const Sample& all, std::vector<double> start) {
+std::vector<double> trimmed_start(const Surface& surface, const Sample& all,
+                                  std::vector<double> start) {
   for (int round = 0; round < 2; ++round) {
     const std::vector<double> residual = sample_residuals(surface, start, all);
     if (residual.empty()) break;
@@ -91,7 +96,8 @@ LossScale loss_scale(Loss loss, double sigma_mm) {
 
 }  // namespace
 
-Association associate(const Surface& surface, const PreparedStream& stream, Loss loss, int max_iterations) {
+Association associate(const Surface& surface, const PreparedStream& stream, Loss loss,
+                      int max_iterations) {
   Association association;
   const Sample sample = sample_of(stream);
   std::vector<double> start = surface.start(sample.view(), sample.reading.size());
@@ -102,7 +108,8 @@ Association associate(const Surface& surface, const PreparedStream& stream, Loss
     residuals(surface, association.minimum.working, stream, association.residual_mm);
     return association;
   }
-  // Huber's convex loss carries the scale to its place; Tukey's, which has several minima, starts there.
+  // Huber's convex loss carries the scale to its place; Tukey's, which has several minima, starts
+  // there.
   residuals(surface, start, stream, association.residual_mm);
   double sigma = mad_sigma(association.residual_mm);
   int iterations = 0;
@@ -137,7 +144,8 @@ Influence1 influence(const LossScale& loss, double residual_mm) {
       return std::abs(r) <= c ? Influence1{r, 1.0} : Influence1{std::copysign(c, r), 0.0};
     case LossScale::Kind::tukey: {
       const double v = (r / c) * (r / c);
-      return v >= 1.0 ? Influence1{0.0, 0.0} : Influence1{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
+      return v >= 1.0 ? Influence1{0.0, 0.0}
+                      : Influence1{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
     }
     case LossScale::Kind::plain:
       break;

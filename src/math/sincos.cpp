@@ -73,8 +73,10 @@ namespace trueaxis {
 HWY_EXPORT(sincos_block);
 
 void sincos(std::span<const double> angle_rad, std::span<double> sine, std::span<double> cosine) {
-  expects(angle_rad.size() == sine.size() && sine.size() == cosine.size(), "three columns of one length");
-  HWY_DYNAMIC_DISPATCH(sincos_block)(angle_rad.data(), angle_rad.size(), sine.data(), cosine.data());
+  expects(angle_rad.size() == sine.size() && sine.size() == cosine.size(),
+          "three columns of one length");
+  HWY_DYNAMIC_DISPATCH(sincos_block)
+  (angle_rad.data(), angle_rad.size(), sine.data(), cosine.data());
 }
 
 }  // namespace trueaxis

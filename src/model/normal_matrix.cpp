@@ -11,23 +11,29 @@ namespace trueaxis {
 namespace {
 
 using Gram = std::array<double, gram_size(max_columns)>;
-constexpr std::size_t blocks_per_chunk = 64;  // partial sums: rounding grows with √(N/8192), not with N
+constexpr std::size_t blocks_per_chunk =
+    64;  // partial sums: rounding grows with √(N/8192), not with N
 
 void clear_padding(std::size_t columns, std::size_t filled, PredictionBlock& block) {
   std::fill(block.residual + filled, block.residual + block_size, 0.0);
-  for (std::size_t i = 0; i < columns; ++i) std::fill(block.column[i] + filled, block.column[i] + block_size, 0.0);
+  for (std::size_t i = 0; i < columns; ++i)
+    std::fill(block.column[i] + filled, block.column[i] + block_size, 0.0);
 }
 
-double entry(const Gram& gram, std::size_t i, std::size_t j) { return gram[gram_index(std::max(i, j), std::min(i, j))]; }
+double entry(const Gram& gram, std::size_t i, std::size_t j) {
+  return gram[gram_index(std::max(i, j), std::min(i, j))];
+}
 
 // J = T · columns for every reading: JᵀJ = T M Tᵀ.
-void transform_gram(const Gram& gram, const double* transform, std::size_t columns, NormalMatrix& out) {
+void transform_gram(const Gram& gram, const double* transform, std::size_t columns,
+                    NormalMatrix& out) {
   const std::size_t p = out.parameters;
-  std::array<double, max_parameters * (max_columns + 1)> half{};  // T · M, residual column last
+  std::array<double, max_parameters*(max_columns + 1)> half{};  // T · M, residual column last
   for (std::size_t a = 0; a < p; ++a) {
     for (std::size_t j = 0; j <= columns; ++j) {
       double sum = 0.0;
-      for (std::size_t i = 0; i < columns; ++i) sum += transform[a * columns + i] * entry(gram, i, j);
+      for (std::size_t i = 0; i < columns; ++i)
+        sum += transform[a * columns + i] * entry(gram, i, j);
       half[a * (columns + 1) + j] = sum;
     }
   }
@@ -37,7 +43,8 @@ void transform_gram(const Gram& gram, const double* transform, std::size_t colum
     out.jtr[a] = half[a * (columns + 1) + columns];
     for (std::size_t b = 0; b <= a; ++b) {
       double sum = 0.0;
-      for (std::size_t j = 0; j < columns; ++j) sum += half[a * (columns + 1) + j] * transform[b * columns + j];
+      for (std::size_t j = 0; j < columns; ++j)
+        sum += half[a * (columns + 1) + j] * transform[b * columns + j];
       out.jtj[a * p + b] = out.jtj[b * p + a] = sum;
     }
   }
@@ -45,10 +52,11 @@ void transform_gram(const Gram& gram, const double* transform, std::size_t colum
 
 }  // namespace
 
-NormalMatrix accumulate(const Surface& surface, std::span<const double> working, const PreparedStream& stream,
-                        const LossScale& loss) {
+NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
+                        const PreparedStream& stream, const LossScale& loss) {
   const std::size_t columns = surface.column_count();
-  expects(working.size() == surface.parameter_count(), "as many working parameters as the surface has");
+  expects(working.size() == surface.parameter_count(),
+          "as many working parameters as the surface has");
   NormalMatrix out;
   out.parameters = working.size();
   Gram total{}, chunk{};
@@ -74,15 +82,16 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
   return out;
 }
 
-bool residuals(const Surface& surface, std::span<const double> working, const PreparedStream& stream,
-               std::span<double> out_mm) {
+bool residuals(const Surface& surface, std::span<const double> working,
+               const PreparedStream& stream, std::span<double> out_mm) {
   expects(out_mm.size() == stream.size(), "room for one residual per reading");
   PredictionBlock block;
   bool valid = true;
   for (std::size_t index = 0; index < stream.blocks(); ++index) {
     surface.evaluate(working, stream.block(index), block);
     valid = valid && block.valid;
-    std::copy_n(block.residual, stream.filled(index), out_mm.begin() + static_cast<std::ptrdiff_t>(index * block_size));
+    std::copy_n(block.residual, stream.filled(index),
+                out_mm.begin() + static_cast<std::ptrdiff_t>(index * block_size));
   }
   return valid;
 }

@@ -8,10 +8,14 @@
 namespace trueaxis {
 
 PreparedStream::PreparedStream(const ProbeStream& stream)
-    : reading_(stream.reading_mm), position_(stream.position_mm), cos_(stream.size()), sin_(stream.size()) {
+    : reading_(stream.reading_mm),
+      position_(stream.position_mm),
+      cos_(stream.size()),
+      sin_(stream.size()) {
   expects(stream.size() > 0, "readings");
   expects(stream.c_rad.size() == stream.size(), "C for every reading");
-  expects(position_.empty() || position_.size() == stream.size(), "a position for every reading, or none");
+  expects(position_.empty() || position_.size() == stream.size(),
+          "a position for every reading, or none");
   sincos(stream.c_rad, sin_, cos_);
   if (position_.empty()) zeros_.assign(block_size, 0.0);
 
@@ -33,7 +37,8 @@ std::size_t PreparedStream::filled(std::size_t index) const {
 
 ReadingBlock PreparedStream::block(std::size_t index) const {
   if (!tail_.empty() && index + 1 == blocks()) {
-    return {tail_.data(), tail_.data() + block_size, tail_.data() + 2 * block_size, tail_.data() + 3 * block_size};
+    return {tail_.data(), tail_.data() + block_size, tail_.data() + 2 * block_size,
+            tail_.data() + 3 * block_size};
   }
   const std::size_t begin = index * block_size;
   return {reading_.data() + begin, cos_.data() + begin, sin_.data() + begin,

@@ -13,9 +13,11 @@ HWY_BEFORE_NAMESPACE();
 namespace trueaxis::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rows [row0, row0 + Rows) against columns [column0, column0 + Columns): the sums stay in registers.
+// Rows [row0, row0 + Rows) against columns [column0, column0 + Columns): the sums stay in
+// registers.
 template <std::size_t Rows, std::size_t Columns>
-HWY_INLINE void tile(const double* const* column, std::size_t row0, std::size_t column0, double* gram) {
+HWY_INLINE void tile(const double* const* column, std::size_t row0, std::size_t column0,
+                     double* gram) {
   const hn::CappedTag<double, block_size> tag;
   using V = hn::Vec<decltype(tag)>;
   V sum[Rows][Columns];
@@ -79,7 +81,8 @@ void add_products(const PredictionBlock& block, std::size_t columns, double* gra
   HWY_DYNAMIC_DISPATCH(products)(column, columns + 1, gram);
 }
 
-double apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled, PredictionBlock& block) {
+double apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,
+                  PredictionBlock& block) {
   alignas(64) double root_weight[block_size] = {};
   double sum_rho = 0.0;
   const double c = loss.threshold_mm;

@@ -6,8 +6,8 @@
 namespace trueaxis {
 namespace {
 
-/// Cone of Constantin et al., Eqs. 1-11: axis point (x0, y0, 0), cosines l, m, apex at k along the axis
-/// from that point (Eq. 3, either side: sign(k − s) tells which way it opens), half angle α/2.
+/// Cone of Constantin et al., Eqs. 1-11: axis point (x0, y0, 0), cosines l, m, apex at k along the
+/// axis from that point (Eq. 3, either side: sign(k − s) tells which way it opens), half angle α/2.
 class Cone final : public RevolvedSurface {
  public:
   explicit Cone(const SurfaceFrame& frame) : RevolvedSurface(frame, true, true) {}
@@ -31,9 +31,15 @@ class Cone final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry cone_entry() {
-  return {{"cone", "cone, apex at k along its axis", StreamKind::lateral, true,
-           {"x0", "y0", "l", "m", "k", "half_angle"}, {"mm", "mm", "1", "1", "mm", "deg"}},
-          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> { return std::make_unique<Cone>(frame); }};
+  return {{"cone",
+           "cone, apex at k along its axis",
+           StreamKind::lateral,
+           true,
+           {"x0", "y0", "l", "m", "k", "half_angle"},
+           {"mm", "mm", "1", "1", "mm", "deg"}},
+          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
+            return std::make_unique<Cone>(frame);
+          }};
 }
 
 }  // namespace trueaxis

@@ -20,7 +20,10 @@ class Cylinder final : public RevolvedSurface {
       out[1] = full.y - full.slope_y * z;
       out[2] = full.slope_x * n;
       out[3] = full.slope_y * n;
-      out[4] = relative() ? w[4] : full.radius;  // of a relative gauge: its indication at zero eccentricity − radius
+      out[4] =
+          relative()
+              ? w[4]
+              : full.radius;  // of a relative gauge: its indication at zero eccentricity − radius
     });
   }
 };
@@ -28,9 +31,15 @@ class Cylinder final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry cylinder_entry() {
-  return {{"cylinder", "cylinder", StreamKind::lateral, true,
-           {"x0", "y0", "l", "m", "radius"}, {"mm", "mm", "1", "1", "mm"}},
-          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> { return std::make_unique<Cylinder>(frame); }};
+  return {{"cylinder",
+           "cylinder",
+           StreamKind::lateral,
+           true,
+           {"x0", "y0", "l", "m", "radius"},
+           {"mm", "mm", "1", "1", "mm"}},
+          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
+            return std::make_unique<Cylinder>(frame);
+          }};
 }
 
 }  // namespace trueaxis

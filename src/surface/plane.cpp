@@ -10,8 +10,9 @@
 namespace trueaxis {
 namespace {
 
-/// Face n·p = d with cosines l, m, n > 0, probed in Z at (C, X): Z = c + px X cos C + py X sin C, linear in
-/// the working parameters c (mm), px, py. Normal ∝ (−px, −py, 1); l = −px n, m = −py n, d = c n.
+/// Face n·p = d with cosines l, m, n > 0, probed in Z at (C, X): Z = c + px X cos C + py X sin C,
+/// linear in the working parameters c (mm), px, py. Normal ∝ (−px, −py, 1); l = −px n, m = −py n, d
+/// = c n.
 class Plane final : public Surface {
  public:
   explicit Plane(const SurfaceFrame& frame) : frame_(frame) {}
@@ -39,7 +40,8 @@ class Plane final : public Surface {
     return {c(0), c(1) / reach, c(2) / reach};
   }
 
-  void evaluate(std::span<const double> w, const ReadingBlock& readings, PredictionBlock& out) const override {
+  void evaluate(std::span<const double> w, const ReadingBlock& readings,
+                PredictionBlock& out) const override {
     for (std::size_t i = 0; i < block_size; ++i) {
       const double x = readings.position_mm[i] * readings.cos_c[i];
       const double y = readings.position_mm[i] * readings.sin_c[i];
@@ -62,7 +64,8 @@ class Plane final : public Surface {
       const auto n = 1.0 / sqrt(1.0 + w[1] * w[1] + w[2] * w[2]);
       out[0] = -w[1] * n;
       out[1] = -w[2] * n;
-      out[2] = w[0] * n - frame_.ball_mm;  // the ball's centre is r_b above the plane along the normal
+      out[2] =
+          w[0] * n - frame_.ball_mm;  // the ball's centre is r_b above the plane along the normal
     });
   }
 
@@ -72,7 +75,8 @@ class Plane final : public Surface {
   }
   Revolved shape(std::span<const double> w) const override { return {axis(w), 0.0, 0.0}; }
 
-  Influences influences(std::span<const double> w, double c_rad, double position_mm) const override {
+  Influences influences(std::span<const double> w, double c_rad,
+                        double position_mm) const override {
     const double across = -w[1] * std::sin(c_rad) + w[2] * std::cos(c_rad);
     return {across, position_mm * across, w[1] * std::cos(c_rad) + w[2] * std::sin(c_rad)};
   }
@@ -85,7 +89,9 @@ class Plane final : public Surface {
 
 CatalogueEntry plane_entry() {
   return {{"plane", "face, n·p = d", StreamKind::face, true, {"l", "m", "d"}, {"1", "1", "mm"}},
-          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> { return std::make_unique<Plane>(frame); }};
+          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
+            return std::make_unique<Plane>(frame);
+          }};
 }
 
 }  // namespace trueaxis

@@ -10,9 +10,11 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::array<std::string_view, 6> absolute_names{"x", "y", "slope_x", "slope_y", "radius", "tan_half_angle"};
+constexpr std::array<std::string_view, 6> absolute_names{"x",       "y",      "slope_x",
+                                                         "slope_y", "radius", "tan_half_angle"};
 constexpr std::array<std::string_view, 3> section_names{"x", "y", "radius"};
-constexpr std::array<std::string_view, 6> relative_names{"x", "y", "slope_x", "slope_y", "offset", "tan_half_angle"};
+constexpr std::array<std::string_view, 6> relative_names{"x",       "y",      "slope_x",
+                                                         "slope_y", "offset", "tan_half_angle"};
 constexpr std::array<std::string_view, 3> relative_section_names{"x", "y", "offset"};
 
 }  // namespace
@@ -31,19 +33,22 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
-// The circle of every section at once: x² + y² = 2 x0 x + 2 y0 y + 2 bx xζ + 2 by yζ + c0 + c1 ζ + c2 ζ²,
-// with c0 = r² − x0² − y0², c1 = 2 (r t − x0 bx − y0 by), c2 = t² − bx² − by²; the axis' cosine taken as 1.
+// The circle of every section at once: x² + y² = 2 x0 x + 2 y0 y + 2 bx xζ + 2 by yζ + c0 + c1 ζ +
+// c2 ζ², with c0 = r² − x0² − y0², c1 = 2 (r t − x0 bx − y0 by), c2 = t² − bx² − by²; the axis'
+// cosine taken as 1.
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
   double shift = 0.0;
   if (relative()) {
-    const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) / static_cast<double>(count);
+    const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
+                        static_cast<double>(count);
     shift = mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
   }
   const double length = std::max(frame_.half_length_mm, 1e-9);
   const int columns = 3 + (tilts_ ? 2 : 0) + (tapers_ ? 2 : 0);
   const auto n = static_cast<Eigen::Index>(count);
   double scale = 1e-12;  // the radius, so that all columns are of order one
-  for (std::size_t i = 0; i < count; ++i) scale = std::max(scale, std::abs(readings.reading_mm[i] - shift));
+  for (std::size_t i = 0; i < count; ++i)
+    scale = std::max(scale, std::abs(readings.reading_mm[i] - shift));
   Eigen::MatrixXd a(n, columns);
   Eigen::VectorXd b(n);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -87,7 +92,8 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
 
 Revolved RevolvedSurface::probed(std::span<const double> working) const {
   const std::size_t r = radius_index();
-  return {axis(working), relative() ? frame_.nominal_radius_mm : working[r], tapers_ ? working[r + 1] : 0.0};
+  return {axis(working), relative() ? frame_.nominal_radius_mm : working[r],
+          tapers_ ? working[r + 1] : 0.0};
 }
 
 void RevolvedSurface::evaluate(std::span<const double> working, const ReadingBlock& readings,
@@ -97,12 +103,15 @@ void RevolvedSurface::evaluate(std::span<const double> working, const ReadingBlo
   if (relative()) std::fill_n(out.column[w_one], block_size, 1.0);
 }
 
-// dX/dp = −F_p / (2 √disc):  x: w Gx;  bx: w κ (D qx − D² bx s), κ = s + t r = K s + t r_ref;  r: w r;  t: w r s.
-// With qx = Gx + D bx κ the slope column becomes D κ Gx + D² bx t κ r, and κ r = K r s + t r_ref r.
+// dX/dp = −F_p / (2 √disc):  x: w Gx;  bx: w κ (D qx − D² bx s), κ = s + t r = K s + t r_ref;  r: w
+// r;  t: w r s. With qx = Gx + D bx κ the slope column becomes D κ Gx + D² bx t κ r, and κ r = K r
+// s + t r_ref r.
 void RevolvedSurface::transform(std::span<const double> working, double* out) const {
   const std::size_t columns = column_count(), r = radius_index();
   std::fill_n(out, parameter_count() * columns, 0.0);
-  const auto at = [&](std::size_t row, std::size_t column) -> double& { return out[row * columns + column]; };
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return out[row * columns + column];
+  };
   at(0, w_gx) = 1.0;
   at(1, w_gy) = 1.0;
   if (relative()) {
@@ -125,7 +134,8 @@ void RevolvedSurface::transform(std::span<const double> working, double* out) co
 }
 
 Axis RevolvedSurface::axis(std::span<const double> working) const {
-  return {working[0], working[1], tilts_ ? working[2] : 0.0, tilts_ ? working[3] : 0.0, frame_.position_ref_mm};
+  return {working[0], working[1], tilts_ ? working[2] : 0.0, tilts_ ? working[3] : 0.0,
+          frame_.position_ref_mm};
 }
 
 std::vector<double> RevolvedSurface::axis_jacobian(std::span<const double>) const {

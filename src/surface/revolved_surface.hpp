@@ -29,11 +29,13 @@ class RevolvedSurface : public Surface {
   Axis axis(std::span<const double> working) const override;
   std::vector<double> axis_jacobian(std::span<const double> working) const override;
   Revolved shape(std::span<const double> working) const override;
-  Influences influences(std::span<const double> working, double c_rad, double position_mm) const override;
+  Influences influences(std::span<const double> working, double c_rad,
+                        double position_mm) const override;
 
  protected:
   /// All six working parameters of any scalar type, those the surface lacks at their fixed value,
-  /// and the ball taken off the radius: the contact's offset along the normal is r_b / cos(half angle).
+  /// and the ball taken off the radius: the contact's offset along the normal is r_b / cos(half
+  /// angle).
   template <typename T>
   struct Full {
     T x, y, slope_x, slope_y, radius, tan;
@@ -41,8 +43,12 @@ class RevolvedSurface : public Surface {
   template <typename T>
   Full<T> expand(const T* w) const {
     const std::size_t r = tilts_ ? 4 : 2;
-    Full<T> full{w[0], w[1], tilts_ ? w[2] : T(0.0), tilts_ ? w[3] : T(0.0),
-                 relative() ? T(frame_.nominal_radius_mm) : w[r], tapers_ ? w[r + 1] : T(0.0)};
+    Full<T> full{w[0],
+                 w[1],
+                 tilts_ ? w[2] : T(0.0),
+                 tilts_ ? w[3] : T(0.0),
+                 relative() ? T(frame_.nominal_radius_mm) : w[r],
+                 tapers_ ? w[r + 1] : T(0.0)};
     if (frame_.ball_mm != 0.0 && !relative()) {
       using std::sqrt;
       full.radius -= frame_.ball_mm * sqrt(1.0 + full.tan * full.tan);
@@ -59,7 +65,8 @@ class RevolvedSurface : public Surface {
 
 /// Values and exact Jacobian of `function(const T* working, T* out)` by dual numbers.
 template <std::size_t N, typename Function>
-Surface::Reported differentiate(std::span<const double> working, std::size_t outputs, Function function) {
+Surface::Reported differentiate(std::span<const double> working, std::size_t outputs,
+                                Function function) {
   using Jet = ceres::Jet<double, static_cast<int>(N)>;
   std::vector<Jet> in(N), out(outputs);
   for (std::size_t i = 0; i < N; ++i) in[i] = Jet(working[i], static_cast<int>(i));

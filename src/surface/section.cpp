@@ -12,10 +12,9 @@ class Section final : public RevolvedSurface {
 
   Reported report(std::span<const double> working) const override {
     return differentiate<3>(working, 3, [this](const auto* w, auto* out) {
-      const auto full = expand(w);
-      out[0] = full.x;
-      out[1] = full.y;
-      out[2] = relative() ? w[2] : full.radius;
+      out[0] = w[0];
+      out[1] = w[1];
+      out[2] = relative() ? w[2] : w[2] - frame_.ball_mm;
     });
   }
 };
@@ -23,9 +22,15 @@ class Section final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry section_entry() {
-  return {{"section", "circle off-centre, one section", StreamKind::lateral, false,
-           {"x0", "y0", "radius"}, {"mm", "mm", "mm"}},
-          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> { return std::make_unique<Section>(frame); }};
+  return {{"section",
+           "circle off-centre, one section",
+           StreamKind::lateral,
+           false,
+           {"x0", "y0", "radius"},
+           {"mm", "mm", "mm"}},
+          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
+            return std::make_unique<Section>(frame);
+          }};
 }
 
 }  // namespace trueaxis

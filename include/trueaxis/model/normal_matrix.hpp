@@ -46,11 +46,11 @@ struct NormalMatrix {
 
 /// One pass over the stream: root, basis, products, block by block in the first cache; sums are
 /// formed per block and then over blocks, always in the same order.
-NormalMatrix accumulate(const Surface& surface, std::span<const double> working, const PreparedStream& stream,
-                        const LossScale& loss);
+NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
+                        const PreparedStream& stream, const LossScale& loss);
 
 /// Reading − prediction, one per reading. @returns false where a probe line misses the surface.
-bool residuals(const Surface& surface, std::span<const double> working, const PreparedStream& stream,
-               std::span<double> out_mm);
+bool residuals(const Surface& surface, std::span<const double> working,
+               const PreparedStream& stream, std::span<double> out_mm);
 
 }  // namespace trueaxis

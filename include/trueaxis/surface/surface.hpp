@@ -14,7 +14,8 @@
 
 namespace trueaxis {
 
-inline constexpr std::size_t block_size = 128;  ///< readings evaluated at a time: stays in the first cache
+inline constexpr std::size_t block_size =
+    128;  ///< readings evaluated at a time: stays in the first cache
 inline constexpr std::size_t max_parameters = 8;
 inline constexpr std::size_t max_columns = 8;
 
@@ -49,18 +50,20 @@ struct SurfaceInfo {
   std::string_view id;
   std::string_view title;
   StreamKind stream;
-  bool needs_position;  ///< false: fitted without Z
+  bool needs_position;                              ///< false: fitted without Z
   std::vector<std::string_view> parameters, units;  ///< as reported (edge units)
 };
 
-/// A reference surface over one stream: working parameters inside, the contract's parameters outside.
+/// A reference surface over one stream: working parameters inside, the contract's parameters
+/// outside.
 class Surface {
  public:
   virtual ~Surface() = default;
 
   std::size_t parameter_count() const { return working_names().size(); }
   virtual std::size_t column_count() const = 0;
-  /// Names of the working parameters and the length (mm) that one unit of each is worth on the surface.
+  /// Names of the working parameters and the length (mm) that one unit of each is worth on the
+  /// surface.
   virtual std::span<const std::string_view> working_names() const = 0;
   virtual std::vector<double> working_scale_mm(std::span<const double> working) const = 0;
 
@@ -72,7 +75,8 @@ class Surface {
   /// Row-major parameter_count() × column_count(): d prediction / d working = transform · columns.
   virtual void transform(std::span<const double> working, double* out) const = 0;
 
-  /// Reported parameters (edge units) and their Jacobian with respect to the working ones, row-major.
+  /// Reported parameters (edge units) and their Jacobian with respect to the working ones,
+  /// row-major.
   struct Reported {
     std::vector<double> value;
     std::vector<double> jacobian;
@@ -89,7 +93,8 @@ class Surface {
     double c = 0.0;         ///< per rad of spindle angle
     double position = 0.0;  ///< per mm of Z (of a face: of X)
   };
-  virtual Influences influences(std::span<const double> working, double c_rad, double position_mm) const = 0;
+  virtual Influences influences(std::span<const double> working, double c_rad,
+                                double position_mm) const = 0;
 };
 
 /// Every surface the engine knows, in the order it is listed.
