@@ -27,11 +27,11 @@ inline const char* csv_number(const char* p, const char* end, double& value, std
   std::uint64_t digits = 0;
   const auto digit = [&] { return at < end ? static_cast<unsigned>(*at) - unsigned{'0'} : 10U; };
   const char* first = at;
-  for (unsigned d = digit(); d < 10U; d = digit(), ++at) digits = 10U * digits + d;
+  for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
   std::ptrdiff_t count = at - first, behind = 0;
   if (at < end && *at == '.') {
     first = ++at;
-    for (unsigned d = digit(); d < 10U; d = digit(), ++at) digits = 10U * digits + d;
+    for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
     behind = at - first;
     count += behind;
   }
