@@ -24,7 +24,8 @@ int execute(const Options& options) {
   if (options.preview || options.table != "-") std::cout << correction_preview(correction);
   if (!correction.margin.follows) {
     throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; it would at " +
-                  std::to_string(static_cast<int>(correction.margin.max_speed_rpm)) + " rpm or less");
+                  std::to_string(static_cast<int>(correction.margin.max_speed_rpm)) +
+                  " rpm or less");
   }
   if (!options.preview) write_file(options.table, correction_csv(correction));
   return done;
@@ -36,12 +37,18 @@ void add_correct(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("correct", "the fast-tool-servo table of a fit");
   auto options = std::make_shared<Options>();
   command->add_option("fit", options->fit, "result of 'fit --json'")->required();
-  command->add_option("--target", options->target, "TOML with [target], [cut] and [actuator], as in a job")->required();
-  auto* table = command->add_option("-o,--output", options->table, "the table (CSV), '-' prints it");
-  auto* preview = command->add_flag("--preview", options->preview, "print extremes and harmonics, write nothing");
+  command
+      ->add_option("--target", options->target,
+                   "TOML with [target], [cut] and [actuator], as in a job")
+      ->required();
+  auto* table =
+      command->add_option("-o,--output", options->table, "the table (CSV), '-' prints it");
+  auto* preview = command->add_flag("--preview", options->preview,
+                                    "print extremes and harmonics, write nothing");
   preview->excludes(table);
   command->callback([options, &exit_code] {
-    if (!options->preview && options->table.empty()) throw CLI::RequiredError("-o TABLE or --preview");
+    if (!options->preview && options->table.empty())
+      throw CLI::RequiredError("-o TABLE or --preview");
     exit_code = execute(*options);
   });
 }

@@ -11,15 +11,18 @@ namespace {
 
 int run(int argc, char** argv) {
   using namespace trueaxis::cli;
-  CLI::App app{"TrueAxis finds where the reference surfaces of a clamped part really are, and what to correct."};
+  CLI::App app{
+      "TrueAxis finds where the reference surfaces of a clamped part really are, and what to "
+      "correct."};
   app.set_version_flag("--version", "trueaxis " TRUEAXIS_VERSION);
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a bug.");
+  app.footer(
+      "Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a "
+      "bug.");
   int code = done;
   add_run(app, code);
   add_fit(app, code);
   add_correct(app, code);
-  add_simulate(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

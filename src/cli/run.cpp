@@ -25,8 +25,8 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   for (const JobReference& reference : job.references) {
     try {
       const StreamReading& said = reference.read;
-      streams.push_back(
-          read_stream_csv(reference.stream, {said.diameter, said.indication, said.nominal_radius_mm}));
+      streams.push_back(read_stream_csv(reference.stream,
+                                        {said.diameter, said.indication, said.nominal_radius_mm}));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -39,7 +39,8 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
   const Job job = read_job_toml(path);
   const JobResult result = run_job(job, read_streams(job));
   for (const FitResult& fit : result.fits) {
-    if (fit.status == FitStatus::too_few) throw InputError(fit.source, fit.message + ": probe more");
+    if (fit.status == FitStatus::too_few)
+      throw InputError(fit.source, fit.message + ": probe more");
   }
   const std::filesystem::path table = folder / "table.csv";
   std::cout << result.verdict.line << "\n\n";
@@ -58,8 +59,8 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
   write_file((folder / "report.html").string(), render_report(result));
   std::cout << "result  " << (folder / "result.json").string() << '\n'
             << "report  " << (folder / "report.html").string() << '\n';
-  const bool all_fitted =
-      std::ranges::all_of(result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
+  const bool all_fitted = std::ranges::all_of(
+      result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   return !all_fitted ? numerical : result.verdict.go ? done : refused;
 }
 
@@ -70,7 +71,8 @@ void add_run(CLI::App& app, int& exit_code) {
   auto job = std::make_shared<std::string>();
   auto folder = std::make_shared<std::string>();
   command->add_option("job", *job, "job file (TOML)")->required();
-  command->add_option("-o,--output", *folder, "folder for table.csv, result.json and report.html")->required();
+  command->add_option("-o,--output", *folder, "folder for table.csv, result.json and report.html")
+      ->required();
   command->callback([=, &exit_code] { exit_code = execute(*job, *folder); });
 }
 

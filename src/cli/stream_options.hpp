@@ -20,7 +20,8 @@ struct StreamOptions {
     auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
-    command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")->check(CLI::PositiveNumber);
+    command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")
+        ->check(CLI::PositiveNumber);
   }
 
   ProbeStream read() const {

@@ -153,16 +153,20 @@ constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with prob
 void add_notes(const Noise& noise, FitResult& result) {
   char text[200];
   if (noise.u_factor > 1.0) {
-    std::snprintf(text, sizeof text,
-                  "neighbouring residuals correlate (%.2f): form or slow noise; every u is widened %.1f-fold",
-                  noise.autocorrelation, noise.u_factor);
+    std::snprintf(
+        text, sizeof text,
+        "neighbouring residuals correlate (%.2f): form or slow noise; every u is widened %.1f-fold",
+        noise.autocorrelation, noise.u_factor);
     result.notes.emplace_back(text);
   }
   if (result.loss != Loss::plain) return;
   const double limit = suspect_sds * mad_sigma(result.residual_mm);
-  const auto far = std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
+  const auto far =
+      std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
-    std::snprintf(text, sizeof text, "%td readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)", far);
+    std::snprintf(text, sizeof text,
+                  "%td readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)",
+                  far);
     result.notes.emplace_back(text);
   }
 }

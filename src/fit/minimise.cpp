@@ -12,8 +12,8 @@ namespace trueaxis {
 namespace {
 
 // Sizes are bounded, so that nothing is allocated in the hot path.
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_parameters,
-                             max_parameters>;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
+                             max_parameters, max_parameters>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters, 1>;
 
 /// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.

@@ -32,7 +32,8 @@ Json budget(const FitResult& result) {
   for (const BudgetLine& line : result.budget) {
     Json u = Json::object();
     for (std::size_t i = 0; i < line.u.size(); ++i) {
-      u[result.parameters[i].name] = with_unit(line.u[i], result.parameters[i].estimate.unit.c_str());
+      u[result.parameters[i].name] =
+          with_unit(line.u[i], result.parameters[i].estimate.unit.c_str());
     }
     lines.push_back({{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}});
   }
@@ -41,12 +42,14 @@ Json budget(const FitResult& result) {
 
 Json axis_object(const AxisEstimate& estimate) {
   const Axis& axis = estimate.axis;
-  return {{"x", with_unit(axis.x_mm, "mm")},
-          {"y", with_unit(axis.y_mm, "mm")},
-          {"slope_x", with_unit(axis.slope_x, "1")},
-          {"slope_y", with_unit(axis.slope_y, "1")},
-          {"z_ref", with_unit(axis.z_ref_mm, "mm")},
-          {"covariance", {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance, 4)}}}};
+  return {
+      {"x", with_unit(axis.x_mm, "mm")},
+      {"y", with_unit(axis.y_mm, "mm")},
+      {"slope_x", with_unit(axis.slope_x, "1")},
+      {"slope_y", with_unit(axis.slope_y, "1")},
+      {"z_ref", with_unit(axis.z_ref_mm, "mm")},
+      {"covariance",
+       {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance, 4)}}}};
 }
 
 }  // namespace
@@ -69,8 +72,9 @@ Json fit_object(const FitResult& result) {
   json["notes"] = result.notes;
   json["parameters"] = estimates(result.parameters);
   json["derived"] = estimates(result.derived);
-  json["covariance"] = {{"order", order},
-                        {"matrix", matrix(result.covariance, std::max<std::size_t>(1, result.parameters.size()))}};
+  json["covariance"] = {
+      {"order", order},
+      {"matrix", matrix(result.covariance, std::max<std::size_t>(1, result.parameters.size()))}};
   json["coverage_factor"] = result.coverage_factor;
   json["budget"] = budget(result);
   json["axis"] = axis_object(result.axis);
@@ -82,7 +86,8 @@ Json fit_object(const FitResult& result) {
                    {"autocorrelation", number(result.autocorrelation)},
                    {"u_factor", number(result.u_factor)}};
   json["points"] = result.points;
-  json["range"] = {{"min", with_unit(result.position_min_mm, "mm")}, {"max", with_unit(result.position_max_mm, "mm")}};
+  json["range"] = {{"min", with_unit(result.position_min_mm, "mm")},
+                   {"max", with_unit(result.position_max_mm, "mm")}};
   json["rejected"] = rejected;
   json["iterations"] = result.iterations;
   return json;
@@ -95,9 +100,11 @@ FitResult read_fit_json(const std::string& path) {
   FitResult result;
   try {
     const Json json = Json::parse(text);
-    if (json.at("schema") != "trueaxis.fit/1") throw InputError(path, "is no trueaxis.fit/1: write one with 'trueaxis fit --json'");
+    if (json.at("schema") != "trueaxis.fit/1")
+      throw InputError(path, "is no trueaxis.fit/1: write one with 'trueaxis fit --json'");
     if (json.at("status") != "converged") {
-      throw InputError(path, "its fit is not converged (" + json.at("status").get<std::string>() + "): no correction from it");
+      throw InputError(path, "its fit is not converged (" + json.at("status").get<std::string>() +
+                                 "): no correction from it");
     }
     result.status = FitStatus::converged;
     result.surface = json.at("surface");
@@ -105,10 +112,15 @@ FitResult read_fit_json(const std::string& path) {
     result.source = path;
     result.input_hash = json.at("input").at("hash");
     const Json& axis = json.at("axis");
-    const auto value = [](const Json& object, const char* key) { return object.at(key).at("value").get<double>(); };
-    result.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"), value(axis, "slope_y"), value(axis, "z_ref")};
-    for (std::size_t i = 0; i < 16; ++i) result.axis.covariance[i] = axis.at("covariance").at("matrix").at(i / 4).at(i % 4);
-    result.shape = {result.axis.axis, value(json.at("shape"), "radius"), value(json.at("shape"), "tan_half_angle")};
+    const auto value = [](const Json& object, const char* key) {
+      return object.at(key).at("value").get<double>();
+    };
+    result.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
+                        value(axis, "slope_y"), value(axis, "z_ref")};
+    for (std::size_t i = 0; i < 16; ++i)
+      result.axis.covariance[i] = axis.at("covariance").at("matrix").at(i / 4).at(i % 4);
+    result.shape = {result.axis.axis, value(json.at("shape"), "radius"),
+                    value(json.at("shape"), "tan_half_angle")};
     result.position_min_mm = value(json.at("range"), "min");
     result.position_max_mm = value(json.at("range"), "max");
   } catch (const Json::exception& error) {

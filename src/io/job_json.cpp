@@ -8,21 +8,23 @@ namespace trueaxis {
 namespace {
 
 Json verdict_object(const Verdict& v) {
-  return {{"go", v.go},
-          {"line", v.line},
-          {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
-          {"coaxiality_after", to_json(Estimate{v.coaxiality_after_mm, v.u_coaxiality_mm, "mm", ""})},
-          {"coverage_factor", v.coverage_factor}};
+  return {
+      {"go", v.go},
+      {"line", v.line},
+      {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
+      {"coaxiality_after", to_json(Estimate{v.coaxiality_after_mm, v.u_coaxiality_mm, "mm", ""})},
+      {"coverage_factor", v.coverage_factor}};
 }
 
 Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
   Json remainders = Json::array();
   for (const Remainder& r : target.remainders) {
-    remainders.push_back({{"reference", r.name},
-                          {"offset_start", with_unit(r.offset_start_mm, "mm")},
-                          {"offset_end", with_unit(r.offset_end_mm, "mm")},
-                          {"tilt", with_unit(r.tilt_rad / rad_per_deg, "deg")},
-                          {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})}});
+    remainders.push_back(
+        {{"reference", r.name},
+         {"offset_start", with_unit(r.offset_start_mm, "mm")},
+         {"offset_end", with_unit(r.offset_end_mm, "mm")},
+         {"tilt", with_unit(r.tilt_rad / rad_per_deg, "deg")},
+         {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})}});
   }
   const auto [x, y] = target.axis.axis.at(surface.z_start_mm);
   return {{"x_at_start", with_unit(x, "mm")},
@@ -78,7 +80,8 @@ std::string job_json(const JobResult& result) {
                           {"fit", fit_object(result.fits[i])}});
   }
   json["references"] = references;
-  if (result.target_axis) json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
+  if (result.target_axis)
+    json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.correction) json["correction"] = correction_object(*result.correction);
   return json.dump(2) + "\n";
 }

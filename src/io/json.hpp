@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 /// {"value", "unit"}
-inline Json with_unit(double value, const char* unit) { return {{"value", number(value)}, {"unit", unit}}; }
+inline Json with_unit(double value, const char* unit) {
+  return {{"value", number(value)}, {"unit", unit}};
+}
 
 /// {"value", "u", "unit"} and "why" where a number is missing.
 inline Json to_json(const Estimate& estimate) {

@@ -18,25 +18,29 @@ double face_radius(const JobReference& reference, const FitResult& fit) {
 }
 
 bool usable(const JobResult& result) {
-  return std::ranges::all_of(result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
+  return std::ranges::all_of(
+      result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
 }
 
 std::vector<Reference> references_of(const JobResult& result) {
   std::vector<Reference> references;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
-    references.push_back({named.name, result.fits[i].axis, named.weight, face_radius(named, result.fits[i])});
+    references.push_back(
+        {named.name, result.fits[i].axis, named.weight, face_radius(named, result.fits[i])});
   }
   return references;
 }
 
 /// What a cut about the spindle axis would leave at the worst reference.
-double coaxiality_uncorrected(const std::vector<Reference>& references, double z_start, double z_end) {
+double coaxiality_uncorrected(const std::vector<Reference>& references, double z_start,
+                              double z_end) {
   double worst = 0.0;
   for (const Reference& r : references) {
-    worst = std::max(worst, r.face_radius_mm > 0.0
-                                ? 2.0 * r.face_radius_mm * std::hypot(r.axis.axis.slope_x, r.axis.axis.slope_y)
-                                : coaxiality_mm({}, r.axis.axis, z_start, z_end));
+    worst = std::max(
+        worst, r.face_radius_mm > 0.0
+                   ? 2.0 * r.face_radius_mm * std::hypot(r.axis.axis.slope_x, r.axis.axis.slope_y)
+                   : coaxiality_mm({}, r.axis.axis, z_start, z_end));
   }
   return worst;
 }
@@ -53,17 +57,23 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
   const TargetSurface& target = *result.job.target;
   const Correction& correction = *result.correction;
   verdict.coverage_factor = result.job.references.front().fit.coverage_factor;
-  verdict.coaxiality_before_mm = coaxiality_uncorrected(references, target.z_start_mm, target.z_end_mm);
-  const auto worst = std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::coaxiality_mm);
-  // A following error that turns once a revolution moves the axis by its amplitude; all of it is taken as such.
+  verdict.coaxiality_before_mm =
+      coaxiality_uncorrected(references, target.z_start_mm, target.z_end_mm);
+  const auto worst =
+      std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::coaxiality_mm);
+  // A following error that turns once a revolution moves the axis by its amplitude; all of it is
+  // taken as such.
   verdict.coaxiality_after_mm = worst->coaxiality_mm + 2.0 * correction.margin.following_mm;
-  const double u_axis = std::max(correction.axis.u_at(target.z_start_mm), correction.axis.u_at(target.z_end_mm));
+  const double u_axis =
+      std::max(correction.axis.u_at(target.z_start_mm), correction.axis.u_at(target.z_end_mm));
   verdict.u_coaxiality_mm = 2.0 * u_axis;
   const double U = verdict.coverage_factor * verdict.u_coaxiality_mm;
-  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm) + " with the table (U = " + in_um(U) +
-                              "), " + in_um(verdict.coaxiality_before_mm) + " without it";
+  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm) +
+                              " with the table (U = " + in_um(U) + "), " +
+                              in_um(verdict.coaxiality_before_mm) + " without it";
   if (!correction.margin.follows) {
-    verdict.line = "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
+    verdict.line =
+        "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
     return;
   }
   if (!result.job.coaxiality_tolerance_mm) {
@@ -73,7 +83,8 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
   }
   const double tolerance = *result.job.coaxiality_tolerance_mm;
   verdict.go = verdict.coaxiality_after_mm + U <= tolerance;
-  verdict.line = std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " + in_um(tolerance);
+  verdict.line =
+      std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " + in_um(tolerance);
 }
 
 }  // namespace
@@ -89,7 +100,8 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   if (!usable(result)) {
     for (std::size_t i = 0; i < result.fits.size(); ++i) {
       if (result.fits[i].status == FitStatus::converged) continue;
-      result.verdict.line = "NO-GO: " + result.job.references[i].name + ": " + result.fits[i].message;
+      result.verdict.line =
+          "NO-GO: " + result.job.references[i].name + ": " + result.fits[i].message;
       return result;
     }
   }
@@ -101,7 +113,8 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   const TargetSurface& target = *result.job.target;
   const std::vector<Reference> references = references_of(result);
   result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm);
-  result.correction = make_correction(result.target_axis->axis, target, result.job.tool, result.job.actuator);
+  result.correction =
+      make_correction(result.target_axis->axis, target, result.job.tool, result.job.actuator);
   decide(result, references);
   return result;
 }

@@ -7,7 +7,8 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.fit/1: lengths in mm, angles in degrees, every number with unit and u or the reason why not.
+/// Schema trueaxis.fit/1: lengths in mm, angles in degrees, every number with unit and u or the
+/// reason why not.
 std::string fit_json(const FitResult& result);
 
 /// What `correct` needs of a fit: surface, status, bore, axis with covariance, shape, range.
