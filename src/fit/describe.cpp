@@ -133,19 +133,15 @@ void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, F
 }
 
 void report_rms(FitResult& result) {
-  double sum = 0.0;
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < result.residual_mm.size(); ++i) {
-    const bool out = result.loss == Loss::tukey && next < result.rejected.size() &&
-                     result.rejected[next].row == i + 1;
-    if (out) {
-      ++next;
-    } else {
-      sum += result.residual_mm[i] * result.residual_mm[i];
-    }
+  const Eigen::Map<const Eigen::VectorXd> residual(result.residual_mm.data(),
+                                                   static_cast<Eigen::Index>(result.residual_mm.size()));
+  double sum = residual.squaredNorm();
+  std::size_t left = result.residual_mm.size();
+  if (result.loss == Loss::tukey) {
+    for (const Rejected& r : result.rejected) sum -= std::pow(result.residual_mm[r.row - 1], 2);
+    left -= result.rejected.size();
   }
-  result.rms_mm =
-      std::sqrt(sum / std::max<double>(1.0, static_cast<double>(result.residual_mm.size() - next)));
+  result.rms_mm = std::sqrt(std::max(0.0, sum) / std::max<double>(1.0, static_cast<double>(left)));
 }
 
 constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
@@ -160,7 +156,10 @@ void add_notes(const Noise& noise, FitResult& result) {
     result.notes.emplace_back(text);
   }
   if (result.loss != Loss::plain) return;
-  const double limit = suspect_sds * mad_sigma(result.residual_mm);
+  std::vector<double> sample;  // spread evenly: enough for a scale
+  const std::size_t stride = result.residual_mm.size() / 4096 + 1;
+  for (std::size_t i = 0; i < result.residual_mm.size(); i += stride) sample.push_back(result.residual_mm[i]);
+  const double limit = suspect_sds * mad_sigma(sample);
   const auto far =
       std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
@@ -173,14 +172,14 @@ void add_notes(const Noise& noise, FitResult& result) {
 
 }  // namespace
 
-void describe(const Surface& surface, Association& association, const ProbeStream& stream,
+void describe(const Surface& surface, Association& association, const PreparedStream& stream,
               const Noise& noise, const FitOptions& options, FitResult& result) {
   const std::vector<double>& working = association.minimum.working;
   const std::vector<double> scale = surface.working_scale_mm(working);
   // The weights of a robust loss are in its factor (see estimate_noise), so the plain matrix is
   // inverted.
   const NormalMatrix normal = association.scale_mm > 0.0
-                                  ? accumulate(surface, working, PreparedStream(stream), {})
+                                  ? accumulate(surface, working, stream, {})
                                   : association.minimum.normal;
   const double size = std::max(surface.shape(working).radius_mm, *std::ranges::max_element(scale));
   const Determination determination =
@@ -204,7 +203,7 @@ void describe(const Surface& surface, Association& association, const ProbeStrea
     result.budget.push_back(std::move(line));
   }
   check_cone(surface, working, covariance, result);
-  if (stream.indication == Indication::relative) {
+  if (stream.source().indication == Indication::relative) {
     withdraw(result, "radius", "a relative gauge does not show it; the nominal radius was used");
   }
   if (!result.not_determined.empty()) {

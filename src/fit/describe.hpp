@@ -7,7 +7,7 @@ namespace trueaxis {
 
 /// Turns a minimum into the result: what is determined, parameters with uncertainties and budget,
 /// the axis, what was rejected. Residuals move into the result.
-void describe(const Surface& surface, Association& association, const ProbeStream& stream,
+void describe(const Surface& surface, Association& association, const PreparedStream& stream,
               const Noise& noise, const FitOptions& options, FitResult& result);
 
 }  // namespace trueaxis

@@ -8,6 +8,7 @@
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/math/statistics.hpp"
 #include "trueaxis/surface/surface.hpp"
 
 namespace trueaxis {
@@ -17,9 +18,9 @@ namespace {
 Root find_root(const ProbeStream& stream) {
   if (stream.kind == StreamKind::face || stream.indication == Indication::relative)
     return Root::front;
-  const auto [low, high] = std::ranges::minmax_element(stream.reading_mm);
-  if (*low > 0.0) return Root::front;
-  if (*high < 0.0) return Root::rear;
+  const auto [low, high] = range_of(stream.reading_mm);
+  if (low > 0.0) return Root::front;
+  if (high < 0.0) return Root::rear;
   const auto row = std::ranges::find_if(
       stream.reading_mm, [&](double x) { return (x > 0.0) != (stream.reading_mm[0] > 0.0); });
   throw InputError(stream.source,
@@ -53,9 +54,9 @@ SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
     frame.nominal_radius_mm = *stream.nominal_radius_mm;
   }
   if (stream.has_position()) {
-    const auto [low, high] = std::ranges::minmax_element(stream.position_mm);
-    frame.position_ref_mm = 0.5 * (*low + *high);
-    frame.half_length_mm = 0.5 * (*high - *low);
+    const auto [low, high] = range_of(stream.position_mm);
+    frame.position_ref_mm = 0.5 * (low + high);
+    frame.half_length_mm = 0.5 * (high - low);
   }
   return frame;
 }
@@ -100,8 +101,8 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
   FitOptions known = options;
   if (!known.noise_mm) known.noise_mm = stream.sensor_noise_mm;
 
-  Association association =
-      associate(*surface, PreparedStream(stream), options.loss, options.max_iterations);
+  const PreparedStream prepared(stream);
+  Association association = associate(*surface, prepared, options.loss, options.max_iterations);
   result.iterations = association.minimum.iterations;
   if (!association.minimum.normal.valid) {
     result.status = FitStatus::max_iterations;
@@ -115,7 +116,7 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
     result.message = "not converged after " + std::to_string(result.iterations) +
                      " passes: raise max_iterations";
   }
-  describe(*surface, association, stream, noise, known, result);
+  describe(*surface, association, prepared, noise, known, result);
   return result;
 }
 

@@ -56,12 +56,12 @@ class CompressedCost final : public ceres::CostFunction {
     const std::size_t p = surface_.parameter_count();
     const std::span<const double> working(parameters[0], p);
     if (!std::ranges::equal(working, last_.working)) {
+      if (!predict(working)) {
+        last_.normal = accumulate(surface_, working, stream_, loss_);
+        ++passes_;
+      }
       last_.working.assign(working.begin(), working.end());
-      last_.normal = accumulate(surface_, working, stream_, loss_);
-      ++passes_;
-      if (last_.normal.valid &&
-          (!best_.normal.valid || last_.normal.sum_rho < best_.normal.sum_rho))
-        best_ = last_;
+      if (last_.normal.valid && (!best_.normal.valid || last_.normal.sum_rho <= best_.normal.sum_rho)) best_ = last_;
     }
     if (!last_.normal.valid) return false;
     Matrix r;
@@ -77,6 +77,22 @@ class CompressedCost final : public ceres::CostFunction {
     return true;
   }
 
+  /// A step whose predicted gain is below `negligible` is not worth a pass: at that distance the
+  /// quadratic model of the last pass is exact to rounding (its error is the step squared over the radius).
+  bool predict(std::span<const double> working) const {
+    if (!last_.normal.valid || loss_.kind != LossScale::Kind::plain) return false;
+    const auto p = static_cast<Eigen::Index>(working.size());
+    const Eigen::Map<const Matrix> h(last_.normal.jtj.data(), p, p);
+    const Eigen::Map<const Vector> g(last_.normal.jtr.data(), p);
+    const Vector step = Eigen::Map<const Vector>(working.data(), p) - Eigen::Map<const Vector>(last_.working.data(), p);
+    const Vector h_step = h * step;
+    const double change = step.dot(h_step) - 2.0 * g.dot(step);
+    if (std::abs(change) > negligible * last_.normal.sum_rho) return false;
+    last_.normal.sum_rho += change;
+    for (Eigen::Index i = 0; i < p; ++i) last_.normal.jtr[static_cast<std::size_t>(i)] -= h_step(i);
+    return true;
+  }
+
   const Minimum& best() const { return best_; }
   int passes() const { return passes_; }
 
@@ -84,6 +100,7 @@ class CompressedCost final : public ceres::CostFunction {
   const Surface& surface_;
   const PreparedStream& stream_;
   const LossScale loss_;
+  static constexpr double negligible = 1e-9;  // of the cost: a step of 3e-5 of the noise
   mutable Minimum last_, best_;
   mutable int passes_ = 0;
 };

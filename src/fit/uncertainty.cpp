@@ -35,9 +35,9 @@ const char* influence_name(Influence::Kind kind) {
 
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
 /// kernel.
-Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum, const ProbeStream& stream,
-                          const PreparedStream& prepared, Influence::Kind kind) {
+Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum, const PreparedStream& prepared, Influence::Kind kind) {
   const std::size_t p = surface.parameter_count(), columns = surface.column_count();
+  const ProbeStream& stream = prepared.source();
   std::vector<double> transform(p * columns);
   surface.transform(minimum.working, transform.data());
   const double mean = std::accumulate(stream.reading_mm.begin(), stream.reading_mm.end(), 0.0) /
@@ -159,13 +159,13 @@ std::string name_direction(const Eigen::VectorXd& direction,
 }
 
 std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const ProbeStream& stream, const Determination& determination,
+                                   const PreparedStream& stream,
+                                   const Determination& determination,
                                    const Noise& noise, const FitOptions& options) {
   const double sigma = noise.sigma_mm * noise.u_factor;
   std::vector<Source> sources{
       {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * determination.inverse}};
   if (options.influences.empty()) return sources;
-  const PreparedStream prepared(stream);
   for (const Influence& influence : options.influences) {
     Eigen::VectorXd shift;
     if (influence.kind == Influence::Kind::ball_radius) {
@@ -178,7 +178,7 @@ std::vector<Source> budget_sources(const Surface& surface, const Association& as
       }
     } else {
       shift = determination.inverse *
-              projected(surface, association.minimum, stream, prepared, influence.kind);
+              projected(surface, association.minimum, stream, influence.kind);
     }
     shift *= influence.u;
     sources.push_back({influence_name(influence.kind), 'B', shift * shift.transpose()});

@@ -46,7 +46,8 @@ struct Source {
   Eigen::MatrixXd covariance;
 };
 std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const ProbeStream& stream, const Determination& determination,
+                                   const PreparedStream& stream,
+                                   const Determination& determination,
                                    const Noise& noise, const FitOptions& options);
 
 }  // namespace trueaxis

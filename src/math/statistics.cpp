@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/math/statistics.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
@@ -20,14 +21,15 @@ double mad_sigma(std::span<const double> residuals) {
 
 double neighbour_correlation(std::span<const double> residuals, double clip) {
   if (residuals.size() < 3) return 0.0;
-  double product = 0.0, square = 0.0, before = 0.0;
-  for (std::size_t i = 0; i < residuals.size(); ++i) {
-    const double r = std::clamp(residuals[i], -clip, clip);
-    square += r * r;
-    if (i > 0) product += r * before;
-    before = r;
-  }
-  return square > 0.0 ? product / square : 0.0;
+  const auto n = static_cast<Eigen::Index>(residuals.size());
+  const auto clipped = Eigen::Map<const Eigen::ArrayXd>(residuals.data(), n).max(-clip).min(clip);
+  const double square = clipped.square().sum();
+  return square > 0.0 ? (clipped.head(n - 1) * clipped.tail(n - 1)).sum() / square : 0.0;
+}
+
+Extent range_of(std::span<const double> values) {
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
+  return {all.minCoeff(), all.maxCoeff()};
 }
 
 }  // namespace trueaxis

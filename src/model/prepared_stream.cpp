@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "model/column_buffer.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/math/sincos.hpp"
 #include "trueaxis/model/normal_matrix.hpp"
 
 namespace trueaxis {
 
+struct PreparedStream::Angles {
+  ColumnBuffer cosine, sine;
+};
+
+PreparedStream::~PreparedStream() = default;
+
 PreparedStream::PreparedStream(const ProbeStream& stream)
-    : reading_(stream.reading_mm),
+    : source_(stream),
+      reading_(stream.reading_mm),
       position_(stream.position_mm),
-      cos_(stream.size()),
-      sin_(stream.size()) {
+      angles_(std::make_unique<Angles>(Angles{ColumnBuffer(stream.size()), ColumnBuffer(stream.size())})) {
   expects(stream.size() > 0, "readings");
   expects(stream.c_rad.size() == stream.size(), "C for every reading");
   expects(position_.empty() || position_.size() == stream.size(),
           "a position for every reading, or none");
-  sincos(stream.c_rad, sin_, cos_);
+  sincos(stream.c_rad, angles_->sine.view(), angles_->cosine.view());
   if (position_.empty()) zeros_.assign(block_size, 0.0);
 
   const std::size_t last = blocks() - 1, begin = last * block_size;
@@ -25,8 +32,8 @@ PreparedStream::PreparedStream(const ProbeStream& stream)
   for (std::size_t i = 0; i < block_size; ++i) {
     const std::size_t j = std::min(begin + i, size() - 1);
     tail_[i] = reading_[j];
-    tail_[block_size + i] = cos_[j];
-    tail_[2 * block_size + i] = sin_[j];
+    tail_[block_size + i] = angles_->cosine.data()[j];
+    tail_[2 * block_size + i] = angles_->sine.data()[j];
     tail_[3 * block_size + i] = position_.empty() ? 0.0 : position_[j];
   }
 }
@@ -41,7 +48,7 @@ ReadingBlock PreparedStream::block(std::size_t index) const {
             tail_.data() + 3 * block_size};
   }
   const std::size_t begin = index * block_size;
-  return {reading_.data() + begin, cos_.data() + begin, sin_.data() + begin,
+  return {reading_.data() + begin, angles_->cosine.data() + begin, angles_->sine.data() + begin,
           position_.empty() ? zeros_.data() : position_.data() + begin};
 }
 

@@ -13,4 +13,10 @@ double mad_sigma(std::span<const double> residuals);
 /// vary.
 double neighbour_correlation(std::span<const double> residuals, double clip);
 
+/// Smallest and largest of a column that is not empty.
+struct Extent {
+  double low, high;
+};
+Extent range_of(std::span<const double> values);
+
 }  // namespace trueaxis

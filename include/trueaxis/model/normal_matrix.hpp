@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,11 @@ namespace trueaxis {
 class PreparedStream {
  public:
   explicit PreparedStream(const ProbeStream& stream);
+  ~PreparedStream();
+  PreparedStream(const PreparedStream&) = delete;
+  PreparedStream& operator=(const PreparedStream&) = delete;
 
+  const ProbeStream& source() const { return source_; }
   std::size_t size() const { return reading_.size(); }
   std::size_t blocks() const { return (size() + block_size - 1) / block_size; }
   /// Readings of a block; the last one is filled up with copies of the last reading.
@@ -24,8 +29,10 @@ class PreparedStream {
   std::size_t filled(std::size_t index) const;
 
  private:
+  const ProbeStream& source_;
   std::span<const double> reading_, position_;
-  std::vector<double> cos_, sin_;
+  struct Angles;
+  std::unique_ptr<Angles> angles_;  ///< cos C and sin C
   std::vector<double> zeros_, tail_;  ///< position of a stream without Z; the padded last block
 };
 
