@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <string>
 
@@ -77,6 +78,51 @@ TEST(Margin, PrecompensationLeavesLittleAtAThousandRpmWithARamp) {
   // 12.5 µm without; what the hold and the rows leave is below 0.01 µm.
   EXPECT_GT(correction.margin.following_uncompensated_mm, 0.012);
   EXPECT_LT(correction.margin.following_mm, 1e-5);
+}
+
+TEST(Margin, AMeasuredResponseServesAsTheModelDoes) {
+  Actuator model, measured;
+  model.stroke_mm = measured.stroke_mm = 0.8;
+  Actuator mechanics = model;
+  mechanics.sampling_hz = 1e12;
+  for (double f = 0.0; f <= 20000.0; f += 2.0) {
+    const std::complex<double> h = mechanics.response(f);
+    measured.measured.push_back({f, std::abs(h), std::arg(h)});
+  }
+  ToolSetup tool;
+  tool.sense = -1;
+  tool.angle_from_probe_rad = pi;
+  tool.c_start_rad = 1.0;
+  const Correction a = make_correction(far_axis(), cylinder(), tool, model);
+  const Correction b = make_correction(far_axis(), cylinder(), tool, measured);
+  for (std::size_t i = 0; i < a.rows.command_mm.size(); ++i) {
+    // Interpolation over 2 Hz errs by (2/600)²/8 = 1.4e-6 of the amplitude.
+    ASSERT_NEAR(a.rows.command_mm[i], b.rows.command_mm[i], 0.31 * 3e-6);
+  }
+  EXPECT_NEAR(a.margin.following_uncompensated_mm, b.margin.following_uncompensated_mm, 1e-6);
+}
+
+TEST(Margin, ARearTurretInReverseFollowsAsWell) {
+  ToolSetup tool;
+  tool.sense = -1;
+  tool.angle_from_probe_rad = pi;
+  tool.c_start_rad = 1.0;
+  tool.speed_rpm = 1000.0;
+  Actuator actuator;
+  actuator.stroke_mm = 0.8;
+  actuator.delay_s = 5e-4;
+  for (const TargetSurface& target :
+       {TargetSurface{TargetKind::cone, true, 60.0, 58.5, 40.0, -0.2, 0, 0, 0},
+        TargetSurface{TargetKind::face, false, 0, 0, 0, 0, 5.0, 30.0, 28.5}}) {
+    const Correction correction =
+        make_correction({{0.25, -0.1, 2e-3, 3e-3, 60.0}, {}}, target, tool, actuator);
+    const Profile profile(correction.axis.axis, target, tool);
+    const double left_mm =
+        ServoSimulation(actuator).following_mm(profile, correction.rows.command_mm, tool.speed_rpm);
+    EXPECT_GT(correction.margin.following_uncompensated_mm, 1e-3);
+    EXPECT_NEAR(correction.margin.following_mm, left_mm, 0.05 * left_mm + 1e-7);
+    EXPECT_LT(left_mm, 1e-5);
+  }
 }
 
 TEST(Margin, PrecompensationLeadsARamp) {
