@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <sstream>
 
 #include "trueaxis/base/units.hpp"
@@ -12,6 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int angles = 180;  // of a revolution: a peak of order 1 to 3 is missed by 1e-3 at most
 constexpr int places = 9;    // along the cut; peaks are at its ends unless an axis crosses
 constexpr int phases = 96;   // between two rows or set-points
@@ -74,7 +77,7 @@ struct Extremes {
 
 Extremes extremes(const std::vector<HarmonicPath>& paths, const std::vector<Complex>& amplitude,
                   const std::vector<Complex>& turn) {
-  Extremes found{INFINITY, -INFINITY};
+  Extremes found{infinity, -infinity};
   for (int i = 0; i < angles; ++i) {
     double value = 0.0;
     for (std::size_t k = 0; k < paths.size(); ++k) {
@@ -182,7 +185,7 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const
     turn[static_cast<std::size_t>(i)] = std::polar(1.0, two_pi * i / angles);
   }
   ActuatorMargin margin;
-  Extremes command{INFINITY, -INFINITY};
+  Extremes command{infinity, -infinity};
   int highest_order = 0;
   std::vector<SlowAmplitude> wanted;
   for (int place = 0; place < places; ++place) {
