@@ -2,6 +2,7 @@
 #include "correct/precompensate.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "trueaxis/base/units.hpp"
 
@@ -10,13 +11,18 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// The response at a frequency of either sign: that of a real system.
+}  // namespace
+
 Complex signed_response(const Actuator& actuator, double frequency_hz) {
   return frequency_hz >= 0.0 ? actuator.response(frequency_hz)
                              : std::conj(actuator.response(-frequency_hz));
 }
 
-}  // namespace
+double kept_by_interpolation(int order, int rows_per_revolution) {
+  if (order == 0) return 1.0;
+  const double x = std::numbers::pi * order / rows_per_revolution;
+  return std::pow(std::sin(x) / x, 2);
+}
 
 Motion motion_of(const Profile& profile, double speed_rpm) {
   const double revolutions_per_s = speed_rpm / 60.0;
@@ -30,8 +36,7 @@ std::vector<HarmonicPath> harmonic_paths(const Actuator& actuator, const Motion&
   std::vector<HarmonicPath> paths;
   for (const int n : orders) {
     const double frequency_hz = n * motion.omega_rad_per_s / two_pi;
-    const double x = std::numbers::pi * n / motion.rows_per_revolution;
-    const double kept = n == 0 ? 1.0 : std::pow(std::sin(x) / x, 2);
+    const double kept = kept_by_interpolation(n, motion.rows_per_revolution);
     const Complex slope = (signed_response(actuator, frequency_hz + step_hz) -
                            signed_response(actuator, frequency_hz - step_hz)) /
                           (2.0 * two_pi * step_hz);

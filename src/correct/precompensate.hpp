@@ -17,6 +17,12 @@ struct Motion {
 
 Motion motion_of(const Profile& profile, double speed_rpm);
 
+/// The response at a frequency of either sign: that of a real system.
+std::complex<double> signed_response(const Actuator& actuator, double frequency_hz);
+
+/// Share of a harmonic that linear interpolation between rows keeps: sinc²(n/M).
+double kept_by_interpolation(int order, int rows_per_revolution);
+
 /// What becomes of one harmonic on its way from the table to the tool: the table is interpolated
 /// linearly between rows (which leaves sinc²(n/M) of it), sampled, held and followed by the
 /// actuator (H).

@@ -35,7 +35,8 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
 
 [[noreturn]] void refuse_miss(const char* what, double c_rad, double z_mm) {
   std::ostringstream text;
-  text << what << " at C = " << c_rad / rad_per_deg << " deg, Z = " << z_mm
+  const double turned = c_rad - two_pi * std::floor(c_rad / two_pi);
+  text << what << " at C = " << turned / rad_per_deg << " deg, Z = " << z_mm
        << " mm: no correction can be given there";
   throw Refusal(text.str());
 }

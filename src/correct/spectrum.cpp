@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "trueaxis/base/units.hpp"
 
@@ -74,7 +75,7 @@ std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, double p
     harmonic.phase_start_rad = n == 0 ? 0.0 : phase(a);
     harmonic.phase_end_rad = n == 0 ? 0.0 : phase(b);
     harmonic.gain = std::abs(response);
-    harmonic.lag_rad = -std::arg(response);
+    harmonic.lag_rad = 0.0 - std::arg(response);
     harmonics.push_back(harmonic);
   }
   return harmonics;

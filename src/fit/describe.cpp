@@ -133,8 +133,8 @@ void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, F
 }
 
 void report_rms(FitResult& result) {
-  const Eigen::Map<const Eigen::VectorXd> residual(result.residual_mm.data(),
-                                                   static_cast<Eigen::Index>(result.residual_mm.size()));
+  const Eigen::Map<const Eigen::VectorXd> residual(
+      result.residual_mm.data(), static_cast<Eigen::Index>(result.residual_mm.size()));
   double sum = residual.squaredNorm();
   std::size_t left = result.residual_mm.size();
   if (result.loss == Loss::tukey) {
@@ -158,7 +158,8 @@ void add_notes(const Noise& noise, FitResult& result) {
   if (result.loss != Loss::plain) return;
   std::vector<double> sample;  // spread evenly: enough for a scale
   const std::size_t stride = result.residual_mm.size() / 4096 + 1;
-  for (std::size_t i = 0; i < result.residual_mm.size(); i += stride) sample.push_back(result.residual_mm[i]);
+  for (std::size_t i = 0; i < result.residual_mm.size(); i += stride)
+    sample.push_back(result.residual_mm[i]);
   const double limit = suspect_sds * mad_sigma(sample);
   const auto far =
       std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
@@ -178,9 +179,8 @@ void describe(const Surface& surface, Association& association, const PreparedSt
   const std::vector<double> scale = surface.working_scale_mm(working);
   // The weights of a robust loss are in its factor (see estimate_noise), so the plain matrix is
   // inverted.
-  const NormalMatrix normal = association.scale_mm > 0.0
-                                  ? accumulate(surface, working, stream, {})
-                                  : association.minimum.normal;
+  const NormalMatrix normal = association.scale_mm > 0.0 ? accumulate(surface, working, stream, {})
+                                                         : association.minimum.normal;
   const double size = std::max(surface.shape(working).radius_mm, *std::ranges::max_element(scale));
   const Determination determination =
       determine(normal, scale, size, noise.sigma_mm * noise.u_factor, options.coverage_factor);

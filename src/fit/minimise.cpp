@@ -61,7 +61,9 @@ class CompressedCost final : public ceres::CostFunction {
         ++passes_;
       }
       last_.working.assign(working.begin(), working.end());
-      if (last_.normal.valid && (!best_.normal.valid || last_.normal.sum_rho <= best_.normal.sum_rho)) best_ = last_;
+      if (last_.normal.valid &&
+          (!best_.normal.valid || last_.normal.sum_rho <= best_.normal.sum_rho))
+        best_ = last_;
     }
     if (!last_.normal.valid) return false;
     Matrix r;
@@ -78,13 +80,15 @@ class CompressedCost final : public ceres::CostFunction {
   }
 
   /// A step whose predicted gain is below `negligible` is not worth a pass: at that distance the
-  /// quadratic model of the last pass is exact to rounding (its error is the step squared over the radius).
+  /// quadratic model of the last pass is exact to rounding (its error is the step squared over the
+  /// radius).
   bool predict(std::span<const double> working) const {
     if (!last_.normal.valid || loss_.kind != LossScale::Kind::plain) return false;
     const auto p = static_cast<Eigen::Index>(working.size());
     const Eigen::Map<const Matrix> h(last_.normal.jtj.data(), p, p);
     const Eigen::Map<const Vector> g(last_.normal.jtr.data(), p);
-    const Vector step = Eigen::Map<const Vector>(working.data(), p) - Eigen::Map<const Vector>(last_.working.data(), p);
+    const Vector step = Eigen::Map<const Vector>(working.data(), p) -
+                        Eigen::Map<const Vector>(last_.working.data(), p);
     const Vector h_step = h * step;
     const double change = step.dot(h_step) - 2.0 * g.dot(step);
     if (std::abs(change) > negligible * last_.normal.sum_rho) return false;

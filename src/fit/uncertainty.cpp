@@ -35,7 +35,8 @@ const char* influence_name(Influence::Kind kind) {
 
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
 /// kernel.
-Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum, const PreparedStream& prepared, Influence::Kind kind) {
+Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum,
+                          const PreparedStream& prepared, Influence::Kind kind) {
   const std::size_t p = surface.parameter_count(), columns = surface.column_count();
   const ProbeStream& stream = prepared.source();
   std::vector<double> transform(p * columns);
@@ -159,8 +160,7 @@ std::string name_direction(const Eigen::VectorXd& direction,
 }
 
 std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const PreparedStream& stream,
-                                   const Determination& determination,
+                                   const PreparedStream& stream, const Determination& determination,
                                    const Noise& noise, const FitOptions& options) {
   const double sigma = noise.sigma_mm * noise.u_factor;
   std::vector<Source> sources{
@@ -177,8 +177,8 @@ std::vector<Source> budget_sources(const Surface& surface, const Association& as
           shift(static_cast<Eigen::Index>(i)) = std::sqrt(1.0 + t * t);
       }
     } else {
-      shift = determination.inverse *
-              projected(surface, association.minimum, stream, influence.kind);
+      shift =
+          determination.inverse * projected(surface, association.minimum, stream, influence.kind);
     }
     shift *= influence.u;
     sources.push_back({influence_name(influence.kind), 'B', shift * shift.transpose()});

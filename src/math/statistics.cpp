@@ -28,7 +28,8 @@ double neighbour_correlation(std::span<const double> residuals, double clip) {
 }
 
 Extent range_of(std::span<const double> values) {
-  const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
+  const Eigen::Map<const Eigen::ArrayXd> all(values.data(),
+                                             static_cast<Eigen::Index>(values.size()));
   return {all.minCoeff(), all.maxCoeff()};
 }
 

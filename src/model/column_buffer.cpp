@@ -19,7 +19,8 @@ ColumnBuffer::ColumnBuffer(std::size_t size) : size_(size) {
   const std::size_t bytes = (size * sizeof(double) + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, bytes == 0 ? alignment : bytes);
   if (memory == nullptr) throw std::bad_alloc();
-  if (alignment == huge_page) madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without it, small pages
+  if (alignment == huge_page)
+    madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without it, small pages
   data_.reset(static_cast<double*>(memory));
 }
 

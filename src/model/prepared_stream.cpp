@@ -18,7 +18,8 @@ PreparedStream::PreparedStream(const ProbeStream& stream)
     : source_(stream),
       reading_(stream.reading_mm),
       position_(stream.position_mm),
-      angles_(std::make_unique<Angles>(Angles{ColumnBuffer(stream.size()), ColumnBuffer(stream.size())})) {
+      angles_(std::make_unique<Angles>(
+          Angles{ColumnBuffer(stream.size()), ColumnBuffer(stream.size())})) {
   expects(stream.size() > 0, "readings");
   expects(stream.c_rad.size() == stream.size(), "C for every reading");
   expects(position_.empty() || position_.size() == stream.size(),

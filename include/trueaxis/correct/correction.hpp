@@ -39,15 +39,19 @@ struct ToolSetup {
 
 /// The rows of a correction table, in the order in which they are run. For a face the actuator
 /// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
+/// Positions are those of the centre of the tool's nose. The rows are the fewest whole revolutions
+/// whose last row reaches the end.
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
   std::vector<double> c_rad;      ///< running, in the sense of rotation when cutting
-  std::vector<double> wanted_mm;  ///< X_fts = X − X programmed, positive away from the spindle axis
+  std::vector<double> wanted_mm;  ///< X_fts = X − X programmed, positive away from the spindle
+                                  ///< axis; a face: Z_fts = Z − Z programmed, positive along +Z
   std::vector<double> command_mm;  ///< precompensated for the actuator
 };
 
-/// One harmonic of the correction, cos convention A cos(nC − φ), at both ends of the cut.
+/// One harmonic of the correction, cos convention A cos(nC − φ), at both ends of the cut. Orders 0
+/// to 8 above 1 nm; order 0 is the signed mean.
 struct CorrectionHarmonic {
   int order = 0;
   double amplitude_start_mm = 0.0, phase_start_rad = 0.0;
@@ -62,11 +66,12 @@ struct ActuatorMargin {
   double highest_frequency_hz = 0.0, bandwidth_hz = 0.0;  ///< highest harmonic above 10 nm
   double set_points_per_revolution = 0.0;
   double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
-  double following_mm = 0.0;                ///< peak, with what X_command holds
+  double following_mm = 0.0;                ///< peak, with what X_command holds; steady run
   double following_limit_mm = 0.0;
   bool follows = false;
   std::string breaks;          ///< the numbers that break, empty when it follows
-  double max_speed_rpm = 0.0;  ///< highest speed at which it would run; 0: at none
+  double max_speed_rpm = 0.0;  ///< highest speed at which it would run (at most the bandwidth in
+                               ///< revolutions a minute); 0: at none
 };
 
 struct Correction {
@@ -81,6 +86,9 @@ struct Correction {
 
 /// The correction profile, its precompensation and its margin. An actuator that cannot follow is
 /// reported in `margin`, not thrown: the caller refuses.
+/// @throws Refusal where the tool does not meet the target surface (past its apex, height beyond
+/// its
+///         radius); ContractViolation for quantities that cannot be.
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
                            const ToolSetup& tool, const Actuator& actuator);
 

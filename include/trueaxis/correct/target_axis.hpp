@@ -24,6 +24,8 @@ struct Remainder {
          offset_end_mm = 0.0;  ///< distance of the axes at both ends of the cut
   double tilt_rad = 0.0;
   double coaxiality_mm = 0.0;  ///< ISO 1101: a diameter; for a plane the axial run-out 2 R tilt
+  /// Of the part cut about the target axis: the target is a number by then, so it is the reference
+  /// that is known no better than this (twice its u at the worse end, in the worse direction).
   double u_coaxiality_mm = 0.0;
 };
 

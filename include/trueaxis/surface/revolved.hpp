@@ -18,7 +18,8 @@ struct Intersection {
   double x_mm = 0.0;   ///< machine X, a radius
   double dx_dz = 0.0;  ///< along Z at fixed C, mm per mm
   double dx_dc = 0.0;  ///< along C at fixed Z, mm per rad
-  bool hit = false;    ///< false: the line passes the surface by, or meets the mirrored nappe only
+  bool hit = false;    ///< false: the line passes the surface by, only touches it, or meets
+                       ///< the mirrored nappe only; the numbers are then NaN
 };
 
 enum class Root {
