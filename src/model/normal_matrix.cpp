@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numeric>
 
 #include "model/products.hpp"
 #include "trueaxis/base/error.hpp"
@@ -59,7 +61,8 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
           "as many working parameters as the surface has");
   NormalMatrix out;
   out.parameters = working.size();
-  Gram total{}, chunk{};
+  Gram total{};
+  LaneSums chunk;
   double rho = 0.0;
   PredictionBlock block;
   for (std::size_t index = 0; index < stream.blocks(); ++index) {
@@ -68,10 +71,12 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
     const std::size_t filled = stream.filled(index);
     if (filled < block_size) clear_padding(columns, filled, block);
     if (loss.kind != LossScale::Kind::plain) rho += apply_loss(loss, columns, filled, block);
-    add_products(block, columns, chunk.data());
+    add_products(block, columns, chunk);
     if ((index + 1) % blocks_per_chunk == 0 || index + 1 == stream.blocks()) {
-      for (std::size_t i = 0; i < total.size(); ++i) total[i] += chunk[i];
-      chunk.fill(0.0);
+      for (std::size_t i = 0; i < gram_size(columns); ++i) {
+        total[i] += std::reduce(std::begin(chunk.value[i]), std::end(chunk.value[i]));
+      }
+      chunk = {};
     }
   }
   std::array<double, max_parameters * max_columns> transform;

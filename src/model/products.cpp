@@ -13,46 +13,61 @@ HWY_BEFORE_NAMESPACE();
 namespace trueaxis::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Rows [row0, row0 + Rows) against columns [column0, column0 + Columns): the sums stay in
-// registers.
-template <std::size_t Rows, std::size_t Columns>
-HWY_INLINE void tile(const double* const* column, std::size_t row0, std::size_t column0,
-                     double* gram) {
-  const hn::CappedTag<double, block_size> tag;
+constexpr std::size_t tile =
+    4;  // 4 × 4 sums and their operands fit into 32 registers, nearly into 16
+
+// Rows [row0, row0 + Rows) against columns [column0, column0 + tile), or, on the diagonal, against
+// the rows themselves: the sums stay in registers over the block.
+template <std::size_t Rows, bool Diagonal>
+HWY_INLINE void add_tile(const double* const* column, std::size_t row0, std::size_t column0,
+                         LaneSums& sums) {
+  const hn::CappedTag<double, LaneSums::lanes> tag;
   using V = hn::Vec<decltype(tag)>;
-  V sum[Rows][Columns];
+  constexpr std::size_t columns = Diagonal ? Rows : tile;
+  V sum[Rows][columns];
+  const auto used = [](std::size_t i, std::size_t j) { return !Diagonal || j <= i; };
   for (std::size_t i = 0; i < Rows; ++i) {
-    for (std::size_t j = 0; j < Columns; ++j) sum[i][j] = hn::Zero(tag);
+    for (std::size_t j = 0; j < columns; ++j) {
+      sum[i][j] =
+          used(i, j) ? hn::Load(tag, sums.value[gram_index(row0 + i, column0 + j)]) : hn::Zero(tag);
+    }
   }
   for (std::size_t at = 0; at < block_size; at += hn::Lanes(tag)) {
-    V right[Columns];
-    for (std::size_t j = 0; j < Columns; ++j) right[j] = hn::Load(tag, column[column0 + j] + at);
+    V right[columns];
+    for (std::size_t j = 0; j < columns; ++j) right[j] = hn::Load(tag, column[column0 + j] + at);
     for (std::size_t i = 0; i < Rows; ++i) {
-      const V left = hn::Load(tag, column[row0 + i] + at);
-      for (std::size_t j = 0; j < Columns; ++j) sum[i][j] = hn::MulAdd(left, right[j], sum[i][j]);
+      const V left = Diagonal ? right[Diagonal ? i : 0] : hn::Load(tag, column[row0 + i] + at);
+      for (std::size_t j = 0; j < columns; ++j) {
+        if (used(i, j)) sum[i][j] = hn::MulAdd(left, right[j], sum[i][j]);
+      }
     }
   }
   for (std::size_t i = 0; i < Rows; ++i) {
-    for (std::size_t j = 0; j < Columns; ++j) {
-      if (column0 + j > row0 + i) continue;
-      gram[gram_index(row0 + i, column0 + j)] += hn::GetLane(hn::SumOfLanes(tag, sum[i][j]));
+    for (std::size_t j = 0; j < columns; ++j) {
+      if (used(i, j)) hn::Store(sum[i][j], tag, sums.value[gram_index(row0 + i, column0 + j)]);
     }
   }
 }
 
 template <std::size_t Rows>
-HWY_INLINE void tile_row(const double* const* column, std::size_t row0, double* gram) {
-  std::size_t j = 0;
-  const std::size_t end = row0 + Rows;
-  for (; j + 4 <= end; j += 4) tile<Rows, 4>(column, row0, j, gram);
-  for (; j + 2 <= end; j += 2) tile<Rows, 2>(column, row0, j, gram);
-  for (; j < end; ++j) tile<Rows, 1>(column, row0, j, gram);
+HWY_INLINE void add_rows(const double* const* column, std::size_t row0, LaneSums& sums) {
+  for (std::size_t j = 0; j < row0; j += tile) add_tile<Rows, false>(column, row0, j, sums);
+  add_tile<Rows, true>(column, row0, row0, sums);
 }
 
-void products(const double* const* column, std::size_t rows, double* gram) {
+void products(const double* const* column, std::size_t rows, LaneSums& sums) {
   std::size_t i = 0;
-  for (; i + 3 <= rows; i += 3) tile_row<3>(column, i, gram);
-  for (; i < rows; ++i) tile_row<1>(column, i, gram);
+  for (; i + tile <= rows; i += tile) add_rows<tile>(column, i, sums);
+  switch (rows - i) {
+    case 1:
+      return add_rows<1>(column, i, sums);
+    case 2:
+      return add_rows<2>(column, i, sums);
+    case 3:
+      return add_rows<3>(column, i, sums);
+    default:
+      return;
+  }
 }
 
 void scale(const double* root_weight, std::size_t rows, double* const* column) {
@@ -74,11 +89,11 @@ namespace trueaxis {
 HWY_EXPORT(products);
 HWY_EXPORT(scale);
 
-void add_products(const PredictionBlock& block, std::size_t columns, double* gram) {
+void add_products(const PredictionBlock& block, std::size_t columns, LaneSums& sums) {
   const double* column[max_columns + 1];
   for (std::size_t i = 0; i < columns; ++i) column[i] = block.column[i];
   column[columns] = block.residual;
-  HWY_DYNAMIC_DISPATCH(products)(column, columns + 1, gram);
+  HWY_DYNAMIC_DISPATCH(products)(column, columns + 1, sums);
 }
 
 double apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,

@@ -12,9 +12,14 @@ constexpr std::size_t gram_index(std::size_t row, std::size_t column) {
   return row * (row + 1) / 2 + column;
 }
 
-/// Adds the Gram matrix of one block's columns and residual (last row) to `gram`, lower triangle by
-/// rows.
-void add_products(const PredictionBlock& block, std::size_t columns, double* gram);
+/// Partial sums of a Gram matrix, one vector of lanes an entry, lower triangle by rows.
+struct LaneSums {
+  static constexpr std::size_t lanes = 8;  ///< doubles in the widest vector
+  alignas(64) double value[gram_size(max_columns)][lanes] = {};
+};
+
+/// Adds the products of one block's columns and residual (last row) to `sums`.
+void add_products(const PredictionBlock& block, std::size_t columns, LaneSums& sums);
 
 /// Scales columns and residual of a block by the square root of the loss's weight. @returns Σρ.
 double apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,

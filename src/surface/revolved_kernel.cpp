@@ -12,6 +12,29 @@ HWY_BEFORE_NAMESPACE();
 namespace trueaxis::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+// 1/√x and 1/x to the last bit or two: a single-precision estimate (at least 11 bits), one step of
+// third order (33 bits) and one of second. Division and square root in double would take longer
+// than all the rest.
+template <class D, class V>
+HWY_INLINE V inverse_root(D tag, V x) {
+  const hn::Rebind<float, D> single;
+  V y = hn::PromoteTo(tag, hn::ApproximateReciprocalSqrt(hn::DemoteTo(single, x)));
+  V e = hn::NegMulAdd(x, hn::Mul(y, y), hn::Set(tag, 1.0));
+  y = hn::MulAdd(hn::Mul(y, e), hn::MulAdd(e, hn::Set(tag, 0.375), hn::Set(tag, 0.5)), y);
+  e = hn::NegMulAdd(x, hn::Mul(y, y), hn::Set(tag, 1.0));
+  return hn::MulAdd(hn::Mul(y, e), hn::Set(tag, 0.5), y);
+}
+
+template <class D, class V>
+HWY_INLINE V inverse(D tag, V x) {
+  const hn::Rebind<float, D> single;
+  V y = hn::PromoteTo(tag, hn::ApproximateReciprocal(hn::DemoteTo(single, x)));
+  V e = hn::NegMulAdd(x, y, hn::Set(tag, 1.0));
+  y = hn::MulAdd(hn::Mul(y, e), hn::Add(e, hn::Set(tag, 1.0)), y);
+  e = hn::NegMulAdd(x, y, hn::Set(tag, 1.0));
+  return hn::MulAdd(y, e, y);
+}
+
 // With e = (cos C, sin C, 0), q = (X cos C − x, X sin C − y, ζ), ζ = Z − z_ref, d the unit axis, g
 // = e·d, s = s0 + g X, r = r_ref + t s, K = 1 + t²:   A X² + 2 B X + F = 0, A = 1 − K g²,  B = e·q0
 // − g (K s0 + t r_ref),  F = |q0|² − s0² − (r_ref + t s0)²,  √disc = √(B² − A F) = e·G.
@@ -30,7 +53,7 @@ void revolved_block(const Revolved& surface, double side, double offset_mm,
   const V offset2 =
       set(surface.axis.x_mm * surface.axis.x_mm + surface.axis.y_mm * surface.axis.y_mm);
   const V k = set(1.0 + t * t), tan = set(t), r_ref = set(surface.radius_mm);
-  const V t_r_ref = set(t * surface.radius_mm), one = set(1.0), sign = set(side),
+  const V t_r_ref = set(t * surface.radius_mm), one = set(1.0), half = set(0.5), sign = set(side),
           offset = set(offset_mm);
   V worst = set(1.0);
 
@@ -46,10 +69,12 @@ void revolved_block(const Revolved& surface, double side, double offset_mm,
     const V f = hn::NegMulAdd(r0, r0, hn::NegMulAdd(s0, s0, hn::MulAdd(zeta, zeta, offset2)));
     const V disc = hn::NegMulAdd(a, f, hn::Mul(b, b));
     const V safe = hn::Max(disc, set(1e-12));
-    const V root = hn::Mul(sign, hn::Sqrt(safe));
-    const V inverse = hn::Div(one, hn::Mul(a, root));
-    const V w = hn::Mul(a, inverse);
-    const V x = hn::Mul(hn::Sub(root, b), hn::Mul(root, inverse));
+    const V w_size = inverse_root(tag, safe);
+    const V root_size = hn::Mul(safe, w_size);
+    const V rest = hn::NegMulAdd(root_size, root_size, safe);
+    const V root = hn::Mul(sign, hn::MulAdd(hn::Mul(rest, half), w_size, root_size));
+    const V w = hn::Mul(sign, w_size);
+    const V x = hn::Mul(hn::Sub(root, b), inverse(tag, a));
     const V s = hn::MulAdd(g, x, s0);
     const V r = hn::MulAdd(tan, s, r_ref);
     const V kappa = hn::MulAdd(k, s, t_r_ref);
