@@ -10,7 +10,8 @@ namespace {
 void fit_cone(benchmark::State& state, Loss loss) {
   constexpr std::uint64_t seed = 1;
   const ProbeStream stream = peer::make_cone_stream(static_cast<std::size_t>(state.range(0)), seed);
-  const FitOptions options{.loss = loss};
+  FitOptions options;
+  options.loss = loss;
   for (auto _ : state) {
     const FitResult result = fit(stream, options);
     if (result.status != FitStatus::converged) state.SkipWithError(result.message.c_str());

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "bench/cone_stream.hpp"
@@ -28,12 +29,13 @@ class Stopwatch {
 PeerFit engine(const ProbeStream& stream) {
   const Stopwatch watch;
   const FitResult result = fit(stream, FitOptions{});
+  if (result.status != FitStatus::converged) throw std::runtime_error(result.message);
   PeerFit peer;
   for (std::size_t i = 0; i < peer.p.size(); ++i) peer.p[i] = result.parameters[i].estimate.value;
   peer.p[5] *= rad_per_deg;
   peer.solver_ms = watch.ms();
   peer.iterations = result.iterations;
-  peer.converged = result.status == FitStatus::converged;
+  peer.converged = true;
   return peer;
 }
 
