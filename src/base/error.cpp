@@ -20,7 +20,8 @@ std::string join(const std::vector<Diagnostic>& diagnostics) {
 std::string to_string(const Diagnostic& diagnostic) {
   std::string text = diagnostic.file;
   if (diagnostic.line != 0) text += ':' + std::to_string(diagnostic.line);
-  if (diagnostic.line != 0 && diagnostic.column != 0) text += ':' + std::to_string(diagnostic.column);
+  if (diagnostic.line != 0 && diagnostic.column != 0)
+    text += ':' + std::to_string(diagnostic.column);
   return text + ": " + diagnostic.message;
 }
 

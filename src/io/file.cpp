@@ -40,7 +40,8 @@ void write_file(const std::string& path, std::string_view content) {
 std::string read_file(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
   std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw InputError(path, "is a folder: name a file");
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path, "is a folder: name a file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path, std::string("cannot be read (") + std::strerror(errno) + ")");
   return {std::istreambuf_iterator<char>(in), {}};

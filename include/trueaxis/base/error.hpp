@@ -31,7 +31,8 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A job that is understood but must not be carried out (an actuator that cannot follow). Exit code 1.
+/// A job that is understood but must not be carried out (an actuator that cannot follow). Exit
+/// code 1.
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -11,7 +11,7 @@ namespace trueaxis {
 struct Estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double u = std::numeric_limits<double>::quiet_NaN();  ///< standard uncertainty, k = 1
-  std::string unit;                                     ///< unit of value and u, as at the edge ("mm", "deg", "1")
+  std::string unit;     ///< unit of value and u, as at the edge ("mm", "deg", "1")
   std::string why_not;  ///< why value or u is missing; empty when both are there
 
   bool determined() const { return std::isfinite(value); }

@@ -16,33 +16,35 @@ enum class TargetKind { cylinder, cone, face };
 struct TargetSurface {
   TargetKind kind = TargetKind::cylinder;
   bool bore = false;
-  double z_start_mm = 0.0, z_end_mm = 0.0;  ///< where the cut starts and ends, in the order of the feed
-  double radius_mm = 0.0;                   ///< at z_start (cylinder, cone)
-  double tan_half_angle = 0.0;              ///< cone: signed, positive where the radius grows with Z
-  double z_face_mm = 0.0;                   ///< face: where the target axis meets it
+  double z_start_mm = 0.0,
+         z_end_mm = 0.0;        ///< where the cut starts and ends, in the order of the feed
+  double radius_mm = 0.0;       ///< at z_start (cylinder, cone)
+  double tan_half_angle = 0.0;  ///< cone: signed, positive where the radius grows with Z
+  double z_face_mm = 0.0;       ///< face: where the target axis meets it
   double radius_start_mm = 0.0, radius_end_mm = 0.0;  ///< face: X where the cut starts and ends
 };
 
 /// Tool and cutting motion.
 struct ToolSetup {
   double nose_radius_mm = 0.0;
-  double height_mm = 0.0;          ///< Y of the cutting edge
-  double angle_from_probe_rad = 0.0;  ///< about the spindle from the probe to the tool; a turret behind: π
-  double speed_rpm = 600.0;        ///< > 0
-  int sense = 1;                   ///< sense of C while cutting: +1 or −1
-  double feed_mm_per_rev = 0.1;    ///< > 0; the direction follows from the target's start and end
-  double c_start_rad = 0.0;        ///< spindle angle at the first row
-  int rows_per_revolution = 360;   ///< linear interpolation then errs by 4e-5 of a 1-UPR amplitude
+  double height_mm = 0.0;  ///< Y of the cutting edge
+  double angle_from_probe_rad =
+      0.0;                   ///< about the spindle from the probe to the tool; a turret behind: π
+  double speed_rpm = 600.0;  ///< > 0
+  int sense = 1;             ///< sense of C while cutting: +1 or −1
+  double feed_mm_per_rev = 0.1;   ///< > 0; the direction follows from the target's start and end
+  double c_start_rad = 0.0;       ///< spindle angle at the first row
+  int rows_per_revolution = 360;  ///< linear interpolation then errs by 4e-5 of a 1-UPR amplitude
 };
 
-/// The rows of a correction table, in the order in which they are run. For a face the actuator works along Z
-/// and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
+/// The rows of a correction table, in the order in which they are run. For a face the actuator
+/// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
-  std::vector<double> c_rad;        ///< running, in the sense of rotation when cutting
-  std::vector<double> wanted_mm;    ///< X_fts = X − X programmed, positive away from the spindle axis
-  std::vector<double> command_mm;   ///< precompensated for the actuator
+  std::vector<double> c_rad;      ///< running, in the sense of rotation when cutting
+  std::vector<double> wanted_mm;  ///< X_fts = X − X programmed, positive away from the spindle axis
+  std::vector<double> command_mm;  ///< precompensated for the actuator
 };
 
 /// One harmonic of the correction, cos convention A cos(nC − φ), at both ends of the cut.
@@ -57,7 +59,7 @@ struct CorrectionHarmonic {
 struct ActuatorMargin {
   double stroke_used_mm = 0.0, stroke_available_mm = 0.0;  ///< peak to peak; after the reserve
   double slew_used_mm_per_s = 0.0, slew_available_mm_per_s = 0.0;
-  double highest_frequency_hz = 0.0, bandwidth_hz = 0.0;   ///< highest harmonic above 10 nm
+  double highest_frequency_hz = 0.0, bandwidth_hz = 0.0;  ///< highest harmonic above 10 nm
   double set_points_per_revolution = 0.0;
   double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
   double following_mm = 0.0;                ///< peak, with what X_command holds
@@ -71,7 +73,7 @@ struct Correction {
   TargetSurface target;
   ToolSetup tool;
   Actuator actuator;
-  AxisEstimate axis;   ///< the target axis
+  AxisEstimate axis;  ///< the target axis
   CorrectionRows rows;
   std::vector<CorrectionHarmonic> harmonics;
   ActuatorMargin margin;
@@ -79,7 +81,7 @@ struct Correction {
 
 /// The correction profile, its precompensation and its margin. An actuator that cannot follow is
 /// reported in `margin`, not thrown: the caller refuses.
-Correction make_correction(const AxisEstimate& axis, const TargetSurface& target, const ToolSetup& tool,
-                           const Actuator& actuator);
+Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
+                           const ToolSetup& tool, const Actuator& actuator);
 
 }  // namespace trueaxis

@@ -20,7 +20,8 @@ struct Reference {
 /// What is left at one reference when the part is cut about the target axis.
 struct Remainder {
   std::string name;
-  double offset_start_mm = 0.0, offset_end_mm = 0.0;  ///< distance of the axes at both ends of the cut
+  double offset_start_mm = 0.0,
+         offset_end_mm = 0.0;  ///< distance of the axes at both ends of the cut
   double tilt_rad = 0.0;
   double coaxiality_mm = 0.0;  ///< ISO 1101: a diameter; for a plane the axial run-out 2 R tilt
   double u_coaxiality_mm = 0.0;
@@ -34,9 +35,11 @@ struct TargetAxis {
 /// The axis that minimises Σ w_i ∫ |Δ_i(Z)|² dZ over [z_start, z_end] (key idea 4 of Constantin et
 /// al.), Δ_i the vector from reference axis i; a plane enters as tilt × face radius. Closed form.
 /// @throws Refusal if the references leave it open (planes alone fix no position).
-TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm, double z_end_mm);
+TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
+                             double z_end_mm);
 
-/// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a diameter, mm.
+/// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
+/// diameter, mm.
 double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm, double z_end_mm);
 
 }  // namespace trueaxis

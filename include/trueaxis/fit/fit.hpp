@@ -24,11 +24,11 @@ enum class FitStatus { converged, max_iterations, rank_deficient, too_few };
 /// An influence quantity (GUM) that the readings cannot show: it enters the budget as type B.
 struct Influence {
   enum class Kind {
-    probe_height,   ///< the probe line's offset in Y, mm
-    probe_gain,     ///< relative scale of the indication about its mean, 1
-    c_offset,       ///< spindle angle datum, rad
-    z_offset,       ///< Z datum, mm
-    ball_radius,    ///< radius of the probe's ball, mm
+    probe_height,  ///< the probe line's offset in Y, mm
+    probe_gain,    ///< relative scale of the indication about its mean, 1
+    c_offset,      ///< spindle angle datum, rad
+    z_offset,      ///< Z datum, mm
+    ball_radius,   ///< radius of the probe's ball, mm
   } kind;
   double u = 0.0;  ///< standard uncertainty in the unit of the kind
 };
@@ -36,12 +36,13 @@ struct Influence {
 struct FitOptions {
   std::string surface = "cone";  ///< an id of the surface catalogue
   Loss loss = Loss::plain;
-  bool bore = false;              ///< probed from inside: the sign of the ball's radius is reversed
-  double ball_radius_mm = 0.0;    ///< X_M is the ball's centre; 0: X_M is the contact
-  std::optional<double> noise_mm; ///< standard deviation of one reading if known apart from this fit
+  bool bore = false;            ///< probed from inside: the sign of the ball's radius is reversed
+  double ball_radius_mm = 0.0;  ///< X_M is the ball's centre; 0: X_M is the contact
+  std::optional<double>
+      noise_mm;  ///< standard deviation of one reading if known apart from this fit
   std::vector<Influence> influences;
-  double coverage_factor = 2.0;   ///< k of U = k u; 2: about 95 % for a normal quantity (GUM 6.3.3)
-  int max_iterations = 50;        ///< a good start needs 3 or 4; 50 tells trouble from slowness
+  double coverage_factor = 2.0;  ///< k of U = k u; 2: about 95 % for a normal quantity (GUM 6.3.3)
+  int max_iterations = 50;       ///< a good start needs 3 or 4; 50 tells trouble from slowness
 };
 
 struct Rejected {
@@ -57,9 +58,9 @@ struct FitParameter {
 
 /// A line of the uncertainty budget: what a source contributes to each parameter's u.
 struct BudgetLine {
-  std::string source;             ///< "noise of the readings", "probe height", …
-  char type = 'A';                ///< GUM: 'A' from statistics, 'B' from other knowledge
-  std::vector<double> u;          ///< in the order and unit of FitResult::parameters
+  std::string source;     ///< "noise of the readings", "probe height", …
+  char type = 'A';        ///< GUM: 'A' from statistics, 'B' from other knowledge
+  std::vector<double> u;  ///< in the order and unit of FitResult::parameters
 };
 
 /// The associated feature. `status` says whether the numbers may be used.
@@ -67,7 +68,7 @@ struct FitResult {
   std::string surface;
   std::string criterion = "probe";
   FitStatus status = FitStatus::too_few;
-  std::string message;                   ///< what is wrong and what to do, empty when converged
+  std::string message;                      ///< what is wrong and what to do, empty when converged
   std::vector<std::string> not_determined;  ///< combinations of parameters the data leave free
   Loss loss = Loss::plain;
   bool bore = false;
@@ -77,19 +78,19 @@ struct FitResult {
   std::vector<double> covariance;        ///< row-major, edge units, order of `parameters`
   std::vector<FitParameter> derived;     ///< radius_mid, axis offsets at the ends of the data, tilt
   std::vector<BudgetLine> budget;
-  AxisEstimate axis;                     ///< a plane: its normal through (0, 0, 0); all budget lines in it
-  Revolved shape;                        ///< lateral surfaces: the associated surface of the part
+  AxisEstimate axis;  ///< a plane: its normal through (0, 0, 0); all budget lines in it
+  Revolved shape;     ///< lateral surfaces: the associated surface of the part
 
-  double rms_mm = 0.0;                   ///< of the residuals that were not rejected
-  double sigma_mm = 0.0;                 ///< standard deviation of one reading, as used in u
-  std::string sigma_source;              ///< "residuals", "robust residuals" or "sensor"
-  double autocorrelation = 0.0;          ///< of neighbouring residuals (lag 1)
-  double u_factor = 1.0;                 ///< by which correlated residuals widen every u (1: not correlated)
+  double rms_mm = 0.0;           ///< of the residuals that were not rejected
+  double sigma_mm = 0.0;         ///< standard deviation of one reading, as used in u
+  std::string sigma_source;      ///< "residuals", "robust residuals" or "sensor"
+  double autocorrelation = 0.0;  ///< of neighbouring residuals (lag 1)
+  double u_factor = 1.0;  ///< by which correlated residuals widen every u (1: not correlated)
   std::size_t points = 0;
   std::vector<Rejected> rejected;
   int iterations = 0;
   double position_min_mm = 0.0, position_max_mm = 0.0;  ///< Z (or X of a face) of the data
-  std::vector<double> residual_mm;       ///< measured minus model, one per reading
+  std::vector<double> residual_mm;                      ///< measured minus model, one per reading
   std::string input_hash, source;
 };
 

@@ -21,8 +21,8 @@ struct JobReference {
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
 };
 
-/// The main job: from probe streams to a correction table. Everything but the references is optional;
-/// without a target the job ends with the fit.
+/// The main job: from probe streams to a correction table. Everything but the references is
+/// optional; without a target the job ends with the fit.
 struct Job {
   std::string path, name;
   std::vector<JobReference> references;
@@ -35,10 +35,12 @@ struct Job {
 /// ISO 14253-1 decision about the tolerance, with the numbers it rests on.
 struct Verdict {
   bool go = false;
-  std::string line;                  ///< the first line of the result
-  double coaxiality_before_mm = 0.0; ///< cut about the spindle axis, against the references
-  double coaxiality_after_mm = 0.0;  ///< expected with the table: what the compromise and the actuator leave
-  double u_coaxiality_mm = 0.0;      ///< standard uncertainty of the cut axis against the reference, as a diameter
+  std::string line;                   ///< the first line of the result
+  double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
+  double coaxiality_after_mm =
+      0.0;  ///< expected with the table: what the compromise and the actuator leave
+  double u_coaxiality_mm =
+      0.0;  ///< standard uncertainty of the cut axis against the reference, as a diameter
   double coverage_factor = 2.0;
 };
 

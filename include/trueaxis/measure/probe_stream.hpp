@@ -26,16 +26,17 @@ enum class Indication {
 struct ProbeStream {
   StreamKind kind = StreamKind::lateral;
   Indication indication = Indication::absolute;
-  std::vector<double> reading_mm;   ///< X_M, or Z_M for a face
-  std::vector<double> c_rad;        ///< spindle angle, running (a wrapped column is unwrapped by the reader)
+  std::vector<double> reading_mm;  ///< X_M, or Z_M for a face
+  std::vector<double>
+      c_rad;  ///< spindle angle, running (a wrapped column is unwrapped by the reader)
   std::vector<double> position_mm;  ///< Z, or X for a face; empty: one section without Z
   std::vector<double> time_s;       ///< empty when the stream has no t
   std::vector<int> pass;            ///< empty when the stream has no pass column
   std::vector<int> setup;           ///< empty when the stream has no setup column
 
-  std::optional<double> nominal_radius_mm;  ///< metadata nominal_radius
-  std::optional<double> sensor_noise_mm;    ///< metadata sensor_noise, standard deviation
-  std::optional<double> spindle_rpm;        ///< metadata spindle_rpm, signed like C
+  std::optional<double> nominal_radius_mm;      ///< metadata nominal_radius
+  std::optional<double> sensor_noise_mm;        ///< metadata sensor_noise, standard deviation
+  std::optional<double> spindle_rpm;            ///< metadata spindle_rpm, signed like C
   std::map<std::string, std::string> metadata;  ///< every "# key: value", those above included
 
   std::string source;      ///< file name, or "-" for standard input

@@ -6,10 +6,11 @@
 namespace trueaxis {
 
 /// A line nearly along the spindle: part frame, mm; passes (x, y, z_ref) with slopes dx/dz, dy/dz.
-/// Direction cosines (Constantin et al. Eq. 1): l = slope_x n, m = slope_y n, n = 1/sqrt(1 + slope²).
+/// Direction cosines (Constantin et al. Eq. 1): l = slope_x n, m = slope_y n, n = 1/sqrt(1 +
+/// slope²).
 struct Axis {
-  double x_mm = 0.0, y_mm = 0.0;                      ///< where it pierces the plane z = z_ref
-  double slope_x = 0.0, slope_y = 0.0;                ///< dx/dz and dy/dz, mm per mm
+  double x_mm = 0.0, y_mm = 0.0;        ///< where it pierces the plane z = z_ref
+  double slope_x = 0.0, slope_y = 0.0;  ///< dx/dz and dy/dz, mm per mm
   double z_ref_mm = 0.0;
 
   std::array<double, 2> at(double z_mm) const {

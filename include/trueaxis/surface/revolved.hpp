@@ -15,13 +15,16 @@ struct Revolved {
 
 /// Where a line parallel to X meets a surface.
 struct Intersection {
-  double x_mm = 0.0;    ///< machine X, a radius
-  double dx_dz = 0.0;   ///< along Z at fixed C, mm per mm
-  double dx_dc = 0.0;   ///< along C at fixed Z, mm per rad
-  bool hit = false;     ///< false: the line passes the surface by, or meets the mirrored nappe only
+  double x_mm = 0.0;   ///< machine X, a radius
+  double dx_dz = 0.0;  ///< along Z at fixed C, mm per mm
+  double dx_dc = 0.0;  ///< along C at fixed Z, mm per rad
+  bool hit = false;    ///< false: the line passes the surface by, or meets the mirrored nappe only
 };
 
-enum class Root { front, rear };  ///< front: the larger X, where a tool in front works; rear: the smaller
+enum class Root {
+  front,
+  rear
+};  ///< front: the larger X, where a tool in front works; rear: the smaller
 
 /// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
 /// (effects.md's quadratic with K = 1 + tan²(half angle), no tilt of the line).

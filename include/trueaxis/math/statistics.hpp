@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace trueaxis {
+
+/// Consistent estimate of a Gaussian σ from absolute deviations about zero: median(|r|) / Φ⁻¹(3/4).
+double mad_sigma(std::span<const double> residuals);
+
+/// Correlation of neighbours after clipping at ± `clip`; 0 for fewer than three values or none that
+/// vary.
+double neighbour_correlation(std::span<const double> residuals, double clip);
+
+}  // namespace trueaxis

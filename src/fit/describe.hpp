@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fit/uncertainty.hpp"
+
+namespace trueaxis {
+
+/// Turns a minimum into the result: what is determined, parameters with uncertainties and budget,
+/// the axis, what was rejected. Residuals move into the result.
+void describe(const Surface& surface, Association& association, const ProbeStream& stream,
+              const Noise& noise, const FitOptions& options, FitResult& result);
+
+}  // namespace trueaxis

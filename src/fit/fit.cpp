@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/fit/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/describe.hpp"
+#include "fit/robust.hpp"
+#include "fit/uncertainty.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/surface/surface.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// The side from which the readings were taken, told by the sign of X_M.
+Root find_root(const ProbeStream& stream) {
+  if (stream.kind == StreamKind::face || stream.indication == Indication::relative)
+    return Root::front;
+  const auto [low, high] = std::ranges::minmax_element(stream.reading_mm);
+  if (*low > 0.0) return Root::front;
+  if (*high < 0.0) return Root::rear;
+  const auto row = std::ranges::find_if(
+      stream.reading_mm, [&](double x) { return (x > 0.0) != (stream.reading_mm[0] > 0.0); });
+  throw InputError(stream.source,
+                   "X_M changes sign or is zero at data row " +
+                       std::to_string(row - stream.reading_mm.begin() + 1) +
+                       ": the spindle axis must lie inside the part, X_M is its distance to the "
+                       "contact (for a gauge write '# reading: relative')");
+}
+
+SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
+                      const FitOptions& options) {
+  if (stream.kind != info.stream) {
+    throw InputError(stream.source,
+                     info.stream == StreamKind::face
+                         ? "a plane is fitted to a face stream: columns Z_M,C,X"
+                         : "the stream probes a face (Z_M,C,X): fit it with --surface plane");
+  }
+  if (info.needs_position && !stream.has_position()) {
+    throw InputError(stream.source, "the stream has no Z: fit one section with --surface section");
+  }
+  SurfaceFrame frame;
+  frame.root = find_root(stream);
+  frame.indication = stream.indication;
+  frame.ball_mm = options.bore ? -options.ball_radius_mm : options.ball_radius_mm;
+  if (stream.indication == Indication::relative && stream.kind == StreamKind::lateral) {
+    if (!stream.nominal_radius_mm) {
+      throw InputError(
+          stream.source,
+          "a relative gauge does not show the radius: give '# nominal_radius: ...' in mm");
+    }
+    frame.nominal_radius_mm = *stream.nominal_radius_mm;
+  }
+  if (stream.has_position()) {
+    const auto [low, high] = std::ranges::minmax_element(stream.position_mm);
+    frame.position_ref_mm = 0.5 * (*low + *high);
+    frame.half_length_mm = 0.5 * (*high - *low);
+  }
+  return frame;
+}
+
+void validate(const FitOptions& options) {
+  expects(options.coverage_factor > 0.0, "a coverage factor k > 0");
+  expects(options.max_iterations > 0, "max_iterations > 0");
+  expects(options.ball_radius_mm >= 0.0, "a ball radius of 0 mm or more");
+  expects(!options.noise_mm || *options.noise_mm >= 0.0, "a noise of 0 mm or more");
+}
+
+FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
+                       const SurfaceFrame& frame) {
+  FitResult result;
+  result.surface = options.surface;
+  result.loss = options.loss;
+  result.bore = options.bore;
+  result.coverage_factor = options.coverage_factor;
+  result.points = stream.size();
+  result.input_hash = stream.input_hash;
+  result.source = stream.source;
+  result.position_min_mm = frame.position_ref_mm - frame.half_length_mm;
+  result.position_max_mm = frame.position_ref_mm + frame.half_length_mm;
+  return result;
+}
+
+}  // namespace
+
+FitResult fit(const ProbeStream& stream, const FitOptions& options) {
+  validate(options);
+  expects(stream.size() > 0, "readings");
+  const SurfaceInfo& info = surface_info(options.surface);
+  const SurfaceFrame frame = frame_of(stream, info, options);
+  const auto surface = make_surface(options.surface, frame);
+  FitResult result = empty_result(stream, options, frame);
+  if (stream.size() < surface->parameter_count()) {
+    result.message = std::to_string(stream.size()) + " readings are fewer than the " +
+                     std::to_string(surface->parameter_count()) + " parameters of a " +
+                     options.surface;
+    return result;
+  }
+  FitOptions known = options;
+  if (!known.noise_mm) known.noise_mm = stream.sensor_noise_mm;
+
+  Association association =
+      associate(*surface, PreparedStream(stream), options.loss, options.max_iterations);
+  result.iterations = association.minimum.iterations;
+  if (!association.minimum.normal.valid) {
+    result.status = FitStatus::max_iterations;
+    result.message =
+        "no surface of this kind meets all probe lines: is the stream a " + options.surface + "?";
+    return result;
+  }
+  const Noise noise = estimate_noise(association, surface->parameter_count(), known);
+  result.status = association.minimum.converged ? FitStatus::converged : FitStatus::max_iterations;
+  if (!association.minimum.converged) {
+    result.message = "not converged after " + std::to_string(result.iterations) +
+                     " passes: raise max_iterations";
+  }
+  describe(*surface, association, stream, noise, known, result);
+  return result;
+}
+
+const char* to_string(FitStatus status) {
+  switch (status) {
+    case FitStatus::converged:
+      return "converged";
+    case FitStatus::max_iterations:
+      return "max_iterations";
+    case FitStatus::rank_deficient:
+      return "rank_deficient";
+    case FitStatus::too_few:
+      return "too_few";
+  }
+  return "";
+}
+
+const char* to_string(Loss loss) {
+  return loss == Loss::plain ? "plain" : loss == Loss::huber ? "huber" : "tukey";
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/minimise.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trueaxis {
+namespace {
+
+// Sizes are bounded, so that nothing is allocated in the hot path.
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, max_parameters,
+                             max_parameters>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters, 1>;
+
+/// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.
+void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
+  const auto p = static_cast<Eigen::Index>(normal.parameters);
+  const Eigen::Map<const Matrix> h(normal.jtj.data(), p, p);
+  const Eigen::Map<const Vector> g(normal.jtr.data(), p);
+  const Vector d = h.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt();
+  const Matrix scaled = d.cwiseInverse().asDiagonal() * h * d.cwiseInverse().asDiagonal();
+  const Vector scaled_g = d.cwiseInverse().asDiagonal() * g;
+  const Eigen::LLT<Matrix> llt(scaled);
+  const double smallest = llt.matrixLLT().diagonal().cwiseAbs().minCoeff();
+  if (llt.info() == Eigen::Success &&
+      smallest > 1e-6) {  // pivots of a unit-diagonal matrix: cond < 1e12
+    z = llt.matrixL().solve(scaled_g);
+    r = Matrix(llt.matrixU()) * d.asDiagonal();
+    return;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
+  const Vector values = eigen.eigenvalues();
+  const Vector root = values.cwiseMax(0.0).cwiseSqrt();
+  const Vector inverse =
+      (values.array() > 1e-15 * values.maxCoeff()).select(root.cwiseInverse(), 0.0);
+  z = inverse.asDiagonal() * eigen.eigenvectors().transpose() * scaled_g;
+  r = root.asDiagonal() * eigen.eigenvectors().transpose() * d.asDiagonal();
+}
+
+/// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
+/// for the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
+class CompressedCost final : public ceres::CostFunction {
+ public:
+  CompressedCost(const Surface& surface, const PreparedStream& stream, const LossScale& loss)
+      : surface_(surface), stream_(stream), loss_(loss) {
+    set_num_residuals(static_cast<int>(surface.parameter_count()) + 1);
+    mutable_parameter_block_sizes()->push_back(static_cast<int32_t>(surface.parameter_count()));
+  }
+
+  bool Evaluate(const double* const* parameters, double* residuals,
+                double** jacobians) const override {
+    const std::size_t p = surface_.parameter_count();
+    const std::span<const double> working(parameters[0], p);
+    if (!std::ranges::equal(working, last_.working)) {
+      last_.working.assign(working.begin(), working.end());
+      last_.normal = accumulate(surface_, working, stream_, loss_);
+      ++passes_;
+      if (last_.normal.valid &&
+          (!best_.normal.valid || last_.normal.sum_rho < best_.normal.sum_rho))
+        best_ = last_;
+    }
+    if (!last_.normal.valid) return false;
+    Matrix r;
+    Vector z;
+    factorise(last_.normal, r, z);
+    const auto rows = static_cast<Eigen::Index>(p);
+    Eigen::Map<Vector>(residuals, rows) = z;
+    residuals[p] = std::sqrt(std::max(0.0, last_.normal.sum_rho - z.squaredNorm()));
+    if (jacobians != nullptr && jacobians[0] != nullptr) {
+      Eigen::Map<Matrix>(jacobians[0], rows, rows) = -r;
+      std::fill_n(jacobians[0] + p * p, p, 0.0);
+    }
+    return true;
+  }
+
+  const Minimum& best() const { return best_; }
+  int passes() const { return passes_; }
+
+ private:
+  const Surface& surface_;
+  const PreparedStream& stream_;
+  const LossScale loss_;
+  mutable Minimum last_, best_;
+  mutable int passes_ = 0;
+};
+
+/// Ends at the rounding of the data themselves: below it a noise-free cost only flickers.
+class RoundingFloor final : public ceres::IterationCallback {
+ public:
+  explicit RoundingFloor(double cost) : cost_(cost) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    return summary.cost <= cost_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double cost_;
+};
+
+double largest_reading(const PreparedStream& stream) {
+  const ReadingBlock first = stream.block(0);
+  return std::abs(*std::max_element(first.reading_mm, first.reading_mm + stream.filled(0),
+                                    [](double a, double b) { return std::abs(a) < std::abs(b); }));
+}
+
+}  // namespace
+
+Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
+                 const LossScale& loss, int max_iterations) {
+  CompressedCost cost(surface, stream, loss);
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(ownership);
+  problem.AddResidualBlock(&cost, nullptr, start.data());
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_QR;
+  options.max_num_iterations = max_iterations;
+  options.initial_trust_region_radius =
+      1e12;  // Gauss-Newton until a step fails: the start is close
+  options.max_trust_region_radius = 1e32;
+  // A step that changes the cost by less is below 1e-6 of the noise, and the point it leads to
+  // (which is kept, see best()) is closer by the factor noise / radius again.
+  options.function_tolerance = 1e-12;
+  options.parameter_tolerance = 1e-15;
+  options.gradient_tolerance = 1e-300;
+  options.logging_type = ceres::SILENT;
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest_reading(stream);
+  RoundingFloor floor(0.5 * static_cast<double>(stream.size()) * rounding * rounding);
+  options.callbacks.push_back(&floor);
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+
+  Minimum minimum = cost.best();
+  minimum.iterations = cost.passes();
+  minimum.converged = minimum.normal.valid && (summary.termination_type == ceres::CONVERGENCE ||
+                                               summary.termination_type == ceres::USER_SUCCESS);
+  if (!minimum.normal.valid) minimum.working = std::move(start);
+  return minimum;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "trueaxis/model/normal_matrix.hpp"
+
+namespace trueaxis {
+
+/// Where Levenberg-Marquardt ended.
+struct Minimum {
+  std::vector<double> working;
+  NormalMatrix normal;  ///< at `working`
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Minimises ½Σρ(reading − prediction) with Ceres' Levenberg-Marquardt on the (p + 1)-row factor of
+/// the normal matrix: the same minimum as one residual a reading, without ever holding N residuals.
+Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
+                 const LossScale& loss, int max_iterations);
+
+}  // namespace trueaxis

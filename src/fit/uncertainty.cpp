@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/uncertainty.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+
+#include "trueaxis/math/statistics.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double rounding = 1e-15;       // relative error of a prediction
+constexpr double correlation_sds = 4.0;  // 1/√N each: below, neighbours count as uncorrelated
+constexpr double size_share =
+    0.1;  // of the radius: uncertainties beyond it are not linear any more
+
+const char* influence_name(Influence::Kind kind) {
+  switch (kind) {
+    case Influence::Kind::probe_height:
+      return "probe height";
+    case Influence::Kind::probe_gain:
+      return "probe gain";
+    case Influence::Kind::c_offset:
+      return "spindle angle datum";
+    case Influence::Kind::z_offset:
+      return "position datum";
+    case Influence::Kind::ball_radius:
+      return "ball radius";
+  }
+  return "";
+}
+
+/// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
+/// kernel.
+Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum, const ProbeStream& stream,
+                          const PreparedStream& prepared, Influence::Kind kind) {
+  const std::size_t p = surface.parameter_count(), columns = surface.column_count();
+  std::vector<double> transform(p * columns);
+  surface.transform(minimum.working, transform.data());
+  const double mean = std::accumulate(stream.reading_mm.begin(), stream.reading_mm.end(), 0.0) /
+                      static_cast<double>(stream.size());
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns));
+  PredictionBlock block;
+  for (std::size_t b = 0; b < prepared.blocks(); ++b) {
+    surface.evaluate(minimum.working, prepared.block(b), block);
+    for (std::size_t i = 0; i < prepared.filled(b); ++i) {
+      const std::size_t row = b * block_size + i;
+      double a = stream.reading_mm[row] - mean;
+      if (kind != Influence::Kind::probe_gain) {
+        const double position = stream.has_position() ? stream.position_mm[row] : 0.0;
+        const auto at = surface.influences(minimum.working, stream.c_rad[row], position);
+        a = kind == Influence::Kind::probe_height ? at.height
+            : kind == Influence::Kind::c_offset   ? at.c
+                                                  : at.position;
+      }
+      for (std::size_t j = 0; j < columns; ++j)
+        sums(static_cast<Eigen::Index>(j)) += a * block.column[j][i];
+    }
+  }
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const Rows>(transform.data(), static_cast<Eigen::Index>(p),
+                                static_cast<Eigen::Index>(columns)) *
+         sums;
+}
+
+}  // namespace
+
+Noise estimate_noise(const Association& association, std::size_t parameters,
+                     const FitOptions& options) {
+  Noise noise;
+  const std::vector<double>& residual = association.residual_mm;
+  const auto n = static_cast<double>(residual.size());
+  const double redundancy = n - static_cast<double>(parameters);
+  const bool robust = association.scale_mm > 0.0;
+  noise.source = robust ? "robust residuals" : "residuals";
+  noise.sigma_mm = robust           ? association.scale_mm
+                   : redundancy > 0 ? std::sqrt(association.minimum.normal.sum_rho / redundancy)
+                                    : std::numeric_limits<double>::quiet_NaN();
+  if (options.noise_mm && !(noise.sigma_mm >= *options.noise_mm)) {
+    noise.sigma_mm = *options.noise_mm;
+    noise.source = "sensor";
+  }
+  if (robust && redundancy > 0) {  // Huber 1981, Eq. 7.6.11
+    double psi2 = 0.0, slope = 0.0, slope2 = 0.0;
+    for (const double r : residual) {
+      const auto [psi, derivative] = influence(association.loss, r);
+      psi2 += psi * psi;
+      slope += derivative;
+      slope2 += derivative * derivative;
+    }
+    const double mean = slope / n, spread = slope2 / n - mean * mean;
+    const double k = 1.0 + static_cast<double>(parameters) / n * spread / (mean * mean);
+    noise.loss_factor =
+        k * k * psi2 / redundancy / (mean * mean) / (association.scale_mm * association.scale_mm);
+  }
+  const double clip = 3.0 * (robust ? association.scale_mm : noise.sigma_mm);
+  noise.autocorrelation =
+      std::isfinite(clip) && clip > 0.0 ? neighbour_correlation(residual, clip) : 0.0;
+  if (noise.autocorrelation * std::sqrt(n) > correlation_sds) {
+    const double rho = std::min(noise.autocorrelation, 0.99);
+    noise.u_factor = std::sqrt((1.0 + rho) / (1.0 - rho));
+  }
+  return noise;
+}
+
+Determination determine(const NormalMatrix& normal, const std::vector<double>& scale_mm,
+                        double size_mm, double sigma_mm, double coverage) {
+  const auto p = static_cast<Eigen::Index>(normal.parameters);
+  const Eigen::Map<const Eigen::VectorXd> scale(scale_mm.data(), p);
+  const Eigen::VectorXd unscale = scale.cwiseInverse();
+  const Eigen::MatrixXd h = unscale.asDiagonal() *
+                            Eigen::Map<const Eigen::MatrixXd>(normal.jtj.data(), p, p) *
+                            unscale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(h);
+  const double largest = eigen.eigenvalues().maxCoeff();
+  const double sigma = std::max(std::isfinite(sigma_mm) ? sigma_mm : 0.0, rounding * size_mm);
+
+  Determination out;
+  out.inverse = Eigen::MatrixXd::Zero(p, p);
+  out.free_directions.resize(p, 0);
+  for (Eigen::Index i = 0; i < p; ++i) {
+    const double value = eigen.eigenvalues()(i);
+    const Eigen::VectorXd direction = unscale.asDiagonal() * eigen.eigenvectors().col(i);
+    // Each entry of JᵀJ carries the square of the prediction's rounding, so that a singular
+    // direction shows as 1e-14.
+    if (value <= 1e-14 * largest || coverage * sigma / std::sqrt(value) > size_share * size_mm) {
+      out.free_directions.conservativeResize(Eigen::NoChange, out.free_directions.cols() + 1);
+      out.free_directions.rightCols(1) = direction;
+    } else {
+      out.inverse += direction * direction.transpose() / value;
+    }
+  }
+  return out;
+}
+
+std::string name_direction(const Eigen::VectorXd& direction,
+                           std::span<const std::string_view> names,
+                           const std::vector<double>& scale_mm) {
+  Eigen::VectorXd size(direction.size());
+  for (Eigen::Index i = 0; i < size.size(); ++i)
+    size(i) = direction(i) * scale_mm[static_cast<std::size_t>(i)];
+  size.normalize();
+  Eigen::Index first;
+  size.cwiseAbs().maxCoeff(&first);
+  if (size(first) < 0) size = -size;
+  std::string text;
+  for (Eigen::Index i = 0; i < size.size(); ++i) {
+    if (std::abs(size(i)) < 0.05) continue;
+    char term[64];
+    std::snprintf(term, sizeof term, "%s%.2f %s",
+                  text.empty() ? (size(i) < 0 ? "-" : "") : (size(i) < 0 ? " - " : " + "),
+                  std::abs(size(i)), std::string(names[static_cast<std::size_t>(i)]).c_str());
+    text += term;
+  }
+  return text;
+}
+
+std::vector<Source> budget_sources(const Surface& surface, const Association& association,
+                                   const ProbeStream& stream, const Determination& determination,
+                                   const Noise& noise, const FitOptions& options) {
+  const double sigma = noise.sigma_mm * noise.u_factor;
+  std::vector<Source> sources{
+      {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * determination.inverse}};
+  if (options.influences.empty()) return sources;
+  const PreparedStream prepared(stream);
+  for (const Influence& influence : options.influences) {
+    Eigen::VectorXd shift;
+    if (influence.kind == Influence::Kind::ball_radius) {
+      shift = Eigen::VectorXd::Zero(determination.inverse.rows());
+      const auto names = surface.working_names();
+      const double t = surface.shape(association.minimum.working).tan_half_angle;
+      for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i] == "radius" || names[i] == "height")
+          shift(static_cast<Eigen::Index>(i)) = std::sqrt(1.0 + t * t);
+      }
+    } else {
+      shift = determination.inverse *
+              projected(surface, association.minimum, stream, prepared, influence.kind);
+    }
+    shift *= influence.u;
+    sources.push_back({influence_name(influence.kind), 'B', shift * shift.transpose()});
+  }
+  return sources;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "fit/robust.hpp"
+#include "trueaxis/fit/fit.hpp"
+
+namespace trueaxis {
+
+/// What the data say about the noise of one reading.
+struct Noise {
+  double sigma_mm = 0.0;  ///< NaN: no redundancy and no sensor noise given
+  std::string source;
+  double autocorrelation = 0.0;
+  double u_factor = 1.0;     ///< √((1 + ρ)/(1 − ρ)) where neighbours correlate, else 1
+  double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
+};
+
+Noise estimate_noise(const Association& association, std::size_t parameters,
+                     const FitOptions& options);
+
+/// Which combinations of the working parameters the data determine.
+struct Determination {
+  Eigen::MatrixXd inverse;          ///< (JᵀJ)⁻¹ over the determined subspace
+  Eigen::MatrixXd free_directions;  ///< working parameters × undetermined combinations
+};
+
+/// A direction is undetermined where JᵀJ is singular to rounding, or where `coverage` standard
+/// uncertainties exceed a tenth of the surface's own size, beyond which the linearisation means
+/// nothing.
+Determination determine(const NormalMatrix& normal, const std::vector<double>& scale_mm,
+                        double size_mm, double sigma_mm, double coverage);
+
+/// "0.71 x + 0.70 radius" for a direction, in mm on the surface.
+std::string name_direction(const Eigen::VectorXd& direction,
+                           std::span<const std::string_view> names,
+                           const std::vector<double>& scale_mm);
+
+/// One covariance of the working parameters per source: the noise first, then the influences.
+struct Source {
+  std::string name;
+  char type = 'A';
+  Eigen::MatrixXd covariance;
+};
+std::vector<Source> budget_sources(const Surface& surface, const Association& association,
+                                   const ProbeStream& stream, const Determination& determination,
+                                   const Noise& noise, const FitOptions& options);
+
+}  // namespace trueaxis

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/model/normal_matrix.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "model/products.hpp"
+#include "trueaxis/base/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Gram = std::array<double, gram_size(max_columns)>;
+constexpr std::size_t blocks_per_chunk =
+    64;  // partial sums: rounding grows with √(N/8192), not with N
+
+void clear_padding(std::size_t columns, std::size_t filled, PredictionBlock& block) {
+  std::fill(block.residual + filled, block.residual + block_size, 0.0);
+  for (std::size_t i = 0; i < columns; ++i)
+    std::fill(block.column[i] + filled, block.column[i] + block_size, 0.0);
+}
+
+double entry(const Gram& gram, std::size_t i, std::size_t j) {
+  return gram[gram_index(std::max(i, j), std::min(i, j))];
+}
+
+// J = T · columns for every reading: JᵀJ = T M Tᵀ.
+void transform_gram(const Gram& gram, const double* transform, std::size_t columns,
+                    NormalMatrix& out) {
+  const std::size_t p = out.parameters;
+  std::array<double, max_parameters*(max_columns + 1)> half{};  // T · M, residual column last
+  for (std::size_t a = 0; a < p; ++a) {
+    for (std::size_t j = 0; j <= columns; ++j) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < columns; ++i)
+        sum += transform[a * columns + i] * entry(gram, i, j);
+      half[a * (columns + 1) + j] = sum;
+    }
+  }
+  out.jtj.assign(p * p, 0.0);
+  out.jtr.assign(p, 0.0);
+  for (std::size_t a = 0; a < p; ++a) {
+    out.jtr[a] = half[a * (columns + 1) + columns];
+    for (std::size_t b = 0; b <= a; ++b) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < columns; ++j)
+        sum += half[a * (columns + 1) + j] * transform[b * columns + j];
+      out.jtj[a * p + b] = out.jtj[b * p + a] = sum;
+    }
+  }
+}
+
+}  // namespace
+
+NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
+                        const PreparedStream& stream, const LossScale& loss) {
+  const std::size_t columns = surface.column_count();
+  expects(working.size() == surface.parameter_count(),
+          "as many working parameters as the surface has");
+  NormalMatrix out;
+  out.parameters = working.size();
+  Gram total{}, chunk{};
+  double rho = 0.0;
+  PredictionBlock block;
+  for (std::size_t index = 0; index < stream.blocks(); ++index) {
+    surface.evaluate(working, stream.block(index), block);
+    if (!block.valid) return out;
+    const std::size_t filled = stream.filled(index);
+    if (filled < block_size) clear_padding(columns, filled, block);
+    if (loss.kind != LossScale::Kind::plain) rho += apply_loss(loss, columns, filled, block);
+    add_products(block, columns, chunk.data());
+    if ((index + 1) % blocks_per_chunk == 0 || index + 1 == stream.blocks()) {
+      for (std::size_t i = 0; i < total.size(); ++i) total[i] += chunk[i];
+      chunk.fill(0.0);
+    }
+  }
+  std::array<double, max_parameters * max_columns> transform;
+  surface.transform(working, transform.data());
+  transform_gram(total, transform.data(), columns, out);
+  out.sum_rho = loss.kind == LossScale::Kind::plain ? entry(total, columns, columns) : rho;
+  out.valid = true;
+  return out;
+}
+
+bool residuals(const Surface& surface, std::span<const double> working,
+               const PreparedStream& stream, std::span<double> out_mm) {
+  expects(out_mm.size() == stream.size(), "room for one residual per reading");
+  PredictionBlock block;
+  bool valid = true;
+  for (std::size_t index = 0; index < stream.blocks(); ++index) {
+    surface.evaluate(working, stream.block(index), block);
+    valid = valid && block.valid;
+    std::copy_n(block.residual, stream.filled(index),
+                out_mm.begin() + static_cast<std::ptrdiff_t>(index * block_size));
+  }
+  return valid;
+}
+
+}  // namespace trueaxis

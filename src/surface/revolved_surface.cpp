@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/revolved_surface.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace trueaxis {
+namespace {
+
+constexpr std::array<std::string_view, 6> absolute_names{"x",       "y",      "slope_x",
+                                                         "slope_y", "radius", "tan_half_angle"};
+constexpr std::array<std::string_view, 3> section_names{"x", "y", "radius"};
+constexpr std::array<std::string_view, 6> relative_names{"x",       "y",      "slope_x",
+                                                         "slope_y", "offset", "tan_half_angle"};
+constexpr std::array<std::string_view, 3> relative_section_names{"x", "y", "offset"};
+
+}  // namespace
+
+std::span<const std::string_view> RevolvedSurface::working_names() const {
+  if (!tilts_) return relative() ? relative_section_names : section_names;
+  const std::span<const std::string_view> all(relative() ? relative_names : absolute_names);
+  return all.first(tapers_ ? 6 : 5);
+}
+
+std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> working) const {
+  const double radius = std::max(std::abs(expand(working.data()).radius), 1e-6);
+  std::vector<double> scale(parameter_count(), 1.0);
+  if (tilts_) scale[2] = scale[3] = radius;
+  if (tapers_) scale[5] = radius;
+  return scale;
+}
+
+// The circle of every section at once: x² + y² = 2 x0 x + 2 y0 y + 2 bx xζ + 2 by yζ + c0 + c1 ζ +
+// c2 ζ², with c0 = r² − x0² − y0², c1 = 2 (r t − x0 bx − y0 by), c2 = t² − bx² − by²; the axis'
+// cosine taken as 1.
+std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
+  double shift = 0.0;
+  if (relative()) {
+    const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
+                        static_cast<double>(count);
+    shift = mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
+  }
+  const double length = std::max(frame_.half_length_mm, 1e-9);
+  const int columns = 3 + (tilts_ ? 2 : 0) + (tapers_ ? 2 : 0);
+  const auto n = static_cast<Eigen::Index>(count);
+  double scale = 1e-12;  // the radius, so that all columns are of order one
+  for (std::size_t i = 0; i < count; ++i)
+    scale = std::max(scale, std::abs(readings.reading_mm[i] - shift));
+  Eigen::MatrixXd a(n, columns);
+  Eigen::VectorXd b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double reading = (readings.reading_mm[i] - shift) / scale;
+    const double x = reading * readings.cos_c[i], y = reading * readings.sin_c[i];
+    int j = 0;
+    a(i, j++) = x;
+    a(i, j++) = y;
+    a(i, j++) = 1.0;
+    b(i) = reading * reading;
+    if (!tilts_) continue;
+    const double zeta = (readings.position_mm[i] - frame_.position_ref_mm) / length;
+    a(i, j++) = x * zeta;
+    a(i, j++) = y * zeta;
+    if (tapers_) a(i, j++) = zeta, a(i, j++) = zeta * zeta;
+  }
+  Eigen::MatrixXd normal(columns, columns);
+  normal.setZero().selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
+  normal.diagonal() *= 1.0 + 1e-14;  // an undetermined direction then starts at zero
+  normal.diagonal().array() += 1e-300;
+  const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(a.transpose() * b);
+
+  const double x0 = 0.5 * c(0) * scale, y0 = 0.5 * c(1) * scale;
+  const double radius2 = c(2) * scale * scale + x0 * x0 + y0 * y0;
+  const double radius = radius2 > 0.0 ? std::sqrt(radius2) : scale;
+  std::vector<double> working{x0, y0};
+  if (tilts_) {
+    working.push_back(0.5 * c(3) * scale / length);
+    working.push_back(0.5 * c(4) * scale / length);
+  }
+  working.push_back(relative() ? shift : radius);
+  if (tapers_) {
+    const double c1 = c(5) * scale * scale / length;
+    working.push_back((0.5 * c1 + x0 * working[2] + y0 * working[3]) / radius);
+  }
+  for (double& value : working) {
+    if (!std::isfinite(value)) value = 0.0;
+  }
+  return working;
+}
+
+Revolved RevolvedSurface::probed(std::span<const double> working) const {
+  const std::size_t r = radius_index();
+  return {axis(working), relative() ? frame_.nominal_radius_mm : working[r],
+          tapers_ ? working[r + 1] : 0.0};
+}
+
+void RevolvedSurface::evaluate(std::span<const double> working, const ReadingBlock& readings,
+                               PredictionBlock& out) const {
+  const double offset = relative() ? working[radius_index()] : 0.0;
+  evaluate_revolved(probed(working), frame_.root, offset, readings, out);
+  if (relative()) std::fill_n(out.column[w_one], block_size, 1.0);
+}
+
+// dX/dp = −F_p / (2 √disc):  x: w Gx;  bx: w κ (D qx − D² bx s), κ = s + t r = K s + t r_ref;  r: w
+// r;  t: w r s. With qx = Gx + D bx κ the slope column becomes D κ Gx + D² bx t κ r, and κ r = K r
+// s + t r_ref r.
+void RevolvedSurface::transform(std::span<const double> working, double* out) const {
+  const std::size_t columns = column_count(), r = radius_index();
+  std::fill_n(out, parameter_count() * columns, 0.0);
+  const auto at = [&](std::size_t row, std::size_t column) -> double& {
+    return out[row * columns + column];
+  };
+  at(0, w_gx) = 1.0;
+  at(1, w_gy) = 1.0;
+  if (relative()) {
+    at(r, w_one) = 1.0;
+  } else {
+    at(r, w_r) = 1.0;
+  }
+  if (!tilts_) return;
+  const Revolved surface = probed(working);
+  const double t = surface.tan_half_angle, k = 1.0 + t * t;
+  const double slope[2] = {surface.axis.slope_x, surface.axis.slope_y};
+  const double d = 1.0 / std::sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    at(2 + i, w_gx + i) = d * t * surface.radius_mm;
+    at(2 + i, w_s_gx + i) = d * k;
+    at(2 + i, w_r) = d * d * slope[i] * t * t * surface.radius_mm;
+    at(2 + i, w_r_s) = d * d * slope[i] * t * k;
+  }
+  if (tapers_) at(r + 1, w_r_s) = 1.0;
+}
+
+Axis RevolvedSurface::axis(std::span<const double> working) const {
+  return {working[0], working[1], tilts_ ? working[2] : 0.0, tilts_ ? working[3] : 0.0,
+          frame_.position_ref_mm};
+}
+
+std::vector<double> RevolvedSurface::axis_jacobian(std::span<const double>) const {
+  const std::size_t p = parameter_count();
+  std::vector<double> jacobian(4 * p, 0.0);
+  for (std::size_t i = 0; i < (tilts_ ? 4U : 2U); ++i) jacobian[i * p + i] = 1.0;
+  return jacobian;
+}
+
+Revolved RevolvedSurface::shape(std::span<const double> working) const {
+  const auto full = expand(working.data());
+  return {axis(working), full.radius, full.tan};
+}
+
+Surface::Influences RevolvedSurface::influences(std::span<const double> working, double c_rad,
+                                                double position_mm) const {
+  const Intersection at = intersect(probed(working), c_rad, position_mm, 0.0, frame_.root);
+  if (!at.hit) return {};
+  return {at.dx_dc / at.x_mm, at.dx_dc, at.dx_dz};
+}
+
+}  // namespace trueaxis
