@@ -6,7 +6,6 @@ peers.cpp; prints the same JSON line. Parameters: x0, y0, l, m, k, half angle (m
 """
 
 import json
-import resource
 import sys
 import time
 
@@ -77,7 +76,8 @@ def main(code, path, seconds):
         result, solver = fit(c, z, x, analytic)
         whole_ms.append(1e3 * (time.perf_counter() - start))
         solver_ms.append(solver)
-    peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    peak_kib = next(int(line.split()[1]) for line in open("/proc/self/status")
+                    if line.startswith("VmHWM"))  # ru_maxrss would count the parent's too
     print(json.dumps({
         "code": code, "readings": x.size, "ms": whole_ms, "solver_ms": solver_ms,
         "p": list(result.x), "iterations": int(result.njev or result.nfev // (NOMINAL.size + 1)),
