@@ -2,7 +2,7 @@
 #include <ceres/ceres.h>
 #include <gtest/gtest.h>
 
-#include <memory>
+#include <iostream>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -102,7 +102,7 @@ class CeresPerReading : public testing::TestWithParam<Case> {
     helix.outlier_share = outlier_share;
     helix.position = GetParam().position;
     constexpr std::uint64_t seed = 12;
-    RecordProperty("seed", std::to_string(seed));
+    std::cout << "seed " << seed << '\n';
     return GetParam().simulate(GetParam().part, helix, seed);
   }
 

@@ -80,7 +80,8 @@ struct Trial {
 };
 
 Trial run_trial(ProbeStream stream, const SurfaceCase& c, Loss loss, int number) {
-  std::seed_seq sequence{seed, static_cast<std::uint64_t>(number)};
+  std::seed_seq sequence{seed, static_cast<std::uint64_t>(c.part.size()),
+                         static_cast<std::uint64_t>(number)};
   std::mt19937_64 random(sequence);
   std::normal_distribution<double> noise(0.0, sigma_mm);
   for (double& x_mm : stream.reading_mm) x_mm += noise(random);
