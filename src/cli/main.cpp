@@ -1,2 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-int main() { return 0; }
+#include <glog/logging.h>
+
+#include <exception>
+#include <iostream>
+
+#include "cli/commands.hpp"
+#include "trueaxis/base/error.hpp"
+
+namespace {
+
+int run(int argc, char** argv) {
+  using namespace trueaxis::cli;
+  CLI::App app{"TrueAxis finds where the reference surfaces of a clamped part really are, and what to correct."};
+  app.set_version_flag("--version", "trueaxis " TRUEAXIS_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a bug.");
+  int code = done;
+  add_run(app, code);
+  add_fit(app, code);
+  add_correct(app, code);
+  add_simulate(app, code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? done : usage;
+  }
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace trueaxis;
+  FLAGS_logtostderr = true;
+  google::InitGoogleLogging(argv[0]);
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    std::cerr << error.what() << '\n';
+    return cli::input;
+  } catch (const Refusal& refusal) {
+    std::cerr << "refused: " << refusal.what() << '\n';
+    return cli::refused;
+  } catch (const std::exception& error) {
+    std::cerr << "trueaxis: a bug, please report it: " << error.what() << '\n';
+    return cli::bug;
+  }
+}

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis {
 namespace {
@@ -147,6 +148,25 @@ void report_rms(FitResult& result) {
       std::sqrt(sum / std::max<double>(1.0, static_cast<double>(result.residual_mm.size() - next)));
 }
 
+constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
+
+void add_notes(const Noise& noise, FitResult& result) {
+  char text[200];
+  if (noise.u_factor > 1.0) {
+    std::snprintf(text, sizeof text,
+                  "neighbouring residuals correlate (%.2f): form or slow noise; every u is widened %.1f-fold",
+                  noise.autocorrelation, noise.u_factor);
+    result.notes.emplace_back(text);
+  }
+  if (result.loss != Loss::plain) return;
+  const double limit = suspect_sds * mad_sigma(result.residual_mm);
+  const auto far = std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
+  if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
+    std::snprintf(text, sizeof text, "%td readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)", far);
+    result.notes.emplace_back(text);
+  }
+}
+
 }  // namespace
 
 void describe(const Surface& surface, Association& association, const ProbeStream& stream,
@@ -197,6 +217,7 @@ void describe(const Surface& surface, Association& association, const ProbeStrea
   result.rejected = list_rejected(association);
   result.residual_mm = std::move(association.residual_mm);
   report_rms(result);
+  add_notes(noise, result);
 }
 
 }  // namespace trueaxis

@@ -70,6 +70,7 @@ struct FitResult {
   FitStatus status = FitStatus::too_few;
   std::string message;                      ///< what is wrong and what to do, empty when converged
   std::vector<std::string> not_determined;  ///< combinations of parameters the data leave free
+  std::vector<std::string> notes;           ///< what a user should know of numbers that may be used
   Loss loss = Loss::plain;
   bool bore = false;
   double coverage_factor = 2.0;

@@ -12,10 +12,18 @@
 
 namespace trueaxis {
 
+/// What the job says of a stream that the stream does not.
+struct StreamReading {
+  std::optional<bool> diameter;             ///< X_M is a diameter (true) or a radius (false)
+  std::optional<Indication> indication;     ///< overrides the stream's `reading`
+  std::optional<double> nominal_radius_mm;  ///< overrides the stream's `nominal_radius`
+};
+
 /// One reference surface of a job and how its stream is to be read and fitted.
 struct JobReference {
   std::string name;
   std::string stream;  ///< path, relative to the job file
+  StreamReading read;
   FitOptions fit;
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "trueaxis/base/units.hpp"
+#include "trueaxis/io/stream_csv.hpp"
+
+namespace trueaxis::cli {
+
+/// What a caller may say of a stream, the same for every command that reads one.
+struct StreamOptions {
+  std::string path;
+  bool diameter = false, radius = false, relative = false;
+  double nominal_radius_mm = 0.0;
+
+  void add_to(CLI::App& command) {
+    command.add_option("stream", path, "probe stream (CSV), '-' for standard input")->required();
+    auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
+    command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
+    command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
+    command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")->check(CLI::PositiveNumber);
+  }
+
+  ProbeStream read() const {
+    StreamReadOptions options;
+    if (diameter || radius) options.diameter = diameter;
+    if (relative) options.indication = Indication::relative;
+    if (nominal_radius_mm > 0.0) options.nominal_radius_mm = nominal_radius_mm;
+    return read_stream_csv(path, options);
+  }
+};
+
+}  // namespace trueaxis::cli

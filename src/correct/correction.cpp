@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/correct/correction.hpp"
+
+#include <algorithm>
+
+#include "correct/margin.hpp"
+#include "correct/precompensate.hpp"
+#include "correct/profile.hpp"
+#include "correct/spectrum.hpp"
+
+namespace trueaxis {
+namespace {
+
+CorrectionRows wanted_rows(const Profile& profile) {
+  const std::size_t count = profile.rows();
+  CorrectionRows rows;
+  rows.revolution.resize(count);
+  rows.position_mm.resize(count);
+  rows.c_rad.resize(count);
+  rows.wanted_mm.resize(count);
+  const std::size_t per_rev = static_cast<std::size_t>(profile.tool().rows_per_revolution);
+  for (std::size_t i = 0; i < count; ++i) {
+    rows.revolution[i] = static_cast<int>(i / per_rev);
+    rows.position_mm[i] = profile.position_mm(i);
+    rows.c_rad[i] = profile.c_rad(i);
+    rows.wanted_mm[i] = profile.at(rows.c_rad[i], rows.position_mm[i]);
+  }
+  return rows;
+}
+
+double end_mm(const TargetSurface& target) {
+  return target.kind == TargetKind::face ? target.radius_end_mm : target.z_end_mm;
+}
+
+}  // namespace
+
+Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
+                           const ToolSetup& tool, const Actuator& actuator) {
+  actuator.validate();
+  Correction correction;
+  correction.target = target;
+  correction.tool = tool;
+  correction.actuator = actuator;
+  correction.axis = axis;
+
+  const Profile profile(axis.axis, target, tool);
+  correction.rows = wanted_rows(profile);
+  correction.rows.command_mm = correction.rows.wanted_mm;
+  correction.harmonics = table_harmonics(profile, end_mm(target), actuator);
+
+  const Spectrum spectrum(profile);
+  if (actuator.precompensate) {
+    precompensate(spectrum, actuator, motion_of(profile, tool.speed_rpm), correction.rows);
+  }
+  correction.margin = margin_at(spectrum, profile, actuator, tool.speed_rpm);
+  const double searched_rpm = max_speed_rpm(spectrum, profile, actuator);
+  correction.margin.max_speed_rpm =
+      correction.margin.follows ? std::max(searched_rpm, tool.speed_rpm) : searched_rpm;
+  return correction;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "correct/margin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr int angles = 180;  // of a revolution: a peak of order 1 to 3 is missed by 1e-3 at most
+constexpr int places = 9;    // along the cut; peaks are at its ends unless an axis crosses
+constexpr int phases = 12;   // between two rows
+constexpr int images = 3;    // of the rows and of the sampling, either side
+constexpr double counted_mm = 1e-5;  // a harmonic that the bandwidth must pass
+
+/// Everything about one speed that does not depend on the place along the cut.
+struct Chain {
+  Motion motion;
+  std::vector<HarmonicPath> paths;
+  /// By order and phase x between two rows: Σ_{k≠0} (n/(n+kM))² H((n+kM)ω) e^{ikx}, with the sinc²
+  /// of n: what linear interpolation adds to a harmonic of amplitude 1.
+  std::vector<std::vector<Complex>> between_rows;
+  std::vector<double> hold;  ///< by order: images of the sampling, sum of their amplitudes
+};
+
+Chain make_chain(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                 double speed_rpm) {
+  Chain chain;
+  chain.motion = motion_of(profile, speed_rpm);
+  chain.paths = harmonic_paths(actuator, chain.motion, spectrum.orders());
+  const int rows = chain.motion.rows_per_revolution;
+  const auto response = [&](double hz) {
+    return hz >= 0.0 ? actuator.response(hz) : std::conj(actuator.response(-hz));
+  };
+  for (const int n : spectrum.orders()) {
+    std::vector<Complex> added(phases);
+    double hold = 0.0;
+    const double x = std::numbers::pi * n / rows;
+    const double kept = n == 0 ? 1.0 : std::pow(std::sin(x) / x, 2);
+    for (int k = -images; k <= images; ++k) {
+      const int order = n + k * rows;
+      const double weight = n == 0 ? (k == 0 ? 1.0 : 0.0) : kept * std::pow(1.0 * n / order, 2);
+      const double hz = order * speed_rpm / 60.0;
+      for (int m = -images; m <= images; ++m) {
+        if (m != 0) hold += weight * std::abs(response(hz + m * actuator.sampling_hz));
+      }
+      if (k == 0) continue;
+      for (int p = 0; p < phases; ++p) {
+        added[static_cast<std::size_t>(p)] +=
+            weight * response(hz) * std::polar(1.0, two_pi * k * p / phases);
+      }
+    }
+    chain.between_rows.push_back(added);
+    chain.hold.push_back(hold);
+  }
+  return chain;
+}
+
+/// Largest |Σ Re{c_n e^{inψ}}| and the extremes, over a revolution.
+struct Extremes {
+  double low = 0.0, high = 0.0;
+  double peak() const { return std::max(high, -low); }
+};
+
+Extremes extremes(const std::vector<HarmonicPath>& paths, const std::vector<Complex>& amplitude,
+                  const std::vector<Complex>& turn) {
+  Extremes found{INFINITY, -INFINITY};
+  for (int i = 0; i < angles; ++i) {
+    double value = 0.0;
+    for (std::size_t k = 0; k < paths.size(); ++k) {
+      const Complex& e = turn[static_cast<std::size_t>(i * paths[k].order % angles)];
+      value += amplitude[k].real() * e.real() - amplitude[k].imag() * e.imag();
+    }
+    found.low = std::min(found.low, value);
+    found.high = std::max(found.high, value);
+  }
+  return found;
+}
+
+/// Demands of one place along the cut, largest over a revolution.
+struct Demand {
+  Extremes command;
+  double slew_mm_per_s = 0.0, following_mm = 0.0;
+};
+
+Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted, bool precompensated,
+                 const std::vector<Complex>& turn) {
+  const std::size_t orders = chain.paths.size();
+  std::vector<Complex> command(orders), velocity(orders), following(orders), error(orders);
+  double hold_mm = 0.0;
+  for (std::size_t k = 0; k < orders; ++k) {
+    const HarmonicPath& path = chain.paths[k];
+    const double rate_mm_per_s = chain.motion.position_mm_per_s;
+    const Complex i(0.0, 1.0);
+    // ä is left out: it is of second order in the feed per revolution over the length of the cut.
+    const Complex gain = precompensated ? 1.0 / path.response : Complex(1.0);
+    const Complex command_rate = gain * wanted[k].slope * rate_mm_per_s;
+    command[k] = precompensated ? commanded(path, wanted[k], rate_mm_per_s) : wanted[k].value;
+    velocity[k] = i * (path.order * chain.motion.omega_rad_per_s) * command[k] + command_rate;
+    following[k] =
+        path.response * command[k] - i * path.response_slope * command_rate - wanted[k].value;
+    hold_mm += chain.hold[k] * std::abs(command[k]);
+  }
+  Demand demand;
+  demand.command = extremes(chain.paths, command, turn);
+  demand.slew_mm_per_s = extremes(chain.paths, velocity, turn).peak();
+  for (std::size_t p = 0; p < phases; ++p) {
+    for (std::size_t k = 0; k < orders; ++k) {
+      error[k] = following[k] + command[k] * chain.between_rows[k][p];
+    }
+    demand.following_mm = std::max(demand.following_mm, extremes(chain.paths, error, turn).peak());
+  }
+  demand.following_mm += hold_mm;
+  return demand;
+}
+
+std::string number(double value, const char* unit) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value << ' ' << unit;
+  return text.str();
+}
+
+void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm) {
+  const auto check = [&](bool holds, const std::string& what) {
+    if (holds) return;
+    margin.breaks += (margin.breaks.empty() ? "" : "; ") + what;
+  };
+  constexpr double um = 1.0 / mm_per_um;
+  check(margin.stroke_used_mm <= margin.stroke_available_mm,
+        "stroke " + number(margin.stroke_used_mm * um, "µm") + " of " +
+            number(margin.stroke_available_mm * um, "µm"));
+  check(margin.slew_used_mm_per_s <= margin.slew_available_mm_per_s,
+        "slew " + number(margin.slew_used_mm_per_s, "mm/s") + " of " +
+            number(margin.slew_available_mm_per_s, "mm/s"));
+  check(margin.highest_frequency_hz <= margin.bandwidth_hz,
+        "frequency " + number(margin.highest_frequency_hz, "Hz") + " of a bandwidth of " +
+            number(margin.bandwidth_hz, "Hz"));
+  check(margin.set_points_per_revolution > 2.0 * highest_order,
+        "set-points " + number(margin.set_points_per_revolution, "a revolution") + ", more than " +
+            std::to_string(2 * highest_order) + " are needed for order " +
+            std::to_string(highest_order));
+  check(margin.following_mm <= following_limit_mm,
+        "following error " + number(margin.following_mm * um, "µm") + " of " +
+            number(following_limit_mm * um, "µm"));
+  margin.follows = margin.breaks.empty();
+}
+
+}  // namespace
+
+ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                         double speed_rpm) {
+  const Chain chain = make_chain(spectrum, profile, actuator, speed_rpm);
+  std::vector<Complex> turn(angles);
+  for (int i = 0; i < angles; ++i) {
+    turn[static_cast<std::size_t>(i)] = std::polar(1.0, two_pi * i / angles);
+  }
+  ActuatorMargin margin;
+  Extremes command{INFINITY, -INFINITY};
+  int highest_order = 0;
+  std::vector<SlowAmplitude> wanted;
+  for (int place = 0; place < places; ++place) {
+    const double share = static_cast<double>(place) / (places - 1);
+    spectrum.at(spectrum.start_mm() + share * (spectrum.end_mm() - spectrum.start_mm()), wanted);
+    const Demand plain = demand_at(chain, wanted, false, turn);
+    const Demand sent = actuator.precompensate ? demand_at(chain, wanted, true, turn) : plain;
+    command.low = std::min(command.low, sent.command.low);
+    command.high = std::max(command.high, sent.command.high);
+    margin.slew_used_mm_per_s = std::max(margin.slew_used_mm_per_s, sent.slew_mm_per_s);
+    margin.following_mm = std::max(margin.following_mm, sent.following_mm);
+    margin.following_uncompensated_mm =
+        std::max(margin.following_uncompensated_mm, plain.following_mm);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      if (std::abs(wanted[k].value) > counted_mm) {
+        highest_order = std::max(highest_order, chain.paths[k].order);
+      }
+    }
+  }
+  margin.stroke_used_mm = command.high - command.low;
+  margin.stroke_available_mm = actuator.stroke_mm * (1.0 - actuator.stroke_reserve);
+  margin.slew_available_mm_per_s = actuator.slew_mm_per_s;
+  margin.highest_frequency_hz = highest_order * speed_rpm / 60.0;
+  margin.bandwidth_hz = actuator.bandwidth_hz();
+  margin.set_points_per_revolution = actuator.sampling_hz / (speed_rpm / 60.0);
+  margin.following_limit_mm = actuator.following_limit_mm;
+  judge(margin, highest_order, actuator.following_limit_mm);
+  return margin;
+}
+
+double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator) {
+  const auto follows = [&](double rpm) {
+    return margin_at(spectrum, profile, actuator, rpm).follows;
+  };
+  // From the top in steps of 20 %: a slow spindle can break limits too (interpolation errors pass
+  // through the actuator that a fast one filters), so the highest speed is searched, not the lowest
+  // break.
+  double broken = 60.0 * actuator.bandwidth_hz();
+  if (follows(broken)) return broken;
+  double good = broken;
+  for (int step = 0; step < 70 && good == broken; ++step) {
+    if (follows(broken / 1.2)) {
+      good = broken / 1.2;
+    } else {
+      broken = good = broken / 1.2;
+    }
+  }
+  if (good == broken) return 0.0;
+  for (int step = 0; step < 20; ++step) {
+    const double middle = 0.5 * (good + broken);
+    (follows(middle) ? good : broken) = middle;
+  }
+  return good;
+}
+
+}  // namespace trueaxis

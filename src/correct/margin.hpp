@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "correct/precompensate.hpp"
+
+namespace trueaxis {
+
+/// What the actuator has to do for a profile at `speed_rpm` and what it has left, from its
+/// frequency response; `max_speed_rpm` is left 0. The run is taken as steady: without the transient
+/// of its start.
+ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                         double speed_rpm);
+
+/// The highest speed at which margin_at follows; 0: at none. Never above the actuator's bandwidth
+/// in revolutions.
+double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator);
+
+}  // namespace trueaxis

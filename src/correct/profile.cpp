@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "correct/profile.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+void validate(const TargetSurface& target, const ToolSetup& tool) {
+  const bool face = target.kind == TargetKind::face;
+  expects(std::isfinite(tool.nose_radius_mm) && tool.nose_radius_mm >= 0.0, "nose radius >= 0 mm");
+  expects(std::isfinite(tool.height_mm), "a finite tool height");
+  expects(std::isfinite(tool.angle_from_probe_rad) && std::isfinite(tool.c_start_rad),
+          "finite angles of the tool and of the first row");
+  expects(std::isfinite(tool.speed_rpm) && tool.speed_rpm > 0.0, "spindle speed > 0 rpm");
+  expects(tool.sense == 1 || tool.sense == -1, "sense of rotation +1 or -1");
+  expects(std::isfinite(tool.feed_mm_per_rev) && tool.feed_mm_per_rev > 0.0, "feed > 0 mm/rev");
+  expects(tool.rows_per_revolution >= 8, "8 rows per revolution or more");
+  if (face) {
+    expects(!target.bore, "a face is no bore");
+    expects(std::isfinite(target.z_face_mm), "a finite Z of the face");
+    expects(target.radius_start_mm != target.radius_end_mm, "a face with two different radii");
+  } else {
+    expects(target.z_start_mm != target.z_end_mm, "a cut with two different ends in Z");
+    expects(std::isfinite(target.radius_mm) && target.radius_mm > 0.0, "target radius > 0 mm");
+    expects(std::isfinite(target.tan_half_angle), "a finite half angle of the target");
+    expects(target.kind == TargetKind::cone || target.tan_half_angle == 0.0,
+            "half angle 0 of a target cylinder");
+  }
+}
+
+[[noreturn]] void refuse_miss(const char* what, double c_rad, double z_mm) {
+  std::ostringstream text;
+  text << what << " at C = " << c_rad / rad_per_deg << " deg, Z = " << z_mm
+       << " mm: no correction can be given there";
+  throw Refusal(text.str());
+}
+
+}  // namespace
+
+Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool)
+    : target_(target), tool_(tool) {
+  validate(target, tool);
+  const bool face = target.kind == TargetKind::face;
+  start_mm_ = face ? target.radius_start_mm : target.z_start_mm;
+  const double travel = (face ? target.radius_end_mm : target.z_end_mm) - start_mm_;
+  feed_mm_per_rev_ = std::copysign(tool.feed_mm_per_rev, travel);
+
+  const double z_ref = face ? target.z_face_mm : target.z_start_mm;
+  const auto [x, y] = axis.at(z_ref);
+  about_target_ = {
+      {x, y, axis.slope_x, axis.slope_y, z_ref}, target.radius_mm, target.tan_half_angle};
+  about_spindle_ = {{0.0, 0.0, 0.0, 0.0, z_ref}, target.radius_mm, target.tan_half_angle};
+
+  const double per_rev = tool.rows_per_revolution;
+  const double last = std::ceil(std::abs(travel) / tool.feed_mm_per_rev * per_rev - 1e-6);
+  const double revolutions = std::floor(last / per_rev) + 1.0;
+  expects(revolutions * per_rev <= 2e8, "a table of 2e8 rows or fewer");
+  rows_ = static_cast<std::size_t>(revolutions * per_rev);
+}
+
+double Profile::position_mm(std::size_t row) const {
+  return start_mm_ + feed_mm_per_rev_ * (static_cast<double>(row) / tool_.rows_per_revolution);
+}
+
+double Profile::c_rad(std::size_t row) const {
+  return tool_.c_start_rad +
+         tool_.sense * two_pi * (static_cast<double>(row) / tool_.rows_per_revolution);
+}
+
+double Profile::at(double c_rad, double position_mm) const {
+  if (target_.kind == TargetKind::face) return face_mm(c_rad, position_mm);
+  return nose_centre_mm(about_target_, c_rad, position_mm) -
+         nose_centre_mm(about_spindle_, c_rad, position_mm);
+}
+
+// The tool's line in its own frame is Y = height; that frame is the probe's turned by the angle
+// from probe to tool. In the rake plane the nose circle touches the section X(z) at z_c:
+//   X_centre = X(z_c) ± r_n/√(1+s²),  Z_centre = z_c ∓ r_n s/√(1+s²),  s = ∂X/∂z  (bore: lower
+//   signs).
+double Profile::nose_centre_mm(const Revolved& surface, double c_rad, double z_mm) const {
+  const double c_part = c_rad + tool_.angle_from_probe_rad;
+  const double nose = target_.bore ? -tool_.nose_radius_mm : tool_.nose_radius_mm;
+  double z_contact = z_mm;
+  for (int i = 0; i < 60; ++i) {
+    const Intersection hit = intersect(surface, c_part, z_contact, tool_.height_mm);
+    if (!hit.hit) refuse_miss("the tool's line passes the target surface by", c_rad, z_contact);
+    const double secant = std::sqrt(1.0 + hit.dx_dz * hit.dx_dz);
+    // A straight section needs one correction; contraction is r_n times the section's curvature.
+    const double next = z_mm + nose * hit.dx_dz / secant;
+    const double moved = next - z_contact;
+    if (std::abs(moved) < 1e-11) return hit.x_mm + hit.dx_dz * moved + nose / secant;
+    z_contact = next;
+  }
+  refuse_miss("the tool's nose does not fit the target surface", c_rad, z_mm);
+}
+
+// Z(X) of the plane through the axis point at z_face, perpendicular to the axis, on the tool's
+// line: a straight line of slope −(slope_x cos C + slope_y sin C); the nose's centre lies r_n
+// √(1+slope²) above it in Z, r_n above the nominal face.
+double Profile::face_mm(double c_rad, double x_mm) const {
+  const double c_part = c_rad + tool_.angle_from_probe_rad;
+  const Axis& axis = about_target_.axis;
+  const double cos_c = std::cos(c_part), sin_c = std::sin(c_part);
+  const double px = x_mm * cos_c - tool_.height_mm * sin_c - axis.x_mm;
+  const double py = x_mm * sin_c + tool_.height_mm * cos_c - axis.y_mm;
+  const double slope = axis.slope_x * cos_c + axis.slope_y * sin_c;
+  const double raised = slope * slope / (1.0 + std::sqrt(1.0 + slope * slope));  // √(1+s²) − 1
+  return -(axis.slope_x * px + axis.slope_y * py) + tool_.nose_radius_mm * raised;
+}
+
+}  // namespace trueaxis

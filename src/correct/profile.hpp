@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trueaxis/correct/correction.hpp"
+#include "trueaxis/surface/revolved.hpp"
+
+namespace trueaxis {
+
+/// The wanted correction as a function of the spindle angle and the machine position: where the
+/// centre of the tool's nose must be for the target surface about the target axis, minus where it
+/// would be for the same surface about the spindle axis. Exact at the tool's height, mm.
+class Profile {
+ public:
+  /// @throws ContractViolation naming the quantity of the target or tool that cannot be.
+  Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool);
+
+  /// X_fts at (C, Z), positive away from the spindle axis; for a face Z_fts at (C, X), positive
+  /// along +Z. `position_mm` is that of the nose's centre.
+  /// @throws Refusal where the tool's line or nose does not meet the target surface.
+  double at(double c_rad, double position_mm) const;
+
+  double position_start_mm() const { return start_mm_; }
+  /// Along the feed, mm per revolution, with the sign of the direction.
+  double feed_mm_per_rev() const { return feed_mm_per_rev_; }
+  /// Rows of the table: the fewest whole revolutions of which the last row reaches the end.
+  std::size_t rows() const { return rows_; }
+  double position_mm(std::size_t row) const;
+  /// Running spindle angle of a row, in the sense of rotation when cutting.
+  double c_rad(std::size_t row) const;
+  const ToolSetup& tool() const { return tool_; }
+
+ private:
+  double nose_centre_mm(const Revolved& surface, double c_rad, double z_mm) const;
+  double face_mm(double c_rad, double x_mm) const;
+
+  TargetSurface target_;
+  ToolSetup tool_;
+  Revolved about_target_, about_spindle_;
+  double start_mm_ = 0.0, feed_mm_per_rev_ = 0.0;
+  std::size_t rows_ = 0;
+};
+
+}  // namespace trueaxis

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/correct/target_axis.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/base/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+
+bool is_plane(const Reference& reference) { return reference.face_radius_mm > 0.0; }
+
+Eigen::Vector3d direction(const Axis& axis) {
+  return Eigen::Vector3d(axis.slope_x, axis.slope_y, 1.0).normalized();
+}
+
+/// Perpendicular distance of the point of `axis` at z from the line `datum`, mm.
+double distance_mm(const Axis& axis, const Axis& datum, double z_mm) {
+  const auto [x, y] = axis.at(z_mm);
+  const auto [x_datum, y_datum] = datum.at(z_mm);
+  return Eigen::Vector3d(x - x_datum, y - y_datum, 0.0).cross(direction(datum)).norm();
+}
+
+double tilt_between_rad(const Axis& a, const Axis& b) {
+  const Eigen::Vector3d u = direction(a), v = direction(b);
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+/// What each reference counts in the mean position at mid length and in the mean direction.
+struct Shares {
+  std::vector<double> position, direction;
+};
+
+// With a_i the distance at mid length and b_i that of the slopes, over the length L:
+//   ∫ |a_i + b_i (Z − Z_mid)|² dZ = L (a_i² + b_i² L²/12),   a plane: L R² b_j²,
+// so position and direction separate, and the minimum is a weighted mean of each.
+Shares shares_of(std::span<const Reference> references, double length_mm) {
+  Shares shares;
+  double position = 0.0, direction = 0.0;
+  const bool any_plane = std::any_of(references.begin(), references.end(), is_plane);
+  for (const Reference& reference : references) {
+    const bool plane = is_plane(reference);
+    // Without planes L cancels: its limit L → 0 is then as good as any length.
+    const double arm = plane ? reference.face_radius_mm * reference.face_radius_mm
+                             : (any_plane ? length_mm * length_mm / 12.0 : 1.0);
+    shares.position.push_back(plane ? 0.0 : reference.weight);
+    shares.direction.push_back(reference.weight * arm);
+    position += shares.position.back();
+    direction += shares.direction.back();
+  }
+  if (!(position > 0.0)) {
+    throw Refusal(
+        "the references fix no position of the target axis: planes give its direction only. Add a "
+        "cylinder or cone with a weight above 0.");
+  }
+  for (double& share : shares.position) share /= position;
+  for (double& share : shares.direction) share /= direction;
+  return shares;
+}
+
+/// ∂(x, y, slope_x, slope_y of the target at z_mid) / ∂(those of a reference at its own z_ref).
+Matrix4 jacobian(const Axis& reference, double z_mid_mm, double position, double direction_share) {
+  Matrix4 j = Matrix4::Zero();
+  j.topLeftCorner<2, 2>() = Eigen::Matrix2d::Identity() * position;
+  j.topRightCorner<2, 2>() =
+      Eigen::Matrix2d::Identity() * (position * (z_mid_mm - reference.z_ref_mm));
+  j.bottomRightCorner<2, 2>() = Eigen::Matrix2d::Identity() * direction_share;
+  return j;
+}
+
+Remainder remainder(const Reference& reference, const Axis& target, double z_start_mm,
+                    double z_end_mm) {
+  Remainder left;
+  left.name = reference.name;
+  left.tilt_rad = tilt_between_rad(target, reference.axis.axis);
+  if (is_plane(reference)) {
+    const double diameter = 2.0 * reference.face_radius_mm;
+    AxisEstimate slopes;  // as a position, so that u_at gives the worse direction of the tilt
+    const auto& c = reference.axis.covariance;
+    slopes.covariance = {c[10], c[11], 0, 0, c[14], c[15], 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+    left.coaxiality_mm = diameter * std::tan(left.tilt_rad);
+    left.u_coaxiality_mm = diameter * slopes.u_at(0.0);
+    return left;
+  }
+  left.offset_start_mm = distance_mm(target, reference.axis.axis, z_start_mm);
+  left.offset_end_mm = distance_mm(target, reference.axis.axis, z_end_mm);
+  left.coaxiality_mm = coaxiality_mm(target, reference.axis.axis, z_start_mm, z_end_mm);
+  left.u_coaxiality_mm =
+      2.0 * std::max(reference.axis.u_at(z_start_mm), reference.axis.u_at(z_end_mm));
+  return left;
+}
+
+}  // namespace
+
+TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
+                             double z_end_mm) {
+  for (const Reference& reference : references) {
+    expects(std::isfinite(reference.weight) && reference.weight >= 0.0, "weights of 0 or more");
+    expects(reference.face_radius_mm >= 0.0, "face radii of 0 or more");
+  }
+  expects(std::isfinite(z_start_mm) && std::isfinite(z_end_mm), "finite ends of the cut");
+  const double z_mid = 0.5 * (z_start_mm + z_end_mm);
+  const Shares shares = shares_of(references, std::abs(z_end_mm - z_start_mm));
+
+  TargetAxis target;
+  Axis& axis = target.axis.axis;
+  axis.z_ref_mm = z_mid;
+  Matrix4 covariance = Matrix4::Zero();
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    const AxisEstimate& reference = references[i].axis;
+    const auto [x, y] = reference.axis.at(z_mid);
+    axis.x_mm += shares.position[i] * x;
+    axis.y_mm += shares.position[i] * y;
+    axis.slope_x += shares.direction[i] * reference.axis.slope_x;
+    axis.slope_y += shares.direction[i] * reference.axis.slope_y;
+    const Matrix4 j = jacobian(reference.axis, z_mid, shares.position[i], shares.direction[i]);
+    covariance += j * Eigen::Map<const Matrix4>(reference.covariance.data()) * j.transpose();
+  }
+  Eigen::Map<Matrix4>(target.axis.covariance.data()) = covariance;
+  for (const Reference& reference : references) {
+    target.remainders.push_back(remainder(reference, axis, z_start_mm, z_end_mm));
+  }
+  return target;
+}
+
+// The distance from a line is convex along another line: its maximum is at an end.
+double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm,
+                     double z_end_mm) {
+  return 2.0 * std::max(distance_mm(toleranced, datum, z_start_mm),
+                        distance_mm(toleranced, datum, z_end_mm));
+}
+
+}  // namespace trueaxis

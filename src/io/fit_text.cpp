@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/io/fit_text.hpp"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
+  char line[256];
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  text += line;
+}
+
+/// Decimals that show two digits of U (GUM 7.2.6), at least 1 nm and at most 1 pm.
+int decimals(double U) {
+  if (!(U > 0.0)) return 6;
+  const int digits = 1 - static_cast<int>(std::floor(std::log10(U)));
+  return digits < 3 ? 3 : digits > 9 ? 9 : digits;
+}
+
+void append_parameters(std::string& text, const std::vector<FitParameter>& parameters, double k) {
+  for (const FitParameter& p : parameters) {
+    const Estimate& e = p.estimate;
+    const double U = k * e.u;
+    if (!e.determined()) {
+      append(text, "  %-16s %16s  %s\n", p.name.c_str(), "-", e.why_not.c_str());
+    } else if (!std::isfinite(U)) {
+      append(text, "  %-16s %16.6f  %-3s  (%s)\n", p.name.c_str(), e.value, e.unit.c_str(), e.why_not.c_str());
+    } else {
+      append(text, "  %-16s %16.*f ± %-10.2g %s\n", p.name.c_str(), decimals(U), e.value, U, e.unit.c_str());
+    }
+  }
+}
+
+}  // namespace
+
+std::string fit_text(const FitResult& result) {
+  std::string text;
+  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s, %d passes\n", result.surface.c_str(),
+         result.source.c_str(), to_string(result.status), result.points, result.rejected.size(),
+         to_string(result.loss), result.iterations);
+  if (!result.message.empty()) text += "  " + result.message + "\n";
+  append(text, "  parameters ± U (k = %.3g)\n", result.coverage_factor);
+  append_parameters(text, result.parameters, result.coverage_factor);
+  append_parameters(text, result.derived, result.coverage_factor);
+  append(text, "  RMS %.4g µm, σ %.4g µm (from %s)\n", result.rms_mm / mm_per_um, result.sigma_mm / mm_per_um,
+         result.sigma_source.c_str());
+  for (const std::string& note : result.notes) text += "  note: " + note + "\n";
+  for (std::size_t i = 0; i < result.rejected.size() && i < 10; ++i) {
+    append(text, "  rejected: row %zu, %s\n", result.rejected[i].row, result.rejected[i].why.c_str());
+  }
+  if (result.rejected.size() > 10) append(text, "  rejected: %zu more, all of them in the JSON\n", result.rejected.size() - 10);
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "trueaxis/base/estimate.hpp"
+#include "trueaxis/fit/fit.hpp"
+
+namespace trueaxis {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null where it is not finite (JSON has no NaN).
+inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// {"value", "unit"}
+inline Json with_unit(double value, const char* unit) { return {{"value", number(value)}, {"unit", unit}}; }
+
+/// {"value", "u", "unit"} and "why" where a number is missing.
+inline Json to_json(const Estimate& estimate) {
+  Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
+  if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
+  return json;
+}
+
+/// The fit as an object, for results that hold one.
+Json fit_object(const FitResult& result);
+
+}  // namespace trueaxis

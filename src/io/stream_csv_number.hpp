@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <cstdint>
+#include <system_error>
+
+namespace trueaxis {
+
+/// Reads the number at `p`; returns where it ends, or `p` where none starts. The value is the
+/// double nearest to the text. `error` is result_out_of_range as in std::from_chars.
+///
+/// Plain decimals of at most 18 digits whose digits stay below 2^53, with at most 22 of them behind
+/// the point, are the quotient of two exact doubles, so one rounding (Clinger 1990). All else goes
+/// to std::from_chars, from the start.
+inline const char* csv_number(const char* p, const char* end, double& value, std::errc& error) {
+  static constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
+                                             1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
+                                             1e14, 1e15, 1e16, 1e17, 1e18};
+  constexpr std::uint64_t exact_below = std::uint64_t{1} << 53U;
+  constexpr std::ptrdiff_t most_digits = 18;
+  const char* start = p;
+  const char* at = p;
+  const bool plus = at < end && *at == '+';
+  const bool minus = at < end && *at == '-';
+  if (plus || minus) ++at;
+  std::uint64_t digits = 0;
+  const auto digit = [&] { return at < end ? static_cast<unsigned>(*at) - unsigned{'0'} : 10U; };
+  const char* first = at;
+  for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
+  std::ptrdiff_t count = at - first, behind = 0;
+  if (at < end && *at == '.') {
+    first = ++at;
+    for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
+    behind = at - first;
+    count += behind;
+  }
+  const bool exponent = at < end && (*at == 'e' || *at == 'E');
+  if (count > 0 && count <= most_digits && digits < exact_below && !exponent) {
+    const double magnitude = static_cast<double>(digits) / powers_of_ten[behind];
+    value = minus ? -magnitude : magnitude;
+    error = {};
+    return at;
+  }
+  if (plus && (++start == end || *start == '-')) return p;
+  const auto [stop, why] = std::from_chars(start, end, value);
+  error = why;
+  return stop == start ? p : stop;
+}
+
+}  // namespace trueaxis

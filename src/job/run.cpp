@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/base/units.hpp"
+#include "trueaxis/job/job.hpp"
+
+namespace trueaxis {
+namespace {
+
+double face_radius(const JobReference& reference, const FitResult& fit) {
+  if (fit.surface != "plane") return 0.0;
+  if (reference.face_radius_mm > 0.0) return reference.face_radius_mm;
+  return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+}
+
+bool usable(const JobResult& result) {
+  return std::ranges::all_of(result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
+}
+
+std::vector<Reference> references_of(const JobResult& result) {
+  std::vector<Reference> references;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const JobReference& named = result.job.references[i];
+    references.push_back({named.name, result.fits[i].axis, named.weight, face_radius(named, result.fits[i])});
+  }
+  return references;
+}
+
+/// What a cut about the spindle axis would leave at the worst reference.
+double coaxiality_uncorrected(const std::vector<Reference>& references, double z_start, double z_end) {
+  double worst = 0.0;
+  for (const Reference& r : references) {
+    worst = std::max(worst, r.face_radius_mm > 0.0
+                                ? 2.0 * r.face_radius_mm * std::hypot(r.axis.axis.slope_x, r.axis.axis.slope_y)
+                                : coaxiality_mm({}, r.axis.axis, z_start, z_end));
+  }
+  return worst;
+}
+
+std::string in_um(double length_mm, const char* format = "%.3g") {
+  char text[48];
+  std::snprintf(text, sizeof text, format, length_mm / mm_per_um);
+  return std::string(text) + " µm";
+}
+
+/// ISO 14253-1: conformity is shown when value + U lies within the tolerance.
+void decide(JobResult& result, const std::vector<Reference>& references) {
+  Verdict& verdict = result.verdict;
+  const TargetSurface& target = *result.job.target;
+  const Correction& correction = *result.correction;
+  verdict.coverage_factor = result.job.references.front().fit.coverage_factor;
+  verdict.coaxiality_before_mm = coaxiality_uncorrected(references, target.z_start_mm, target.z_end_mm);
+  const auto worst = std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::coaxiality_mm);
+  // A following error that turns once a revolution moves the axis by its amplitude; all of it is taken as such.
+  verdict.coaxiality_after_mm = worst->coaxiality_mm + 2.0 * correction.margin.following_mm;
+  const double u_axis = std::max(correction.axis.u_at(target.z_start_mm), correction.axis.u_at(target.z_end_mm));
+  verdict.u_coaxiality_mm = 2.0 * u_axis;
+  const double U = verdict.coverage_factor * verdict.u_coaxiality_mm;
+  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm) + " with the table (U = " + in_um(U) +
+                              "), " + in_um(verdict.coaxiality_before_mm) + " without it";
+  if (!correction.margin.follows) {
+    verdict.line = "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
+    return;
+  }
+  if (!result.job.coaxiality_tolerance_mm) {
+    verdict.go = true;
+    verdict.line = "DONE, no tolerance given: " + numbers;
+    return;
+  }
+  const double tolerance = *result.job.coaxiality_tolerance_mm;
+  verdict.go = verdict.coaxiality_after_mm + U <= tolerance;
+  verdict.line = std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " + in_um(tolerance);
+}
+
+}  // namespace
+
+JobResult run_job(Job job, std::vector<ProbeStream> streams) {
+  expects(job.references.size() == streams.size() && !streams.empty(), "one stream per reference");
+  JobResult result;
+  result.job = std::move(job);
+  result.streams = std::move(streams);
+  for (std::size_t i = 0; i < result.streams.size(); ++i) {
+    result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
+  }
+  if (!usable(result)) {
+    for (std::size_t i = 0; i < result.fits.size(); ++i) {
+      if (result.fits[i].status == FitStatus::converged) continue;
+      result.verdict.line = "NO-GO: " + result.job.references[i].name + ": " + result.fits[i].message;
+      return result;
+    }
+  }
+  if (!result.job.target) {
+    result.verdict.go = true;
+    result.verdict.line = "DONE: identified, no target to correct";
+    return result;
+  }
+  const TargetSurface& target = *result.job.target;
+  const std::vector<Reference> references = references_of(result);
+  result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm);
+  result.correction = make_correction(result.target_axis->axis, target, result.job.tool, result.job.actuator);
+  decide(result, references);
+  return result;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace trueaxis {
+
+/// The files of the report page, embedded by assets.S.
+struct ReportAssets {
+  std::string_view html;  ///< the template with its {{places}}
+  std::string_view css;
+  std::string_view echarts;  ///< Apache ECharts, as published
+  std::string_view js;       ///< the page's own scripts, one after the other
+};
+
+ReportAssets report_assets();
+
+}  // namespace trueaxis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "report/coaxial_nominal.hpp"
+
+namespace trueaxis {
+
+/// The readings of one reference in the units of the charts.
+struct ChartReadings {
+  bool has_model = false;            ///< a usable fit: residual_um is there
+  bool has_position = false;         ///< false: one section without Z
+  std::vector<double> c_deg;         ///< wrapped to [0, 360)
+  std::vector<double> position_mm;   ///< Z, or X of a face
+  std::vector<double> time_s;        ///< empty when the stream has no t
+  std::vector<double> deviation_um;  ///< reading minus CoaxialNominal
+  std::vector<double> residual_um;   ///< measured minus model
+  std::vector<bool> kept;            ///< false: rejected by the fit, or not a number
+  double readings_per_turn = 0.0;
+};
+
+ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,
+                             const CoaxialNominal& nominal);
+
+/// Up to three polar sections (both ends and the middle): the readings of about one revolution
+/// nearest to each height, means per degree where there are more than 360, and the model's curve
+/// there.
+nlohmann::json sections_data(const ChartReadings& all, const CoaxialNominal& nominal);
+
+/// C wrapped to [0, 360) degrees.
+double wrapped_deg(double c_rad);
+
+}  // namespace trueaxis

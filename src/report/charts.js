@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all charts share: colours that colour-blind readers can tell apart, axes, and figures that redraw
+// themselves when the width of the page changes.
+
+const colours = {measured: '#0072b2', model: '#d55e00', rejected: '#b3001b', grey: '#6b7684', grid: '#e3e7ec', ink: '#1d2733',
+  series: ['#0072b2', '#d55e00', '#009e73', '#a0569b', '#8a6d00', '#3a86c8']};
+const diverging = ['#14477f', '#4393c3', '#b5d5e8', '#f4f4f2', '#f6c3a5', '#d6604d', '#8c1127'];
+const charts = [];
+const fontFamily = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
+
+/** A chart with its caption. `build(width)` returns the ECharts option for a width in px. */
+function figure({caption, description, size = 'normal', renderer = 'canvas', build}) {
+  const box = element('div', {class: `chart ${size}`});
+  const made = element('figure', {}, box, element('figcaption', {}, caption));
+  made.start = () => {
+    const chart = echarts.init(box, null, {renderer});
+    const draw = () => chart.setOption({...common(description), ...build(box.clientWidth)}, true);
+    draw();
+    charts.push(chart);
+    let width = box.clientWidth;
+    made.redraw = () => {
+      if (box.clientWidth === width) return;
+      width = box.clientWidth;
+      chart.resize({animation: {duration: 0}});
+      draw();
+    };
+  };
+  return made;
+}
+
+function common(description) {
+  return {
+    animation: false,
+    backgroundColor: 'transparent',
+    color: colours.series,
+    textStyle: {fontFamily, fontSize: 12, color: colours.ink},
+    aria: {enabled: true, label: {description}},
+  };
+}
+
+function axis(name, more = {}) {
+  return {
+    type: 'value',
+    name,
+    nameLocation: 'middle',
+    nameGap: 30,
+    nameTextStyle: {color: colours.grey, fontFamily},
+    axisLine: {show: true, onZero: false, lineStyle: {color: '#9aa4b0'}},
+    axisTick: {show: true, lineStyle: {color: '#9aa4b0'}},
+    axisLabel: {color: colours.ink, hideOverlap: true, formatter: tick},
+    splitLine: {lineStyle: {color: colours.grid}},
+    ...more,
+  };
+}
+
+/** Upright axis: its name stands level above it, which needs no width. */
+const uprightAxis = (name, more = {}) =>
+  axis(name, {nameLocation: 'end', nameGap: 12, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -36]}, ...more});
+
+const angleAxis = (width, name = 'spindle angle C in °') =>
+  axis(name, {min: 0, max: 360, interval: width < 480 ? 90 : 45});
+
+const tick = (value) => String(Math.abs(value) < 1e-12 ? 0 : Number(value.toPrecision(10))).replace('-', '−');
+
+const grid = (more = {}) => ({left: 12, right: 22, top: 44, bottom: 34, containLabel: true, ...more});
+
+const legend = (more = {}) => ({top: 0, right: 0, itemWidth: 18, itemHeight: 9, textStyle: {color: colours.ink}, ...more});
+
+/** Smallest 1-2-5 number that is at least `value`. */
+function roundUp(value) {
+  if (!(value > 0)) return 1;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 2.5, 5, 10].map((step) => step * power).find((step) => step >= value * (1 - 1e-9));
+}
+
+/** Largest magnitude of the numbers in a list, 0 for none. */
+const largest = (values) => values.reduce((most, v) => isNumber(v) ? Math.max(most, Math.abs(v)) : most, 0);
+
+/** Nice tick values inside [low, high]. */
+function niceTicks(low, high, about) {
+  const step = roundUp((high - low) / about);
+  const ticks = [];
+  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; i += 1) ticks.push(Number((i * step).toPrecision(10)));
+  return ticks;
+}
+
+/** Colour scale about zero, in µm, below the chart. */
+const colourScale = (limit, width, seriesIndex = 0) => ({
+  type: 'continuous', min: -limit, max: limit, dimension: 2, seriesIndex, orient: 'horizontal', left: 'center', bottom: 0,
+  itemWidth: 12, itemHeight: Math.min(260, width * 0.4), calculable: false,
+  inRange: {color: diverging},
+  text: [`+${tick(limit)} µm`, `−${tick(limit)} µm`], textStyle: {color: colours.ink},
+});
+
+/** A category axis over equal bins of [low, high] that is labelled with round numbers. */
+function binAxis(make, name, {low, high, count, ticks}) {
+  const width = (high - low) / count;
+  const labels = new Map(ticks.map((value) => [Math.min(count - 1, Math.max(0, Math.round((value - low) / width - 0.5))), value]));
+  const labelled = (i) => labels.has(Number(i));
+  return make(name, {
+    type: 'category',
+    data: Array.from({length: count}, (_, i) => String(i)),
+    axisLabel: {color: colours.ink, interval: labelled, hideOverlap: true, formatter: (_, i) => tick(labels.get(i) ?? 0)},
+    axisTick: {show: true, interval: labelled, alignWithLabel: true, lineStyle: {color: '#9aa4b0'}},
+    splitLine: {show: false},
+  });
+}
+
+/** Heat map of cells [rows × columns] of an unrolled surface, values in µm about zero. */
+function cellMap(cells, values, {limit, positionName, width, cName}) {
+  const data = [];
+  for (let i = 0; i < values.length; i += 1) {
+    if (isNumber(values[i])) data.push([i % cells.columns, Math.floor(i / cells.columns), values[i]]);
+  }
+  const {position_min_mm: low, position_max_mm: high} = cells;
+  return {
+    grid: grid({bottom: 66}),
+    xAxis: binAxis(axis, cName ?? 'spindle angle C in °', {low: 0, high: 360, count: cells.columns, ticks: niceTicks(0, 360, 1).concat(width < 480 ? [0, 90, 180, 270, 360] : [0, 45, 90, 135, 180, 225, 270, 315, 360])}),
+    yAxis: binAxis(uprightAxis, positionName, {low, high, count: cells.rows, ticks: niceTicks(low, high, 6)}),
+    visualMap: colourScale(limit, width),
+    series: [{type: 'heatmap', data, progressive: 0, emphasis: {disabled: true}}],
+  };
+}

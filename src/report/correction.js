@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The correction table and what the actuator has left.
+
+const works = (correction) => correction.face ? 'Z_fts' : 'X_fts';
+
+function profileChart(correction) {
+  const values = correction.turns.flatMap((t) => t.wanted_um);
+  const build = (width) => ({
+    grid: grid({top: width < 480 ? 84 : 60}),
+    legend: legend({left: 0, right: 0}),
+    xAxis: angleAxis(width),
+    yAxis: uprightAxis(`${works(correction)} in µm`, {scale: largest(values) > 0}),
+    series: correction.turns.map((turn, i) => ({
+      name: `revolution ${turn.revolution}, ${correction.face ? 'X' : 'Z'} = ${millimetres(turn.position_mm, 2)}`, type: 'line', symbol: 'none',
+      lineStyle: {width: 1.8, type: ['solid', 'dashed', 'dotted'][i % 3]}, emphasis: {disabled: true},
+      data: turn.c_deg.map((c, j) => [c, turn.wanted_um[j]])})),
+  });
+  return figure({caption: `The correction ${works(correction)} over one turn, at the first, the middle and the last revolution. Positive is ${correction.face ? 'towards +Z' : 'away from the spindle axis'}.`,
+    description: 'Correction over the spindle angle for three revolutions.', renderer: 'svg', build});
+}
+
+function correctionMap(correction) {
+  const values = correction.map.wanted_um;
+  const words = `The whole table unrolled: ${works(correction)} over C and ${correction.face ? 'X' : 'Z'}, ${correction.rows} rows in ${correction.revolutions} revolutions` +
+    ` as means of ${correction.map.columns} × ${correction.map.rows} cells. The wave that leans or fades along ${correction.face ? 'X' : 'Z'} is the tilt.`;
+  return figure({caption: words, description: words, size: 'map',
+    build: (width) => cellMap(correction.map, values, {limit: roundUp(largest(values)), positionName: correction.face ? 'X in mm' : 'Z in mm', width})});
+}
+
+function commandChart(correction) {
+  const turn = correction.turns[Math.floor(correction.turns.length / 2)];
+  const lead = turn.c_deg.map((c, i) => [c, turn.command_um[i] - turn.wanted_um[i]]);
+  const build = (width) => ({
+    grid: grid({top: 60}),
+    legend: legend({left: 0, right: 0}),
+    xAxis: angleAxis(width),
+    yAxis: uprightAxis('µm'),
+    series: [
+      {name: 'wanted', type: 'line', symbol: 'none', data: turn.c_deg.map((c, i) => [c, turn.wanted_um[i]]), lineStyle: {width: 1.8}, emphasis: {disabled: true}},
+      {name: 'command', type: 'line', symbol: 'none', data: turn.c_deg.map((c, i) => [c, turn.command_um[i]]), lineStyle: {width: 1.8, type: 'dashed'}, emphasis: {disabled: true}},
+      {name: 'command − wanted', type: 'line', symbol: 'none', data: lead, lineStyle: {width: 1.4}, emphasis: {disabled: true}},
+    ],
+  });
+  return figure({caption: `What is sent against what is wanted, revolution ${turn.revolution}. ${correction.precompensated ? 'The command leads the wanted motion by what the actuator lags at this speed.' : 'Precompensation is off: the command is the wanted motion, and the lag is left in the part.'}`,
+    description: 'Wanted correction, command and their difference over the spindle angle.', renderer: 'svg', build});
+}
+
+function harmonicsTable(correction) {
+  const deg = (value) => `${fixed(value, 2)}${nbsp}°`;
+  const phase = (amplitude, value) => amplitude < 5e-7 || !isNumber(value) ? '–' : deg(value);
+  return table(`Harmonics of the correction, A cos(nC − φ), and the actuator at ${significant(correction.speed_rpm, 4)} rpm`,
+    ['Per revolution', 'A at start', 'φ at start', 'A at end', 'φ at end', 'Frequency', 'Actuator gain', 'Actuator lag'],
+    correction.harmonics.map((h) => [String(h.order), um(h.amplitude_start_mm), phase(h.amplitude_start_mm, h.phase_start_deg),
+      um(h.amplitude_end_mm), phase(h.amplitude_end_mm, h.phase_end_deg), `${significant(h.order * correction.speed_rpm / 60, 3)}${nbsp}Hz`,
+      fixed(h.gain, 5), deg(h.lag_deg)]));
+}
+
+/** A profile number, which the machine runs as it stands: 1 nm steps. */
+const um = (mm) => isNumber(mm) ? `${fixed(mm * 1000, 3)}${nbsp}µm` : 'not determined';
+
+function correctionSection(data) {
+  const {correction, target, verdict} = data;
+  if (!correction) return section('correction', 'The correction', paragraph('The job has no target surface, or no target axis could be found, so there is no correction.', 'lead'));
+  const parts = [paragraph(`${works(correction)} is what a fast tool servo adds to the programmed ${correction.face ? 'Z' : 'X'} so that the tool follows the target axis.`, 'lead')];
+  if (!correction.turns.length) {
+    parts.push(paragraph('The table has no rows.', 'alert'));
+    return section('correction', 'The correction', ...parts);
+  }
+  parts.push(element('div', {class: 'pair'}, correctionMap(correction), profileChart(correction), commandChart(correction)), harmonicsTable(correction));
+  const U = target.axis ? `U (k = ${tick(verdict.k)}) is ${uncertainty(verdict.k * target.axis.start.u_mm, 'mm')} at the start and ${uncertainty(verdict.k * target.axis.end.u_mm, 'mm')} at the end` : 'it is not known';
+  parts.push(paragraph(`The profile carries the uncertainty of the target axis: ${U}. The actuator's gain and lag follow from the data of the job, which state no uncertainty.`, 'quiet'));
+  return section('correction', 'The correction', ...parts);
+}
+
+const marginLines = (m) => [
+  {name: 'stroke', used: m.stroke_used_mm, limit: m.stroke_available_mm, show: (v) => micrometres(v), what: 'peak to peak, after the reserve'},
+  {name: 'slew rate', used: m.slew_used_mm_per_s, limit: m.slew_available_mm_per_s, show: (v) => `${significant(v, 3)}${nbsp}mm/s`, what: 'fastest motion'},
+  {name: 'bandwidth', used: m.highest_frequency_hz, limit: m.bandwidth_hz, show: (v) => `${significant(v, 3)}${nbsp}Hz`, what: 'highest harmonic above 10 nm'},
+  {name: 'following error', used: m.following_mm, limit: m.following_limit_mm, show: (v) => micrometres(v), what: 'predicted peak'},
+].map((line) => ({...line, share: line.limit > 0 && isNumber(line.used) ? line.used / line.limit : null}));
+
+function marginChart(lines) {
+  const most = Math.max(100, ...lines.map((line) => (line.share ?? 0) * 100));
+  const max = most > 100 ? roundUp(most * 1.15) : 100;
+  const build = (width) => ({
+    grid: grid({top: 24, right: width < 480 ? 56 : 70}),
+    xAxis: axis('used share in %', {min: 0, max}),
+    yAxis: axis('', {type: 'category', inverse: true, data: lines.map((line) => line.name), axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink}}),
+    series: [{type: 'bar', barWidth: '52%', emphasis: {disabled: true}, showBackground: max === 100, backgroundStyle: {color: '#eef1f4'},
+      data: lines.map((line) => ({value: line.share === null ? null : Number((line.share * 100).toPrecision(6)),
+        itemStyle: {color: line.share > 1 ? colours.rejected : colours.series[2]}})),
+      label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
+      markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'end', color: colours.ink}}}],
+  });
+  return figure({caption: 'How much of each limit the correction uses. A bar beyond the dashed line breaks the limit.',
+    description: 'Used share of stroke, slew rate, bandwidth and following error.', size: 'short', renderer: 'svg', build});
+}
+
+function marginSection(data) {
+  if (!data.correction) return null;
+  const {margin, speed_rpm: speed} = data.correction;
+  const lines = marginLines(margin);
+  const rpm = (value) => `${significant(value, 4)}${nbsp}rpm`;
+  const parts = [paragraph(margin.follows ? 'The actuator can follow the correction.' : 'The actuator cannot follow the correction: do not run the table.', margin.follows ? 'lead' : 'alert')];
+  if (!margin.follows && margin.breaks) parts.push(paragraph(`What breaks: ${margin.breaks}`, 'alert'));
+  parts.push(facts([
+    ['Speed of the job', rpm(speed)],
+    ['Highest speed that works', margin.max_speed_rpm > 0 ? rpm(margin.max_speed_rpm) : 'none'],
+    ['Following error if sent uncorrected', micrometres(margin.following_uncompensated_mm)],
+    ['Following error with this table', micrometres(margin.following_mm)],
+    ['Set-points per revolution', significant(margin.set_points_per_revolution, 4)],
+  ]));
+  parts.push(element('div', {class: 'pair'}, marginChart(lines),
+    element('div', {}, table('The numbers behind the bars', ['Limit', 'What', 'Used', 'Available', 'Share'],
+      lines.map((line) => [line.name, line.what, line.show(line.used), line.show(line.limit), percent(line.share)]), 2),
+    paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve is what stands against it.", 'quiet'))));
+  return section('margin', "The actuator's margin", ...parts);
+}

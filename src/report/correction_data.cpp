@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "report/chart_readings.hpp"
+#include "report/report_data.hpp"
+#include "report/thinning.hpp"
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// The rows [begin, end) of one revolution.
+struct Turn {
+  std::size_t begin = 0, end = 0;
+};
+
+std::vector<Turn> turns_of(const CorrectionRows& rows) {
+  std::vector<Turn> turns;
+  for (std::size_t i = 0; i < rows.revolution.size(); ++i) {
+    if (i == 0 || rows.revolution[i] != rows.revolution[i - 1]) turns.push_back({i, i});
+    turns.back().end = i + 1;
+  }
+  return turns;
+}
+
+nlohmann::json turn_data(const CorrectionRows& rows, Turn turn) {
+  std::vector<std::size_t> order;
+  std::vector<double> c_deg, wanted, command, sorted_c;
+  const std::size_t step = std::max<std::size_t>(1, (turn.end - turn.begin) / 720);
+  for (std::size_t i = turn.begin; i < turn.end; i += step) {
+    order.push_back(c_deg.size());
+    c_deg.push_back(wrapped_deg(rows.c_rad[i]));
+  }
+  std::stable_sort(order.begin(), order.end(),
+                   [&c_deg](std::size_t a, std::size_t b) { return c_deg[a] < c_deg[b]; });
+  for (const std::size_t place : order) {
+    const std::size_t row = turn.begin + place * step;
+    sorted_c.push_back(c_deg[place]);
+    wanted.push_back(rows.wanted_mm[row] / mm_per_um);
+    command.push_back(rows.command_mm[row] / mm_per_um);
+  }
+  return {{"revolution", rows.revolution[turn.begin]},
+          {"position_mm", rounded(rows.position_mm[turn.begin], 4)},
+          {"c_deg", column(sorted_c, 3)},
+          {"wanted_um", column(wanted, 4)},
+          {"command_um", column(command, 4)}};
+}
+
+/// First, middle and last complete revolution.
+nlohmann::json turns_data(const CorrectionRows& rows, std::vector<Turn> turns) {
+  const auto length = [](Turn turn) { return turn.end - turn.begin; };
+  std::size_t longest = 0;
+  for (const Turn turn : turns) longest = std::max(longest, length(turn));
+  std::erase_if(turns, [&](Turn turn) { return length(turn) < longest; });
+  std::vector<std::size_t> shown{0, turns.size() / 2, turns.size() - 1};
+  shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
+  nlohmann::json list = nlohmann::json::array();
+  for (const std::size_t i : shown) list.push_back(turn_data(rows, turns[i]));
+  return list;
+}
+
+nlohmann::json map_data(const CorrectionRows& rows, std::size_t turns) {
+  const auto [low, high] = std::minmax_element(rows.position_mm.begin(), rows.position_mm.end());
+  const Bins c{0.0, 360.0, 120};
+  const Bins position{*low, *high > *low ? *high : *low + 1.0,
+                      std::clamp<std::size_t>(turns, 1, 150)};
+  CellMeans wanted(c, position);
+  for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
+    wanted.add(wrapped_deg(rows.c_rad[i]), rows.position_mm[i], rows.wanted_mm[i] / mm_per_um);
+  }
+  return {{"columns", c.count},
+          {"rows", position.count},
+          {"position_min_mm", position.low},
+          {"position_max_mm", position.high},
+          {"wanted_um", wanted.to_json(3)}};
+}
+
+nlohmann::json harmonics_data(const std::vector<CorrectionHarmonic>& harmonics) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const CorrectionHarmonic& harmonic : harmonics) {
+    list.push_back({{"order", harmonic.order},
+                    {"amplitude_start_mm", harmonic.amplitude_start_mm},
+                    {"phase_start_deg", harmonic.phase_start_rad / rad_per_deg},
+                    {"amplitude_end_mm", harmonic.amplitude_end_mm},
+                    {"phase_end_deg", harmonic.phase_end_rad / rad_per_deg},
+                    {"gain", harmonic.gain},
+                    {"lag_deg", harmonic.lag_rad / rad_per_deg}});
+  }
+  return list;
+}
+
+nlohmann::json margin_data(const ActuatorMargin& margin) {
+  return {{"stroke_used_mm", margin.stroke_used_mm},
+          {"stroke_available_mm", margin.stroke_available_mm},
+          {"slew_used_mm_per_s", margin.slew_used_mm_per_s},
+          {"slew_available_mm_per_s", margin.slew_available_mm_per_s},
+          {"highest_frequency_hz", margin.highest_frequency_hz},
+          {"bandwidth_hz", margin.bandwidth_hz},
+          {"set_points_per_revolution", margin.set_points_per_revolution},
+          {"following_uncompensated_mm", margin.following_uncompensated_mm},
+          {"following_mm", margin.following_mm},
+          {"following_limit_mm", margin.following_limit_mm},
+          {"follows", margin.follows},
+          {"breaks", margin.breaks},
+          {"max_speed_rpm", margin.max_speed_rpm}};
+}
+
+}  // namespace
+
+nlohmann::json correction_data(const Correction& correction) {
+  const std::vector<Turn> turns = turns_of(correction.rows);
+  nlohmann::json data{{"face", correction.target.kind == TargetKind::face},
+                      {"rows", correction.rows.revolution.size()},
+                      {"revolutions", turns.size()},
+                      {"speed_rpm", correction.tool.speed_rpm},
+                      {"precompensated", correction.actuator.precompensate},
+                      {"turns", nlohmann::json::array()},
+                      {"harmonics", harmonics_data(correction.harmonics)},
+                      {"margin", margin_data(correction.margin)}};
+  if (turns.empty()) return data;
+  data["turns"] = turns_data(correction.rows, turns);
+  data["map"] = map_data(correction.rows, turns.size());
+  return data;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// The terms of the report in plain words.
+
+const glossary = [
+  ['Indication', 'What the probe reads: X_M at a spindle angle C and a height Z. Inside this report X is a radius, never a diameter.'],
+  ['Association', 'Fitting the ideal surface (cone, cylinder, plane) to the readings. The result is the associated surface; its axis is the datum axis.'],
+  ['Residual', 'Measured minus model, along the probe. What is left when the ideal surface is taken away: form deviation, spindle motion, noise.'],
+  ['Coaxiality', 'A diameter (ISO 1101): twice the largest distance between the axis of the cut surface and the datum axis over the toleranced length.'],
+  ['Standard uncertainty u, expanded uncertainty U', 'u is one standard deviation of what the value may be off (GUM). U = k u; with k = 2 about 95 % of cases lie within ± U.'],
+  ['Type A, type B', 'A comes from the scatter of the readings, B from other knowledge: a datasheet, a calibration, a setting.'],
+  ['Not determined', 'The readings leave this number open, so none is given. More readings, another section or a longer arc would fix it.'],
+  ['Remainder', 'With several references one axis cannot suit all. The remainder is what is left at each one.'],
+  ['Part frame', 'Turns with the part: x = X cos C, y = X sin C for a probe at the height of the spindle axis, z = Z. x and y of an axis are in it.'],
+  ['Sense of C', 'C grows in the sense that the control shows as positive; sections and directions count the same way from +x.'],
+  ['X_fts, command', 'X commanded minus X programmed, positive away from the spindle axis. The command is X_fts sent ahead of time, so that the actuator, which lags, arrives at the wanted place.'],
+  ['Following error', 'The largest distance between where the tool is and where it is wanted, predicted from the actuator\'s response.'],
+  ['Go, no-go', 'Decided with the uncertainty on the side of caution (ISO 14253-1): the value plus its uncertainty must lie within the tolerance.'],
+];
+
+const glossarySection = () => section('terms', 'Terms and conventions', facts(glossary, 'terms'));

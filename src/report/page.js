@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The page is built from elements whose text is set as text: nothing of the data is read as HTML.
+
+function element(tag, attributes = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== undefined && value !== false) made.setAttribute(name, value);
+  }
+  for (const child of children.flat()) {
+    if (child !== null && child !== undefined && child !== '') made.append(child);
+  }
+  return made;
+}
+
+const paragraph = (text, kind) => element('p', {class: kind}, text);
+
+function section(id, title, ...children) {
+  return element('section', {id}, element('h2', {}, title), ...children);
+}
+
+const block = (title, ...children) => element('div', {class: 'block'}, element('h3', {}, title), ...children);
+
+/** A table that scrolls inside its own box. `head` and `rows` hold texts or elements; numeric columns
+ * are aligned right. A row that is {note, cells} has a remark over its whole width below. */
+function table(caption, head, rows, textColumns = 1) {
+  const kind = (i) => i < textColumns ? 'text' : 'number';
+  const cell = (text, i) => element(i === 0 ? 'th' : 'td', {class: kind(i), scope: i === 0 ? 'row' : null}, text);
+  const body = [];
+  for (const row of rows) {
+    body.push(element('tr', {}, (row.cells ?? row).map(cell)));
+    if (row.note) body.push(element('tr', {class: 'note'}, element('td', {colspan: head.length}, row.note)));
+  }
+  return element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-label': caption},
+    element('table', {},
+      element('caption', {}, caption),
+      element('thead', {}, element('tr', {}, head.map((text, i) => element('th', {class: kind(i), scope: 'col'}, text)))),
+      element('tbody', {}, body)));
+}
+
+/** Label and value pairs. */
+function facts(pairs, kind = 'facts') {
+  return element('dl', {class: kind}, pairs.map(([label, value]) =>
+    element('div', {}, element('dt', {}, label), element('dd', {}, value))));
+}
+
+const pill = (text, good) => element('span', {class: `pill ${good ? 'good' : 'bad'}`}, text);

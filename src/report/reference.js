@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// One reference surface: what was found, how well, and the charts that show it.
+
+const statusWords = {
+  converged: 'converged',
+  max_iterations: 'stopped at the iteration limit',
+  rank_deficient: 'not determined by these readings (rank-deficient)',
+  too_few: 'too few readings',
+};
+
+const parameterWords = {
+  x0: ['x₀', 'axis in the part frame at Z = 0'],
+  y0: ['y₀', 'axis in the part frame at Z = 0'],
+  l: ['l', 'direction cosine of the axis along x'],
+  m: ['m', 'direction cosine of the axis along y'],
+  k: ['k', 'apex along the axis'],
+  d: ['d', 'distance of the plane from the origin'],
+  half_angle: ['α/2', 'half angle'],
+  radius: ['R', 'radius'],
+  radius_mid: ['R mid', 'radius at mid length'],
+  tilt: ['θ', 'tilt of the axis against the spindle'],
+};
+
+function parameterName(name) {
+  const [symbol, words] = parameterWords[name] ?? [name.replaceAll('_', ' '), ''];
+  return element('span', {}, symbol, words ? element('small', {}, words) : null);
+}
+
+/** Rows of value, u and U; what is not determined says why. */
+function parameterRow({name, value, u, unit, why_not: why}, k) {
+  const has = isNumber(value);
+  const cells = [parameterName(name), has ? quantity(value, u, unit) : 'not determined', has ? uncertainty(u, unit) : '–',
+    has ? uncertainty(isNumber(u) ? k * u : null, unit) : '–'];
+  const missing = !has || !isNumber(u);
+  return {cells, note: missing ? `${has ? 'No uncertainty' : 'Not determined'}: ${why || 'the readings do not fix it'}.`.replace(/\.\.$/, '.') : null};
+}
+
+const parameterTable = (caption, list, k) =>
+  table(caption, ['Quantity', 'Value', 'u', `U (k = ${tick(k)})`], list.map((p) => parameterRow(p, k)));
+
+function statusBlock(reference) {
+  const good = reference.status === 'converged';
+  const size = (mm) => micrometres(mm);
+  const list = [
+    ['Status', pill(statusWords[reference.status] ?? reference.status, good)],
+    ['Surface', `${reference.surface}${reference.bore ? ' (bore)' : ''}`],
+    ['Readings', `${reference.points}, ${reference.rejected.count} rejected`],
+  ];
+  if (good || reference.status === 'max_iterations') {
+    list.push(['RMS of the residuals', size(reference.rms_mm)],
+      ['σ of one reading', `${size(reference.sigma_mm)} (from ${reference.sigma_source || 'the fit'})`],
+      ['Neighbours correlate', `${fixed(reference.autocorrelation ?? 0, 2)}; u widened ${fixed(reference.u_factor ?? 1, 2)} times`],
+      ['Iterations', String(reference.iterations)]);
+  }
+  const parts = [facts(list)];
+  if (reference.message) parts.push(paragraph(reference.message, 'alert'));
+  if (reference.not_determined.length) {
+    parts.push(paragraph('These combinations are left open by the readings:', 'lead'),
+      element('ul', {}, reference.not_determined.map((text) => element('li', {}, text))));
+  }
+  return element('div', {}, parts);
+}
+
+function budgetTable(reference) {
+  const names = reference.parameters.map((p) => parameterWords[p.name]?.[0] ?? p.name);
+  const rows = reference.budget.map((line) => [line.source, line.type,
+    ...reference.parameters.map((p, i) => uncertainty(line.u[i], p.unit))]);
+  rows.push(['together', '', ...reference.parameters.map((p) => uncertainty(p.u, p.unit))]);
+  return table('Uncertainty budget: what each source adds to the standard uncertainty u (A: from the readings, B: other knowledge)',
+    ['Source', 'Type', ...names], rows, 2);
+}
+
+/** Share of each source in the variance of each parameter. */
+function budgetChart(reference) {
+  const determined = reference.parameters.map((p, i) => ({name: parameterWords[p.name]?.[0] ?? p.name, i}))
+    .filter(({i}) => reference.budget.some((line) => line.u[i] > 0));
+  const total = ({i}) => reference.budget.reduce((sum, line) => sum + (line.u[i] ?? 0) ** 2, 0);
+  const build = (width) => ({
+    grid: grid({top: width < 480 ? 76 : 40, bottom: 34}),
+    legend: legend({left: 0, right: 0}),
+    xAxis: axis('share of the variance u² in %', {min: 0, max: 100}),
+    yAxis: axis('', {type: 'category', inverse: true, data: determined.map((p) => p.name), axisTick: {show: false}, splitLine: {show: false},
+      axisLabel: {color: colours.ink}}),
+    series: reference.budget.map((line, s) => ({name: line.source, type: 'bar', stack: 'u', barWidth: '60%', emphasis: {disabled: true},
+      itemStyle: {color: colours.series[s % colours.series.length]},
+      data: determined.map((p) => 100 * (line.u[p.i] ?? 0) ** 2 / total(p))})),
+  });
+  return figure({caption: 'Which source an uncertainty comes from. A long bar is where better knowledge pays.',
+    description: 'Share of each source in the variance of each parameter.', size: 'short', renderer: 'svg', build});
+}
+
+function rejectedBlock({count, listed}) {
+  if (count === 0) return paragraph('No reading was rejected.', 'quiet');
+  const more = count > listed.length ? ` The first ${listed.length} are listed, ${count - listed.length} more are not.` : '';
+  return element('details', {}, element('summary', {}, `${count} rejected ${count === 1 ? 'reading' : 'readings'}.${more}`),
+    table('Rejected readings: data row of the stream and why', ['Row', 'Why'], listed.map((r) => [String(r.row), r.why]), 2));
+}
+
+function mapFigures(readings) {
+  if (!readings.has_position) return [paragraph('One section without Z: there is no map along the axis.', 'quiet')];
+  const against = readings.has_model
+    ? (readings.face ? 'Face unrolled: readings against a face square to the spindle axis. One wave over C is the tilt, growing with X.'
+      : 'Surface unrolled: readings against the same surface running true. One wave over C is the eccentricity; that it changes along Z is the tilt.')
+    : 'Surface unrolled: readings minus their straight line along the feed, since there is no usable model.';
+  const list = [readingMap(readings, 'deviation_um', against)];
+  if (readings.has_model) {
+    list.push(readingMap(readings, 'residual_um', 'Residuals unrolled: measured minus model. Noise looks like grain; stripes or patches are form or motion that the model lacks.'));
+  }
+  return list;
+}
+
+function chartBlocks(reference) {
+  const readings = reference.readings;
+  if (!readings || readings.count === 0) return [paragraph('There are no readings to show.', 'quiet')];
+  const thin = readings.thinned ? [paragraph(`${readings.count} readings are too many to draw one by one: charts show means and envelopes of bins. The numbers in the tables use every reading.`, 'quiet')] : [];
+  const blocks = [block('Measured and model', ...thin, element('div', {class: 'pair'}, mapFigures(readings)))];
+  if (readings.sections.length) {
+    blocks.push(block('Polar sections', paragraph('Seen along −Z with C counter-clockwise from +X. Outside the dashed circle is away from the spindle axis.' .replace('Outside the dashed circle is away from the spindle axis.', readings.face ? 'Outside the dashed circle is towards +Z.' : 'Outside the dashed circle is away from the spindle axis.'), 'quiet'),
+      element('div', {class: 'triple'}, readings.sections.map((part) => polarChart(readings, part)))));
+  }
+  if (!readings.has_model) {
+    blocks.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
+    return blocks;
+  }
+  const residuals = residualCharts(readings);
+  if (readings.histogram) residuals.push(histogramChart(readings.histogram, reference.sigma_mm, reference.sigma_source));
+  blocks.push(block('Residuals', element('div', {class: 'pair'}, residuals)));
+  return blocks;
+}
+
+function referenceSection(reference, index) {
+  const k = reference.k;
+  const relative = reference.relative ? [paragraph('The stream is of a gauge that reads differences: the radius is not measured, it is the nominal one.', 'quiet')] : [];
+  const tables = element('div', {class: 'pair tables'},
+    element('div', {}, parameterTable('Parameters of the associated surface', reference.parameters, k)),
+    element('div', {}, reference.derived.length ? parameterTable('Derived quantities', reference.derived, k) : null));
+  const budget = reference.budget.length
+    ? [block('Uncertainty budget', element('div', {class: 'pair'}, element('div', {}, budgetTable(reference)),
+      reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null))] : [];
+  return section(`reference-${index + 1}`, `Reference surface: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
+    block('Rejected readings', rejectedBlock(reference.rejected)), ...chartBlocks(reference));
+}

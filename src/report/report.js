@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the data in the page, builds it top to bottom, then draws the charts.
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const outcomes = {go: ['GO', 'good', '✓'], 'no-go': ['NO-GO', 'bad', '✗'], 'no tolerance': ['NO TOLERANCE GIVEN', 'neutral', '–']};
+
+function keyNumbers(verdict) {
+  const k = verdict.k;
+  const tolerance = isNumber(verdict.tolerance_mm) ? micrometres(verdict.tolerance_mm) : 'none given';
+  if (!isNumber(verdict.coaxiality_after_mm)) {
+    return facts([['Coaxiality', 'not determined: there is no target axis'], ['Tolerance (coaxiality, a diameter)', tolerance]], 'numbers');
+  }
+  const worst = data.target.references.map((r) => r.before).filter(Boolean)
+    .reduce((most, b) => !most || b.coaxiality_mm > most.coaxiality_mm ? b : most, null);
+  const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
+  return facts([
+    ['Coaxiality before: cut about the spindle axis', plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
+    ['Coaxiality after: cut with the correction', plusMinus(verdict.coaxiality_after_mm, verdict.u_coaxiality_mm, k, 'u unknown')],
+    ['Tolerance (coaxiality, a diameter)', tolerance],
+  ], 'numbers');
+}
+
+function banner() {
+  const [word, kind, sign] = outcomes[data.verdict.outcome];
+  return element('div', {class: `banner ${kind}`, role: 'status'},
+    element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
+    paragraph(data.verdict.line, 'line'), keyNumbers(data.verdict),
+    paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet'));
+}
+
+function contents(sections) {
+  return element('nav', {'aria-label': 'Contents'}, sections.map((s) =>
+    element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent.replace('Reference surface: ', ''))));
+}
+
+function inputsSection() {
+  return section('inputs', 'What went in', element('div', {class: 'columns'}, data.inputs.map((part) =>
+    block(part.title, facts(part.lines)))));
+}
+
+function build() {
+  const sections = [...data.references.map(referenceSection), targetSection(data), correctionSection(data), marginSection(data),
+    inputsSection(), glossarySection()].filter(Boolean);
+  const hashes = data.references.map((r) => r.input_hash).filter(Boolean).join(', ');
+  document.getElementById('page').replaceChildren(
+    element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`), element('h1', {}, data.title),
+      facts([['Job', data.file], ['Input', hashes || 'no hash']], 'facts origin')),
+    banner(), contents(sections), ...sections,
+    element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
+}
+
+/** Charts keep their size in px: before printing the page takes the width of the paper. */
+function follow(figures) {
+  const redraw = () => figures.forEach((f) => f.redraw());
+  window.addEventListener('resize', redraw);
+  const printing = (on) => { document.body.classList.toggle('printing', on); redraw(); };
+  window.addEventListener('beforeprint', () => printing(true));
+  window.addEventListener('afterprint', () => printing(false));
+}
+
+build();
+const figures = [...document.querySelectorAll('figure')];
+figures.forEach((f) => f.start());
+follow(figures);
+window.trueaxisReport = {charts, ready: false};
+requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the axes are, and what is left at each reference when the part is cut about the target axis.
+
+const expanded = (u, k) => isNumber(u) ? k * u : null;
+
+/** "value ± U", or the value and why there is no U. */
+function plusMinus(mm, u_mm, k, why) {
+  if (!isNumber(mm)) return 'not determined';
+  if (!isNumber(u_mm)) return `${micrometres(mm)} (${why})`;
+  const big = k * u_mm;
+  return `${micrometres(mm, big).replace(nbsp + 'µm', '')} ± ${uncertainty(big, 'mm')}`;
+}
+
+const offsetOf = (end) => Math.hypot(end.x_mm, end.y_mm);
+const directionOf = (end) => (Math.atan2(end.y_mm, end.x_mm) * 180 / Math.PI + 360) % 360;
+
+function axisRow(name, axis, k, face) {
+  const at = (end) => face ? 'only its tilt counts' : plusMinus(offsetOf(end), end.u_mm, k, 'u unknown');
+  const toward = (end) => face ? '–' : `${fixed(directionOf(end), 1)}${nbsp}°`;
+  return [name, at(axis.start), toward(axis.start), at(axis.end), toward(axis.end),
+    `${tilt(axis.tilt_deg, k * axis.u_tilt_deg)} ± ${uncertainty(k * axis.u_tilt_deg, 'deg')}`];
+}
+
+function axesTable(target, references, k) {
+  const rows = target.references.filter((r) => r.axis).map((r) => axisRow(references[r.index].name, r.axis, k, r.face));
+  if (target.axis) rows.push(axisRow('target axis', target.axis, k, false));
+  return table(`Axes against the spindle axis, ± U (k = ${tick(k)}); direction counted like C from +x`,
+    ['Axis', `Offset at Z = ${millimetres(target.z_start_mm, 2)}`, 'towards', `Offset at Z = ${millimetres(target.z_end_mm, 2)}`, 'towards', 'Tilt'], rows);
+}
+
+function remaindersTable(target, references, k) {
+  const rows = target.references.filter((r) => r.after).map((r) => [
+    references[r.index].name, r.face ? 'axial run-out' : 'coaxiality',
+    r.before ? plusMinus(r.before.coaxiality_mm, r.before.u_mm, k, 'u unknown') : 'not determined',
+    plusMinus(r.after.coaxiality_mm, r.after.u_coaxiality_mm, k, 'u unknown'),
+    r.face ? '–' : micrometres(r.after.offset_start_mm), r.face ? '–' : micrometres(r.after.offset_end_mm), tilt(r.after.tilt_deg),
+    isNumber(r.weight) ? tick(r.weight) : '–']);
+  return table(`What is left at each reference when the part is cut about the target axis, ± U (k = ${tick(k)})`,
+    ['Reference', 'Measure', 'Cut about the spindle', 'Cut about the target axis', 'Offset at start', 'Offset at end', 'Tilt', 'Weight'], rows, 2);
+}
+
+/** The axes seen along the spindle: a line from the start (full mark) to the end (open mark) of the length. */
+function axesChart(target, references) {
+  const lines = target.references.filter((r) => r.axis && !r.face).map((r) => ({name: references[r.index].name, axis: r.axis, width: 2}));
+  if (target.axis) lines.push({name: 'target axis', axis: target.axis, width: 5});
+  if (!lines.length) return null;
+  const um = (end) => [end.x_mm * 1000, end.y_mm * 1000];
+  const limit = roundUp(largest(lines.flatMap((line) => [...um(line.axis.start), ...um(line.axis.end)])) * 1.1);
+  const series = lines.map((line) => {
+    const isTarget = line.name === 'target axis';
+    const colour = isTarget ? colours.series[2] : colours.series[(lines.indexOf(line) * 2) % 6 === 2 ? 3 : lines.indexOf(line) % 2];
+    return {name: line.name, type: 'line', emphasis: {disabled: true}, z: isTarget ? 2 : 3, symbol: 'circle', symbolSize: isTarget ? 12 : 8,
+      lineStyle: {width: line.width, color: colour, opacity: isTarget ? 0.55 : 1}, itemStyle: {color: colour},
+      data: [{value: um(line.axis.start)}, {value: um(line.axis.end), itemStyle: {color: '#fff', borderColor: colour, borderWidth: 2}}]};
+  });
+  series.push({name: 'spindle axis', type: 'scatter', data: [[0, 0]], z: 4, symbolSize: 18,
+    symbol: 'path://M-1,-10 L1,-10 L1,-1 L10,-1 L10,1 L1,1 L1,10 L-1,10 L-1,1 L-10,1 L-10,-1 L-1,-1 Z', itemStyle: {color: colours.ink}, emphasis: {disabled: true}});
+  const same = {min: -limit, max: limit, interval: limit / 2};
+  const build = () => ({
+    grid: grid({top: 60}),
+    legend: legend({left: 0, right: 0}),
+    xAxis: axis('x in µm', same),
+    yAxis: uprightAxis('y in µm', same),
+    series,
+  });
+  return figure({caption: `The axes seen along the spindle, from Z = ${millimetres(target.z_start_mm, 2)} (full mark) to ${millimetres(target.z_end_mm, 2)} (open mark). The cross is the spindle axis: the distance to it is the eccentricity that the correction takes out.`,
+    description: 'Position of the axes in the plane across the spindle.', size: 'square', renderer: 'svg', build});
+}
+
+function targetSection(data) {
+  const {target, references, verdict} = data;
+  const k = verdict.k;
+  const solved = target.references.some((r) => r.axis);
+  const words = target.of_cut ? 'The length is the one to be cut.' : 'The length is the one that was probed.';
+  const parts = [];
+  if (target.axis) {
+    parts.push(paragraph(`The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least. ${words}`, 'lead'));
+  } else {
+    parts.push(paragraph(`No target axis was asked for, or none could be found. ${words}`, 'lead'));
+  }
+  if (!solved) parts.push(paragraph('No reference gave an axis.', 'alert'));
+  if (solved) parts.push(axesTable(target, references, k));
+  if (target.references.some((r) => r.after)) {
+    parts.push(remaindersTable(target, references, k),
+      paragraph('Offsets and tilt of the remainder are what the weights leave; they are exact differences of the estimated axes, and the uncertainty of both is in that of the coaxiality.', 'quiet'));
+  }
+  const chart = solved ? axesChart(target, references) : null;
+  if (chart) parts.push(element('div', {class: 'single'}, chart));
+  return section('axes', 'References and target axis', ...parts);
+}

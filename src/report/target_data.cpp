@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "report/report_data.hpp"
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// Square root of the larger eigenvalue of the covariance [[a, b], [b, c]].
+double worse_u(double a, double b, double c) {
+  return std::sqrt((a + c) / 2.0 + std::hypot((a - c) / 2.0, b));
+}
+
+double u_tilt(const AxisEstimate& axis) {
+  return worse_u(axis.covariance[10], axis.covariance[11], axis.covariance[15]);
+}
+
+double tilt_deg(const Axis& axis) {
+  return std::atan(std::hypot(axis.slope_x, axis.slope_y)) / rad_per_deg;
+}
+
+double offset_mm(const Axis& axis, double z_mm) {
+  const auto [x, y] = axis.at(z_mm);
+  return std::hypot(x, y);
+}
+
+nlohmann::json axis_data(const AxisEstimate& estimate, double z_start_mm, double z_end_mm) {
+  const auto end = [&estimate](double z_mm) {
+    const auto [x, y] = estimate.axis.at(z_mm);
+    return nlohmann::json{{"z_mm", z_mm}, {"x_mm", x}, {"y_mm", y}, {"u_mm", estimate.u_at(z_mm)}};
+  };
+  return {{"start", end(z_start_mm)},
+          {"end", end(z_end_mm)},
+          {"tilt_deg", tilt_deg(estimate.axis)},
+          {"u_tilt_deg", u_tilt(estimate) / rad_per_deg}};
+}
+
+/// Coaxiality with the spindle axis as the datum, as it would be cut without correction; a face: 2
+/// R tilt.
+nlohmann::json before(const AxisEstimate& estimate, double face_radius_mm,
+                      std::pair<double, double> length) {
+  const auto [z_start, z_end] = length;
+  if (face_radius_mm > 0.0) {
+    const double tilt = std::hypot(estimate.axis.slope_x, estimate.axis.slope_y);
+    return {{"coaxiality_mm", 2.0 * face_radius_mm * tilt},
+            {"u_mm", 2.0 * face_radius_mm * u_tilt(estimate)}};
+  }
+  const bool at_start = offset_mm(estimate.axis, z_start) >= offset_mm(estimate.axis, z_end);
+  const double worse_z = at_start ? z_start : z_end;
+  return {{"coaxiality_mm", 2.0 * offset_mm(estimate.axis, worse_z)},
+          {"u_mm", 2.0 * estimate.u_at(worse_z)}};
+}
+
+std::pair<double, double> length_shown(const JobResult& result) {
+  if (result.job.target) return {result.job.target->z_start_mm, result.job.target->z_end_mm};
+  double low = 0.0, high = 0.0;
+  bool first = true;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    if (i < result.streams.size() && result.streams[i].kind == StreamKind::face) continue;
+    const FitResult& fit = result.fits[i];
+    low = first ? fit.position_min_mm : std::min(low, fit.position_min_mm);
+    high = first ? fit.position_max_mm : std::max(high, fit.position_max_mm);
+    first = false;
+  }
+  return {low, high};
+}
+
+double face_radius(const JobResult& result, std::size_t i) {
+  if (i >= result.streams.size() || result.streams[i].kind != StreamKind::face) return 0.0;
+  const double given =
+      i < result.job.references.size() ? result.job.references[i].face_radius_mm : 0.0;
+  return given > 0.0 ? given : result.fits[i].position_max_mm;
+}
+
+nlohmann::json remainder_data(const Remainder& left) {
+  return {{"offset_start_mm", left.offset_start_mm},
+          {"offset_end_mm", left.offset_end_mm},
+          {"tilt_deg", left.tilt_rad / rad_per_deg},
+          {"coaxiality_mm", left.coaxiality_mm},
+          {"u_coaxiality_mm", left.u_coaxiality_mm}};
+}
+
+}  // namespace
+
+nlohmann::json target_data(const JobResult& result) {
+  const std::pair<double, double> length = length_shown(result);
+  nlohmann::json data{{"z_start_mm", length.first},
+                      {"z_end_mm", length.second},
+                      {"of_cut", result.job.target.has_value()},
+                      {"references", nlohmann::json::array()}};
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const FitResult& fit = result.fits[i];
+    const bool solved =
+        fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations;
+    const double radius = face_radius(result, i);
+    nlohmann::json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
+    if (i < result.job.references.size()) reference["weight"] = result.job.references[i].weight;
+    if (solved) {
+      reference["axis"] = axis_data(fit.axis, length.first, length.second);
+      reference["before"] = before(fit.axis, radius, length);
+    }
+    if (result.target_axis && i < result.target_axis->remainders.size()) {
+      reference["after"] = remainder_data(result.target_axis->remainders[i]);
+    }
+    data["references"].push_back(reference);
+  }
+  if (result.target_axis) {
+    data["axis"] = axis_data(result.target_axis->axis, length.first, length.second);
+  }
+  return data;
+}
+
+}  // namespace trueaxis

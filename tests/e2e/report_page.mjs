@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Opens a report in headless Chromium as a reader would, wide and on a phone, and lists what is wrong:
+//   node report_page.mjs REPORT.html FOLDER_FOR_SCREENSHOTS
+import {existsSync, mkdirSync} from 'node:fs';
+import {createRequire} from 'node:module';
+import {dirname, join, resolve} from 'node:path';
+import {fileURLToPath, pathToFileURL} from 'node:url';
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
+const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
+const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
+
+const [report, folder] = process.argv.slice(2);
+if (!report || !folder) {
+  console.error('usage: node report_page.mjs REPORT.html FOLDER_FOR_SCREENSHOTS');
+  process.exit(2);
+}
+mkdirSync(folder, {recursive: true});
+
+/** What is wrong with each chart, seen from inside the page. */
+function inspectCharts() {
+  const problems = [];
+  const colours = (canvas) => {
+    const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
+    return seen.size;
+  };
+  const {charts} = window.trueaxisReport;
+  charts.forEach((chart, i) => {
+    const box = chart.getDom();
+    const name = `chart ${i + 1} (${box.closest('section')?.id}: ${box.getAttribute('aria-label') ?? 'no aria-label'})`;
+    if (!box.getAttribute('aria-label')) problems.push(`${name}: has no text for screen readers`);
+    const series = chart.getOption().series ?? [];
+    if (!series.length) problems.push(`${name}: no series`);
+    series.forEach((s) => {
+      if (!(s.data?.length > 0)) problems.push(`${name}: series ${s.name ?? s.type} has no data`);
+    });
+    if (box.clientWidth < 200 || box.clientHeight < 150) problems.push(`${name}: ${box.clientWidth} × ${box.clientHeight} px`);
+    const canvas = box.querySelector('canvas');
+    const svg = box.querySelector('svg');
+    if (canvas && colours(canvas) < 8) problems.push(`${name}: the canvas is blank`);
+    if (svg) {
+      const shapes = new Set([...svg.querySelectorAll('path')].map((p) => p.getAttribute('d')));
+      if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
+    }
+    if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
+  });
+  return {count: charts.length, problems};
+}
+
+/** Elements that stick out of the page at the right, and the page's own overflow. */
+function inspectWidth() {
+  const page = document.documentElement;
+  if (page.scrollWidth <= page.clientWidth) return [];
+  const wide = [...document.querySelectorAll('body *')].filter((e) =>
+    e.getBoundingClientRect().right > page.clientWidth + 1 && !e.closest('.scroll table, svg'));
+  return [`the page is ${page.scrollWidth} px wide on a screen of ${page.clientWidth} px: ` +
+    wide.slice(0, 5).map((e) => `${e.tagName.toLowerCase()}.${e.className}`).join(', ')];
+}
+
+function inspectText() {
+  const text = document.body.innerText;
+  return ['NaN', 'undefined', '[object', 'Infinity', 'null'].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
+    .map((word) => `the page shows "${word}"`);
+}
+
+async function look(browser, {name, width, height}) {
+  const page = await browser.newPage({viewport: {width, height}});
+  const problems = [];
+  const own = pathToFileURL(resolve(report)).href;
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) problems.push(`console ${message.type()}: ${message.text()}`);
+  });
+  page.on('pageerror', (error) => problems.push(`page error: ${error.message}`));
+  page.on('requestfailed', (request) => problems.push(`failed request: ${request.url()}`));
+  page.on('request', (request) => {
+    if (request.url() !== own && !request.url().startsWith('data:')) problems.push(`request: ${request.url()}`);
+  });
+  await page.goto(own);
+  try {
+    await page.waitForFunction(() => window.trueaxisReport?.ready, null, {timeout: 60000});
+    const charts = await page.evaluate(inspectCharts);
+    if (charts.count === 0) problems.push('there is no chart');
+    problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText));
+    console.log(`${name}: ${charts.count} charts at ${width} px`);
+  } catch (error) {
+    problems.push(`the page does not get ready: ${error.message}`);
+  }
+  await page.screenshot({path: join(folder, `${name}.png`), fullPage: true});
+  await page.close();
+  return problems.map((problem) => `${name}: ${problem}`);
+}
+
+if (!existsSync(report)) {
+  console.error(`${report} is not there`);
+  process.exit(2);
+}
+const browser = await chromium.launch({
+  executablePath: process.env.TRUEAXIS_CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--disable-background-networking', '--disable-component-update', '--disable-sync',
+    '--no-first-run', '--disable-default-apps', '--force-device-scale-factor=1'],
+});
+const problems = [];
+for (const screen of [{name: 'wide', width: 1400, height: 1000}, {name: 'phone', width: 390, height: 844}]) {
+  problems.push(...await look(browser, screen));
+}
+await browser.close();
+problems.forEach((problem) => console.error(problem));
+console.log(problems.length ? `${problems.length} problems` : 'the report is sound');
+process.exit(problems.length ? 1 : 0);
