@@ -17,8 +17,8 @@
 namespace trueaxis::reference {
 namespace {
 
-// Both stop where the cost no longer changes in double: the cost is flat to 1e-16 within
-// σ·√(2e-16) = 1.4e-10 mm (σ = 10 µm) in any well-determined length. 1e-9 is the project's number.
+// The project's number. A cost in double is flat to 1e-16 within σ·√(2e-16) = 1.4e-10 mm (σ = 10
+// µm) of its minimum in a well-determined length, so it can be reached.
 constexpr double same_minimum_mm = 1e-9;
 
 struct Case {

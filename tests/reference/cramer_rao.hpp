@@ -71,7 +71,7 @@ inline Real reading(const Implicit& surface, const RealVector& p, Real c_rad, Re
 
 /// Standard deviations of the parameters that no unbiased estimator can go below: the roots of the
 /// diagonal of σ²(JᵀJ)⁻¹, for independent Gaussian noise σ. `step` is that of the central
-/// differences; halving it changes no bound by 1e-8.
+/// differences; a test halves it.
 inline RealVector cramer_rao_sd(const Implicit& surface, const RealVector& p,
                                 const RealVector& step, const std::vector<double>& c_rad,
                                 const std::vector<double>& position_mm,
