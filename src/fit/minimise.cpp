@@ -69,6 +69,9 @@ class CompressedCost final : public ceres::CostFunction {
     Matrix r;
     Vector z;
     factorise(last_.normal, r, z);
+    const double root = std::sqrt(hessian_scale(last_.normal, z.squaredNorm()));
+    r *= root;
+    z /= root;
     const auto rows = static_cast<Eigen::Index>(p);
     Eigen::Map<Vector>(residuals, rows) = z;
     residuals[p] = std::sqrt(std::max(0.0, last_.normal.sum_rho - z.squaredNorm()));
@@ -79,17 +82,23 @@ class CompressedCost final : public ceres::CostFunction {
     return true;
   }
 
+  /// The Hessian of a robust loss over JᵀWJ, kept where the model stays convex and below the cost.
+  static double hessian_scale(const NormalMatrix& normal, double reach) {
+    const double scale = std::clamp(normal.curvature, 0.3, 1.0);
+    return reach < scale * normal.sum_rho ? scale : 1.0;
+  }
+
   /// A step whose predicted gain is below `negligible` is not worth a pass: at that distance the
   /// quadratic model of the last pass is exact to rounding (its error is the step squared over the
   /// radius).
   bool predict(std::span<const double> working) const {
-    if (!last_.normal.valid || loss_.kind != LossScale::Kind::plain) return false;
+    if (!last_.normal.valid) return false;
     const auto p = static_cast<Eigen::Index>(working.size());
     const Eigen::Map<const Matrix> h(last_.normal.jtj.data(), p, p);
     const Eigen::Map<const Vector> g(last_.normal.jtr.data(), p);
     const Vector step = Eigen::Map<const Vector>(working.data(), p) -
                         Eigen::Map<const Vector>(last_.working.data(), p);
-    const Vector h_step = h * step;
+    const Vector h_step = std::clamp(last_.normal.curvature, 0.3, 1.0) * (h * step);
     const double change = step.dot(h_step) - 2.0 * g.dot(step);
     if (std::abs(change) > negligible * last_.normal.sum_rho) return false;
     last_.normal.sum_rho += change;

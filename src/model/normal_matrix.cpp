@@ -63,14 +63,14 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
   out.parameters = working.size();
   Gram total{};
   LaneSums chunk;
-  double rho = 0.0;
+  LossSums robust;
   PredictionBlock block;
   for (std::size_t index = 0; index < stream.blocks(); ++index) {
     surface.evaluate(working, stream.block(index), block);
     if (!block.valid) return out;
     const std::size_t filled = stream.filled(index);
     if (filled < block_size) clear_padding(columns, filled, block);
-    if (loss.kind != LossScale::Kind::plain) rho += apply_loss(loss, columns, filled, block);
+    if (loss.kind != LossScale::Kind::plain) apply_loss(loss, columns, filled, block, robust);
     add_products(block, columns, chunk);
     if ((index + 1) % blocks_per_chunk == 0 || index + 1 == stream.blocks()) {
       for (std::size_t i = 0; i < gram_size(columns); ++i) {
@@ -82,7 +82,11 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
   std::array<double, max_parameters * max_columns> transform;
   surface.transform(working, transform.data());
   transform_gram(total, transform.data(), columns, out);
-  out.sum_rho = loss.kind == LossScale::Kind::plain ? entry(total, columns, columns) : rho;
+  out.sum_rho = entry(total, columns, columns);
+  if (loss.kind != LossScale::Kind::plain) {
+    out.sum_rho = robust.rho;
+    out.curvature = robust.weight > 0.0 ? robust.curvature / robust.weight : 1.0;
+  }
   out.valid = true;
   return out;
 }

@@ -21,8 +21,13 @@ struct LaneSums {
 /// Adds the products of one block's columns and residual (last row) to `sums`.
 void add_products(const PredictionBlock& block, std::size_t columns, LaneSums& sums);
 
-/// Scales columns and residual of a block by the square root of the loss's weight. @returns Σρ.
-double apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,
-                  PredictionBlock& block);
+/// Sums over readings of a robust loss: ρ, its second derivative ψ' and its weight ψ/r.
+struct LossSums {
+  double rho = 0.0, curvature = 0.0, weight = 0.0;
+};
+
+/// Scales columns and residual of a block by the square root of the loss's weight.
+void apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,
+                PredictionBlock& block, LossSums& sums);
 
 }  // namespace trueaxis

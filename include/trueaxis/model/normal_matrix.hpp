@@ -32,7 +32,7 @@ class PreparedStream {
   const ProbeStream& source_;
   std::span<const double> reading_, position_;
   struct Angles;
-  std::unique_ptr<Angles> angles_;  ///< cos C and sin C
+  std::unique_ptr<Angles> angles_;    ///< cos C and sin C
   std::vector<double> zeros_, tail_;  ///< position of a stream without Z; the padded last block
 };
 
@@ -48,7 +48,10 @@ struct NormalMatrix {
   std::vector<double> jtj;  ///< row-major, symmetric
   std::vector<double> jtr;
   double sum_rho = 0.0;  ///< Σρ, plain: Σr²
-  bool valid = false;    ///< false: a probe line misses the surface at these parameters
+  /// Σψ' / Σ(ψ/r): what the weights overstate the curvature of a robust loss by, as ψ' and J are
+  /// nearly independent; curvature · JᵀWJ is the Hessian up to O(1/√N). 1 for plain.
+  double curvature = 1.0;
+  bool valid = false;  ///< false: a probe line misses the surface at these parameters
 };
 
 /// One pass over the stream: root, basis, products, block by block in the first cache; sums are
