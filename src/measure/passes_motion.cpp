@@ -161,10 +161,9 @@ bool is_positioning(std::span<const double> c, std::span<const double> z, std::s
   if (step <= least) return false;
   const auto still = [&](std::size_t from, std::ptrdiff_t direction) {
     double low = z[from], high = z[from];
-    for (std::size_t k = from, n = 0; k < z.size() && n <= 2 * window_readings * window_readings;
-         k += static_cast<std::size_t>(direction), ++n) {
+    for (std::size_t k = from, n = 0; k < z.size(); k += static_cast<std::size_t>(direction), ++n) {
       const double turned = std::abs(c[k] - c[from]);
-      if (turned > 0.95 * two_pi || (n > window_readings && turned < 1e-3)) break;
+      if (turned > 0.95 * two_pi || (n > window_readings && turned < 1e-4)) break;
       low = std::min(low, z[k]);
       high = std::max(high, z[k]);
       if (high - low > most) return false;
