@@ -160,10 +160,13 @@ bool is_positioning(std::span<const double> c, std::span<const double> z, std::s
   const double most = 0.25 * step;
   if (step <= least) return false;
   const auto still = [&](std::size_t from, std::ptrdiff_t direction) {
-    double low = z[from], high = z[from];
+    double low = z[from], high = z[from], farthest = 0.0;
     for (std::size_t k = from, n = 0; k < z.size(); k += static_cast<std::size_t>(direction), ++n) {
       const double turned = std::abs(c[k] - c[from]);
-      if (turned > 0.95 * two_pi || (n > window_readings && turned < 1e-4)) break;
+      farthest = std::max(farthest, turned);
+      const bool returns = turned < farthest - 0.1;
+      const bool rests = n > window_readings && turned < 1e-4;
+      if (turned > 0.95 * two_pi || returns || rests) break;
       low = std::min(low, z[k]);
       high = std::max(high, z[k]);
       if (high - low > most) return false;

@@ -24,8 +24,8 @@ struct StepSigns {
 /// 5 µm per revolution counts as none.
 ///
 /// A feed step four times longer than all feed within nearly a turn on both sides is a positioning
-/// move; windows end at it. Readings that go along Z while C stays within 1e-4 rad are at rest in
-/// C.
+/// move; windows end at it. A rest may so reach a few readings into the feed beside it. Readings
+/// that go along Z while C stays within 1e-4 rad are at rest in C.
 StepSigns find_step_signs(const ProbeStream& stream, std::size_t begin, std::size_t end);
 
 }  // namespace trueaxis
