@@ -167,6 +167,12 @@ bool is_positioning(std::span<const double> c, std::span<const double> z, std::s
       const bool returns = turned < farthest - 0.1;
       const bool rests = n > window_readings && turned < 1e-4;
       if (turned > 0.95 * two_pi || returns || rests) break;
+      // The next positioning move, where C turns back.
+      const std::size_t before = k - static_cast<std::size_t>(direction);
+      if (farthest > 0.5 && std::abs(c[k] - c[before]) < 1e-4 &&
+          std::abs(z[k] - z[before]) > most) {
+        break;
+      }
       low = std::min(low, z[k]);
       high = std::max(high, z[k]);
       if (high - low > most) return false;
