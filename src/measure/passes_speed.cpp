@@ -9,7 +9,8 @@
 namespace trueaxis {
 namespace {
 
-/// Times at which c has turned by 0, 1, 2 … whole turns from its first reading.
+/// Times at which c has turned by 0, 1, 2 … whole turns from its first reading; none where there
+/// are more turns than readings, so nothing to compare.
 std::vector<double> turn_times(std::span<const double> c, std::span<const double> t) {
   std::vector<double> times{t[0]};
   const double sense = c.back() > c.front() ? 1.0 : -1.0;
@@ -18,6 +19,7 @@ std::vector<double> turn_times(std::span<const double> c, std::span<const double
     for (;;) {
       const double goal = two_pi * static_cast<double>(times.size());
       if (turned < goal) break;
+      if (times.size() > c.size()) return {};
       const double step = sense * (c[i] - c[i - 1]);
       const double part = step > 0.0 ? std::clamp(1.0 - (turned - goal) / step, 0.0, 1.0) : 1.0;
       times.push_back(t[i - 1] + part * (t[i] - t[i - 1]));
