@@ -167,19 +167,19 @@ class StreamingHash {
 
 /// Hands whole lines to `lines`; the text is never held beyond one chunk and one line.
 void read_lines(ByteSource& source, LineReader& lines, StreamingHash& hash) {
-  std::vector<char> buffer(chunk_bytes + longest_line_bytes + 1);
+  const auto room = std::make_unique_for_overwrite<char[]>(chunk_bytes + longest_line_bytes + 1);
+  char* buffer = room.get();
   std::size_t kept = 0;  // start of a line whose end is not read yet
   bool reserved = false;
-  while (const std::size_t got = source.read(buffer.data() + kept, chunk_bytes)) {
-    hash.add(buffer.data() + kept, got);
-    const char* begin = buffer.data();
+  while (const std::size_t got = source.read(buffer + kept, chunk_bytes)) {
+    hash.add(buffer + kept, got);
     const std::size_t filled = kept + got;
-    const auto* last = static_cast<const char*>(::memrchr(begin + kept, '\n', got));
-    const std::size_t whole = last == nullptr ? 0 : static_cast<std::size_t>(last + 1 - begin);
-    if (!lines.block(begin, begin + whole)) return;
+    const auto* last = static_cast<const char*>(::memrchr(buffer + kept, '\n', got));
+    const std::size_t whole = last == nullptr ? 0 : static_cast<std::size_t>(last + 1 - buffer);
+    if (!lines.block(buffer, buffer + whole)) return;
     kept = filled - whole;
     if (kept > longest_line_bytes) return lines.too_long();
-    std::memmove(buffer.data(), begin + whole, kept);
+    std::memmove(buffer, buffer + whole, kept);
     if (!reserved && whole > 0) {
       lines.reserve_for(source.size(), whole);
       reserved = true;
@@ -187,7 +187,7 @@ void read_lines(ByteSource& source, LineReader& lines, StreamingHash& hash) {
   }
   if (kept == 0) return;
   buffer[kept] = '\n';
-  lines.block(buffer.data(), buffer.data() + kept + 1);
+  lines.block(buffer, buffer + kept + 1);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ void scale(std::vector<double>& column, double factor) {
 void unwrap(std::vector<double>& c, double turn) {
   double turns = 0.0, previous = c.front();
   for (double& value : c) {
-    turns -= std::round((value - previous) / turn);
+    const double step = value - previous;
+    if (std::abs(step) > 0.5 * turn) turns -= std::round(step / turn);
     previous = value;
     value += turns * turn;
   }

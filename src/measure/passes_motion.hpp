@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "trueaxis/measure/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// Sense of motion of both axes from one reading to the next: -1, 0, +1.
+struct StepSigns {
+  std::vector<signed char> c, feed;  ///< one less than readings; feed all 0 without position
+};
+
+/// Senses of the steps between readings [begin, end).
+///
+/// Single steps of a recorded axis say little: noise and resolution turn their sign. So a stretch
+/// is at rest where the axis stays within a tolerance over a whole window (feed: one turn of C; C,
+/// and a feed while C rests: 32 readings), and elsewhere its sense changes only where it comes back
+/// by more than that tolerance. The tolerance is ten times the noise of the window, estimated from
+/// second differences, so it follows the typical step's jitter; at least 5 µm for a feed, 1e-4 rad
+/// for C; at least the resolution (the least step) and at most 50 µm and 0.1 rad. So a feed below
+/// 5 µm per revolution counts as none.
+///
+/// A feed step four times longer than all feed within nearly a turn on both sides is a positioning
+/// move; windows end at it. A rest may so reach a few readings into the feed beside it. Readings
+/// that go along Z while C stays within 1e-4 rad are at rest in C.
+StepSigns find_step_signs(const ProbeStream& stream, std::size_t begin, std::size_t end);
+
+}  // namespace trueaxis
