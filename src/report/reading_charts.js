@@ -21,29 +21,31 @@ const positionName = (readings) => readings.face ? 'X in mm' : 'Z in mm';
 function readingMap(readings, key, words) {
   const values = readings.thinned ? readings.cells[key] : readings.points[key];
   const shown = readings.thinned ? values : split(readings.points).kept.map((i) => values[i]);
-  const limit = roundUp(largest(shown));
+  const limit = roundUpFinely(largest(shown));
   const long = readings.thinned
     ? ` ${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
     : ` Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;
   const build = (width) => readings.thinned
     ? cellMap(readings.cells, values, {limit, positionName: positionName(readings), width})
-    : pointMap(readings.points, values, {limit, name: positionName(readings), width});
+    : pointMap(readings, values, {limit, width});
   return figure({caption: words + long, description: words, size: 'map', build});
 }
 
-function pointMap(points, values, {limit, name, width}) {
+function pointMap(readings, values, {limit, width}) {
+  const {points, per_turn: perTurn} = readings;
   const {kept, rejected} = split(points);
-  // Marks about as large as the share of the map that each one stands for.
-  const side = Math.min(16, Math.max(3, Math.sqrt((width - 80) * 250 / values.length)));
+  // Each mark is as large as the share of the map that its reading stands for.
+  const within = (px) => Math.min(16, Math.max(3, px));
+  const mark = [within((width - 70) / perTurn), within(250 * perTurn / values.length)];
   const series = [{
-    type: 'scatter', symbol: 'rect', symbolSize: side, progressive: 0, emphasis: {disabled: true},
+    type: 'scatter', symbol: 'rect', symbolSize: mark, progressive: 0, emphasis: {disabled: true},
     data: kept.map((i) => [points.c_deg[i], points.position_mm[i], values[i]]),
   }];
   if (rejected.length) series.push(rejectedSeries(pairs(points.c_deg, points.position_mm, rejected)));
   return {
     grid: grid({bottom: 66}),
     xAxis: angleAxis(width),
-    yAxis: uprightAxis(name, {scale: true}),
+    yAxis: uprightAxis(positionName(readings), {scale: true}),
     visualMap: colourScale(limit, width),
     series,
   };
@@ -55,7 +57,7 @@ function residualChart(readings, {x, envelope, name, xAxis, words}) {
   const band = thinned ? readings.envelopes[envelope] : null;
   const data = thinned ? null : split(readings.points);
   const shown = thinned ? band.min.concat(band.max) : data.kept.map((i) => readings.points.residual_um[i]);
-  const limit = roundUp(largest(shown) * 1.05);
+  const limit = roundUpFinely(largest(shown) * 1.05);
   const far = thinned ? 0 : data.rejected.filter((i) => Math.abs(readings.points.residual_um[i]) > limit).length;
   const long = thinned
     ? ` ${readings.count} readings in ${band.x.length} bins: the band spans least to greatest of each bin, the line is the mean.` : '';
@@ -124,7 +126,7 @@ function polarChart(readings, part) {
   series.push({name: 'measured', type: 'scatter', coordinateSystem: 'polar', symbolSize: part.measured.um.length > 120 ? 3 : 5, z: 4,
     itemStyle: {color: colours.measured}, data: part.measured.c_deg.map((c, i) => [part.measured.um[i], c]), emphasis: {disabled: true}});
   const build = () => ({
-    legend: legend({left: 'center', right: 'auto', data: series.map((s) => s.name).filter((n) => n !== 'true running')}),
+    legend: legendOf(series, {left: 'center', right: 'auto'}),
     polar: {radius: '74%', center: ['50%', '54%']},
     angleAxis: {type: 'value', min: 0, max: 360, interval: 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`},
@@ -158,7 +160,7 @@ function histogramChart(histogram, sigma_mm, sigmaSource) {
   }
   const build = () => ({
     grid: grid(),
-    legend: legend(),
+    legend: legendOf(series),
     xAxis: axis('measured − model in µm', {min: tidy(low), max: tidy(high), axisLabel: {showMinLabel: false, showMaxLabel: false, color: colours.ink, formatter: tick}}),
     yAxis: uprightAxis('readings'),
     series,

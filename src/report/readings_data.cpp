@@ -9,8 +9,8 @@
 namespace trueaxis {
 namespace {
 
-constexpr Bins turn{0.0, 360.0, 180};
-constexpr std::size_t map_rows = 100, envelope_bins = 400;
+constexpr Bins turn{0.0, 360.0, 120};
+constexpr std::size_t map_rows = 80, envelope_bins = 400;
 
 nlohmann::json every_reading(const ChartReadings& all) {
   nlohmann::json points{{"c_deg", column(all.c_deg, 3)},
@@ -83,6 +83,7 @@ nlohmann::json readings_data(const ProbeStream& stream, const FitResult& fit) {
   const bool thinned = stream.size() > max_points;
   nlohmann::json data{{"count", stream.size()},
                       {"thinned", thinned},
+                      {"per_turn", all.readings_per_turn},
                       {"face", stream.kind == StreamKind::face},
                       {"has_position", all.has_position},
                       {"has_time", !all.time_s.empty()},
