@@ -102,7 +102,7 @@ function marginChart(lines) {
     series: [{type: 'bar', barWidth: '52%', emphasis: {disabled: true}, showBackground: max === 100, backgroundStyle: {color: '#eef1f4'},
       data: lines.map((line) => ({value: line.share === null ? null : Number((line.share * 100).toPrecision(6)),
         itemStyle: {color: line.share > 1 ? colours.rejected : colours.series[2]}})),
-      label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
+      label: {show: true, position: 'right', color: colours.ink, backgroundColor: 'rgb(255 255 255 / 85%)', padding: [1, 2], formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
       markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'start', color: colours.ink}}}],
   });
   return figure({caption: 'How much of each limit the correction uses. A bar beyond the dashed line breaks the limit.',

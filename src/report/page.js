@@ -29,7 +29,7 @@ function table(caption, head, rows, textColumns = 1) {
   const cell = (text, i) => element(i === 0 ? 'th' : 'td', {class: kind(i), scope: i === 0 ? 'row' : null}, text);
   const body = [];
   for (const row of rows) {
-    body.push(element('tr', {}, (row.cells ?? row).map(cell)));
+    body.push(element('tr', {class: row.note ? 'noted' : null}, (row.cells ?? row).map(cell)));
     if (row.note) body.push(element('tr', {class: row.lost ? 'note lost' : 'note'}, element('td', {colspan: head.length}, row.note)));
   }
   tables += 1;

@@ -39,7 +39,10 @@ nlohmann::json envelope(const ChartReadings& all, const std::vector<double>& x, 
 }
 
 nlohmann::json cells(const ChartReadings& all) {
-  const Bins rows = bins_over(all.position_mm, map_rows);
+  // No more rows than turns, or rows between two turns of a helix stay blank.
+  const double turns = static_cast<double>(all.kept.size()) / all.readings_per_turn;
+  const double row_count = std::clamp(std::floor(turns), 1.0, static_cast<double>(map_rows));
+  const Bins rows = bins_over(all.position_mm, static_cast<std::size_t>(row_count));
   CellMeans deviation(turn, rows), residual(turn, rows);
   for (std::size_t i = 0; i < all.kept.size(); ++i) {
     if (!all.kept[i]) continue;

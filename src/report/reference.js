@@ -32,7 +32,7 @@ function parameterRow({name, value, u, unit, why_not: why}, k) {
   const cells = [parameterName(name), has ? quantity(value, u, unit) : 'not determined', has ? uncertainty(u, unit) : '–',
     has ? uncertainty(isNumber(u) ? k * u : null, unit) : '–'];
   const missing = !has || !isNumber(u);
-  return {cells, lost: !has, note: missing ? `${has ? 'No uncertainty' : 'Not determined'}: ${why || 'the readings do not fix it'}.`.replace(/\.\.$/, '.') : null};
+  return {cells, lost: !has, note: missing ? `${has ? 'no uncertainty: ' : ''}${why || 'the readings do not fix it'}` : null};
 }
 
 const parameterTable = (caption, list, k) =>

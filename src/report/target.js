@@ -14,9 +14,16 @@ function plusMinus(mm, u_mm, k, why) {
 const offsetOf = (end) => Math.hypot(end.x_mm, end.y_mm);
 const directionOf = (end) => (Math.atan2(end.y_mm, end.x_mm) * 180 / Math.PI + 360) % 360;
 
+/** Direction of an offset ± U; none where the offset drowns in its own uncertainty. */
+function direction(end, k) {
+  const big = k * end.u_mm / offsetOf(end) * 180 / Math.PI;
+  if (!isNumber(big) || big > 90) return 'open: offset below U';
+  return `${fixed(directionOf(end), decimalsFor(big) ?? 1)} ± ${uncertainty(big, 'deg')}`;
+}
+
 function axisRow(name, axis, k, face) {
   const at = (end) => face ? 'only its tilt counts' : plusMinus(offsetOf(end), end.u_mm, k, 'u unknown');
-  const toward = (end) => face ? '–' : `${fixed(directionOf(end), 1)}${nbsp}°`;
+  const toward = (end) => face ? '–' : direction(end, k);
   return [name, at(axis.start), toward(axis.start), at(axis.end), toward(axis.end),
     `${tilt(axis.tilt_deg, k * axis.u_tilt_deg)} ± ${uncertainty(k * axis.u_tilt_deg, 'deg')}`];
 }
