@@ -66,11 +66,22 @@ const grid = (more = {}) => ({left: 12, right: 22, top: 44, bottom: 34, containL
 
 const legend = (more = {}) => ({top: 0, right: 0, itemWidth: 18, itemHeight: 9, textStyle: {color: colours.ink}, ...more});
 
+/** A legend of series; lines are shown without a mark, which they do not have. */
+const legendOf = (series, more = {}) => legend({
+  ...more, data: series.map((s) => s.type === 'line' && s.symbol === 'none' ? {name: s.name, itemStyle: {opacity: 0}} : {name: s.name})});
+
 /** Smallest 1-2-5 number that is at least `value`. */
 function roundUp(value) {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 2.5, 5, 10].map((step) => step * power).find((step) => step >= value * (1 - 1e-9));
+}
+
+/** The same in finer steps, for the ends of a scale. */
+function roundUpFinely(value) {
+  if (!(value > 0)) return 1;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return Number(([1, 1.2, 1.6, 2, 2.4, 3, 4, 5, 6, 8, 10].find((step) => step * power >= value * (1 - 1e-9)) * power).toPrecision(6));
 }
 
 /** Largest magnitude of the numbers in a list, 0 for none. */
@@ -113,9 +124,12 @@ function cellMap(cells, values, {limit, positionName, width, cName}) {
     if (isNumber(values[i])) data.push([i % cells.columns, Math.floor(i / cells.columns), values[i]]);
   }
   const {position_min_mm: low, position_max_mm: high} = cells;
+  // Whole pixels a cell, or seams show between them.
+  const pixels = (room, count) => Math.max(1, Math.floor(room / count)) * count;
   return {
-    grid: grid({bottom: 66}),
-    xAxis: binAxis(axis, cName ?? 'spindle angle C in °', {low: 0, high: 360, count: cells.columns, ticks: niceTicks(0, 360, 1).concat(width < 480 ? [0, 90, 180, 270, 360] : [0, 45, 90, 135, 180, 225, 270, 315, 360])}),
+    grid: {left: 58, top: 44, width: pixels(width - 76, cells.columns), height: pixels(250, cells.rows)},
+    xAxis: binAxis(axis, cName ?? 'spindle angle C in °', {low: 0, high: 360, count: cells.columns, 
+      ticks: Array.from({length: width < 480 ? 5 : 9}, (_, i) => i * (width < 480 ? 90 : 45))}),
     yAxis: binAxis(uprightAxis, positionName, {low, high, count: cells.rows, ticks: niceTicks(low, high, 6)}),
     visualMap: colourScale(limit, width),
     series: [{type: 'heatmap', data, progressive: 0, emphasis: {disabled: true}}],

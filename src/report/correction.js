@@ -4,19 +4,19 @@
 const works = (correction) => correction.face ? 'Z_fts' : 'X_fts';
 
 function profileChart(correction) {
-  const values = correction.turns.flatMap((t) => t.wanted_um);
+  const series = correction.turns.map((turn, i) => ({
+    name: `revolution ${turn.revolution}, ${correction.face ? 'X' : 'Z'} = ${millimetres(turn.position_mm, 2)}`, type: 'line', symbol: 'none',
+    lineStyle: {width: 1.8, type: ['solid', 'dashed', 'dotted'][i % 3]}, emphasis: {disabled: true},
+    data: turn.c_deg.map((c, j) => [c, turn.wanted_um[j]])}));
   const build = (width) => ({
-    grid: grid({top: width < 480 ? 84 : 60}),
-    legend: legend({left: 0, right: 0}),
+    grid: grid({top: width < 480 ? 96 : 72}),
+    legend: legendOf(series, {left: 0, right: 0}),
     xAxis: angleAxis(width),
-    yAxis: uprightAxis(`${works(correction)} in µm`, {scale: largest(values) > 0}),
-    series: correction.turns.map((turn, i) => ({
-      name: `revolution ${turn.revolution}, ${correction.face ? 'X' : 'Z'} = ${millimetres(turn.position_mm, 2)}`, type: 'line', symbol: 'none',
-      lineStyle: {width: 1.8, type: ['solid', 'dashed', 'dotted'][i % 3]}, emphasis: {disabled: true},
-      data: turn.c_deg.map((c, j) => [c, turn.wanted_um[j]])})),
+    yAxis: uprightAxis(`${works(correction)} in µm`),
+    series,
   });
   return figure({caption: `The correction ${works(correction)} over one turn, at the first, the middle and the last revolution. Positive is ${correction.face ? 'towards +Z' : 'away from the spindle axis'}.`,
-    description: 'Correction over the spindle angle for three revolutions.', renderer: 'svg', build});
+    description: 'Correction over the spindle angle for three revolutions.', size: 'map', renderer: 'svg', build});
 }
 
 function correctionMap(correction) {
@@ -24,34 +24,47 @@ function correctionMap(correction) {
   const words = `The whole table unrolled: ${works(correction)} over C and ${correction.face ? 'X' : 'Z'}, ${correction.rows} rows in ${correction.revolutions} revolutions` +
     ` as means of ${correction.map.columns} × ${correction.map.rows} cells. The wave that leans or fades along ${correction.face ? 'X' : 'Z'} is the tilt.`;
   return figure({caption: words, description: words, size: 'map',
-    build: (width) => cellMap(correction.map, values, {limit: roundUp(largest(values)), positionName: correction.face ? 'X in mm' : 'Z in mm', width})});
+    build: (width) => cellMap(correction.map, values, {limit: roundUpFinely(largest(values)), positionName: correction.face ? 'X in mm' : 'Z in mm', width})});
 }
 
-function commandChart(correction) {
-  const turn = correction.turns[Math.floor(correction.turns.length / 2)];
-  const lead = turn.c_deg.map((c, i) => [c, turn.command_um[i] - turn.wanted_um[i]]);
+const middleTurn = (correction) => correction.turns[Math.floor(correction.turns.length / 2)];
+
+/** Lines over one turn: `lines` of [name, values in µm, type]. */
+function turnChart(turn, lines, {caption, description, name}) {
+  const series = lines.map(([label, values, type]) => ({name: label, type: 'line', symbol: 'none', emphasis: {disabled: true},
+    lineStyle: {width: 1.8, type}, data: turn.c_deg.map((c, i) => [c, values[i]])}));
   const build = (width) => ({
     grid: grid({top: 60}),
-    legend: legend({left: 0, right: 0}),
+    legend: legendOf(series, {left: 0, right: 0}),
     xAxis: angleAxis(width),
-    yAxis: uprightAxis('µm'),
-    series: [
-      {name: 'wanted', type: 'line', symbol: 'none', data: turn.c_deg.map((c, i) => [c, turn.wanted_um[i]]), lineStyle: {width: 1.8}, emphasis: {disabled: true}},
-      {name: 'command', type: 'line', symbol: 'none', data: turn.c_deg.map((c, i) => [c, turn.command_um[i]]), lineStyle: {width: 1.8, type: 'dashed'}, emphasis: {disabled: true}},
-      {name: 'command − wanted', type: 'line', symbol: 'none', data: lead, lineStyle: {width: 1.4}, emphasis: {disabled: true}},
-    ],
+    yAxis: uprightAxis(name),
+    series,
   });
-  return figure({caption: `What is sent against what is wanted, revolution ${turn.revolution}. ${correction.precompensated ? 'The command leads the wanted motion by what the actuator lags at this speed.' : 'Precompensation is off: the command is the wanted motion, and the lag is left in the part.'}`,
-    description: 'Wanted correction, command and their difference over the spindle angle.', renderer: 'svg', build});
+  return figure({caption, description, renderer: 'svg', build});
+}
+
+function commandCharts(correction) {
+  const turn = middleTurn(correction);
+  const difference = turn.command_um.map((um, i) => um - turn.wanted_um[i]);
+  const why = correction.precompensated
+    ? 'The command leads the wanted motion by what the actuator lags at this speed.'
+    : 'Precompensation is off: the command is the wanted motion, and the lag is left in the part.';
+  return [
+    turnChart(turn, [['wanted', turn.wanted_um, 'solid'], ['command', turn.command_um, 'dashed']], {name: 'µm',
+      caption: `What is sent and what is wanted, revolution ${turn.revolution}. ${why}`, description: 'Wanted correction and command over the spindle angle.'}),
+    turnChart(turn, [['command − wanted', difference, 'solid']], {name: 'command − wanted in µm',
+      caption: `The difference of the two, magnified: at most ${micrometres(largest(difference) / 1000)} in revolution ${turn.revolution}.`,
+      description: 'Command minus wanted correction over the spindle angle.'}),
+  ];
 }
 
 function harmonicsTable(correction) {
   const deg = (value) => `${fixed(value, 2)}${nbsp}°`;
-  const phase = (amplitude, value) => amplitude < 5e-7 || !isNumber(value) ? '–' : deg(value);
-  return table(`Harmonics of the correction, A cos(nC − φ), and the actuator at ${significant(correction.speed_rpm, 4)} rpm`,
+  const phase = (order, amplitude, value) => order === 0 || amplitude < 5e-7 || !isNumber(value) ? '–' : deg(value);
+  return table(`Harmonics of the correction, A cos(nC − φ), and the actuator at ${tick(correction.speed_rpm)} rpm`,
     ['Per revolution', 'A at start', 'φ at start', 'A at end', 'φ at end', 'Frequency', 'Actuator gain', 'Actuator lag'],
-    correction.harmonics.map((h) => [String(h.order), um(h.amplitude_start_mm), phase(h.amplitude_start_mm, h.phase_start_deg),
-      um(h.amplitude_end_mm), phase(h.amplitude_end_mm, h.phase_end_deg), `${significant(h.order * correction.speed_rpm / 60, 3)}${nbsp}Hz`,
+    correction.harmonics.map((h) => [String(h.order), um(h.amplitude_start_mm), phase(h.order, h.amplitude_start_mm, h.phase_start_deg),
+      um(h.amplitude_end_mm), phase(h.order, h.amplitude_end_mm, h.phase_end_deg), `${significant(h.order * correction.speed_rpm / 60, 3)}${nbsp}Hz`,
       fixed(h.gain, 5), deg(h.lag_deg)]));
 }
 
@@ -60,13 +73,13 @@ const um = (mm) => isNumber(mm) ? `${fixed(mm * 1000, 3)}${nbsp}µm` : 'not dete
 
 function correctionSection(data) {
   const {correction, target, verdict} = data;
-  if (!correction) return section('correction', 'The correction', paragraph('The job has no target surface, or no target axis could be found, so there is no correction.', 'lead'));
-  const parts = [paragraph(`${works(correction)} is what a fast tool servo adds to the programmed ${correction.face ? 'Z' : 'X'} so that the tool follows the target axis.`, 'lead')];
+  if (!correction) return section('correction', 'The correction', paragraph('The job has no target surface, or no target axis could be found, so there is no correction.'));
+  const parts = [paragraph(`${works(correction)} is what a fast tool servo adds to the programmed ${correction.face ? 'Z' : 'X'} so that the tool follows the target axis.`)];
   if (!correction.turns.length) {
     parts.push(paragraph('The table has no rows.', 'alert'));
     return section('correction', 'The correction', ...parts);
   }
-  parts.push(element('div', {class: 'pair'}, correctionMap(correction), profileChart(correction), commandChart(correction)), harmonicsTable(correction));
+  parts.push(element('div', {class: 'pair'}, correctionMap(correction), profileChart(correction), commandCharts(correction)), harmonicsTable(correction));
   const U = target.axis ? `U (k = ${tick(verdict.k)}) is ${uncertainty(verdict.k * target.axis.start.u_mm, 'mm')} at the start and ${uncertainty(verdict.k * target.axis.end.u_mm, 'mm')} at the end` : 'it is not known';
   parts.push(paragraph(`The profile carries the uncertainty of the target axis: ${U}. The actuator's gain and lag follow from the data of the job, which state no uncertainty.`, 'quiet'));
   return section('correction', 'The correction', ...parts);
@@ -89,8 +102,8 @@ function marginChart(lines) {
     series: [{type: 'bar', barWidth: '52%', emphasis: {disabled: true}, showBackground: max === 100, backgroundStyle: {color: '#eef1f4'},
       data: lines.map((line) => ({value: line.share === null ? null : Number((line.share * 100).toPrecision(6)),
         itemStyle: {color: line.share > 1 ? colours.rejected : colours.series[2]}})),
-      label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
-      markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'end', color: colours.ink}}}],
+      label: {show: true, position: 'right', color: colours.ink, backgroundColor: 'rgb(255 255 255 / 85%)', padding: [1, 2], formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
+      markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'start', color: colours.ink}}}],
   });
   return figure({caption: 'How much of each limit the correction uses. A bar beyond the dashed line breaks the limit.',
     description: 'Used share of stroke, slew rate, bandwidth and following error.', size: 'short', renderer: 'svg', build});
@@ -100,15 +113,15 @@ function marginSection(data) {
   if (!data.correction) return null;
   const {margin, speed_rpm: speed} = data.correction;
   const lines = marginLines(margin);
-  const rpm = (value) => `${significant(value, 4)}${nbsp}rpm`;
-  const parts = [paragraph(margin.follows ? 'The actuator can follow the correction.' : 'The actuator cannot follow the correction: do not run the table.', margin.follows ? 'lead' : 'alert')];
-  if (!margin.follows && margin.breaks) parts.push(paragraph(`What breaks: ${margin.breaks}`, 'alert'));
+  const rpm = (value) => `${tick(Number(value.toPrecision(4)))}${nbsp}rpm`;
+  const parts = [margin.follows ? paragraph('The actuator can follow the correction.')
+    : paragraph(`The actuator cannot follow the correction: do not run the table.${margin.breaks ? ` What breaks: ${margin.breaks}.` : ''}`, 'alert')];
   parts.push(facts([
     ['Speed of the job', rpm(speed)],
     ['Highest speed that works', margin.max_speed_rpm > 0 ? rpm(margin.max_speed_rpm) : 'none'],
     ['Following error if sent uncorrected', micrometres(margin.following_uncompensated_mm)],
     ['Following error with this table', micrometres(margin.following_mm)],
-    ['Set-points per revolution', significant(margin.set_points_per_revolution, 4)],
+    ['Set-points per revolution', tick(Number(margin.set_points_per_revolution.toPrecision(4)))],
   ]));
   parts.push(element('div', {class: 'pair'}, marginChart(lines),
     element('div', {}, table('The numbers behind the bars', ['Limit', 'What', 'Used', 'Available', 'Share'],

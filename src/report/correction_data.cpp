@@ -63,7 +63,7 @@ nlohmann::json map_data(const CorrectionRows& rows, std::size_t turns) {
   const auto [low, high] = std::minmax_element(rows.position_mm.begin(), rows.position_mm.end());
   const Bins c{0.0, 360.0, 120};
   const Bins position{*low, *high > *low ? *high : *low + 1.0,
-                      std::clamp<std::size_t>(turns, 1, 150)};
+                      std::clamp<std::size_t>(turns, 1, 60)};
   CellMeans wanted(c, position);
   for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
     wanted.add(wrapped_deg(rows.c_rad[i]), rows.position_mm[i], rows.wanted_mm[i] / mm_per_um);

@@ -21,49 +21,51 @@ const positionName = (readings) => readings.face ? 'X in mm' : 'Z in mm';
 function readingMap(readings, key, words) {
   const values = readings.thinned ? readings.cells[key] : readings.points[key];
   const shown = readings.thinned ? values : split(readings.points).kept.map((i) => values[i]);
-  const limit = roundUp(largest(shown));
+  const limit = roundUpFinely(largest(shown));
   const long = readings.thinned
     ? ` ${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
     : ` Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;
   const build = (width) => readings.thinned
     ? cellMap(readings.cells, values, {limit, positionName: positionName(readings), width})
-    : pointMap(readings.points, values, {limit, name: positionName(readings), width});
+    : pointMap(readings, values, {limit, width});
   return figure({caption: words + long, description: words, size: 'map', build});
 }
 
-function pointMap(points, values, {limit, name, width}) {
+function pointMap(readings, values, {limit, width}) {
+  const {points, per_turn: perTurn} = readings;
   const {kept, rejected} = split(points);
-  // Marks about as large as the share of the map that each one stands for.
-  const side = Math.min(16, Math.max(3, Math.sqrt((width - 80) * 250 / values.length)));
+  // Each mark is as large as the share of the map that its reading stands for.
+  const within = (px) => Math.min(16, Math.max(3, px));
+  const mark = [within((width - 70) / perTurn), within(250 * perTurn / values.length)];
   const series = [{
-    type: 'scatter', symbol: 'rect', symbolSize: side, progressive: 0, emphasis: {disabled: true},
+    type: 'scatter', symbol: 'rect', symbolSize: mark, progressive: 0, emphasis: {disabled: true},
     data: kept.map((i) => [points.c_deg[i], points.position_mm[i], values[i]]),
   }];
   if (rejected.length) series.push(rejectedSeries(pairs(points.c_deg, points.position_mm, rejected)));
   return {
     grid: grid({bottom: 66}),
     xAxis: angleAxis(width),
-    yAxis: uprightAxis(name, {scale: true}),
+    yAxis: uprightAxis(positionName(readings), {scale: true}),
     visualMap: colourScale(limit, width),
     series,
   };
 }
 
 /** Residuals against one quantity: points, or the band between least and greatest of each bin. */
-function residualChart(readings, {x, envelope, name, xAxis, words}) {
+function residualChart(readings, {x, envelope, name, words}) {
   const thinned = readings.thinned;
   const band = thinned ? readings.envelopes[envelope] : null;
   const data = thinned ? null : split(readings.points);
   const shown = thinned ? band.min.concat(band.max) : data.kept.map((i) => readings.points.residual_um[i]);
-  const limit = roundUp(largest(shown) * 1.05);
+  const limit = roundUpFinely(largest(shown) * 1.05);
   const far = thinned ? 0 : data.rejected.filter((i) => Math.abs(readings.points.residual_um[i]) > limit).length;
   const long = thinned
-    ? ` ${readings.count} readings in ${band.x.length} bins: the band spans least to greatest of each bin, the line is the mean.` : '';
+    ? ` ${readings.count} readings in ${band.mean.length} bins: the band spans least to greatest of each bin, the line is the mean; rejected readings are left out.` : '';
   const edge = far ? ` ${far} rejected ${far === 1 ? 'reading lies' : 'readings lie'} outside and ${far === 1 ? 'is' : 'are'} drawn at the edge.` : '';
   const inside = (v) => Math.max(-limit, Math.min(limit, v));
   const build = (width) => ({
     grid: grid(),
-    xAxis: xAxis ? xAxis(width) : axis(name, {scale: true}),
+    xAxis: thinned ? bandAxis(band, name, envelope === 'c' ? (width < 480 ? 4 : 8) : 6) : envelope === 'c' ? angleAxis(width) : axis(name, {scale: true}),
     yAxis: uprightAxis('measured − model in µm', {min: -limit, max: limit}),
     series: thinned ? bandSeries(band) : [
       {name: 'residual', type: 'scatter', symbolSize: readings.count > 4000 ? 2 : 4, progressive: 0, emphasis: {disabled: true},
@@ -74,14 +76,20 @@ function residualChart(readings, {x, envelope, name, xAxis, words}) {
   return figure({caption: words + long + edge, description: words, build});
 }
 
-function bandSeries(band) {
+/** Stacking needs a category axis: the bins of the band, labelled with round numbers. */
+function bandAxis({low, high, mean}, name, about) {
+  const ticks = high - low === 360 ? Array.from({length: about + 1}, (_, i) => i * 360 / about) : niceTicks(low, high, about);
+  return binAxis(axis, name, {low, high, count: mean.length, ticks});
+}
+
+function bandSeries({min, max, mean}) {
   const line = {type: 'line', symbol: 'none', emphasis: {disabled: true}};
-  const zip = (values) => band.x.map((x, i) => [x, values[i]]);
+  const gaps = (values) => values.map((v) => isNumber(v) ? v : '-');
   return [
-    {...line, name: 'least', stack: 'band', stackStrategy: 'all', lineStyle: {opacity: 0}, data: zip(band.min)},
+    {...line, name: 'least', stack: 'band', stackStrategy: 'all', lineStyle: {opacity: 0}, data: gaps(min)},
     {...line, name: 'least to greatest', stack: 'band', stackStrategy: 'all', lineStyle: {opacity: 0},
-      areaStyle: {color: colours.measured, opacity: 0.25}, data: zip(band.max.map((most, i) => most - band.min[i]))},
-    {...line, name: 'mean', lineStyle: {color: colours.measured, width: 1.5}, data: zip(band.mean)},
+      areaStyle: {color: colours.measured, opacity: 0.3}, data: gaps(max.map((most, i) => isNumber(most) ? most - min[i] : null))},
+    {...line, name: 'mean', lineStyle: {color: colours.measured, width: 1.5}, data: gaps(mean)},
   ];
 }
 
@@ -89,7 +97,7 @@ function residualCharts(readings) {
   const points = readings.points ?? {c_deg: []};
   const time = readings.has_time;
   const numbers = points.c_deg.map((_, i) => i + 1);
-  const list = [residualChart(readings, {x: points.c_deg, envelope: 'c', xAxis: angleAxis,
+  const list = [residualChart(readings, {x: points.c_deg, envelope: 'c', name: 'spindle angle C in °',
     words: 'Residuals against the spindle angle. A wave here is form (roundness) or spindle error motion that the surface does not contain.'})];
   if (readings.has_position) {
     list.push(residualChart(readings, {x: points.position_mm, envelope: 'position', name: positionName(readings),
@@ -115,18 +123,18 @@ function polarChart(readings, part) {
     `${tick(step)} µm a ring${magnification ? `; deviations magnified ${significant(magnification, 2)} times` : ''}.`;
   const curve = model.map((um, i) => [um, i * part.model.step_deg]);
   const zero = Array.from({length: 121}, (_, i) => [0, i * 3]);
-  const series = [{name: 'true running', type: 'line', coordinateSystem: 'polar', symbol: 'none', data: zero,
+  const series = [{name: readings.has_model ? 'true running' : 'mean', type: 'line', coordinateSystem: 'polar', symbol: 'none', data: zero,
     lineStyle: {type: 'dashed', color: colours.grey, width: 1}, emphasis: {disabled: true}}];
   if (model.length) {
-    series.push({name: 'model', type: 'line', coordinateSystem: 'polar', symbol: 'none', data: curve,
-      lineStyle: {color: colours.model, width: 1.8}, itemStyle: {color: colours.model}, emphasis: {disabled: true}});
+    series.push({name: 'model', type: 'line', coordinateSystem: 'polar', symbol: 'none', data: curve, z: part.measured.um.length > 120 ? 5 : 3,
+      lineStyle: {color: colours.model, width: part.measured.um.length > 120 ? 1.2 : 1.8}, itemStyle: {color: colours.model}, emphasis: {disabled: true}});
   }
   series.push({name: 'measured', type: 'scatter', coordinateSystem: 'polar', symbolSize: part.measured.um.length > 120 ? 3 : 5, z: 4,
     itemStyle: {color: colours.measured}, data: part.measured.c_deg.map((c, i) => [part.measured.um[i], c]), emphasis: {disabled: true}});
-  const build = () => ({
-    legend: legend({left: 'center', right: 'auto', data: series.map((s) => s.name).filter((n) => n !== 'true running')}),
-    polar: {radius: '74%', center: ['50%', '54%']},
-    angleAxis: {type: 'value', min: 0, max: 360, interval: 45, startAngle: 0, clockwise: false,
+  const build = (width) => ({
+    legend: legendOf(series, {left: 'center', right: 'auto', ...(width < 300 ? {itemWidth: 12, itemGap: 6, textStyle: {fontSize: 10}} : {})}),
+    polar: {radius: width < 300 ? '64%' : '74%', center: ['50%', width < 300 ? '57%' : '54%']},
+    angleAxis: {type: 'value', min: 0, max: 360, interval: width < 300 ? 90 : 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`},
       axisLine: {lineStyle: {color: '#9aa4b0'}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     radiusAxis: {min: -base, max: out, interval: step, axisLine: {show: false}, axisTick: {show: false},
@@ -158,7 +166,7 @@ function histogramChart(histogram, sigma_mm, sigmaSource) {
   }
   const build = () => ({
     grid: grid(),
-    legend: legend(),
+    legend: legendOf(series),
     xAxis: axis('measured − model in µm', {min: tidy(low), max: tidy(high), axisLabel: {showMinLabel: false, showMaxLabel: false, color: colours.ink, formatter: tick}}),
     yAxis: uprightAxis('readings'),
     series,

@@ -9,8 +9,8 @@
 namespace trueaxis {
 namespace {
 
-constexpr Bins turn{0.0, 360.0, 180};
-constexpr std::size_t map_rows = 100, envelope_bins = 400;
+constexpr Bins turn{0.0, 360.0, 120};
+constexpr std::size_t map_rows = 80, envelope_bins = 400;
 
 nlohmann::json every_reading(const ChartReadings& all) {
   nlohmann::json points{{"c_deg", column(all.c_deg, 3)},
@@ -39,7 +39,10 @@ nlohmann::json envelope(const ChartReadings& all, const std::vector<double>& x, 
 }
 
 nlohmann::json cells(const ChartReadings& all) {
-  const Bins rows = bins_over(all.position_mm, map_rows);
+  // No more rows than turns, or rows between two turns of a helix stay blank.
+  const double turns = static_cast<double>(all.kept.size()) / all.readings_per_turn;
+  const double row_count = std::clamp(std::floor(turns), 1.0, static_cast<double>(map_rows));
+  const Bins rows = bins_over(all.position_mm, static_cast<std::size_t>(row_count));
   CellMeans deviation(turn, rows), residual(turn, rows);
   for (std::size_t i = 0; i < all.kept.size(); ++i) {
     if (!all.kept[i]) continue;
@@ -83,6 +86,7 @@ nlohmann::json readings_data(const ProbeStream& stream, const FitResult& fit) {
   const bool thinned = stream.size() > max_points;
   nlohmann::json data{{"count", stream.size()},
                       {"thinned", thinned},
+                      {"per_turn", all.readings_per_turn},
                       {"face", stream.kind == StreamKind::face},
                       {"has_position", all.has_position},
                       {"has_time", !all.time_s.empty()},

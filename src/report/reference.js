@@ -32,7 +32,7 @@ function parameterRow({name, value, u, unit, why_not: why}, k) {
   const cells = [parameterName(name), has ? quantity(value, u, unit) : 'not determined', has ? uncertainty(u, unit) : '–',
     has ? uncertainty(isNumber(u) ? k * u : null, unit) : '–'];
   const missing = !has || !isNumber(u);
-  return {cells, note: missing ? `${has ? 'No uncertainty' : 'Not determined'}: ${why || 'the readings do not fix it'}.`.replace(/\.\.$/, '.') : null};
+  return {cells, lost: !has, note: missing ? `${has ? 'no uncertainty: ' : ''}${why || 'the readings do not fix it'}` : null};
 }
 
 const parameterTable = (caption, list, k) =>
@@ -49,13 +49,13 @@ function statusBlock(reference) {
   if (good || reference.status === 'max_iterations') {
     list.push(['RMS of the residuals', size(reference.rms_mm)],
       ['σ of one reading', `${size(reference.sigma_mm)} (from ${reference.sigma_source || 'the fit'})`],
-      ['Neighbours correlate', `${fixed(reference.autocorrelation ?? 0, 2)}; u widened ${fixed(reference.u_factor ?? 1, 2)} times`],
+      ['Correlation of neighbours', `${fixed(reference.autocorrelation ?? 0, 2)} (widens u ${fixed(reference.u_factor ?? 1, 2)} times)`],
       ['Iterations', String(reference.iterations)]);
   }
   const parts = [facts(list)];
   if (reference.message) parts.push(paragraph(reference.message, 'alert'));
   if (reference.not_determined.length) {
-    parts.push(paragraph('These combinations are left open by the readings:', 'lead'),
+    parts.push(paragraph('These combinations are left open by the readings:'),
       element('ul', {}, reference.not_determined.map((text) => element('li', {}, text))));
   }
   return element('div', {}, parts);
@@ -115,7 +115,8 @@ function chartBlocks(reference) {
   const thin = readings.thinned ? [paragraph(`${readings.count} readings are too many to draw one by one: charts show means and envelopes of bins. The numbers in the tables use every reading.`, 'quiet')] : [];
   const blocks = [block('Measured and model', ...thin, element('div', {class: 'pair'}, mapFigures(readings)))];
   if (readings.sections.length) {
-    blocks.push(block('Polar sections', paragraph('Seen along −Z with C counter-clockwise from +X. Outside the dashed circle is away from the spindle axis.' .replace('Outside the dashed circle is away from the spindle axis.', readings.face ? 'Outside the dashed circle is towards +Z.' : 'Outside the dashed circle is away from the spindle axis.'), 'quiet'),
+    blocks.push(block('Polar sections', paragraph('The part frame seen along −Z, C counter-clockwise from +x. ' +
+      `Outside the dashed circle is ${readings.face ? 'towards +Z' : 'away from the spindle axis'}.`, 'quiet'),
       element('div', {class: 'triple'}, readings.sections.map((part) => polarChart(readings, part)))));
   }
   if (!readings.has_model) {
@@ -133,10 +134,9 @@ function referenceSection(reference, index) {
   const relative = reference.relative ? [paragraph('The stream is of a gauge that reads differences: the radius is not measured, it is the nominal one.', 'quiet')] : [];
   const tables = element('div', {class: 'pair tables'},
     element('div', {}, parameterTable('Parameters of the associated surface', reference.parameters, k)),
-    element('div', {}, reference.derived.length ? parameterTable('Derived quantities', reference.derived, k) : null));
-  const budget = reference.budget.length
-    ? [block('Uncertainty budget', element('div', {class: 'pair'}, element('div', {}, budgetTable(reference)),
-      reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null))] : [];
+    element('div', {}, reference.derived.length ? parameterTable('Derived quantities', reference.derived, k) : null,
+      reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null));
+  const budget = reference.budget.length ? [budgetTable(reference)] : [];
   return section(`reference-${index + 1}`, `Reference surface: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
     block('Rejected readings', rejectedBlock(reference.rejected)), ...chartBlocks(reference));
 }

@@ -6,7 +6,7 @@ const outcomes = {go: ['GO', 'good', '✓'], 'no-go': ['NO-GO', 'bad', '✗'], '
 
 function keyNumbers(verdict) {
   const k = verdict.k;
-  const tolerance = isNumber(verdict.tolerance_mm) ? micrometres(verdict.tolerance_mm) : 'none given';
+  const tolerance = isNumber(verdict.tolerance_mm) ? `${tick(verdict.tolerance_mm * 1000)}${nbsp}µm` : 'none given';
   if (!isNumber(verdict.coaxiality_after_mm)) {
     return facts([['Coaxiality', 'not determined: there is no target axis'], ['Tolerance (coaxiality, a diameter)', tolerance]], 'numbers');
   }
@@ -24,7 +24,7 @@ function banner() {
   const [word, kind, sign] = outcomes[data.verdict.outcome];
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(data.verdict.line, 'line'), keyNumbers(data.verdict),
+    paragraph(data.verdict.line.replace(/^(NO-GO|GO)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
     paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet'));
 }
 
@@ -41,7 +41,7 @@ function inputsSection() {
 function build() {
   const sections = [...data.references.map(referenceSection), targetSection(data), correctionSection(data), marginSection(data),
     inputsSection(), glossarySection()].filter(Boolean);
-  const hashes = data.references.map((r) => r.input_hash).filter(Boolean).join(', ');
+  const hashes = data.references.map((r) => r.input_hash).filter(Boolean).join('\n');
   document.getElementById('page').replaceChildren(
     element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`), element('h1', {}, data.title),
       facts([['Job', data.file], ['Input', hashes || 'no hash']], 'facts origin')),

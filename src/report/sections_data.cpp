@@ -46,10 +46,18 @@ nlohmann::json measured(const ChartReadings& all, const Indices& section) {
     }
     return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", false}};
   }
-  Envelope per_degree({0.0, 360.0, 360});
-  for (const std::size_t i : section) per_degree.add(all.c_deg[i], all.deviation_um[i]);
-  const nlohmann::json means = per_degree.to_json(3);
-  return {{"c_deg", means["x"]}, {"um", means["mean"]}, {"averaged", true}};
+  const Bins degrees{0.0, 360.0, 360};
+  std::vector<double> sum(degrees.count, 0.0), in_bin(degrees.count, 0.0);
+  for (const std::size_t i : section) {
+    sum[degrees.of(all.c_deg[i])] += all.deviation_um[i];
+    in_bin[degrees.of(all.c_deg[i])] += 1.0;
+  }
+  for (std::size_t bin = 0; bin < degrees.count; ++bin) {
+    if (in_bin[bin] == 0.0) continue;
+    c_deg.push_back(degrees.center(bin));
+    value.push_back(sum[bin] / in_bin[bin]);
+  }
+  return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", true}};
 }
 
 nlohmann::json curve(const CoaxialNominal& nominal, double position_mm) {

@@ -14,9 +14,16 @@ function plusMinus(mm, u_mm, k, why) {
 const offsetOf = (end) => Math.hypot(end.x_mm, end.y_mm);
 const directionOf = (end) => (Math.atan2(end.y_mm, end.x_mm) * 180 / Math.PI + 360) % 360;
 
+/** Direction of an offset ± U; none where the offset drowns in its own uncertainty. */
+function direction(end, k) {
+  const big = k * end.u_mm / offsetOf(end) * 180 / Math.PI;
+  if (!isNumber(big) || big > 90) return 'open: offset below U';
+  return `${fixed(directionOf(end), decimalsFor(big) ?? 1)} ± ${uncertainty(big, 'deg')}`;
+}
+
 function axisRow(name, axis, k, face) {
   const at = (end) => face ? 'only its tilt counts' : plusMinus(offsetOf(end), end.u_mm, k, 'u unknown');
-  const toward = (end) => face ? '–' : `${fixed(directionOf(end), 1)}${nbsp}°`;
+  const toward = (end) => face ? '–' : direction(end, k);
   return [name, at(axis.start), toward(axis.start), at(axis.end), toward(axis.end),
     `${tilt(axis.tilt_deg, k * axis.u_tilt_deg)} ± ${uncertainty(k * axis.u_tilt_deg, 'deg')}`];
 }
@@ -39,32 +46,52 @@ function remaindersTable(target, references, k) {
     ['Reference', 'Measure', 'Cut about the spindle', 'Cut about the target axis', 'Offset at start', 'Offset at end', 'Tilt', 'Weight'], rows, 2);
 }
 
+/** The axes that are drawn, each with its colour; the target axis is the broad one behind. */
+function axisLines(target, references) {
+  const lines = target.references.filter((r) => r.axis && !r.face)
+    .map((r, i) => ({name: references[r.index].name, axis: r.axis, width: 2, mark: 8, opacity: 1, colour: [0, 1, 3, 4, 5].map((c) => colours.series[c])[i % 5]}));
+  if (target.axis) lines.push({name: 'target axis', axis: target.axis, width: 6, mark: 13, opacity: 0.5, colour: colours.series[2]});
+  return lines;
+}
+
 /** The axes seen along the spindle: a line from the start (full mark) to the end (open mark) of the length. */
-function axesChart(target, references) {
-  const lines = target.references.filter((r) => r.axis && !r.face).map((r) => ({name: references[r.index].name, axis: r.axis, width: 2}));
-  if (target.axis) lines.push({name: 'target axis', axis: target.axis, width: 5});
-  if (!lines.length) return null;
+function axesChart(target, lines) {
   const um = (end) => [end.x_mm * 1000, end.y_mm * 1000];
-  const limit = roundUp(largest(lines.flatMap((line) => [...um(line.axis.start), ...um(line.axis.end)])) * 1.1);
-  const series = lines.map((line) => {
-    const isTarget = line.name === 'target axis';
-    const colour = isTarget ? colours.series[2] : colours.series[(lines.indexOf(line) * 2) % 6 === 2 ? 3 : lines.indexOf(line) % 2];
-    return {name: line.name, type: 'line', emphasis: {disabled: true}, z: isTarget ? 2 : 3, symbol: 'circle', symbolSize: isTarget ? 12 : 8,
-      lineStyle: {width: line.width, color: colour, opacity: isTarget ? 0.55 : 1}, itemStyle: {color: colour},
-      data: [{value: um(line.axis.start)}, {value: um(line.axis.end), itemStyle: {color: '#fff', borderColor: colour, borderWidth: 2}}]};
-  });
-  series.push({name: 'spindle axis', type: 'scatter', data: [[0, 0]], z: 4, symbolSize: 18,
-    symbol: 'path://M-1,-10 L1,-10 L1,-1 L10,-1 L10,1 L1,1 L1,10 L-1,10 L-1,1 L-10,1 L-10,-1 L-1,-1 Z', itemStyle: {color: colours.ink}, emphasis: {disabled: true}});
+  const limit = roundUp(largest(lines.flatMap(({axis: a}) => [...um(a.start), ...um(a.end)])) * 1.1);
+  const series = lines.map(({name, axis: a, width, mark, opacity, colour}) => ({
+    name, type: 'line', emphasis: {disabled: true}, z: name === 'target axis' ? 2 : 3, symbol: 'circle', symbolSize: mark, showAllSymbol: true,
+    lineStyle: {width, color: colour, opacity}, itemStyle: {color: colour, opacity},
+    data: [{value: um(a.start)}, {value: um(a.end), itemStyle: {color: '#fff', borderColor: colour, borderWidth: 2}}]}));
+  series.push({name: 'spindle axis', type: 'scatter', data: [[0, 0]], z: 4, symbolSize: 18, emphasis: {disabled: true},
+    symbol: 'path://M-1,-10 L1,-10 L1,-1 L10,-1 L10,1 L1,1 L1,10 L-1,10 L-1,1 L-10,1 L-10,-1 L-1,-1 Z', itemStyle: {color: colours.ink}});
   const same = {min: -limit, max: limit, interval: limit / 2};
   const build = () => ({
-    grid: grid({top: 60}),
+    grid: grid({top: 64}),
     legend: legend({left: 0, right: 0}),
     xAxis: axis('x in µm', same),
     yAxis: uprightAxis('y in µm', same),
     series,
   });
-  return figure({caption: `The axes seen along the spindle, from Z = ${millimetres(target.z_start_mm, 2)} (full mark) to ${millimetres(target.z_end_mm, 2)} (open mark). The cross is the spindle axis: the distance to it is the eccentricity that the correction takes out.`,
+  return figure({caption: `The axes in the part frame, seen along −Z, from Z = ${millimetres(target.z_start_mm, 2)} (full mark) to ${millimetres(target.z_end_mm, 2)} (open mark). ` +
+    'The cross is the spindle axis: the distance to it is the eccentricity that the correction takes out.',
     description: 'Position of the axes in the plane across the spindle.', size: 'square', renderer: 'svg', build});
+}
+
+/** x and y of each axis along Z: their slope is the tilt. */
+function alongChart(target, lines) {
+  const series = lines.flatMap(({name, axis: a, width, opacity, colour}) => ['x', 'y'].map((letter) => ({
+    name: `${letter} of ${name}`, type: 'line', symbol: 'none', emphasis: {disabled: true},
+    lineStyle: {width, opacity, color: colour, type: letter === 'x' ? 'solid' : 'dashed'}, itemStyle: {color: colour},
+    data: [a.start, a.end].map((end) => [end.z_mm, end[`${letter}_mm`] * 1000])})));
+  const build = (width) => ({
+    grid: grid({top: width < 480 ? 110 : 84}),
+    legend: legendOf(series, {left: 0, right: 0}),
+    xAxis: axis('Z in mm', {scale: true}),
+    yAxis: uprightAxis('x, y in µm', {scale: true}),
+    series,
+  });
+  return figure({caption: 'x and y of the axes along Z. A level line runs true to the spindle; its slope is the tilt.',
+    description: 'x and y of the axes along Z.', size: 'map', renderer: 'svg', build});
 }
 
 function targetSection(data) {
@@ -74,17 +101,17 @@ function targetSection(data) {
   const words = target.of_cut ? 'The length is the one to be cut.' : 'The length is the one that was probed.';
   const parts = [];
   if (target.axis) {
-    parts.push(paragraph(`The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least. ${words}`, 'lead'));
+    parts.push(paragraph(`The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least. ${words}`));
   } else {
-    parts.push(paragraph(`No target axis was asked for, or none could be found. ${words}`, 'lead'));
+    parts.push(paragraph(`No target axis was asked for, or none could be found. ${words}`));
   }
   if (!solved) parts.push(paragraph('No reference gave an axis.', 'alert'));
   if (solved) parts.push(axesTable(target, references, k));
   if (target.references.some((r) => r.after)) {
     parts.push(remaindersTable(target, references, k),
-      paragraph('Offsets and tilt of the remainder are what the weights leave; they are exact differences of the estimated axes, and the uncertainty of both is in that of the coaxiality.', 'quiet'));
+      paragraph('Offsets and tilt of the remainder are what the weights leave; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.', 'quiet'));
   }
-  const chart = solved ? axesChart(target, references) : null;
-  if (chart) parts.push(element('div', {class: 'single'}, chart));
+  const lines = axisLines(target, references);
+  if (lines.length) parts.push(element('div', {class: 'pair'}, axesChart(target, lines), alongChart(target, lines)));
   return section('axes', 'References and target axis', ...parts);
 }

@@ -54,15 +54,15 @@ void Envelope::add(double x, double value) {
 }
 
 nlohmann::json Envelope::to_json(int decimals) const {
-  std::vector<double> x, low, high, mean;
+  std::vector<double> low(x_.count, not_there), high = low, mean = low;
   for (std::size_t bin = 0; bin < x_.count; ++bin) {
     if (count_[bin] == 0) continue;
-    x.push_back(x_.center(bin));
-    low.push_back(min_[bin]);
-    high.push_back(max_[bin]);
-    mean.push_back(sum_[bin] / static_cast<double>(count_[bin]));
+    low[bin] = min_[bin];
+    high[bin] = max_[bin];
+    mean[bin] = sum_[bin] / static_cast<double>(count_[bin]);
   }
-  return {{"x", column(x, 5)},
+  return {{"low", rounded(x_.low, 6)},
+          {"high", rounded(x_.high, 6)},
           {"min", column(low, decimals)},
           {"max", column(high, decimals)},
           {"mean", column(mean, decimals)}};

@@ -37,7 +37,7 @@ class Envelope {
  public:
   explicit Envelope(Bins x);
   void add(double x, double value);
-  /// {"x", "min", "max", "mean"}: empty bins are left out.
+  /// {"low", "high", "min", "max", "mean"}, one entry a bin; an empty bin is NaN.
   nlohmann::json to_json(int decimals) const;
 
  private:

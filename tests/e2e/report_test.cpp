@@ -26,18 +26,30 @@ std::string read(const fs::path& path) {
   return text.str();
 }
 
-/// Writes the report, opens it with report_page.mjs and expects that it finds nothing wrong.
-void expect_sound(const JobResult& result, const std::string& name) {
+/// What report_page.mjs says of a page, and whether it finds it sound.
+struct Opinion {
+  bool sound = false;
+  std::string log;
+};
+
+Opinion open_page(const std::string& html, const std::string& name) {
   const fs::path folder = fs::path(TRUEAXIS_SCRATCH) / "report" / name;
   fs::create_directories(folder);
   const fs::path page = folder / "report.html", log = folder / "log.txt";
-  std::ofstream(page, std::ios::binary) << render_report(result);
+  std::ofstream(page, std::ios::binary) << html;
   const std::string command = "node '" TRUEAXIS_SOURCE "/tests/e2e/report_page.mjs' '" +
                               page.string() + "' '" + folder.string() + "' >'" + log.string() +
                               "' 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << read(log);
+  const bool sound = std::system(command.c_str()) == 0;
+  return {sound, read(log)};
+}
+
+void expect_sound(const JobResult& result, const std::string& name) {
+  const Opinion opinion = open_page(render_report(result), name);
+  EXPECT_TRUE(opinion.sound) << opinion.log;
   for (const char* screen : {"wide.png", "phone.png"}) {
-    EXPECT_GT(fs::file_size(folder / screen), 10000u) << "a screenshot of a page is not that small";
+    const fs::path picture = fs::path(TRUEAXIS_SCRATCH) / "report" / name / screen;
+    EXPECT_GT(fs::file_size(picture), 10000u) << "a screenshot of a page is not that small";
   }
 }
 
@@ -73,6 +85,32 @@ TEST_F(ReportPage, HostileNamesStayText) {
   result.job.references.front().name = hostile + "\xff";
   result.fits.front().rejected = {{3, hostile}};
   expect_sound(result, "hostile");
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t place = text.find(from);
+  EXPECT_NE(place, std::string::npos) << from;
+  return text.replace(place, from.size(), to);
+}
+
+TEST_F(ReportPage, TheScriptFindsWhatIsWrong) {
+  const std::string page =
+      replaced(render_report(example::cone_job(100)), "</main>",
+               "</main><script>console.error('broken')</script><img src='file:///nowhere.png'>"
+               "<div style='width:2000px'>wide</div>");
+  const Opinion opinion = open_page(page, "broken");
+  EXPECT_FALSE(opinion.sound);
+  for (const char* finding : {"console error: broken", "request: file:///nowhere.png", "px wide"}) {
+    EXPECT_NE(opinion.log.find(finding), std::string::npos) << finding << "\n" << opinion.log;
+  }
+}
+
+TEST_F(ReportPage, TheScriptFindsAnEmptyChart) {
+  const std::string page = replaced(render_report(example::cone_job(100)), "\"harmonics\":",
+                                    "\"turns\":[{\"c_deg\":[],\"wanted_um\":[],\"command_um\":[],"
+                                    "\"revolution\":0,\"position_mm\":0}],\"was\":");
+  const Opinion opinion = open_page(page, "empty_chart");
+  EXPECT_FALSE(opinion.sound);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ inline double contact_mm(const Revolved& cone, double c_rad, double z_mm) {
   const double along = x * std::cos(c_rad) + y * std::sin(c_rad);
   const double across = y * std::cos(c_rad) - x * std::sin(c_rad);
   const double lean = cone.axis.slope_x * std::cos(c_rad) + cone.axis.slope_y * std::sin(c_rad);
-  const double height = z_mm - cone.axis.z_ref_mm + cone.radius_mm * lean;
-  const double radius = cone.radius_mm + cone.tan_half_angle * height;
+  const double level = cone.radius_mm + cone.tan_half_angle * (z_mm - cone.axis.z_ref_mm);
+  const double radius = level + cone.tan_half_angle * level * lean;
   return along + std::sqrt(radius * radius - across * across);
 }
 
