@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/noise_source.hpp"
+
+#include <cmath>
+
+#include "trueaxis/base/error.hpp"
+
+namespace trueaxis::virtual_lathe {
+
+std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose) {
+  std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+                         purpose};
+  return std::mt19937_64(sequence);
+}
+
+NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
+    : noise_(noise),
+      gaussian_(engine_for(seed, 1)),
+      uniform_(engine_for(seed, 2)),
+      outliers_(engine_for(seed, 3)),
+      student_(noise.student_dof > 2.0 ? noise.student_dof : 3.0) {
+  const auto need = [](bool condition, const char* message) {
+    if (!condition) throw InputError("scenario", std::string("noise: ") + message);
+  };
+  need(noise.sigma_mm >= 0.0 && noise.uniform_mm >= 0.0, "sigma and uniform must be at least 0");
+  need(std::abs(noise.rho) < 1.0, "rho must be in (-1, 1)");
+  need(noise.student_dof == 0.0 || noise.student_dof > 2.0, "student_dof must be more than 2");
+  need(noise.outlier_fraction >= 0.0 && noise.outlier_fraction <= 1.0,
+       "outlier_fraction must be in [0, 1]");
+  need(noise.quantisation_mm >= 0.0, "quantisation must be at least 0");
+  if (noise.student_dof > 2.0) {
+    student_scale_ = std::sqrt((noise.student_dof - 2.0) / noise.student_dof);
+  }
+  innovation_ = std::sqrt(1.0 - noise.rho * noise.rho);
+}
+
+double NoiseSource::unit_variate() {
+  return noise_.student_dof > 2.0 ? student_scale_ * student_(gaussian_) : normal_(gaussian_);
+}
+
+NoiseDraw NoiseSource::draw(double tan_incidence, double away) {
+  NoiseDraw draw;
+  if (noise_.sigma_mm > 0.0) {
+    const double fresh = unit_variate();
+    state_ = started_ ? noise_.rho * state_ + innovation_ * fresh : fresh;
+    started_ = true;
+    const double widened = std::sqrt(1.0 + noise_.incidence * tan_incidence * tan_incidence);
+    draw.error_mm += noise_.sigma_mm * widened * state_;
+  }
+  if (noise_.uniform_mm > 0.0) {
+    draw.error_mm += noise_.uniform_mm * (2.0 * uniform_01(uniform_) - 1.0);
+  }
+  if (noise_.outlier_fraction > 0.0) {
+    const double chance = uniform_01(outliers_);
+    const double size = noise_.outlier_size_mm * (0.5 + uniform_01(outliers_));
+    const double side = uniform_01(outliers_) < 0.5 ? -1.0 : 1.0;
+    draw.outlier = chance < noise_.outlier_fraction;
+    if (draw.outlier) draw.error_mm += size * (noise_.outliers_one_sided ? away : side);
+  }
+  return draw;
+}
+
+}  // namespace trueaxis::virtual_lathe

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/simulate/simulate.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "simulate/recorder.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis::virtual_lathe {
+namespace {
+
+void validate(const Part& part) {
+  std::vector<Diagnostic> wrong;
+  const auto need = [&](bool condition, const char* message) {
+    if (!condition) wrong.push_back({"scenario", 0, 0, std::string("part: ") + message});
+  };
+  constexpr double right_angle = 90.0 * rad_per_deg;
+  need(part.l * part.l + part.m * part.m < 1.0, "l^2 + m^2 must be less than 1");
+  if (part.kind == PartKind::cylinder || (part.kind == PartKind::cone && !part.apex_mm)) {
+    need(part.radius_mm > 0.0, "the radius must be more than 0");
+  }
+  if (part.kind == PartKind::cone) {
+    need(std::abs(part.half_angle_rad) < right_angle, "the half angle must be less than 90 deg");
+    need(!part.apex_mm || part.half_angle_rad > 0.0,
+         "with an apex the half angle must be more than 0; the side of the apex says how it opens");
+  }
+  need(part.kind != PartKind::face || !part.bore, "a face is no bore");
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+void describe_setup(const Chucking& setup, std::map<std::string, std::string>& metadata) {
+  const std::string prefix = "setup." + std::to_string(setup.number) + '.';
+  const auto put = [&](const char* key, double value, const char* unit) {
+    std::ostringstream text;
+    text.precision(12);
+    text << value << unit;
+    metadata[prefix + key] = text.str();
+  };
+  if (setup.reindex_rad != 0.0) put("reindex", setup.reindex_rad / rad_per_deg, " deg");
+  if (setup.z_shift_mm != 0.0) put("z_shift", setup.z_shift_mm, " mm");
+  if (setup.x_jog_mm != 0.0) put("x_jog", setup.x_jog_mm, " mm");
+  if (setup.clamp_force_ratio != 1.0) put("clamp_force_ratio", setup.clamp_force_ratio, "");
+  if (setup.rear) metadata[prefix + "side"] = "rear";
+}
+
+}  // namespace
+
+void describe(const Scenario& scenario, ProbeStream& stream) {
+  stream.kind = scenario.part.kind == PartKind::face ? StreamKind::face : StreamKind::lateral;
+  if (scenario.probe.relative_zero_mm) stream.indication = Indication::relative;
+  stream.nominal_radius_mm = scenario.probe.nominal_radius_mm;
+  if (scenario.noise.sigma_mm > 0.0 && scenario.probe.states_noise) {
+    stream.sensor_noise_mm = scenario.noise.sigma_mm;
+  }
+  const auto& passes = scenario.plan.passes;
+  const auto same_speed = [&](const PlannedPass& pass) {
+    return pass.speed_rpm == passes.front().speed_rpm;
+  };
+  if (std::all_of(passes.begin(), passes.end(), same_speed) && passes.front().speed_rpm != 0.0) {
+    stream.spindle_rpm = passes.front().speed_rpm;
+  }
+  for (const Chucking& setup : scenario.plan.setups) describe_setup(setup, stream.metadata);
+  if (scenario.probe.ball_radius_mm > 0.0) {
+    std::ostringstream text;
+    text.precision(12);
+    text << scenario.probe.ball_radius_mm << " mm";
+    stream.metadata["ball_radius"] = text.str();
+  }
+}
+
+Simulation simulate_with_truth(const Scenario& scenario) {
+  validate(scenario.part);
+  const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
+  const Chain chain = make_chain(scenario.effects);
+  const Body body(scenario, chain);
+  Recording how{scenario.noise,
+                scenario.probe,
+                scenario.seed,
+                chain.lag_s,
+                chain.low_mm,
+                chain.high_mm,
+                scenario.noise.quantisation_mm};
+  if (chain.quantisation_mm > 0.0) how.quantisation_mm = chain.quantisation_mm;
+  Simulation out = record(
+      timeline, how, [&](const Chucking& setup) { return Prober(scenario, chain, body, setup); });
+  describe(scenario, out.stream);
+  out.truth.scenario = scenario;
+  return out;
+}
+
+ProbeStream simulate(const Scenario& scenario) {
+  return std::move(simulate_with_truth(scenario).stream);
+}
+
+}  // namespace trueaxis::virtual_lathe
