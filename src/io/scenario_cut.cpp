@@ -64,8 +64,7 @@ CutProgram read_cut_program(TomlTable table) {
   cut.use = table.choice<CutUse>(
       "use", {{"command", CutUse::command}, {"wanted", CutUse::wanted}, {"none", CutUse::none}},
       CutUse::command);
-  cut.table = cut.use == CutUse::none ? table.maybe_path("table").value_or("")
-                                      : table.required_path("table");
+  cut.table = table.maybe_path("table").value_or("");
   cut.target = read_target(table.required_table("target"));
   if (const auto tool = table.maybe_table("tool")) cut.tool = read_tool(*tool);
   if (const auto actuator = table.maybe_table("actuator")) cut.actuator = read_actuator(*actuator);
