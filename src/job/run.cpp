@@ -58,6 +58,14 @@ std::string in_um(double length_mm, double U_mm) {
   return text;
 }
 
+std::string runs_at(const ActuatorMargin& margin) {
+  if (!(margin.max_speed_rpm > 0.0)) return "it would not at any speed";
+  char text[64];
+  std::snprintf(text, sizeof text, "it would at %.0f rpm or less",
+                std::floor(margin.max_speed_rpm));
+  return text;
+}
+
 /// ISO 14253-1: conformity is shown when value + U lies within the tolerance.
 void decide(JobResult& result, const std::vector<Reference>& references) {
   Verdict& verdict = result.verdict;
@@ -80,8 +88,8 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
       in_um(verdict.coaxiality_after_mm, U) + " with the table (U = " + in_um(U, U) + "), " +
       in_um(verdict.coaxiality_before_mm, U) + " without it";
   if (!correction.margin.follows) {
-    verdict.line =
-        "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
+    verdict.line = "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " +
+                   runs_at(correction.margin) + "; " + numbers;
     return;
   }
   if (!std::isfinite(U)) {
