@@ -78,6 +78,7 @@ TargetSurface read_target(TomlTable table, Job& job) {
       {{"cylinder", TargetKind::cylinder}, {"cone", TargetKind::cone}, {"face", TargetKind::face}});
   target.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
   if (target.kind == TargetKind::face) {
+    if (target.bore) table.complain("feature", "a face is neither shaft nor bore: remove it");
     target.z_face_mm = table.required_number("z_mm");
     target.radius_start_mm = table.required_number("radius_start_mm", Range::non_negative());
     target.radius_end_mm = table.required_number("radius_end_mm", Range::non_negative());
@@ -98,7 +99,9 @@ TargetSurface read_target(TomlTable table, Job& job) {
     const double sign = table.required_choice<double>("opens", {{"+z", 1.0}, {"-z", -1.0}});
     target.tan_half_angle = sign * std::tan(half_angle);
   }
-  job.coaxiality_tolerance_mm = table.maybe_number("coaxiality_tolerance_mm", Range::positive());
+  job.coaxiality_tolerance_mm = table.maybe_number(
+      target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
+      Range::positive());
   return target;
 }
 

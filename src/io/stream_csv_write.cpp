@@ -52,6 +52,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
   const auto length = [](double value_mm) { return shortest(value_mm) + " mm"; };
   set("nominal_radius", stream.nominal_radius_mm, said.known.nominal_radius_mm, length);
   set("sensor_noise", stream.sensor_noise_mm, said.known.sensor_noise_mm, length);
+  set("ball_radius", stream.ball_radius_mm, said.known.ball_radius_mm, length);
   set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, shortest);
   if (stream.indication != said.known.indication.value_or(Indication::absolute)) {
     out["reading"] = stream.indication == Indication::relative ? "relative" : "absolute";
