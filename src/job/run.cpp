@@ -58,6 +58,12 @@ std::string in_um(double length_mm, double U_mm) {
   return text;
 }
 
+std::string as_given_um(double length_mm) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.9g µm", length_mm / mm_per_um);
+  return text;
+}
+
 std::string runs_at(const ActuatorMargin& margin) {
   if (!(margin.max_speed_rpm > 0.0)) return "it would not at any speed";
   char text[64];
@@ -105,7 +111,7 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
   const double tolerance = *result.job.coaxiality_tolerance_mm;
   verdict.go = verdict.coaxiality_after_mm + U <= tolerance;
   verdict.line = std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " +
-                 in_um(tolerance, tolerance);
+                 as_given_um(tolerance);
 }
 
 }  // namespace
