@@ -33,9 +33,10 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
-// The circle of every section at once: x² + y² = 2 x0 x + 2 y0 y + 2 bx xζ + 2 by yζ + c0 + c1 ζ +
-// c2 ζ², with c0 = r² − x0² − y0², c1 = 2 (r t − x0 bx − y0 by), c2 = t² − bx² − by²; the axis'
-// cosine taken as 1.
+// The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
+// with the axis' cosine taken as 1 and x² bx² dropped; β = bx x0 + by y0:
+//   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (…) y + 2 K bx xζ + 2 K by yζ
+//             + r² − x0² − y0² − 2 t r β + K β² + 2 (t r − K β) ζ + t² ζ².
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
   double shift = 0.0;
   if (relative()) {
@@ -71,19 +72,25 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
   normal.diagonal().array() += 1e-300;
   const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(a.transpose() * b);
 
-  const double x0 = 0.5 * c(0) * scale, y0 = 0.5 * c(1) * scale;
-  const double radius2 = c(2) * scale * scale + x0 * x0 + y0 * y0;
-  const double radius = radius2 > 0.0 ? std::sqrt(radius2) : scale;
+  const double mean_x = 0.5 * c(0) * scale, mean_y = 0.5 * c(1) * scale;
+  const double k_bx = tilts_ ? 0.5 * c(3) * scale / length : 0.0;
+  const double k_by = tilts_ ? 0.5 * c(4) * scale / length : 0.0;
+  const double growth = tapers_ ? 0.5 * c(5) * scale * scale / length : 0.0;  // t r − K β
+  const auto or_scale = [&](double square) { return square > 0.0 ? std::sqrt(square) : scale; };
+  double x0 = mean_x, y0 = mean_y, bx = k_bx, by = k_by, t = 0.0;
+  double radius = or_scale(c(2) * scale * scale + x0 * x0 + y0 * y0);
+  for (int round = 0; tapers_ && round < 6; ++round) {  // contracts by t·slope
+    t = (growth + k_bx * x0 + k_by * y0) / radius;
+    const double k = 1.0 + t * t;
+    bx = k_bx / k, by = k_by / k;
+    x0 = mean_x - bx * growth, y0 = mean_y - by * growth;
+    const double beta = bx * x0 + by * y0;
+    radius = or_scale(c(2) * scale * scale + x0 * x0 + y0 * y0 + beta * (2.0 * growth + k * beta));
+  }
   std::vector<double> working{x0, y0};
-  if (tilts_) {
-    working.push_back(0.5 * c(3) * scale / length);
-    working.push_back(0.5 * c(4) * scale / length);
-  }
+  if (tilts_) working.insert(working.end(), {bx, by});
   working.push_back(relative() ? shift : radius);
-  if (tapers_) {
-    const double c1 = c(5) * scale * scale / length;
-    working.push_back((0.5 * c1 + x0 * working[2] + y0 * working[3]) / radius);
-  }
+  if (tapers_) working.push_back(t);
   for (double& value : working) {
     if (!std::isfinite(value)) value = 0.0;
   }
