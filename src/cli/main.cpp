@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   add_run(app, code);
   add_fit(app, code);
   add_correct(app, code);
+  add_simulate(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

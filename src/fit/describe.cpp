@@ -157,12 +157,15 @@ void add_notes(const Noise& noise, FitResult& result) {
   }
   if (result.loss != Loss::plain) return;
   std::vector<double> sample;  // spread evenly: enough for a scale
-  const std::size_t stride = result.residual_mm.size() / 4096 + 1;
+  const std::size_t stride = result.residual_mm.size() / 1024 + 1;
   for (std::size_t i = 0; i < result.residual_mm.size(); i += stride)
     sample.push_back(result.residual_mm[i]);
   const double limit = suspect_sds * mad_sigma(sample);
   const auto far =
-      std::ranges::count_if(result.residual_mm, [&](double r) { return std::abs(r) > limit; });
+      (Eigen::Map<const Eigen::ArrayXd>(result.residual_mm.data(),
+                                        static_cast<Eigen::Index>(result.residual_mm.size()))
+           .abs() > limit)
+          .count();
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
     std::snprintf(text, sizeof text,
                   "%td readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)",

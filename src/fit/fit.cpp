@@ -30,6 +30,17 @@ Root find_root(const ProbeStream& stream) {
                        "contact (for a gauge write '# reading: relative')");
 }
 
+/// What the caller says of the ball, or the stream; the two must not contradict each other.
+double ball_radius(const ProbeStream& stream, const FitOptions& options) {
+  const double said = stream.ball_radius_mm.value_or(0.0);
+  if (said > 0.0 && options.ball_radius_mm > 0.0 && said != options.ball_radius_mm) {
+    throw InputError(stream.source, "the stream says ball_radius " + std::to_string(said) +
+                                        " mm, the job or command " +
+                                        std::to_string(options.ball_radius_mm) + " mm: keep one");
+  }
+  return std::max(said, options.ball_radius_mm);
+}
+
 SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
                       const FitOptions& options) {
   if (stream.kind != info.stream) {
@@ -44,7 +55,8 @@ SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
   SurfaceFrame frame;
   frame.root = find_root(stream);
   frame.indication = stream.indication;
-  frame.ball_mm = options.bore ? -options.ball_radius_mm : options.ball_radius_mm;
+  const double ball_mm = ball_radius(stream, options);
+  frame.ball_mm = options.bore ? -ball_mm : ball_mm;
   if (stream.indication == Indication::relative && stream.kind == StreamKind::lateral) {
     if (!stream.nominal_radius_mm) {
       throw InputError(

@@ -19,13 +19,6 @@ namespace {
   text += line;
 }
 
-/// Decimals that show two digits of U (GUM 7.2.6), at least 1 nm and at most 1 pm.
-int decimals(double U) {
-  if (!(U > 0.0)) return 6;
-  const int digits = 1 - static_cast<int>(std::floor(std::log10(U)));
-  return digits < 3 ? 3 : digits > 9 ? 9 : digits;
-}
-
 void append_parameters(std::string& text, const std::vector<FitParameter>& parameters, double k) {
   for (const FitParameter& p : parameters) {
     const Estimate& e = p.estimate;
@@ -36,7 +29,7 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
       append(text, "  %-16s %16.6f  %-3s  (%s)\n", p.name.c_str(), e.value, e.unit.c_str(),
              e.why_not.c_str());
     } else {
-      append(text, "  %-16s %16.*f ± %-10.2g %s\n", p.name.c_str(), decimals(U), e.value, U,
+      append(text, "  %-16s %16.*f ± %-10.2g %s\n", p.name.c_str(), decimals_of(U), e.value, U,
              e.unit.c_str());
     }
   }
@@ -46,7 +39,7 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
 
 std::string fit_text(const FitResult& result) {
   std::string text;
-  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s, %d passes\n",
+  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s, %d evaluations\n",
          result.surface.c_str(), result.source.c_str(), to_string(result.status), result.points,
          result.rejected.size(), to_string(result.loss), result.iterations);
   if (!result.message.empty()) text += "  " + result.message + "\n";

@@ -95,6 +95,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   stream.nominal_radius_mm =
       options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
   stream.sensor_noise_mm = known.sensor_noise_mm;
+  stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
   stream.metadata = metadata.metadata;
 }

@@ -19,8 +19,8 @@ std::string lower_case(std::string_view text) {
 }
 
 bool is_known(std::string_view key) {
-  constexpr std::string_view keys[] = {"x_convention", "reading", "nominal_radius", "sensor_noise",
-                                       "spindle_rpm"};
+  constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
+                                       "sensor_noise", "spindle_rpm", "ball_radius"};
   return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
@@ -109,6 +109,10 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     const auto noise_mm = parse_length_mm(value);
     if (!noise_mm || *noise_mm < 0.0) return refuse("a standard deviation, such as 2 um");
     known.sensor_noise_mm = noise_mm;
+  } else if (key == "ball_radius") {
+    const auto radius_mm = parse_length_mm(value);
+    if (!radius_mm || *radius_mm < 0.0) return refuse("a length, such as 1.5 mm");
+    known.ball_radius_mm = radius_mm;
   } else {
     const auto rpm = parse_number(value);
     if (!rpm || !(rpm->unit.empty() || rpm->unit == "rpm")) {

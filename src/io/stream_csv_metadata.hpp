@@ -17,7 +17,7 @@ struct CsvKnownMetadata {
   std::optional<bool> diameter;  ///< x_convention
   std::size_t diameter_line = 0;
   std::optional<Indication> indication;  ///< reading
-  std::optional<double> nominal_radius_mm, sensor_noise_mm, spindle_rpm;
+  std::optional<double> nominal_radius_mm, sensor_noise_mm, spindle_rpm, ball_radius_mm;
 };
 
 /// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'; other

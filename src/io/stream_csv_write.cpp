@@ -79,6 +79,10 @@ std::string shortest(double value) {
   return text;
 }
 
+std::string metadata_line(const std::string& key, const std::string& value) {
+  return std::string("# ").append(key).append(": ").append(value);
+}
+
 /// The metadata to write: those of the stream, with known keys that say what the stream's members
 /// say.
 std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) {
@@ -89,7 +93,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
     expects(csv_is_key(key), "metadata keys of one word");
     expects(value.find('\n') == std::string::npos && csv_trimmed(value) == value,
             "metadata values of one line without outer blanks");
-    said.comment("# " + key + ": " + value, 1);
+    said.comment(metadata_line(key, value), 1);
   }
   const auto set = [&](const char* key, const auto& member, const auto& in_metadata, auto text) {
     if (member == in_metadata) return;
@@ -102,6 +106,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
   const auto length = [](double value_mm) { return shortest(value_mm) + " mm"; };
   set("nominal_radius", stream.nominal_radius_mm, said.known.nominal_radius_mm, length);
   set("sensor_noise", stream.sensor_noise_mm, said.known.sensor_noise_mm, length);
+  set("ball_radius", stream.ball_radius_mm, said.known.ball_radius_mm, length);
   set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, shortest);
   if (stream.indication != said.known.indication.value_or(Indication::absolute)) {
     out["reading"] = stream.indication == Indication::relative ? "relative" : "absolute";
@@ -134,7 +139,7 @@ void write_stream_csv(const ProbeStream& stream, const std::string& path) {
   const bool face = stream.kind == StreamKind::face;
   const std::map<std::string, std::string> metadata = metadata_to_write(stream);
   std::string text;
-  for (const auto& [key, value] : metadata) text += "# " + key + ": " + value + '\n';
+  for (const auto& [key, value] : metadata) text.append(metadata_line(key, value)) += '\n';
   // Doubling and halving are exact: a file that said diameter stays one, and the same stream.
   const auto convention = metadata.find("x_convention");
   const bool diameter = convention != metadata.end() && convention->second == "diameter";

@@ -25,7 +25,7 @@ void TomlDocument::Impl::parse(std::string_view content) {
 }
 
 void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
-  if (!state.table) return;
+  if (!state.table || state.rest_ignored) return;
   for (const auto& [key, node] : *state.table) {
     const std::string word(key.str());
     const auto& accepted = state.accepted;

@@ -272,6 +272,8 @@ void TomlTable::complain(std::string_view key, std::string message) {
   }
 }
 
+void TomlTable::ignore_rest() { state_->rest_ignored = true; }
+
 const std::string& TomlTable::name() const { return state_->name; }
 
 Diagnostic TomlTable::here(std::string message) const {

@@ -99,6 +99,8 @@ class TomlTable {
   bool has(std::string_view key);
   /// Notes a diagnostic at `key` if the file has it, else at the table. Say what to do.
   void complain(std::string_view key, std::string message);
+  /// Keys that nobody asks for are not reported (after another diagnostic has said all).
+  void ignore_rest();
   /// "part.axis", or "" for the file's top level.
   const std::string& name() const;
   /// Position of the table in the file, for diagnostics made later.

@@ -14,7 +14,8 @@ struct TomlTable::State {
   const toml::table* table = nullptr;
   toml::source_position place;
   std::string name;
-  bool absent = false;             // stands for a required table that is not there
+  bool absent = false;  // stands for a required table that is not there
+  bool rest_ignored = false;
   std::vector<std::string> known;  // usual spellings, in the order of asking
   std::vector<std::string> accepted;
 
@@ -37,7 +38,7 @@ struct TomlDocument::Impl {
   std::vector<Diagnostic> diagnostics;
 
   TomlTable::State* open(const toml::table* table, std::string name, toml::source_position place) {
-    states.push_back({this, table, place, std::move(name), false, {}, {}});
+    states.push_back({this, table, place, std::move(name), false, false, {}, {}});
     return &states.back();
   }
   void parse(std::string_view content);

@@ -45,10 +45,12 @@ double coaxiality_uncorrected(const std::vector<Reference>& references, double z
   return worst;
 }
 
-std::string in_um(double length_mm, const char* format = "%.3g") {
+/// "2.7 µm", with the digits that an uncertainty U of it leaves.
+std::string in_um(double length_mm, double U_mm) {
   char text[48];
-  std::snprintf(text, sizeof text, format, length_mm / mm_per_um);
-  return std::string(text) + " µm";
+  std::snprintf(text, sizeof text, "%.*f µm", decimals_of(U_mm / mm_per_um, 1),
+                length_mm / mm_per_um);
+  return text;
 }
 
 /// ISO 14253-1: conformity is shown when value + U lies within the tolerance.
@@ -68,9 +70,9 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
       std::max(correction.axis.u_at(target.z_start_mm), correction.axis.u_at(target.z_end_mm));
   verdict.u_coaxiality_mm = 2.0 * u_axis;
   const double U = verdict.coverage_factor * verdict.u_coaxiality_mm;
-  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm) +
-                              " with the table (U = " + in_um(U) + "), " +
-                              in_um(verdict.coaxiality_before_mm) + " without it";
+  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm, U) +
+                              " with the table (U = " + in_um(U, U) + "), " +
+                              in_um(verdict.coaxiality_before_mm, U) + " without it";
   if (!correction.margin.follows) {
     verdict.line =
         "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
@@ -83,8 +85,8 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
   }
   const double tolerance = *result.job.coaxiality_tolerance_mm;
   verdict.go = verdict.coaxiality_after_mm + U <= tolerance;
-  verdict.line =
-      std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " + in_um(tolerance);
+  verdict.line = std::string(verdict.go ? "GO: " : "NO-GO: ") + numbers + ", tolerance " +
+                 in_um(tolerance, tolerance);
 }
 
 }  // namespace

@@ -81,8 +81,8 @@ void passes_by_senses(const ProbeStream& stream, std::size_t begin, std::size_t 
         Pass pass;
         pass.begin = next_reading;
         pass.end = begin + b + 1;  // the reading where two runs meet belongs to the first
-        pass.c_sign = signs.c[a];
-        pass.feed_sign = signs.feed[a];
+        pass.c_sign = sign_of(signs.c[a], 0.0);
+        pass.feed_sign = sign_of(signs.feed[a], 0.0);
         passes.push_back(pass);
         next_reading = pass.end;
       } else if (passes.size() > before) {

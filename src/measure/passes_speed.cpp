@@ -97,7 +97,9 @@ struct SpeedRun {
   std::size_t size() const { return end - begin; }
 };
 
-/// Runs between splits; single revolutions in a row are one run.
+/// Runs between splits; single revolutions in a row are one run. A single one at either end of the
+/// pass is the run-up from the pass before, cut off a few readings early or late: no speed of its
+/// own.
 std::vector<SpeedRun> speed_runs(const std::vector<std::size_t>& splits, std::size_t count) {
   std::vector<SpeedRun> runs;
   std::size_t begin = 0;
@@ -112,6 +114,14 @@ std::vector<SpeedRun> speed_runs(const std::vector<std::size_t>& splits, std::si
     }
     row_of_singles = single;
     begin = end;
+  }
+  if (runs.size() > 1 && runs.front().size() == 1) {
+    runs[1].begin = runs[0].begin;
+    runs.erase(runs.begin());
+  }
+  if (runs.size() > 1 && runs.back().size() == 1) {
+    runs[runs.size() - 2].end = runs.back().end;
+    runs.pop_back();
   }
   return runs;
 }

@@ -3,16 +3,16 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
-#include <numeric>
 
-#include "model/products.hpp"
+#include "model/loss.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/math/gram.hpp"
 
 namespace trueaxis {
 namespace {
 
-using Gram = std::array<double, gram_size(max_columns)>;
+static_assert(max_columns + 1 <= max_gram_columns);
+using Gram = std::array<double, gram_size(max_columns + 1)>;
 constexpr std::size_t blocks_per_chunk =
     64;  // partial sums: rounding grows with √(N/8192), not with N
 
@@ -65,17 +65,18 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
   LaneSums chunk;
   LossSums robust;
   PredictionBlock block;
+  const double* column[max_columns + 1];
+  for (std::size_t i = 0; i < columns; ++i) column[i] = block.column[i];
+  column[columns] = block.residual;
   for (std::size_t index = 0; index < stream.blocks(); ++index) {
     surface.evaluate(working, stream.block(index), block);
     if (!block.valid) return out;
     const std::size_t filled = stream.filled(index);
     if (filled < block_size) clear_padding(columns, filled, block);
     if (loss.kind != LossScale::Kind::plain) apply_loss(loss, columns, filled, block, robust);
-    add_products(block, columns, chunk);
+    add_products(column, columns + 1, chunk);
     if ((index + 1) % blocks_per_chunk == 0 || index + 1 == stream.blocks()) {
-      for (std::size_t i = 0; i < gram_size(columns); ++i) {
-        total[i] += std::reduce(std::begin(chunk.value[i]), std::end(chunk.value[i]));
-      }
+      for (std::size_t i = 0; i < gram_size(columns + 1); ++i) total[i] += chunk.sum(i);
       chunk = {};
     }
   }

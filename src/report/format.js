@@ -39,7 +39,7 @@ function micrometres(mm, u_mm) {
   if (!isNumber(mm)) return 'not determined';
   const decimals = decimalsFor(u_mm * 1000);
   const um = mm * 1000;
-  const text = decimals === null ? (Math.abs(um) < 0.0005 ? '0' : significant(um)) : fixed(um, decimals);
+  const text = decimals !== null ? fixed(um, decimals) : Math.abs(um) >= 0.001 ? significant(um) : Math.abs(um) < 1e-6 ? '0' : '< 0.001';
   return `${text}${nbsp}µm`;
 }
 

@@ -18,6 +18,8 @@ const parameterWords = {
   half_angle: ['α/2', 'half angle'],
   radius: ['R', 'radius'],
   radius_mid: ['R mid', 'radius at mid length'],
+  offset_at_min_z: ['e at least Z', 'offset from the spindle axis, lower end of the data'],
+  offset_at_max_z: ['e at greatest Z', 'offset from the spindle axis, upper end of the data'],
   tilt: ['θ', 'tilt of the axis against the spindle'],
 };
 
@@ -135,7 +137,7 @@ function referenceSection(reference, index) {
   const tables = element('div', {class: 'pair tables'},
     element('div', {}, parameterTable('Parameters of the associated surface', reference.parameters, k)),
     element('div', {}, reference.derived.length ? parameterTable('Derived quantities', reference.derived, k) : null,
-      reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null));
+      reference.budget.length > 1 && reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
   return section(`reference-${index + 1}`, `Reference surface: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
     block('Rejected readings', rejectedBlock(reference.rejected)), ...chartBlocks(reference));

@@ -2,7 +2,7 @@
 // Reads the data in the page, builds it top to bottom, then draws the charts.
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const outcomes = {go: ['GO', 'good', '✓'], 'no-go': ['NO-GO', 'bad', '✗'], 'no tolerance': ['NO TOLERANCE GIVEN', 'neutral', '–']};
+const outcomes = {go: ['GO', 'good', '✓'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–']};
 
 function keyNumbers(verdict) {
   const k = verdict.k;
@@ -24,7 +24,7 @@ function banner() {
   const [word, kind, sign] = outcomes[data.verdict.outcome];
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(data.verdict.line.replace(/^(NO-GO|GO)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
+    paragraph(data.verdict.line.replace(/^(NO-GO|GO|DONE)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
     paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet'));
 }
 

@@ -7,15 +7,15 @@
 namespace trueaxis {
 namespace {
 
-/// What the banner says in one word: a tolerance that was not given cannot be met or missed.
+/// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
-  if (result.verdict.go && result.job.coaxiality_tolerance_mm) return "go";
+  const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
+  if (result.verdict.go) return judged ? "go" : "done";
   const bool unsolved =
       std::any_of(result.fits.begin(), result.fits.end(),
                   [](const FitResult& fit) { return fit.status != FitStatus::converged; });
   const bool cannot_follow = result.correction && !result.correction->margin.follows;
-  if (result.job.coaxiality_tolerance_mm || unsolved || cannot_follow) return "no-go";
-  return "no tolerance";
+  return judged || unsolved || cannot_follow ? "no-go" : "done";
 }
 
 nlohmann::json verdict_data(const JobResult& result) {

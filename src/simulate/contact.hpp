@@ -101,7 +101,7 @@ std::optional<double> ball_reading(const Gap& gap, const Line& line, double stan
     const Vec3 moved = next - offset;
     offset = next;
     q = point_reading(Line{line.base + offset, line.direction});
-    if (dot(moved, moved) < 1e-24) break;
+    if (dot(moved, moved) < 1e-18) break;  // 1 nm aside on the surface: 1e-14 mm in the reading
   }
   return q;
 }

@@ -14,7 +14,7 @@ class LagFilter {
  public:
   LagFilter(double time_constant_s, double omega_rad_per_s) : time_constant_s_(time_constant_s) {
     constexpr double panel_rad = std::numbers::pi / 18.0;
-    panel_s_ = time_constant_s;
+    panel_s_ = 4.0 * time_constant_s;  // seven Gauss points take e^-4 to 1e-10
     if (omega_rad_per_s != 0.0)
       panel_s_ = std::min(panel_s_, panel_rad / std::abs(omega_rad_per_s));
   }

@@ -37,7 +37,9 @@ Prober::Prober(const Scenario& scenario, const Chain& chain, const Body& body,
       span_(make_span(scenario)),
       outward_(scenario.part.bore ? -1.0 : 1.0),
       side_(setup.rear ? -1.0 : 1.0),
-      ball_mm_(scenario.probe.ball_radius_mm + chain.line.extra_ball_mm) {
+      ball_mm_(scenario.probe.ball_radius_mm + chain.line.extra_ball_mm),
+      cos_tilt_(std::cos(chain.line.tilt_rad)),
+      sin_tilt_(std::sin(chain.line.tilt_rad)) {
   if (body.face() && setup.rear) {
     throw InputError("scenario", "a face has no rear side: take `rear` out of the set-up");
   }
@@ -96,17 +98,16 @@ template <class Gap>
 CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_incidence) const {
   const PartView view = view_at(state);
   const bool face = body_.face();
-  const double cosine = std::cos(chain_.line.tilt_rad), sine = std::sin(chain_.line.tilt_rad);
   const double h = chain_.line.height_mm;
   Line line;
   double centre = 0.0;  // of the search: the axis, or the height of a face
   if (face) {
     line = {view.point(state.position_mm - state.part_x_mm, h, 0.0),
-            view.vector(-sine, 0.0, cosine)};
+            view.vector(-sin_tilt_, 0.0, cos_tilt_)};
     centre = (body_.level_mm() - line.base.z) / line.direction.z;
   } else {
     line = {view.point(0.0, h, state.position_mm - state.part_z_mm),
-            side_ * view.vector(cosine, 0.0, sine)};
+            side_ * view.vector(cos_tilt_, 0.0, sin_tilt_)};
     centre = -(line.base.x * line.direction.x + line.base.y * line.direction.y);
   }
   const auto point_reading = [&](const Line& on) { return contact(gap, on, centre); };

@@ -41,6 +41,7 @@ class Prober {
   RigidFrame frame_;
   Span span_;
   double outward_ = 1.0, side_ = 1.0, ball_mm_ = 0.0;
+  double cos_tilt_ = 1.0, sin_tilt_ = 0.0;
 };
 
 }  // namespace trueaxis::virtual_lathe

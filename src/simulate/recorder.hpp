@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -20,7 +22,9 @@ struct Recording {
   Probe probe;
   std::uint64_t seed = 1;
   double lag_s = 0.0;
-  double low_mm = 0.0, high_mm = 0.0, quantisation_mm = 0.0;
+  double low_mm = -std::numeric_limits<double>::infinity();
+  double high_mm = std::numeric_limits<double>::infinity();
+  double quantisation_mm = 0.0;
 };
 
 /// Runs the timeline; `make_reader(setup)` gives an object with read(Moment, bool) and away().

@@ -45,32 +45,42 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
     shift = mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
   }
   const double length = std::max(frame_.half_length_mm, 1e-9);
-  const int columns = 3 + (tilts_ ? 2 : 0) + (tapers_ ? 2 : 0);
-  const auto n = static_cast<Eigen::Index>(count);
+  const std::size_t unknowns = 3U + (tilts_ ? 2U : 0U) + (tapers_ ? 2U : 0U);
   double scale = 1e-12;  // the radius, so that all columns are of order one
-  for (std::size_t i = 0; i < count; ++i)
+  for (std::size_t i = 0; i < count; ++i) {
     scale = std::max(scale, std::abs(readings.reading_mm[i] - shift));
-  Eigen::MatrixXd a(n, columns);
-  Eigen::VectorXd b(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double reading = (readings.reading_mm[i] - shift) / scale;
-    const double x = reading * readings.cos_c[i], y = reading * readings.sin_c[i];
-    int j = 0;
-    a(i, j++) = x;
-    a(i, j++) = y;
-    a(i, j++) = 1.0;
-    b(i) = reading * reading;
-    if (!tilts_) continue;
-    const double zeta = (readings.position_mm[i] - frame_.position_ref_mm) / length;
-    a(i, j++) = x * zeta;
-    a(i, j++) = y * zeta;
-    if (tapers_) a(i, j++) = zeta, a(i, j++) = zeta * zeta;
   }
-  Eigen::MatrixXd normal(columns, columns);
-  normal.setZero().selfadjointView<Eigen::Lower>().rankUpdate(a.transpose());
+  LaneSums sums;
+  alignas(64) double column[8][block_size];
+  const double* columns[8];
+  for (std::size_t j = 0; j <= unknowns; ++j) columns[j] = column[j];
+  for (std::size_t begin = 0; begin < count; begin += block_size) {
+    const std::size_t filled = std::min(block_size, count - begin);
+    for (std::size_t j = 0; j <= unknowns; ++j) std::fill_n(column[j], block_size, 0.0);
+    for (std::size_t i = 0; i < filled; ++i) {
+      const double reading = (readings.reading_mm[begin + i] - shift) / scale;
+      const double x = reading * readings.cos_c[begin + i], y = reading * readings.sin_c[begin + i];
+      const double zeta =
+          tilts_ ? (readings.position_mm[begin + i] - frame_.position_ref_mm) / length : 0.0;
+      const double row[7] = {x, y, 1.0, x * zeta, y * zeta, zeta, zeta * zeta};
+      for (std::size_t j = 0; j < unknowns; ++j) column[j][i] = row[j];
+      column[unknowns][i] = reading * reading;
+    }
+    add_products(columns, unknowns + 1, sums);
+  }
+  const auto n = static_cast<Eigen::Index>(unknowns);
+  Eigen::MatrixXd normal(n, n);
+  Eigen::VectorXd right(n);
+  for (std::size_t j = 0; j < unknowns; ++j) {
+    const auto row = static_cast<Eigen::Index>(j);
+    for (std::size_t k = 0; k <= j; ++k) {
+      normal(row, static_cast<Eigen::Index>(k)) = sums.sum(gram_index(j, k));
+    }
+    right(row) = sums.sum(gram_index(unknowns, j));
+  }
   normal.diagonal() *= 1.0 + 1e-14;  // an undetermined direction then starts at zero
   normal.diagonal().array() += 1e-300;
-  const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(a.transpose() * b);
+  const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
 
   const double mean_x = 0.5 * c(0) * scale, mean_y = 0.5 * c(1) * scale;
   const double k_bx = tilts_ ? 0.5 * c(3) * scale / length : 0.0;

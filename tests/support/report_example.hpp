@@ -196,6 +196,27 @@ inline JobResult rank_deficient_job() {
   return result;
 }
 
+/// One section at z = 12 mm, without Z: 5 turns.
+inline JobResult section_job() {
+  JobResult result = cone_job(180);
+  ProbeStream& stream = result.streams.front();
+  FitResult& fit = result.fits.front();
+  fit.surface = "section";
+  const auto [x, y] = true_axis().at(12.0);
+  fit.shape = {{x, y, 0.0, 0.0, 0.0}, 50.0, 0.0};
+  fit.axis.axis = fit.shape.axis;
+  fit.parameters = {parameter("x0", x, 2.1e-4, "mm"), parameter("y0", y, 2.1e-4, "mm"),
+                    parameter("radius", 50.0, 1.5e-4, "mm")};
+  fit.derived.clear();
+  fit.budget = {{"noise of the readings", 'A', {2.1e-4, 2.1e-4, 1.5e-4}}};
+  stream.position_mm.clear();
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    stream.c_rad[i] = static_cast<double>(i) * 10.0 * rad_per_deg;
+    stream.reading_mm[i] = contact_mm(fit.shape, stream.c_rad[i], 0.0) + fit.residual_mm[i];
+  }
+  return result;
+}
+
 inline void add_face(JobResult& result) {
   ProbeStream stream;
   stream.kind = StreamKind::face;

@@ -293,6 +293,8 @@ TEST(Passes, RandomPlansAreCoveredAndReproduced) {
       plan.move(count, c / per_rev, z * pick(0.1, 2.0) / per_rev);
       wanted += std::string("C") + sense(c) + "Z" + sense(z) + " ";
     }
+    // Every other one with 1 µm in Z and 5 % of a step in C.
+    if (trial % 2 == 1) plan.noise(static_cast<unsigned>(trial), 0.05 * two_pi / per_rev, 1e-3);
     const auto passes = find_passes(plan.stream);
     expect_cover(plan.stream, passes);
     EXPECT_EQ(senses(passes), wanted) << "trial " << trial;

@@ -17,4 +17,11 @@ struct Estimate {
   bool determined() const { return std::isfinite(value); }
 };
 
+/// Decimals that show U with two digits (GUM 7.2.6), at least `least`; U of 0 or NaN shows `least`.
+inline int decimals_of(double U, int least = 3) {
+  if (!(U > 0.0)) return least;
+  const int digits = 1 - static_cast<int>(std::floor(std::log10(U)));
+  return digits < least ? least : digits > 12 ? 12 : digits;
+}
+
 }  // namespace trueaxis

@@ -44,9 +44,9 @@ struct ToolSetup {
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
-  std::vector<double> c_rad;      ///< running, in the sense of rotation when cutting
-  std::vector<double> wanted_mm;  ///< X_fts = X − X programmed, positive away from the spindle
-                                  ///< axis; a face: Z_fts = Z − Z programmed, positive along +Z
+  std::vector<double> c_rad;       ///< running, in the sense of rotation when cutting
+  std::vector<double> wanted_mm;   ///< X_fts = X − X programmed, positive away from the spindle
+                                   ///< axis; a face: Z_fts = Z − Z programmed, positive along +Z
   std::vector<double> command_mm;  ///< precompensated for the actuator
 };
 

@@ -36,8 +36,9 @@ struct Influence {
 struct FitOptions {
   std::string surface = "cone";  ///< an id of the surface catalogue
   Loss loss = Loss::plain;
-  bool bore = false;            ///< probed from inside: the sign of the ball's radius is reversed
-  double ball_radius_mm = 0.0;  ///< X_M is the ball's centre; 0: X_M is the contact
+  bool bore = false;  ///< probed from inside: the sign of the ball's radius is reversed
+  double ball_radius_mm =
+      0.0;  ///< X_M is the ball's centre; 0: as the stream says, else the contact
   std::optional<double>
       noise_mm;  ///< standard deviation of one reading if known apart from this fit
   std::vector<Influence> influences;

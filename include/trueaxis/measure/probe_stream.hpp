@@ -34,8 +34,10 @@ struct ProbeStream {
   std::vector<int> pass;            ///< empty when the stream has no pass column
   std::vector<int> setup;           ///< empty when the stream has no setup column
 
-  std::optional<double> nominal_radius_mm;      ///< metadata nominal_radius
-  std::optional<double> sensor_noise_mm;        ///< metadata sensor_noise, standard deviation
+  std::optional<double> nominal_radius_mm;  ///< metadata nominal_radius
+  std::optional<double> sensor_noise_mm;    ///< metadata sensor_noise, standard deviation
+  std::optional<double>
+      ball_radius_mm;  ///< metadata ball_radius: the readings are of the ball's centre
   std::optional<double> spindle_rpm;            ///< metadata spindle_rpm, signed like C
   std::map<std::string, std::string> metadata;  ///< every "# key: value", those above included
 

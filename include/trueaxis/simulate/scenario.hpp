@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "trueaxis/simulate/cut_program.hpp"
+
 /// The virtual lathe: a part that is probed numerically. It shares no formula with the model that
 /// is fitted, so that agreement of the two means something. Inside: mm, rad, s; X is a radius.
 namespace trueaxis::virtual_lathe {
@@ -94,6 +96,7 @@ struct Scenario {
   std::vector<Effect> effects;
   /// Where u = −1 and +1 of effects that grow along the surface; default: the plan's extremes.
   std::optional<double> u_start_mm, u_end_mm;
+  std::optional<CutProgram> cut;  ///< then the plan probes the part that was cut
   std::uint64_t seed = 1;
 };
 

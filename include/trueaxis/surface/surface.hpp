@@ -9,13 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/math/gram.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 #include "trueaxis/surface/revolved.hpp"
 
 namespace trueaxis {
 
-inline constexpr std::size_t block_size =
-    128;  ///< readings evaluated at a time: stays in the first cache
 inline constexpr std::size_t max_parameters = 8;
 inline constexpr std::size_t max_columns = 8;
 
