@@ -46,8 +46,7 @@ struct Source {
   Eigen::MatrixXd covariance;
 };
 std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const PreparedStream& stream,
-                                   const Determination& determination,
+                                   const PreparedStream& stream, const Determination& determination,
                                    const Noise& noise, const FitOptions& options);
 
 }  // namespace trueaxis

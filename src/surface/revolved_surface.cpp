@@ -33,17 +33,20 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
+/// Starting value of a relative gauge's offset; 0 for an absolute one.
+double RevolvedSurface::gauge_shift(const ReadingBlock& readings, std::size_t count) const {
+  if (!relative()) return 0.0;
+  const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
+                      static_cast<double>(count);
+  return mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
+}
+
 // The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
 // with the axis' cosine taken as 1 and x² bx² dropped; β = bx x0 + by y0:
 //   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (…) y + 2 K bx xζ + 2 K by yζ
 //             + r² − x0² − y0² − 2 t r β + K β² + 2 (t r − K β) ζ + t² ζ².
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
-  double shift = 0.0;
-  if (relative()) {
-    const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
-                        static_cast<double>(count);
-    shift = mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
-  }
+  const double shift = gauge_shift(readings, count);
   const double length = std::max(frame_.half_length_mm, 1e-9);
   const std::size_t unknowns = 3U + (tilts_ ? 2U : 0U) + (tapers_ ? 2U : 0U);
   double scale = 1e-12;  // the radius, so that all columns are of order one
@@ -105,6 +108,45 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
     if (!std::isfinite(value)) value = 0.0;
   }
   return working;
+}
+
+// The same without tilt, x² + y² = 2 x0 x + 2 y0 y + c0 + c1 ζ + t² ζ²; a cone that ends within the
+// probed length is blunted, and the axis pulled in until the spindle axis runs inside.
+std::vector<double> RevolvedSurface::level_start(const ReadingBlock& readings,
+                                                 std::size_t count) const {
+  const double shift = gauge_shift(readings, count);
+  const double length = std::max(frame_.half_length_mm, 1e-9);
+  const int columns = tapers_ ? 5 : 3;
+  const auto n = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd a(n, columns);
+  Eigen::VectorXd b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double reading = readings.reading_mm[i] - shift;
+    const double zeta = (readings.position_mm[i] - frame_.position_ref_mm) / length;
+    a.row(i).head(3) << reading * readings.cos_c[i], reading * readings.sin_c[i], 1.0;
+    if (tapers_) a.row(i).tail(2) << zeta, zeta * zeta;
+    b(i) = reading * reading;
+  }
+  const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(b);
+  double x = 0.5 * c(0), y = 0.5 * c(1);
+  const double radius = std::sqrt(std::max(c(2) + x * x + y * y, 1e-2 * b.maxCoeff()));
+  const double widest = 0.9 * radius / length;
+  const double t = tapers_ ? std::clamp(0.5 * c(3) / (length * radius), -widest, widest) : 0.0;
+  const double inside = 0.8 * (radius - std::abs(t) * length) / std::max(std::hypot(x, y), 1e-300);
+  x *= std::min(1.0, inside), y *= std::min(1.0, inside);
+  std::vector<double> working{x, y};
+  if (tilts_) working.insert(working.end(), 2, 0.0);
+  working.push_back(relative() ? shift : radius);
+  if (tapers_) working.push_back(t);
+  return working;
+}
+
+bool RevolvedSurface::tilt_may_be_mirrored(std::span<const double> working) const {
+  if (!tilts_) return false;
+  const Revolved surface = probed(working);
+  const double k = 1.0 + surface.tan_half_angle * surface.tan_half_angle;
+  const double bend = k * surface.radius_mm * std::hypot(working[2], working[3]);
+  return bend > 0.1 * frame_.half_length_mm;
 }
 
 Revolved RevolvedSurface::probed(std::span<const double> working) const {
