@@ -106,9 +106,18 @@ double rounding_size_mm(const LawCase& c) {
   const double reach = std::max(std::abs(c.start_mm), std::abs(c.end_mm));
   const double tilt = std::hypot(c.slope_x, c.slope_y);
   if (c.surface == "plane") return std::abs(c.radius_mm) + tilt * reach;
-  const double tangent = c.surface == "cone" ? std::abs(std::tan(c.half_angle_rad())) : 0.0;
-  return c.radius_mm + std::hypot(c.x_mm, c.y_mm) + c.ball_mm + (tangent + tilt) * reach +
-         tangent * std::abs(c.end_mm - c.start_mm);
+  const double tangent = c.surface == "cone" ? std::tan(c.half_angle_rad()) : 0.0;
+  const double size = c.radius_mm + std::hypot(c.x_mm, c.y_mm) + c.ball_mm +
+                      (std::abs(tangent) + tilt) * reach +
+                      std::abs(tangent * (c.end_mm - c.start_mm));
+  double cosine = 1.0;  // of the incidence on the worst end
+  for (const double z : {c.start_mm, c.end_mm}) {
+    const double dz = z - c.middle_mm();
+    const double e = std::hypot(c.x_mm + c.slope_x * dz, c.y_mm + c.slope_y * dz);
+    const double share = std::min(0.999, e / (c.radius_mm + tangent * dz));
+    cosine = std::min(cosine, std::sqrt(1.0 - share * share));
+  }
+  return size / cosine;
 }
 
 double Draw::uniform(double low, double high) {
@@ -165,7 +174,7 @@ LawCase draw_once(std::string_view surface, Draw& draw, const Domain& domain) {
   c.x_mm = e * std::cos(phase), c.y_mm = e * std::sin(phase);
   c.rear = draw.chance(0.25);
   c.bore = draw.chance(0.25);
-  const double largest_ball = c.bore ? 0.3 * small_end : 5.0;
+  const double largest_ball = std::min(5.0, 0.5 * small_end);
   c.ball_mm = draw.chance(0.3) ? draw.uniform(0.1, largest_ball) : 0.0;
   return c;
 }
