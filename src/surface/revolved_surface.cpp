@@ -33,12 +33,18 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
+/// Of a relative gauge: the radius that the ball's centre runs on, see expand().
+double RevolvedSurface::nominal_path_radius(double tan_half_angle) const {
+  return frame_.nominal_radius_mm +
+         frame_.ball_mm * std::sqrt(1.0 + tan_half_angle * tan_half_angle);
+}
+
 /// Starting value of a relative gauge's offset; 0 for an absolute one.
 double RevolvedSurface::gauge_shift(const ReadingBlock& readings, std::size_t count) const {
   if (!relative()) return 0.0;
   const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
                       static_cast<double>(count);
-  return mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
+  return mean - (frame_.root == Root::front ? 1.0 : -1.0) * nominal_path_radius(0.0);
 }
 
 // The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
@@ -151,8 +157,8 @@ bool RevolvedSurface::tilt_may_be_mirrored(std::span<const double> working) cons
 
 Revolved RevolvedSurface::probed(std::span<const double> working) const {
   const std::size_t r = radius_index();
-  return {axis(working), relative() ? frame_.nominal_radius_mm : working[r],
-          tapers_ ? working[r + 1] : 0.0};
+  const double t = tapers_ ? working[r + 1] : 0.0;
+  return {axis(working), relative() ? nominal_path_radius(t) : working[r], t};
 }
 
 void RevolvedSurface::evaluate(std::span<const double> working, const ReadingBlock& readings,
@@ -189,7 +195,9 @@ void RevolvedSurface::transform(std::span<const double> working, double* out) co
     at(2 + i, w_r) = d * d * slope[i] * t * t * surface.radius_mm;
     at(2 + i, w_r_s) = d * d * slope[i] * t * k;
   }
-  if (tapers_) at(r + 1, w_r_s) = 1.0;
+  if (!tapers_) return;
+  at(r + 1, w_r_s) = 1.0;
+  if (relative()) at(r + 1, w_r) = frame_.ball_mm * t / std::sqrt(k);
 }
 
 Axis RevolvedSurface::axis(std::span<const double> working) const {

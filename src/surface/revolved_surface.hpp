@@ -57,6 +57,7 @@ class RevolvedSurface : public Surface {
     }
     return full;
   }
+  double nominal_path_radius(double tan_half_angle) const;
   double gauge_shift(const ReadingBlock& readings, std::size_t count) const;
   Revolved probed(std::span<const double> working) const;  ///< where the ball's centre runs
   bool relative() const { return frame_.indication == Indication::relative; }
