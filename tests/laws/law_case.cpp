@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/simulate/simulate.hpp"
 
 namespace trueaxis::laws {
+namespace {
+
+constexpr double relative_zero_share = 0.87;  // of the radius: what a relative gauge hides
+
+}  // namespace
 
 double LawCase::half_angle_rad() const { return half_angle_deg * rad_per_deg; }
 
@@ -49,7 +55,7 @@ virtual_lathe::Scenario scenario_of(const LawCase& c) {
   }
   scenario.probe.ball_radius_mm = c.ball_mm;
   if (c.relative) {
-    scenario.probe.relative_zero_mm = 0.87 * c.radius_mm;
+    scenario.probe.relative_zero_mm = relative_zero_share * c.radius_mm;
     scenario.probe.nominal_radius_mm = c.radius_mm;
   }
   virtual_lathe::PlannedPass pass;
@@ -76,7 +82,25 @@ virtual_lathe::Scenario scenario_of(const LawCase& c) {
 ProbeStream probe(const LawCase& c) {
   ProbeStream stream = virtual_lathe::simulate(scenario_of(c));
   if (c.surface == "section") stream.position_mm.clear();
+  if (c.relative && c.surface == "cone") {  // the nominal radius is that at the middle of the data
+    const auto [low, high] = std::ranges::minmax(stream.position_mm);
+    const double secant = std::sqrt(1.0 + c.slope_x * c.slope_x + c.slope_y * c.slope_y);
+    stream.nominal_radius_mm =
+        c.radius_mm + std::tan(c.half_angle_rad()) * secant * (0.5 * (low + high) - c.middle_mm());
+  }
   return stream;
+}
+
+double single_reading(const LawCase& c, double c_rad, double position_mm, double height_mm) {
+  virtual_lathe::Scenario scenario = scenario_of(c);
+  scenario.noise = {};
+  virtual_lathe::PlannedPass& pass = scenario.plan.passes.front();
+  scenario.plan.passes.resize(1);
+  pass.start_mm = pass.end_mm = position_mm;
+  pass.c_start_rad = c_rad;
+  pass.readings_per_revolution = pass.revolutions = 1e-3;
+  if (height_mm != 0.0) scenario.effects = {{"probe.height", {{"height_mm", height_mm}}}};
+  return virtual_lathe::simulate(scenario).reading_mm.front();
 }
 
 FitOptions options_of(const LawCase& c) {
@@ -102,14 +126,68 @@ std::vector<double> expected_parameters(const LawCase& c) {
   return values;
 }
 
+SurfaceFrame frame_of(const LawCase& c) {
+  SurfaceFrame frame;
+  frame.root = c.rear ? Root::rear : Root::front;
+  frame.indication = c.relative ? Indication::relative : Indication::absolute;
+  frame.nominal_radius_mm = c.relative ? c.radius_mm : 0.0;
+  frame.ball_mm = c.bore ? -c.ball_mm : c.ball_mm;
+  if (c.surface != "section") {
+    frame.position_ref_mm = c.middle_mm();
+    frame.half_length_mm = 0.5 * std::abs(c.end_mm - c.start_mm);
+  }
+  return frame;
+}
+
+std::vector<double> working_of(const LawCase& c) {
+  const double tangent = c.surface == "cone" ? std::tan(c.half_angle_rad()) : 0.0;
+  const double ball = c.bore ? -c.ball_mm : c.ball_mm;
+  if (c.surface == "plane") {
+    const double secant = std::sqrt(1.0 + c.slope_x * c.slope_x + c.slope_y * c.slope_y);
+    return {(c.radius_mm + ball) * secant, -c.slope_x, -c.slope_y};
+  }
+  const double level = c.relative ? -relative_zero_share * c.radius_mm
+                                  : c.radius_mm + ball * std::sqrt(1.0 + tangent * tangent);
+  if (c.surface == "section") return {c.x_mm, c.y_mm, level};
+  std::vector<double> working{c.x_mm, c.y_mm, c.slope_x, c.slope_y, level};
+  if (c.surface == "cone") working.push_back(tangent);
+  return working;
+}
+
+std::vector<double> rounding_of_parameters(const LawCase& c, const FitResult& result) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  // Four roundings of the size each: the virtual lathe's part frame and root, the engine's
+  // prediction, and the floor at which the minimiser stops.
+  const double reading = 16.0 * epsilon * rounding_size_mm(c);
+  const double norm = reading * std::sqrt(static_cast<double>(result.points));
+  std::vector<double> out;
+  const std::vector<double> expected = expected_parameters(c);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const double root_inverse =
+        result.parameters.at(i).estimate.u / result.sigma_mm / result.u_factor;
+    out.push_back(norm * root_inverse + 8.0 * epsilon * std::abs(expected[i]));
+  }
+  return out;
+}
+
+std::vector<std::string> catalogue_ids() {
+  std::vector<std::string> ids;
+  for (const SurfaceInfo& info : surface_catalogue()) ids.emplace_back(info.id);
+  return ids;
+}
+
+std::string name_of(const ::testing::TestParamInfo<std::string>& info) { return info.param; }
+
 double rounding_size_mm(const LawCase& c) {
   const double reach = std::max(std::abs(c.start_mm), std::abs(c.end_mm));
   const double tilt = std::hypot(c.slope_x, c.slope_y);
   if (c.surface == "plane") return std::abs(c.radius_mm) + tilt * reach;
   const double tangent = c.surface == "cone" ? std::tan(c.half_angle_rad()) : 0.0;
+  // The kernel's |q|² − s² cancels to the section's size: ζ²/R is what is lost on a long thin part.
+  const double longest = 0.5 * std::abs(c.end_mm - c.start_mm);
   const double size = c.radius_mm + std::hypot(c.x_mm, c.y_mm) + c.ball_mm +
                       (std::abs(tangent) + tilt) * reach +
-                      std::abs(tangent * (c.end_mm - c.start_mm));
+                      std::abs(tangent * (c.end_mm - c.start_mm)) + longest * longest / c.radius_mm;
   double cosine = 1.0;  // of the incidence on the worst end
   for (const double z : {c.start_mm, c.end_mm}) {
     const double dz = z - c.middle_mm();

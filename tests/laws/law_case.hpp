@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <random>
 #include <string>
@@ -10,6 +12,7 @@
 #include "trueaxis/fit/fit.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 #include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/surface/surface.hpp"
 
 namespace trueaxis::laws {
 
@@ -40,14 +43,28 @@ inline void PrintTo(const LawCase& c, std::ostream* out) { *out << to_literal(c)
 /// The virtual lathe's scenario; shares no formula with the model.
 virtual_lathe::Scenario scenario_of(const LawCase& c);
 ProbeStream probe(const LawCase& c);
+/// What the virtual lathe reads at one place, the probe line at Y = height.
+double single_reading(const LawCase& c, double c_rad, double position_mm, double height_mm = 0.0);
 FitOptions options_of(const LawCase& c);
 
 /// What a fit should report, in the order of the catalogue.
 std::vector<double> expected_parameters(const LawCase& c);
 
+/// What the engine knows of the case before it fits, and its true working parameters.
+SurfaceFrame frame_of(const LawCase& c);
+std::vector<double> working_of(const LawCase& c);
+
+/// How far rounding of the readings can move each reported parameter: |Σ (JᵀJ)⁻¹Jᵀ δ| ≤ ‖δ‖
+/// √(JᵀJ)⁻¹ᵢᵢ with |δ| ≤ ε of a reading, and the rounding of the parameter itself.
+std::vector<double> rounding_of_parameters(const LawCase& c, const FitResult& result);
+
 /// The size that rounding of a reading is relative to, mm: coordinates that its computation meets,
-/// those along Z as they show in X.
+/// those along Z as they show in X, over the cosine of the worst incidence.
 double rounding_size_mm(const LawCase& c);
+
+/// Every surface of the catalogue, for INSTANTIATE_TEST_SUITE_P.
+std::vector<std::string> catalogue_ids();
+std::string name_of(const ::testing::TestParamInfo<std::string>& info);
 
 /// Random numbers with a printed seed.
 class Draw {
