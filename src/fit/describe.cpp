@@ -71,7 +71,9 @@ void check_cone(const Surface& surface, std::span<const double> working,
   const Eigen::Index tan = index_of(surface.working_names(), "tan_half_angle");
   if (tan < 0 || !result.not_determined.empty()) return;
   const double value = working[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
-  if (std::abs(value) > std::max(cylinder_sds * u, cylinder_tan)) return;
+  // As many readings as parameters have no u: nothing then says that it is a cylinder.
+  const double limit = std::isfinite(u) ? std::max(cylinder_sds * u, cylinder_tan) : cylinder_tan;
+  if (std::abs(value) > limit) return;
   char text[160];
   std::snprintf(
       text, sizeof text,

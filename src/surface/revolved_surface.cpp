@@ -135,7 +135,8 @@ std::vector<double> RevolvedSurface::level_start(const ReadingBlock& readings,
   }
   const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(b);
   double x = 0.5 * c(0), y = 0.5 * c(1);
-  const double radius = std::sqrt(std::max(c(2) + x * x + y * y, 1e-2 * b.maxCoeff()));
+  const double radius = relative() ? nominal_path_radius(0.0)
+                                   : std::sqrt(std::max(c(2) + x * x + y * y, 1e-2 * b.maxCoeff()));
   const double widest = 0.9 * radius / length;
   const double t = tapers_ ? std::clamp(0.5 * c(3) / (length * radius), -widest, widest) : 0.0;
   const double inside = 0.8 * (radius - std::abs(t) * length) / std::max(std::hypot(x, y), 1e-300);
