@@ -31,9 +31,9 @@ InputError::InputError(std::vector<Diagnostic> diagnostics)
 InputError::InputError(std::string file, std::string message)
     : InputError(std::vector<Diagnostic>{{std::move(file), 0, 0, std::move(message)}}) {}
 
-void expects(bool condition, const char* contract, std::source_location where) {
+void expects(bool condition, const char* contract, const char* function) {
   if (!condition) {
-    throw ContractViolation(std::string(where.function_name()) + ": expects " + contract);
+    throw ContractViolation(std::string(function) + ": expects " + contract);
   }
 }
 

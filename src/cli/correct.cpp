@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/earlier_table.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/fit_json.hpp"
@@ -17,17 +20,25 @@ struct Options {
   bool preview = false;
 };
 
+std::string at_speed(double rpm) {
+  char text[64];
+  std::snprintf(text, sizeof text, rpm >= 10.0 ? "at %.0f rpm or less" : "at %.2g rpm or less",
+                std::floor(10.0 * rpm) / 10.0);
+  return rpm > 0.0 ? text : "at no speed";
+}
+
 int execute(const Options& options) {
   const FitResult fit = read_fit_json(options.fit);
   const Job job = read_target_toml(options.target);
   const Correction correction = make_correction(fit.axis, *job.target, job.tool, job.actuator);
+  const bool follows = correction.margin.follows;
+  if (follows && !options.preview) write_file(options.table, correction_csv(correction));
   if (options.preview || options.table != "-") std::cout << correction_preview(correction);
-  if (!correction.margin.follows) {
-    throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; it would at " +
-                  std::to_string(static_cast<int>(correction.margin.max_speed_rpm)) +
-                  " rpm or less");
+  if (!follows) {
+    if (!options.preview) remove_earlier_table(options.table);
+    throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; it would " +
+                  at_speed(correction.margin.max_speed_rpm));
   }
-  if (!options.preview) write_file(options.table, correction_csv(correction));
   return done;
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/stream_options.hpp"
 #include "trueaxis/base/error.hpp"
@@ -17,22 +18,30 @@
 namespace trueaxis::cli {
 namespace {
 
+const std::map<std::string, Loss> losses{
+    {"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}};
+
 struct Options {
   StreamOptions stream;
   FitOptions fit;
-  std::string json, residuals;
+  std::string loss = "plain", json, residuals;
   double noise_um = -1.0;
 };
 
 int execute(const Options& options) {
   const ProbeStream stream = options.stream.read();
   FitOptions fit_options = options.fit;
+  fit_options.loss = losses.at(options.loss);
   if (options.noise_um >= 0.0) fit_options.noise_mm = options.noise_um * mm_per_um;
   const FitResult result = fit(stream, fit_options);
   if (result.status == FitStatus::too_few)
     throw InputError(stream.source, result.message + ": probe more");
-  if (!options.json.empty()) write_file(options.json, fit_json(result));
-  if (!options.residuals.empty()) write_file(options.residuals, residuals_csv(stream, result));
+  const std::string json = options.json.empty() ? "" : fit_json(result);
+  const std::string residuals = options.residuals.empty() ? "" : residuals_csv(stream, result);
+  std::vector<FileContent> files;
+  if (!options.json.empty()) files.push_back({options.json, json});
+  if (!options.residuals.empty()) files.push_back({options.residuals, residuals});
+  write_files(files);
   if (options.json != "-" && options.residuals != "-") std::cout << fit_text(result);
   if (result.status != FitStatus::converged) {
     std::cerr << stream.source << ": " << to_string(result.status) << ": " << result.message
@@ -53,24 +62,26 @@ void add_fit(CLI::App& app, int& exit_code) {
   command->add_option("--surface", options->fit.surface, "reference surface")
       ->required()
       ->check(CLI::IsMember(surfaces));
-  static const std::map<std::string, Loss> losses{
-      {"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}};
-  command->add_option("--loss", options->fit.loss, "plain (default), huber or tukey")
-      ->transform(CLI::CheckedTransformer(losses));
+  command->add_option("--loss", options->loss, "plain (default), huber or tukey")
+      ->check(CLI::IsMember({"plain", "huber", "tukey"}));
   command->add_flag("--bore", options->fit.bore, "probed from inside");
   command
       ->add_option("--ball-radius", options->fit.ball_radius_mm,
                    "X_M is the centre of a ball of this radius, mm")
-      ->check(CLI::NonNegativeNumber);
+      ->check(a_length());
   command
       ->add_option("--noise", options->noise_um, "standard deviation of one reading if known, µm")
-      ->check(CLI::NonNegativeNumber);
+      ->check(a_length());
   command->add_option("--coverage-factor", options->fit.coverage_factor, "k of U = k u (2)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
   command->add_option("--json", options->json, "write the result here, '-' prints it");
   command->add_option("--residuals", options->residuals,
                       "write every reading with its residual here (CSV)");
-  command->callback([options, &exit_code] { exit_code = execute(*options); });
+  command->callback([options, &exit_code] {
+    if (!options->json.empty() && options->json == options->residuals)
+      throw CLI::ValidationError("--residuals", "cannot go where --json goes");
+    exit_code = execute(*options);
+  });
 }
 
 }  // namespace trueaxis::cli

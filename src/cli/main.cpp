@@ -3,6 +3,7 @@
 
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "cli/commands.hpp"
 #include "trueaxis/base/error.hpp"
@@ -15,7 +16,6 @@ int run(int argc, char** argv) {
       "TrueAxis finds where the reference surfaces of a clamped part really are, and what to "
       "correct."};
   app.set_version_flag("--version", "trueaxis " TRUEAXIS_VERSION);
-  app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a "
       "bug.");
@@ -29,6 +29,11 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : usage;
   }
+  if (app.get_subcommands().empty()) {
+    std::cerr << app.help();
+    return usage;
+  }
+  if (!std::cout.flush()) throw trueaxis::InputError("standard output", "cannot be written");
   return code;
 }
 
@@ -46,6 +51,9 @@ int main(int argc, char** argv) {
   } catch (const Refusal& refusal) {
     std::cerr << "refused: " << refusal.what() << '\n';
     return cli::refused;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "not enough memory for this input\n";
+    return cli::input;
   } catch (const std::exception& error) {
     std::cerr << "trueaxis: a bug, please report it: " << error.what() << '\n';
     return cli::bug;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/commands.hpp"
+#include "cli/earlier_table.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/fit_text.hpp"
@@ -35,30 +36,41 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   return streams;
 }
 
+void print(const JobResult& result) {
+  std::cout << result.verdict.line << "\n\n";
+  for (const FitResult& fit : result.fits) std::cout << fit_text(fit) << '\n';
+  if (result.correction) std::cout << correction_preview(*result.correction) << '\n';
+}
+
+/// The table only when it may be run.
+void write(const JobResult& result, const std::filesystem::path& folder) {
+  const bool tabled = result.correction && result.verdict.go;
+  const std::string json = job_json(result), report = render_report(result),
+                    table = tabled ? correction_csv(*result.correction) : "";
+  std::vector<FileContent> files{{(folder / "result.json").string(), json},
+                                 {(folder / "report.html").string(), report}};
+  if (tabled) files.push_back({(folder / "table.csv").string(), table});
+  write_files(files);
+  print(result);
+  if (tabled) {
+    std::cout << "table   " << files.back().path << '\n';
+  } else if (result.correction) {
+    std::cout << "table   not written: " << result.verdict.line << '\n';
+  }
+  std::cout << "result  " << files[0].path << "\nreport  " << files[1].path << '\n';
+}
+
 int execute(const std::string& path, const std::filesystem::path& folder) {
+  if (std::error_code error; exists(folder, error) && !is_directory(folder, error))
+    throw InputError(folder.string(), "is no folder: name one for the results");
+  remove_earlier_table((folder / "table.csv").string());
   const Job job = read_job_toml(path);
   const JobResult result = run_job(job, read_streams(job));
   for (const FitResult& fit : result.fits) {
     if (fit.status == FitStatus::too_few)
       throw InputError(fit.source, fit.message + ": probe more");
   }
-  const std::filesystem::path table = folder / "table.csv";
-  std::cout << result.verdict.line << "\n\n";
-  for (const FitResult& fit : result.fits) std::cout << fit_text(fit) << '\n';
-  if (result.correction) std::cout << correction_preview(*result.correction) << '\n';
-  // A table stands in the folder only when it may be run: one of an earlier job goes first.
-  std::error_code ignored;
-  std::filesystem::remove(table, ignored);
-  if (result.correction && result.verdict.go) {
-    write_file(table.string(), correction_csv(*result.correction));
-    std::cout << "table   " << table.string() << '\n';
-  } else if (result.correction) {
-    std::cout << "table   not written: " << result.verdict.line << '\n';
-  }
-  write_file((folder / "result.json").string(), job_json(result));
-  write_file((folder / "report.html").string(), render_report(result));
-  std::cout << "result  " << (folder / "result.json").string() << '\n'
-            << "report  " << (folder / "report.html").string() << '\n';
+  write(result, folder);
   const bool all_fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   return !all_fitted ? numerical : result.verdict.go ? done : refused;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "cli/checks.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/io/stream_csv.hpp"
 
@@ -21,7 +22,7 @@ struct StreamOptions {
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
     command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")
-        ->check(CLI::PositiveNumber);
+        ->check(positive_length());
   }
 
   ProbeStream read() const {

@@ -38,7 +38,7 @@ struct Shares {
 // With a_i the distance at mid length and b_i that of the slopes, over the length L:
 //   ∫ |a_i + b_i (Z − Z_mid)|² dZ = L (a_i² + b_i² L²/12),   a plane: L R² b_j²,
 // so position and direction separate, and the minimum is a weighted mean of each.
-Shares shares_of(std::span<const Reference> references, double length_mm) {
+Shares shares_of(std::span<const Reference> references, double length_mm, bool needs_position) {
   Shares shares;
   double position = 0.0, direction = 0.0;
   const bool any_plane = std::any_of(references.begin(), references.end(), is_plane);
@@ -52,12 +52,12 @@ Shares shares_of(std::span<const Reference> references, double length_mm) {
     position += shares.position.back();
     direction += shares.direction.back();
   }
-  if (!(position > 0.0)) {
+  if (!(position > 0.0) && needs_position) {
     throw Refusal(
         "the references fix no position of the target axis: planes give its direction only. Add a "
         "cylinder or cone with a weight above 0.");
   }
-  for (double& share : shares.position) share /= position;
+  for (double& share : shares.position) share /= position > 0.0 ? position : 1.0;
   for (double& share : shares.direction) share /= direction;
   return shares;
 }
@@ -97,14 +97,14 @@ Remainder remainder(const Reference& reference, const Axis& target, double z_sta
 }  // namespace
 
 TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
-                             double z_end_mm) {
+                             double z_end_mm, bool needs_position) {
   for (const Reference& reference : references) {
     expects(std::isfinite(reference.weight) && reference.weight >= 0.0, "weights of 0 or more");
     expects(reference.face_radius_mm >= 0.0, "face radii of 0 or more");
   }
   expects(std::isfinite(z_start_mm) && std::isfinite(z_end_mm), "finite ends of the cut");
   const double z_mid = 0.5 * (z_start_mm + z_end_mm);
-  const Shares shares = shares_of(references, std::abs(z_end_mm - z_start_mm));
+  const Shares shares = shares_of(references, std::abs(z_end_mm - z_start_mm), needs_position);
 
   TargetAxis target;
   Axis& axis = target.axis.axis;

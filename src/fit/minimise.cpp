@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace trueaxis {
 namespace {
@@ -16,6 +17,8 @@ namespace {
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
                              max_parameters, max_parameters>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters, 1>;
+
+constexpr double least_curvature = 0.3;  // below, readings without weight drive the model
 
 /// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.
 void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
@@ -85,7 +88,7 @@ class CompressedCost final : public ceres::CostFunction {
 
   /// The Hessian of a robust loss over JᵀWJ, kept where the model stays convex and below the cost.
   static double hessian_scale(const NormalMatrix& normal, double reach) {
-    const double scale = std::clamp(normal.curvature, 0.3, 1.0);
+    const double scale = std::clamp(normal.curvature, least_curvature, 1.0);
     return reach < scale * normal.sum_rho ? scale : 1.0;
   }
 
@@ -99,7 +102,7 @@ class CompressedCost final : public ceres::CostFunction {
     const Eigen::Map<const Vector> g(last_.normal.jtr.data(), p);
     const Vector step = Eigen::Map<const Vector>(working.data(), p) -
                         Eigen::Map<const Vector>(last_.working.data(), p);
-    const Vector h_step = std::clamp(last_.normal.curvature, 0.3, 1.0) * (h * step);
+    const Vector h_step = std::clamp(last_.normal.curvature, least_curvature, 1.0) * (h * step);
     const double change = step.dot(h_step) - 2.0 * g.dot(step);
     if (std::abs(change) > negligible * last_.normal.sum_rho) return false;
     last_.normal.sum_rho += change;
@@ -183,6 +186,32 @@ Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vect
   minimum.converged = minimum.normal.valid && (summary.termination_type == ceres::CONVERGENCE ||
                                                summary.termination_type == ceres::USER_SUCCESS);
   return minimum;
+}
+
+void polish(const Surface& surface, const PreparedStream& stream, const LossScale& loss,
+            Minimum& minimum) {
+  constexpr int most = 12;            // each step gains a digit at least
+  constexpr double enough = 1e-18;    // relative gain of the cost: a step of 1e-9 of the noise
+  constexpr double rounding = 1e-12;  // relative: a cost that rises by more is a step gone wrong
+  const auto p = static_cast<Eigen::Index>(minimum.working.size());
+  minimum.normal =
+      accumulate(surface, minimum.working, stream, loss);  // its last step was predicted
+  ++minimum.iterations;
+  for (int i = 0; i < most && minimum.normal.valid; ++i) {
+    Matrix r;
+    Vector z;
+    factorise(minimum.normal, r, z);
+    const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
+    if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
+    const Vector step = r.colPivHouseholderQr().solve(z) / curvature;
+    Minimum next = minimum;
+    for (Eigen::Index j = 0; j < p; ++j) next.working[static_cast<std::size_t>(j)] += step(j);
+    next.normal = accumulate(surface, next.working, stream, loss);
+    if (!next.normal.valid || next.normal.sum_rho > (1.0 + rounding) * minimum.normal.sum_rho)
+      return;
+    ++next.iterations;
+    minimum = std::move(next);
+  }
 }
 
 }  // namespace trueaxis

@@ -20,4 +20,10 @@ struct Minimum {
 Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
                  const LossScale& loss, int max_iterations);
 
+/// Newton steps from a minimum of a robust loss until they are below 1e-9 of the noise. Near the
+/// minimum the gradient is exact where the cost, which Ceres goes by, already drowns in its
+/// rounding.
+void polish(const Surface& surface, const PreparedStream& stream, const LossScale& loss,
+            Minimum& minimum);
+
 }  // namespace trueaxis

@@ -59,6 +59,12 @@ Association associate(const Surface& surface, const PreparedStream& stream, Loss
       sigma = next;
     }
   }
+  if (association.minimum.normal.valid) {
+    const int before = association.minimum.iterations;
+    polish(surface, stream, association.loss, association.minimum);
+    iterations += association.minimum.iterations - before;
+    residuals(surface, association.minimum.working, stream, association.residual_mm);
+  }
   if (association.minimum.working.empty()) {  // more than half of the residuals are exactly zero
     association.loss = {};
     association.minimum = minimise(surface, stream, std::move(start), {}, max_iterations);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/io/file.hpp"
 
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -11,30 +10,25 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
+#include <vector>
 
+#include "io/output_file.hpp"
 #include "trueaxis/base/error.hpp"
 
 namespace trueaxis {
 
+void write_files(std::span<const FileContent> files) {
+  std::vector<OutputFile> open;
+  for (const FileContent& file : files) {
+    open.emplace_back(file.path).write(file.content);
+    open.back().close();
+  }
+  for (OutputFile& file : open) file.commit();
+}
+
 void write_file(const std::string& path, std::string_view content) {
-  if (path == "-") {
-    std::cout.write(content.data(), static_cast<std::streamsize>(content.size())).flush();
-    return;
-  }
-  const std::filesystem::path place(path);
-  std::error_code error;
-  if (place.has_parent_path()) std::filesystem::create_directories(place.parent_path(), error);
-  const std::string beside = path + ".part" + std::to_string(::getpid());
-  std::ofstream out(beside, std::ios::binary);
-  out.write(content.data(), static_cast<std::streamsize>(content.size()));
-  out.close();
-  if (out) {
-    std::filesystem::rename(beside, place, error);
-    if (!error) return;
-  }
-  const std::string why = error ? error.message() : std::strerror(errno);
-  std::filesystem::remove(beside, error);
-  throw InputError(path, "cannot be written (" + why + "): name a place that can be written");
+  const FileContent file{path, content};
+  write_files({&file, 1});
 }
 
 std::string read_file(const std::string& path) {

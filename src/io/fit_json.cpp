@@ -2,6 +2,8 @@
 #include "trueaxis/io/fit_json.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <string_view>
 
 #include "io/json.hpp"
 #include "trueaxis/base/error.hpp"
@@ -10,6 +12,18 @@
 
 namespace trueaxis {
 namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+bool withdrawn(const FitParameter& parameter) {
+  return !parameter.estimate.determined() && !parameter.estimate.why_not.empty();
+}
+
+bool withdrawn(const FitResult& result, std::string_view name) {
+  return std::ranges::any_of(result.parameters, [&](const FitParameter& parameter) {
+    return parameter.name == name && withdrawn(parameter);
+  });
+}
 
 Json matrix(std::span<const double> values, std::size_t columns) {
   Json rows = Json::array();
@@ -27,17 +41,50 @@ Json estimates(const std::vector<FitParameter>& parameters) {
   return object;
 }
 
+/// Covariance of the parameters; null where one of the two was not determined.
+Json covariance_object(const FitResult& result) {
+  const std::size_t count = result.parameters.size();
+  std::vector<double> values = result.covariance;
+  Json order = Json::array();
+  for (std::size_t i = 0; i < count; ++i) {
+    order.push_back(result.parameters[i].name);
+    if (!withdrawn(result.parameters[i]) || values.empty()) continue;
+    for (std::size_t j = 0; j < count; ++j) values[i * count + j] = values[j * count + i] = none;
+  }
+  return {{"order", order}, {"matrix", matrix(values, std::max<std::size_t>(1, count))}};
+}
+
 Json budget(const FitResult& result) {
   Json lines = Json::array();
   for (const BudgetLine& line : result.budget) {
     Json u = Json::object();
     for (std::size_t i = 0; i < line.u.size(); ++i) {
-      u[result.parameters[i].name] =
-          with_unit(line.u[i], result.parameters[i].estimate.unit.c_str());
+      u[result.parameters[i].name] = with_unit(withdrawn(result.parameters[i]) ? none : line.u[i],
+                                               result.parameters[i].estimate.unit.c_str());
     }
     lines.push_back({{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}});
   }
   return lines;
+}
+
+/// The axis and the shape as determined: NaN where the readings leave them open. (The axis of a
+/// cone that cannot be told from a cylinder is determined.)
+AxisEstimate determined_axis(const FitResult& result) {
+  AxisEstimate estimate = result.axis;
+  if (withdrawn(result, "l") || withdrawn(result, "m") || withdrawn(result, "x0") ||
+      withdrawn(result, "y0")) {
+    estimate.axis = {none, none, none, none, estimate.axis.z_ref_mm};
+    estimate.covariance.fill(none);
+  }
+  return estimate;
+}
+
+Json shape_object(const FitResult& result) {
+  const bool open = result.status == FitStatus::rank_deficient;
+  const bool taper_open = open && withdrawn(result, "half_angle");
+  const bool radius_open = open && (withdrawn(result, "radius") || withdrawn(result, "x0"));
+  return {{"radius", with_unit(radius_open ? none : result.shape.radius_mm, "mm")},
+          {"tan_half_angle", with_unit(taper_open ? none : result.shape.tan_half_angle, "1")}};
 }
 
 Json axis_object(const AxisEstimate& estimate) {
@@ -55,8 +102,7 @@ Json axis_object(const AxisEstimate& estimate) {
 }  // namespace
 
 Json fit_object(const FitResult& result) {
-  Json order = Json::array(), rejected = Json::array();
-  for (const FitParameter& p : result.parameters) order.push_back(p.name);
+  Json rejected = Json::array();
   for (const Rejected& r : result.rejected) rejected.push_back({{"row", r.row}, {"why", r.why}});
   Json json;
   json["schema"] = "trueaxis.fit/1";
@@ -72,14 +118,11 @@ Json fit_object(const FitResult& result) {
   json["notes"] = result.notes;
   json["parameters"] = estimates(result.parameters);
   json["derived"] = estimates(result.derived);
-  json["covariance"] = {
-      {"order", order},
-      {"matrix", matrix(result.covariance, std::max<std::size_t>(1, result.parameters.size()))}};
+  json["covariance"] = covariance_object(result);
   json["coverage_factor"] = result.coverage_factor;
   json["budget"] = budget(result);
-  json["axis"] = axis_object(result.axis);
-  json["shape"] = {{"radius", with_unit(result.shape.radius_mm, "mm")},
-                   {"tan_half_angle", with_unit(result.shape.tan_half_angle, "1")}};
+  json["axis"] = axis_object(determined_axis(result));
+  json["shape"] = shape_object(result);
   json["rms"] = with_unit(result.rms_mm, "mm");
   json["noise"] = {{"sigma", with_unit(result.sigma_mm, "mm")},
                    {"source", result.sigma_source},
@@ -93,7 +136,7 @@ Json fit_object(const FitResult& result) {
   return json;
 }
 
-std::string fit_json(const FitResult& result) { return fit_object(result).dump(2) + "\n"; }
+std::string fit_json(const FitResult& result) { return json_text(fit_object(result)); }
 
 FitResult read_fit_json(const std::string& path) {
   const std::string text = read_file(path);
@@ -119,6 +162,10 @@ FitResult read_fit_json(const std::string& path) {
                         value(axis, "slope_y"), value(axis, "z_ref")};
     for (std::size_t i = 0; i < 16; ++i)
       result.axis.covariance[i] = axis.at("covariance").at("matrix").at(i / 4).at(i % 4);
+    for (const std::size_t i : {0, 5, 10, 15}) {
+      if (result.axis.covariance[i] < 0.0)
+        throw InputError(path, "has a negative variance in its axis covariance");
+    }
     result.shape = {result.axis.axis, value(json.at("shape"), "radius"),
                     value(json.at("shape"), "tan_half_angle")};
     result.position_min_mm = value(json.at("range"), "min");

@@ -39,9 +39,9 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
 
 std::string fit_text(const FitResult& result) {
   std::string text;
-  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s, %d evaluations\n",
-         result.surface.c_str(), result.source.c_str(), to_string(result.status), result.points,
-         result.rejected.size(), to_string(result.loss), result.iterations);
+  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s\n", result.surface.c_str(),
+         result.source.c_str(), to_string(result.status), result.points, result.rejected.size(),
+         to_string(result.loss));
   if (!result.message.empty()) text += "  " + result.message + "\n";
   append(text, "  parameters ± U (k = %.3g)\n", result.coverage_factor);
   append_parameters(text, result.parameters, result.coverage_factor);

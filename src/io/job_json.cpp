@@ -83,7 +83,7 @@ std::string job_json(const JobResult& result) {
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.correction) json["correction"] = correction_object(*result.correction);
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace trueaxis

@@ -2,6 +2,7 @@
 #include "trueaxis/io/job_toml.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -11,6 +12,8 @@
 
 namespace trueaxis {
 namespace {
+
+const Range most_coverage{0.0, 100.0, true, false};
 
 struct Sensor {
   double ball_radius_mm = 0.0;
@@ -43,7 +46,7 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   try {
     if (!reference.fit.surface.empty()) surface_info(reference.fit.surface);
   } catch (const InputError& error) {
-    table.complain("surface", error.diagnostics().front().message);
+    table.complain("surface", "is an " + error.diagnostics().front().message);
   }
   reference.fit.loss = table.choice<Loss>(
       "loss", {{"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}},
@@ -75,18 +78,20 @@ TargetSurface read_target(TomlTable table, Job& job) {
       {{"cylinder", TargetKind::cylinder}, {"cone", TargetKind::cone}, {"face", TargetKind::face}});
   target.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
   if (target.kind == TargetKind::face) {
+    if (target.bore) table.complain("feature", "a face is neither shaft nor bore: remove it");
     target.z_face_mm = table.required_number("z_mm");
     target.radius_start_mm = table.required_number("radius_start_mm", Range::non_negative());
     target.radius_end_mm = table.required_number("radius_end_mm", Range::non_negative());
     target.z_start_mm = target.z_end_mm = target.z_face_mm;
+    if (target.bore) table.complain("feature", "is a bore, but a face is none: leave it out");
     if (target.radius_start_mm == target.radius_end_mm)
-      table.complain("radius_end_mm", "the cut has no length: give another end");
+      table.complain("radius_end_mm", "equals the start: give the cut a length");
   } else {
     target.z_start_mm = table.required_number("z_start_mm");
     target.z_end_mm = table.required_number("z_end_mm");
     target.radius_mm = table.required_number("radius_mm", Range::positive());
     if (target.z_start_mm == target.z_end_mm)
-      table.complain("z_end_mm", "the cut has no length: give another end");
+      table.complain("z_end_mm", "equals the start: give the cut a length");
   }
   if (target.kind == TargetKind::cone) {
     const double half_angle =
@@ -94,7 +99,9 @@ TargetSurface read_target(TomlTable table, Job& job) {
     const double sign = table.required_choice<double>("opens", {{"+z", 1.0}, {"-z", -1.0}});
     target.tan_half_angle = sign * std::tan(half_angle);
   }
-  job.coaxiality_tolerance_mm = table.maybe_number("coaxiality_tolerance_mm", Range::positive());
+  job.coaxiality_tolerance_mm = table.maybe_number(
+      target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
+      Range::positive());
   return target;
 }
 
@@ -112,13 +119,30 @@ ToolSetup read_tool(TomlTable table) {
   return tool;
 }
 
+constexpr double most_rows = 5e7;  // 2 GB of text; a bar of a metre at 0.02 mm/rev has 1.8e7
+
+/// Rows that the table of this cut would have must fit a file that a control can be given.
+void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
+  const double travel = target.kind == TargetKind::face
+                            ? target.radius_end_mm - target.radius_start_mm
+                            : target.z_end_mm - target.z_start_mm;
+  const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
+  if (rows <= most_rows || std::isnan(rows)) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "makes a table of %.2g rows, more than %.2g: raise the feed, shorten the cut or "
+                "lower rows_per_revolution",
+                rows, most_rows);
+  cut.complain("feed_mm_per_rev", text);
+}
+
 Actuator read_actuator(TomlTable table) {
   Actuator a;
   a.stroke_mm = table.number("stroke_mm", a.stroke_mm, Range::positive());
   a.natural_frequency_hz =
       table.number("natural_frequency_hz", a.natural_frequency_hz, Range::positive());
   a.damping = table.number("damping", a.damping, Range::positive());
-  a.delay_s = table.number("delay_s", a.delay_s, Range::non_negative());
+  a.delay_s = table.number("delay_s", a.delay_s, Range::between(0.0, 1.0));
   a.slew_mm_per_s = table.number("slew_mm_per_s", a.slew_mm_per_s, Range::positive());
   a.sampling_hz = table.number("sampling_hz", a.sampling_hz, Range::positive());
   a.stroke_reserve = table.number("stroke_reserve", a.stroke_reserve, Range::between(0.0, 0.99));
@@ -135,6 +159,8 @@ Actuator read_actuator(TomlTable table) {
     }
     a.measured.push_back(response);
   }
+  if (!a.measured.empty() && a.measured.back().frequency_hz == 0.0)
+    table.complain("response", "has one point at 0 Hz: add measured frequencies above it");
   return a;
 }
 
@@ -143,12 +169,16 @@ void read_cut(TomlTable root, Job& job, bool required) {
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
   if (target) {
     job.target = read_target(*target, job);
-    job.tool = read_tool(root.required_table("cut"));
+    const TomlTable cut = root.required_table("cut");
+    job.tool = read_tool(cut);
+    check_rows(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
   } else {
     for (const char* key : {"cut", "actuator"}) {
-      if (root.maybe_table(key))
+      if (auto table = root.maybe_table(key)) {
         root.complain(key, "is of no use without a [target]: add it, or remove this table");
+        table->ignore_rest();
+      }
     }
   }
 }
@@ -161,13 +191,13 @@ Job read_job_toml(const std::string& path) {
   Job job;
   job.path = path;
   job.name = root.text("name", path);
-  const double coverage = root.number("coverage_factor", 2.0, Range::positive());
+  const double coverage = root.number("coverage_factor", 2.0, most_coverage);
   Sensor sensor;
   if (auto table = root.maybe_table("sensor")) sensor = read_sensor(*table);
   for (TomlTable table : root.tables("reference"))
     job.references.push_back(read_reference(table, sensor, coverage));
-  if (job.references.empty())
-    root.complain("reference", "a job needs at least one [[reference]] with stream and surface");
+  if (!root.has("reference"))
+    root.complain("reference", "is missing: add a [[reference]] with stream and surface");
   read_cut(root, job, false);
   document.finish();
   return job;
@@ -177,7 +207,10 @@ Job read_target_toml(const std::string& path) {
   TomlDocument document(path);
   Job job;
   job.path = path;
-  read_cut(document.root(), job, true);
+  TomlTable root = document.root();
+  // A whole job will do: what it says beyond the cut is not asked for here.
+  for (const char* key : {"name", "coverage_factor", "sensor", "reference"}) root.has(key);
+  read_cut(root, job, true);
   document.finish();
   return job;
 }

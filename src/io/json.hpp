@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "trueaxis/base/estimate.hpp"
 #include "trueaxis/fit/fit.hpp"
@@ -24,6 +25,11 @@ inline Json to_json(const Estimate& estimate) {
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
   if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
   return json;
+}
+
+/// As written to a file. Bytes that are no UTF-8 (a file name may hold some) become U+FFFD.
+inline std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 /// The fit as an object, for results that hold one.

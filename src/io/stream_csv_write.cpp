@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <memory>
 
+#include "io/output_file.hpp"
 #include "io/stream_csv_finish.hpp"
 #include "io/stream_csv_metadata.hpp"
 #include "trueaxis/base/error.hpp"
@@ -19,53 +12,6 @@
 
 namespace trueaxis {
 namespace {
-
-/// A file written beside its place and renamed by `commit`, or standard output for "-".
-class ByteSink {
- public:
-  explicit ByteSink(const std::string& path) : path_(path) {
-    if (path == "-") return;
-    const std::filesystem::path place(path);
-    std::error_code ignored;
-    if (place.has_parent_path()) std::filesystem::create_directories(place.parent_path(), ignored);
-    beside_ = path + ".part" + std::to_string(::getpid());
-    file_.open(beside_, std::ios::binary);
-    if (!file_) fail(std::strerror(errno));
-  }
-  ~ByteSink() {
-    std::error_code ignored;
-    if (!beside_.empty()) std::filesystem::remove(beside_, ignored);
-  }
-  ByteSink(const ByteSink&) = delete;
-  ByteSink& operator=(const ByteSink&) = delete;
-
-  void write(const std::string& text) {
-    std::ostream& out = beside_.empty() ? std::cout : file_;
-    if (!out.write(text.data(), static_cast<std::streamsize>(text.size()))) {
-      fail(std::strerror(errno));
-    }
-  }
-
-  void commit() {
-    if (beside_.empty()) {
-      if (!std::cout.flush()) fail(std::strerror(errno));
-      return;
-    }
-    file_.close();
-    if (!file_) fail(std::strerror(errno));
-    std::error_code error;
-    std::filesystem::rename(beside_, path_, error);
-    if (error) fail(error.message());
-    beside_.clear();
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& why) const {
-    throw InputError(path_, "cannot be written (" + why + "): name a place that can be written");
-  }
-  std::string path_, beside_;
-  std::ofstream file_;
-};
 
 template <class Number>
 void append_number(std::string& text, Number value) {
@@ -155,7 +101,7 @@ void write_stream_csv(const ProbeStream& stream, const std::string& path) {
   text += '\n';
 
   constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
-  ByteSink sink(path);
+  OutputFile sink(path);
   const auto add = [&](auto value) {
     text += ',';
     append_number(text, value);

@@ -33,10 +33,12 @@ bool contains(const Range& range, double value) {
          (range.high_open ? value < range.high : value <= range.high);
 }
 
+/// "an integer", "a string"
 std::string type_text(const toml::node& node) {
   std::ostringstream text;
   text << node.type();
-  return text.str();
+  const bool vowel = std::string_view("aeiou").find(text.str().front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + text.str();
 }
 
 }  // namespace
@@ -78,7 +80,7 @@ std::optional<double> TomlTable::maybe_number(std::string_view key, const Range&
   const State::Found found = state_->find(key);
   if (!found.node) return std::nullopt;
   if (!found.node->is_number()) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a number");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a number");
     return std::nullopt;
   }
   const double value = found.node->value<double>().value_or(0.0) * found.factor;
@@ -108,7 +110,7 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
   if (!found.node) return {};
   const toml::array* array = found.node->as_array();
   if (!array) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a list of numbers [a, b, …]");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a list of numbers [a, b, …]");
     return {};
   }
   std::vector<double> values;
@@ -116,7 +118,7 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
     const State::Found item{found.key, found.factor, &node};
     const double value = node.value<double>().value_or(0.0) * found.factor;
     if (!node.is_number() || !std::isfinite(value)) {
-      state_->wrong(item, "holds a " + type_text(node) + ": give finite numbers only");
+      state_->wrong(item, "holds " + type_text(node) + ": give finite numbers only");
     } else if (!contains(range, value)) {
       state_->wrong(item, "holds " + number_text(value / found.factor) + " but each must be " +
                               range_text(range, found.factor));
@@ -132,7 +134,7 @@ std::optional<long long> TomlTable::maybe_integer(std::string_view key, long lon
   const State::Found found = state_->find(key);
   if (!found.node) return std::nullopt;
   if (!found.node->is_integer()) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a whole number");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a whole number");
     return std::nullopt;
   }
   const long long value = found.node->value<int64_t>().value_or(0);
@@ -153,7 +155,7 @@ bool TomlTable::flag(std::string_view key, bool fallback) {
   const State::Found found = state_->find(key);
   if (!found.node) return fallback;
   if (!found.node->is_boolean()) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give true or false");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give true or false");
   }
   return found.node->value<bool>().value_or(fallback);
 }
@@ -162,7 +164,7 @@ std::optional<std::string> TomlTable::maybe_text(std::string_view key) {
   const State::Found found = state_->find(key);
   if (!found.node) return std::nullopt;
   if (!found.node->is_string()) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a text in quotes");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a text in quotes");
     return std::nullopt;
   }
   return found.node->value<std::string>();
@@ -182,7 +184,7 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
   if (!found.node) return {};
   const toml::array* array = found.node->as_array();
   if (!array) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a list [\"a\", \"b\"]");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a list [\"a\", \"b\"]");
     return {};
   }
   std::vector<std::string> values;
@@ -190,7 +192,7 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
     if (node.is_string()) {
       values.push_back(*node.value<std::string>());
     } else {
-      state_->wrong({found.key, 1.0, &node}, "holds a " + type_text(node) + ": texts only");
+      state_->wrong({found.key, 1.0, &node}, "holds " + type_text(node) + ": texts only");
     }
   }
   return values;
@@ -204,8 +206,11 @@ std::optional<std::string> TomlTable::maybe_path(std::string_view key) {
 }
 
 std::string TomlTable::required_path(std::string_view key) {
-  if (!state_->find(key).node) state_->missing(key, "a file name in quotes");
-  return maybe_path(key).value_or("");
+  const State::Found found = state_->find(key);
+  if (!found.node) state_->missing(key, "a file name in quotes");
+  const std::optional<std::string> path = maybe_path(key);
+  if (path && path->empty()) state_->wrong(found, "is empty: name a file");
+  return path.value_or("");
 }
 
 std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
@@ -228,7 +233,7 @@ std::optional<TomlTable> TomlTable::maybe_table(std::string_view key) {
   const toml::table* table = found.node->as_table();
   const std::string full = state_->name.empty() ? found.key : state_->name + '.' + found.key;
   if (!table) {
-    state_->wrong(found, "is a " + type_text(*found.node) + ": give a table [" + full + "]");
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a table [" + full + "]");
     return std::nullopt;
   }
   return TomlTable(state_->document->open(table, full, table->source().begin));

@@ -11,7 +11,12 @@
 namespace trueaxis {
 namespace {
 
-double face_radius(const JobReference& reference, const FitResult& fit) {
+/// Radius at which a reference's tilt counts: that of the face to be cut, else that of a plane
+/// probed; 0 for a reference whose position counts.
+double face_radius(const JobReference& reference, const FitResult& fit,
+                   const TargetSurface& target) {
+  if (target.kind == TargetKind::face)
+    return std::max(target.radius_start_mm, target.radius_end_mm);
   if (fit.surface != "plane") return 0.0;
   if (reference.face_radius_mm > 0.0) return reference.face_radius_mm;
   return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
@@ -26,8 +31,8 @@ std::vector<Reference> references_of(const JobResult& result) {
   std::vector<Reference> references;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
-    references.push_back(
-        {named.name, result.fits[i].axis, named.weight, face_radius(named, result.fits[i])});
+    references.push_back({named.name, result.fits[i].axis, named.weight,
+                          face_radius(named, result.fits[i], *result.job.target)});
   }
   return references;
 }
@@ -53,6 +58,14 @@ std::string in_um(double length_mm, double U_mm) {
   return text;
 }
 
+std::string runs_at(const ActuatorMargin& margin) {
+  if (!(margin.max_speed_rpm > 0.0)) return "it would not at any speed";
+  char text[64];
+  std::snprintf(text, sizeof text, "it would at %.0f rpm or less",
+                std::floor(margin.max_speed_rpm));
+  return text;
+}
+
 /// ISO 14253-1: conformity is shown when value + U lies within the tolerance.
 void decide(JobResult& result, const std::vector<Reference>& references) {
   Verdict& verdict = result.verdict;
@@ -61,21 +74,27 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
   verdict.coverage_factor = result.job.references.front().fit.coverage_factor;
   verdict.coaxiality_before_mm =
       coaxiality_uncorrected(references, target.z_start_mm, target.z_end_mm);
-  const auto worst =
-      std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::coaxiality_mm);
+  const double k = verdict.coverage_factor;
+  const auto worst = std::ranges::max_element(
+      result.target_axis->remainders, {},
+      [&](const Remainder& r) { return r.coaxiality_mm + k * r.u_coaxiality_mm; });
   // A following error that turns once a revolution moves the axis by its amplitude; all of it is
   // taken as such.
   verdict.coaxiality_after_mm = worst->coaxiality_mm + 2.0 * correction.margin.following_mm;
-  const double u_axis =
-      std::max(correction.axis.u_at(target.z_start_mm), correction.axis.u_at(target.z_end_mm));
-  verdict.u_coaxiality_mm = 2.0 * u_axis;
-  const double U = verdict.coverage_factor * verdict.u_coaxiality_mm;
-  const std::string numbers = "coaxiality " + in_um(verdict.coaxiality_after_mm, U) +
-                              " with the table (U = " + in_um(U, U) + "), " +
-                              in_um(verdict.coaxiality_before_mm, U) + " without it";
+  verdict.u_coaxiality_mm = worst->u_coaxiality_mm;
+  const double U = k * verdict.u_coaxiality_mm;
+  const std::string numbers =
+      std::string(target.kind == TargetKind::face ? "axial run-out " : "coaxiality ") +
+      in_um(verdict.coaxiality_after_mm, U) + " with the table (U = " + in_um(U, U) + "), " +
+      in_um(verdict.coaxiality_before_mm, U) + " without it";
   if (!correction.margin.follows) {
+    verdict.line = "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " +
+                   runs_at(correction.margin) + "; " + numbers;
+    return;
+  }
+  if (!std::isfinite(U)) {
     verdict.line =
-        "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " + numbers;
+        "NO-GO: the readings give no uncertainty: probe more of them, or give the sensor's noise";
     return;
   }
   if (!result.job.coaxiality_tolerance_mm) {
@@ -114,7 +133,8 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   }
   const TargetSurface& target = *result.job.target;
   const std::vector<Reference> references = references_of(result);
-  result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm);
+  result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm,
+                                         target.kind != TargetKind::face);
   result.correction =
       make_correction(result.target_axis->axis, target, result.job.tool, result.job.actuator);
   decide(result, references);

@@ -63,12 +63,7 @@ void describe(const Scenario& scenario, ProbeStream& stream) {
     stream.spindle_rpm = passes.front().speed_rpm;
   }
   for (const Chucking& setup : scenario.plan.setups) describe_setup(setup, stream.metadata);
-  if (scenario.probe.ball_radius_mm > 0.0) {
-    std::ostringstream text;
-    text.precision(12);
-    text << scenario.probe.ball_radius_mm << " mm";
-    stream.metadata["ball_radius"] = text.str();
-  }
+  if (scenario.probe.ball_radius_mm > 0.0) stream.ball_radius_mm = scenario.probe.ball_radius_mm;
 }
 
 Simulation simulate_with_truth(const Scenario& scenario) {

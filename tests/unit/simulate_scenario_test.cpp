@@ -39,7 +39,7 @@ TEST(SimulateScenario, TheBoreHasThreePassesAndItsEffects) {
   EXPECT_EQ(simulation.stream.pass.back(), 3);
   EXPECT_EQ(simulation.stream.c_rad.back(), simulation.stream.c_rad[simulation.stream.size() - 2]);
   EXPECT_EQ(simulation.stream.spindle_rpm, std::nullopt);
-  EXPECT_EQ(simulation.stream.metadata.at("ball_radius"), "1 mm");
+  EXPECT_EQ(simulation.stream.ball_radius_mm, 1.0);
 }
 
 TEST(SimulateScenario, TruthHasEveryNumberWithItsUnit) {

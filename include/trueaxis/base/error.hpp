@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <source_location>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,8 +43,8 @@ class ContractViolation : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// Throws ContractViolation in every build unless `condition` holds.
-void expects(bool condition, const char* contract,
-             std::source_location where = std::source_location::current());
+/// Throws ContractViolation in every build unless `condition` holds. (The builtin is
+/// std::source_location without its header, which clang 14's tools cannot read.)
+void expects(bool condition, const char* contract, const char* function = __builtin_FUNCTION());
 
 }  // namespace trueaxis

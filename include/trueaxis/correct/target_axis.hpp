@@ -37,8 +37,10 @@ struct TargetAxis {
 /// The axis that minimises Σ w_i ∫ |Δ_i(Z)|² dZ over [z_start, z_end] (key idea 4 of Constantin et
 /// al.), Δ_i the vector from reference axis i; a plane enters as tilt × face radius. Closed form.
 /// @throws Refusal if the references leave it open (planes alone fix no position).
+/// A face asks for a direction only: with `needs_position` false, planes alone are enough and the
+/// axis then passes the spindle axis at mid length.
 TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
-                             double z_end_mm);
+                             double z_end_mm, bool needs_position = true);
 
 /// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
 /// diameter, mm.

@@ -11,7 +11,8 @@ namespace trueaxis {
 /// @throws InputError with every diagnostic: unknown keys, wrong types, values out of range.
 Job read_job_toml(const std::string& path);
 
-/// Target, tool and actuator alone ("--target" of `correct`): the same keys as in a job.
+/// Target, tool and actuator alone ("--target" of `correct`): the same keys as in a job; the other
+/// tables of a job may be there and are not read.
 Job read_target_toml(const std::string& path);
 
 }  // namespace trueaxis

@@ -35,7 +35,8 @@ struct Job {
   std::string path, name;
   std::vector<JobReference> references;
   std::optional<TargetSurface> target;
-  std::optional<double> coaxiality_tolerance_mm;  ///< ISO 1101, a diameter
+  std::optional<double>
+      coaxiality_tolerance_mm;  ///< ISO 1101, a diameter; of a face its axial run-out
   ToolSetup tool;
   Actuator actuator;
 };

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+namespace trueaxis::cli {
+
+/// A finite number from `low` (itself not allowed when `open`) to `high`.
+inline CLI::Validator number_in(double low, bool open, double high, const std::string& meaning) {
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+            const bool inside = number && value <= high && (open ? value > low : value >= low);
+            return inside ? std::string() : text + " is not " + meaning;
+          },
+          "", "number"};
+}
+
+inline CLI::Validator a_length() { return number_in(0.0, false, 1e6, "a length of 0 to 1e6"); }
+inline CLI::Validator positive_length() {
+  return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");
+}
+
+}  // namespace trueaxis::cli

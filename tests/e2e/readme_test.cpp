@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// The README's block is what the command prints, to the letter, and the streams shipped with the
+// jobs are what the scenarios shipped with them make.
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "support/command.hpp"
+#include "trueaxis/io/stream_csv.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+const std::string source = TRUEAXIS_SOURCE;
+
+CommandResult in_source(const std::string& arguments) {
+  return shell("cd '" + source + "' && " + TRUEAXIS_COMMAND + " " + arguments);
+}
+
+TEST(Readme, ConsoleBlockIsTheOutput) {
+  const std::string readme = read_text(source + "/README.md");
+  const std::string opening = "```console\n$ trueaxis ";
+  const std::size_t begin = readme.find(opening);
+  ASSERT_NE(begin, std::string::npos);
+  const std::size_t end = readme.find("```", begin + opening.size());
+  std::istringstream block(readme.substr(begin + opening.size(), end - begin - opening.size()));
+  std::string command;
+  std::getline(block, command);
+  const std::string arguments = command.substr(0, command.find(" -o "));
+  const auto folder = fresh_folder("readme");
+  const CommandResult result = in_source(arguments + " -o " + folder.string());
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  std::istringstream output(result.output);
+  std::size_t lines = 0;
+  for (std::string expected, line; std::getline(block, expected); ++lines) {
+    ASSERT_TRUE(std::getline(output, line));
+    EXPECT_EQ(line, expected);
+  }
+  EXPECT_GT(lines, 5U);
+}
+
+class Shipped : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Shipped, StreamIsWhatItsScenarioMakes) {
+  const std::string name = GetParam();
+  const auto folder = fresh_folder("shipped_" + name);
+  const auto result =
+      in_source("simulate data/scenarios/" + name + ".toml -o " + (folder / "stream.csv").string());
+  ASSERT_EQ(result.exit_code, 0) << result.output;
+  // The C library's sine may differ in its last bit from one processor to another: 1e-12 of some 50
+  // mm.
+  const ProbeStream made = read_stream_csv((folder / "stream.csv").string());
+  const ProbeStream shipped = read_stream_csv(source + "/data/streams/" + name + ".csv");
+  ASSERT_EQ(made.size(), shipped.size());
+  EXPECT_EQ(made.metadata, shipped.metadata);
+  for (std::size_t i = 0; i < made.size(); ++i) {
+    ASSERT_NEAR(made.reading_mm[i], shipped.reading_mm[i], 1e-10) << "row " << i + 1;
+    ASSERT_NEAR(made.c_rad[i], shipped.c_rad[i], 1e-10) << "row " << i + 1;
+    ASSERT_NEAR(made.position_mm[i], shipped.position_mm[i], 1e-10) << "row " << i + 1;
+  }
+}
+
+TEST(ShippedJobs, EveryJobIsAGo) {
+  std::size_t jobs = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(source + "/data/jobs")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++jobs;
+    const auto folder = fresh_folder("job_" + entry.path().stem().string());
+    const auto result =
+        in_source("run data/jobs/" + entry.path().filename().string() + " -o " + folder.string());
+    EXPECT_EQ(result.exit_code, 0) << result.output;
+    EXPECT_EQ(result.output.rfind("GO: ", 0), 0U) << result.output;
+    for (const char* file : {"table.csv", "result.json", "report.html"}) {
+      EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+    }
+  }
+  EXPECT_GE(jobs, 2U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Streams, Shipped,
+                         ::testing::Values("shaft_cone_seat", "shaft_cylinder_seat", "bushing_bore",
+                                           "bushing_face"));
+
+}  // namespace
+}  // namespace trueaxis::testing

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// `trueaxis run` and `correct`: verdict, table only when it may be run, the same bytes every time.
+#include <cmath>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using nlohmann::json;
+
+class RunCommand : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    file("part.csv", csv(probe({.noise_mm = 0.002})));
+  }
+};
+
+const std::vector<std::string> all_results{"report.html", "result.json", "table.csv"};
+
+/// Rows of a table without its header, whose numbers may be rounded otherwise.
+std::string rows_of(const std::string& table) { return table.substr(table.find("\nrev,")); }
+
+TEST_F(RunCommand, GoWithTableResultAndReport) {
+  file("job.toml", "name = \"seat\"\n" + simple_job(cylinder_reference));
+  const CommandStreams done = command("run job.toml -o out");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.err, "");
+  EXPECT_EQ(done.out.substr(0, 4), "GO: ");
+  EXPECT_EQ(files_in(folder_ / "out"), all_results);
+  const json found = result("out/result.json");
+  EXPECT_EQ(found.at("schema"), "trueaxis.run/1");
+  EXPECT_EQ(found.at("job"), "seat");
+  EXPECT_TRUE(found.at("verdict").at("go").get<bool>());
+  EXPECT_EQ(found.at("verdict").at("line"), first_line(done.out));
+  EXPECT_EQ(found.at("references").at(0).at("fit").at("schema"), "trueaxis.fit/1");
+  // 0.1 mm off, untilted: 200 µm of coaxiality; u of the offset is 2 µm / sqrt(72) = 0.24 µm.
+  EXPECT_NEAR(found.at("verdict").at("coaxiality_before").at("value").get<double>(), 0.2, 0.003);
+  const std::string table = read_text(folder_ / "out/table.csv");
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(rows_of(table), '\n')) - 2,
+            found.at("correction").at("rows").get<std::size_t>());
+}
+
+TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
+  file("job.toml", simple_job(cylinder_reference, 600, 0.1));
+  std::filesystem::create_directories(folder_ / "out");
+  file("out/table.csv", "of an earlier run");
+  const CommandStreams done = command("run job.toml -o out");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
+  EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1 µm")) << first_line(done.out);
+  EXPECT_EQ(files_in(folder_ / "out"), (std::vector<std::string>{"report.html", "result.json"}));
+}
+
+TEST_F(RunCommand, ActuatorThatCannotFollow) {
+  std::filesystem::create_directories(folder_ / "out");
+  file("out/table.csv", "of an earlier run");
+  file("job.toml", simple_job(cylinder_reference, 60000));
+  const CommandStreams done = command("run job.toml -o out");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_EQ(first_line(done.out).rfind("NO-GO: the actuator cannot follow: ", 0), 0u) << done.out;
+  EXPECT_FALSE(there("out/table.csv"));
+  // Once a revolution at 60000 rpm is 1000 Hz, the second harmonic 2000 Hz: beyond the 606 Hz
+  // piezo.
+  EXPECT_TRUE(contains(first_line(done.out), "frequency 2000 Hz of a bandwidth of 606 Hz"));
+  // 0.1 mm at 200 mm/s is 2000 rad/s at the most, 19099 rpm.
+  const json margin = result("out/result.json").at("correction").at("margin");
+  const double rpm = margin.at("max_speed").at("value").get<double>();
+  EXPECT_GT(rpm, 600.0);
+  EXPECT_LT(rpm, 19100.0);
+  EXPECT_TRUE(contains(done.out, "highest speed")) << done.out;
+  EXPECT_FALSE(margin.at("follows").get<bool>());
+  EXPECT_TRUE(contains(margin.at("breaks"), "bandwidth"));
+  // The speed that was named is one at which the job runs.
+  file("slower.toml", simple_job(cylinder_reference, std::floor(0.999 * rpm)));
+  EXPECT_EQ(command("run slower.toml -o out").exit_code, 0);
+  EXPECT_TRUE(there("out/table.csv"));
+}
+
+TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
+  std::filesystem::create_directories(folder_ / "out");
+  file("out/table.csv", "of an earlier run");
+  file("job.toml", simple_job(cylinder_reference) + "tool_height_mm = 40\n");
+  const CommandStreams done = command("run job.toml -o out");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_EQ(done.err.rfind("refused: the tool's line passes the target surface by", 0), 0u);
+  EXPECT_EQ(files_in(folder_ / "out"), std::vector<std::string>{});
+}
+
+TEST_F(RunCommand, TheSameBytesEveryTime) {
+  const auto job = "'" TRUEAXIS_SOURCE "/data/jobs/shaft.toml'";
+  for (const char* folder : {"first", "second"})
+    ASSERT_EQ(command(std::string("run ") + job + " -o " + folder).exit_code, 0);
+  ASSERT_EQ(command(std::string("run ") + job + " -o second").exit_code,
+            0);  // over its own results
+  for (const std::string& name : all_results) {
+    EXPECT_EQ(read_text(folder_ / "first" / name), read_text(folder_ / "second" / name)) << name;
+  }
+  EXPECT_EQ(files_in(folder_ / "second"), all_results);
+}
+
+TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {
+  file("job.toml", simple_job(cylinder_reference));
+  const std::string run = shell_word(TRUEAXIS_COMMAND) + " run job.toml -o ";
+  const auto both = shell("cd " + shell_word(folder_) + " && " + run + "alone >alone.txt && (" +
+                          run + "out >1.txt & " + run + "out >2.txt & wait)");
+  ASSERT_EQ(both.exit_code, 0) << both.output;
+  EXPECT_EQ(files_in(folder_ / "out"), all_results);
+  for (const std::string& name : all_results)
+    EXPECT_EQ(read_text(folder_ / "alone" / name), read_text(folder_ / "out" / name)) << name;
+}
+
+class CorrectCommand : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    file("part.csv", csv(probe({.noise_mm = 0.002})));
+    file("job.toml", simple_job(cylinder_reference));
+    ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
+  }
+};
+
+TEST_F(CorrectCommand, PreviewWritesNothing) {
+  const auto before = files_in(folder_);
+  const CommandStreams done = command("correct fit.json --target job.toml --preview");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(done.out, "harmonics"));
+  EXPECT_EQ(files_in(folder_), before);
+}
+
+TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
+  ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("correct fit.json --target job.toml -o 'a/b c/table.csv'").exit_code, 0);
+  const CommandStreams printed = command("correct fit.json --target job.toml -o -");
+  EXPECT_EQ(printed.exit_code, 0);
+  EXPECT_EQ(printed.out, read_text(folder_ / "a/b c/table.csv"));
+  EXPECT_EQ(printed.out, command("correct - --target job.toml -o - < fit.json").out);
+  EXPECT_EQ(printed.out, command("correct fit.json --target - -o - < job.toml").out);
+  // The job's target axis is taken at the middle of the cut: 1e-7 mm is the last digit of a row.
+  std::istringstream one(rows_of(printed.out)),
+      other(rows_of(read_text(folder_ / "out/table.csv")));
+  std::string left, right;
+  std::size_t rows = 0;
+  while (std::getline(one, left) && std::getline(other, right)) {
+    if (left.empty() || left[0] == 'r') continue;
+    ++rows;
+    const double a = std::stod(left.substr(left.rfind(',') + 1)),
+                 b = std::stod(right.substr(right.rfind(',') + 1));
+    ASSERT_NEAR(a, b, 1.5e-7) << left << '\n' << right;
+  }
+  EXPECT_GE(rows, 360u * 40u);  // 4 mm at 0.1 mm a revolution
+}
+
+TEST_F(CorrectCommand, RefusalNamesNumberAndSpeedAndLeavesNoTable) {
+  file("fast.toml", simple_job(cylinder_reference, 60000));
+  file("table.csv", "of an earlier run");
+  const CommandStreams done = command("correct fit.json --target fast.toml -o table.csv");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_TRUE(contains(done.err, "refused: the actuator cannot follow: ")) << done.err;
+  EXPECT_TRUE(contains(done.err, "slew")) << done.err;
+  EXPECT_TRUE(contains(done.err, " rpm or less")) << done.err;
+  EXPECT_FALSE(there("table.csv"));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

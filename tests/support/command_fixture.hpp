@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "support/command_streams.hpp"
+#include "support/part_streams.hpp"
+
+namespace trueaxis::testing {
+
+/// A test that runs the command in an empty folder of its own.
+class CommandTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test->test_suite_name()) + "_" + test->name();
+    std::ranges::replace_if(
+        name, [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    folder_ = fresh_folder("command/" + name);
+  }
+
+  void file(const std::string& name, const std::string& text) { write_text(folder_ / name, text); }
+  CommandStreams command(const std::string& arguments) { return run_in(folder_, arguments); }
+  nlohmann::json result(const std::string& name) { return read_json(folder_ / name); }
+  bool there(const std::string& name) { return std::filesystem::exists(folder_ / name); }
+
+  /// The command ends with code 3, says why on standard error only, and writes no file.
+  void expect_input_error(const std::string& arguments, const std::string& why) {
+    const auto before = files_in(folder_);
+    const CommandStreams done = command(arguments);
+    EXPECT_EQ(done.exit_code, 3) << arguments << '\n' << done.err;
+    EXPECT_EQ(done.out, "") << arguments;
+    EXPECT_TRUE(contains(done.err, why)) << arguments << '\n' << done.err;
+    EXPECT_EQ(files_in(folder_), before) << arguments;
+  }
+
+  std::filesystem::path folder_;
+};
+
+/// A job of one reference and a cylinder to be turned beside it.
+inline std::string simple_job(const std::string& reference, double speed_rpm = 600.0,
+                              double tolerance_um = 20.0) {
+  char cut[400];
+  std::snprintf(cut, sizeof cut,
+                "\n[target]\nsurface = \"cylinder\"\nradius_mm = 28\nz_start_mm = 40\n"
+                "z_end_mm = 36\ncoaxiality_tolerance_um = %g\n[cut]\nspeed_rpm = %g\n"
+                "sense = \"+c\"\nfeed_mm_per_rev = 0.1\n",
+                tolerance_um, speed_rpm);
+  return "[[reference]]\n" + reference + cut;
+}
+
+inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = \"cylinder\"\n";
+
+}  // namespace trueaxis::testing
