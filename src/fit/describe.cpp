@@ -71,7 +71,9 @@ void check_cone(const Surface& surface, std::span<const double> working,
   const Eigen::Index tan = index_of(surface.working_names(), "tan_half_angle");
   if (tan < 0 || !result.not_determined.empty()) return;
   const double value = working[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
-  if (std::abs(value) > std::max(cylinder_sds * u, cylinder_tan)) return;
+  // As many readings as parameters have no u: nothing then says that it is a cylinder.
+  const double limit = std::isfinite(u) ? std::max(cylinder_sds * u, cylinder_tan) : cylinder_tan;
+  if (std::abs(value) > limit) return;
   char text[160];
   std::snprintf(
       text, sizeof text,
@@ -80,6 +82,36 @@ void check_cone(const Surface& surface, std::span<const double> working,
   result.not_determined.push_back(text);
   withdraw(result, "k", "the cone cannot be told from a cylinder");
   withdraw(result, "half_angle", "the cone cannot be told from a cylinder");
+}
+
+constexpr double rival_sds = 3.0;  // likelihood ratio e^-4.5: 1 in 90
+
+/// A second minimum as low as the first, outside its uncertainty: the readings do not choose.
+void check_rival(const Surface& surface, const Association& association, const Noise& noise,
+                 FitResult& result) {
+  if (!association.rival || !result.not_determined.empty()) return;
+  const Minimum& best = association.minimum;
+  const Minimum& rival = *association.rival;
+  const auto p = static_cast<Eigen::Index>(best.working.size());
+  const double rounding_mm = 1e-11 * std::abs(surface.shape(best.working).radius_mm);
+  const double limit = std::pow(rival_sds * std::max(noise.sigma_mm, rounding_mm), 2);
+  if (rival.normal.sum_rho - best.normal.sum_rho > limit) return;
+  const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(rival.working.data(), p) -
+                                Eigen::Map<const Eigen::VectorXd>(best.working.data(), p);
+  if (apart.dot(as_rows(best.normal.jtj, p) * apart) <= limit) return;
+  const Surface::Reported other = surface.report(rival.working);
+  std::string text;
+  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
+    FitParameter& parameter = result.parameters[i];
+    if (std::abs(other.value[i] - parameter.estimate.value) <= rival_sds * parameter.estimate.u)
+      continue;
+    char term[120];
+    std::snprintf(term, sizeof term, "%s%s %.6g or %.6g", text.empty() ? "" : ", ",
+                  parameter.name.c_str(), parameter.estimate.value, other.value[i]);
+    text += term;
+    withdraw(result, parameter.name, "two surfaces fit these readings equally well");
+  }
+  if (!text.empty()) result.not_determined.push_back("two surfaces fit equally well: " + text);
 }
 
 void report_axis(const Surface& surface, std::span<const double> working,
@@ -206,6 +238,7 @@ void describe(const Surface& surface, Association& association, const PreparedSt
     result.budget.push_back(std::move(line));
   }
   check_cone(surface, working, covariance, result);
+  check_rival(surface, association, noise, result);
   if (stream.source().indication == Indication::relative) {
     withdraw(result, "radius", "a relative gauge does not show it; the nominal radius was used");
   }

@@ -50,7 +50,10 @@ SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
                          : "the stream probes a face (Z_M,C,X): fit it with --surface plane");
   }
   if (info.needs_position && !stream.has_position()) {
-    throw InputError(stream.source, "the stream has no Z: fit one section with --surface section");
+    throw InputError(stream.source, info.stream == StreamKind::face
+                                        ? "the stream has no X: a face is probed at (C, X)"
+                                        : "the stream has no Z: fit one section with --surface "
+                                          "section");
   }
   SurfaceFrame frame;
   frame.root = find_root(stream);

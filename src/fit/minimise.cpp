@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -109,6 +110,13 @@ class CompressedCost final : public ceres::CostFunction {
     return true;
   }
 
+  /// The first evaluation, made before Ceres, which would log its failure.
+  bool meets_all_lines(const std::vector<double>& start) const {
+    std::array<double, max_parameters + 1> unused;
+    const double* const parameters = start.data();
+    return Evaluate(&parameters, unused.data(), nullptr);
+  }
+
   const Minimum& best() const { return best_; }
   int passes() const { return passes_; }
 
@@ -144,6 +152,12 @@ double largest_reading(const PreparedStream& stream) {
 Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
                  const LossScale& loss, int max_iterations) {
   CompressedCost cost(surface, stream, loss);
+  if (!cost.meets_all_lines(start)) {
+    Minimum missed;
+    missed.working = std::move(start);
+    missed.iterations = cost.passes();
+    return missed;
+  }
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
@@ -171,7 +185,6 @@ Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vect
   minimum.iterations = cost.passes();
   minimum.converged = minimum.normal.valid && (summary.termination_type == ceres::CONVERGENCE ||
                                                summary.termination_type == ceres::USER_SUCCESS);
-  if (!minimum.normal.valid) minimum.working = std::move(start);
   return minimum;
 }
 

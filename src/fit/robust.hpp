@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@ namespace trueaxis {
 /// A minimum with its residuals and, for a robust loss, the scale it was found with.
 struct Association {
   Minimum minimum;
+  std::optional<Minimum> rival;  ///< the lowest minimum but one, when several starts were tried
   LossScale loss;
   double scale_mm = 0.0;            ///< robust σ; 0 for plain
   std::vector<double> residual_mm;  ///< reading − prediction

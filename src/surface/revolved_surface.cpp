@@ -33,16 +33,26 @@ std::vector<double> RevolvedSurface::working_scale_mm(std::span<const double> wo
   return scale;
 }
 
-// The circle of every section at once: x² + y² = 2 x0 x + 2 y0 y + 2 bx xζ + 2 by yζ + c0 + c1 ζ +
-// c2 ζ², with c0 = r² − x0² − y0², c1 = 2 (r t − x0 bx − y0 by), c2 = t² − bx² − by²; the axis'
-// cosine taken as 1.
+/// Of a relative gauge: the radius that the ball's centre runs on, see expand().
+double RevolvedSurface::nominal_path_radius(double tan_half_angle) const {
+  return frame_.nominal_radius_mm +
+         frame_.ball_mm * std::sqrt(1.0 + tan_half_angle * tan_half_angle);
+}
+
+/// Starting value of a relative gauge's offset; 0 for an absolute one.
+double RevolvedSurface::gauge_shift(const ReadingBlock& readings, std::size_t count) const {
+  if (!relative()) return 0.0;
+  const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
+                      static_cast<double>(count);
+  return mean - (frame_.root == Root::front ? 1.0 : -1.0) * nominal_path_radius(0.0);
+}
+
+// The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
+// with the axis' cosine taken as 1 and x² bx² dropped; β = bx x0 + by y0:
+//   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (…) y + 2 K bx xζ + 2 K by yζ
+//             + r² − x0² − y0² − 2 t r β + K β² + 2 (t r − K β) ζ + t² ζ².
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
-  double shift = 0.0;
-  if (relative()) {
-    const double mean = std::accumulate(readings.reading_mm, readings.reading_mm + count, 0.0) /
-                        static_cast<double>(count);
-    shift = mean - (frame_.root == Root::front ? 1.0 : -1.0) * frame_.nominal_radius_mm;
-  }
+  const double shift = gauge_shift(readings, count);
   const double length = std::max(frame_.half_length_mm, 1e-9);
   const std::size_t unknowns = 3U + (tilts_ ? 2U : 0U) + (tapers_ ? 2U : 0U);
   double scale = 1e-12;  // the radius, so that all columns are of order one
@@ -81,29 +91,75 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
   normal.diagonal().array() += 1e-300;
   const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
 
-  const double x0 = 0.5 * c(0) * scale, y0 = 0.5 * c(1) * scale;
-  const double radius2 = c(2) * scale * scale + x0 * x0 + y0 * y0;
-  const double radius = radius2 > 0.0 ? std::sqrt(radius2) : scale;
+  const double mean_x = 0.5 * c(0) * scale, mean_y = 0.5 * c(1) * scale;
+  const double k_bx = tilts_ ? 0.5 * c(3) * scale / length : 0.0;
+  const double k_by = tilts_ ? 0.5 * c(4) * scale / length : 0.0;
+  const double growth = tapers_ ? 0.5 * c(5) * scale * scale / length : 0.0;  // t r − K β
+  const auto or_scale = [&](double square) { return square > 0.0 ? std::sqrt(square) : scale; };
+  double x0 = mean_x, y0 = mean_y, bx = k_bx, by = k_by, t = 0.0;
+  double radius = or_scale(c(2) * scale * scale + x0 * x0 + y0 * y0);
+  for (int round = 0; tapers_ && round < 6; ++round) {  // contracts by t·slope
+    t = (growth + k_bx * x0 + k_by * y0) / radius;
+    const double k = 1.0 + t * t;
+    bx = k_bx / k, by = k_by / k;
+    x0 = mean_x - bx * growth, y0 = mean_y - by * growth;
+    const double beta = bx * x0 + by * y0;
+    radius = or_scale(c(2) * scale * scale + x0 * x0 + y0 * y0 + beta * (2.0 * growth + k * beta));
+  }
   std::vector<double> working{x0, y0};
-  if (tilts_) {
-    working.push_back(0.5 * c(3) * scale / length);
-    working.push_back(0.5 * c(4) * scale / length);
-  }
+  if (tilts_) working.insert(working.end(), {bx, by});
   working.push_back(relative() ? shift : radius);
-  if (tapers_) {
-    const double c1 = c(5) * scale * scale / length;
-    working.push_back((0.5 * c1 + x0 * working[2] + y0 * working[3]) / radius);
-  }
+  if (tapers_) working.push_back(t);
   for (double& value : working) {
     if (!std::isfinite(value)) value = 0.0;
   }
   return working;
 }
 
+// The same without tilt, x² + y² = 2 x0 x + 2 y0 y + c0 + c1 ζ + t² ζ²; a cone that ends within the
+// probed length is blunted, and the axis pulled in until the spindle axis runs inside.
+std::vector<double> RevolvedSurface::level_start(const ReadingBlock& readings,
+                                                 std::size_t count) const {
+  const double shift = gauge_shift(readings, count);
+  const double length = std::max(frame_.half_length_mm, 1e-9);
+  const int columns = tapers_ ? 5 : 3;
+  const auto n = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd a(n, columns);
+  Eigen::VectorXd b(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double reading = readings.reading_mm[i] - shift;
+    const double zeta = (readings.position_mm[i] - frame_.position_ref_mm) / length;
+    a.row(i).head(3) << reading * readings.cos_c[i], reading * readings.sin_c[i], 1.0;
+    if (tapers_) a.row(i).tail(2) << zeta, zeta * zeta;
+    b(i) = reading * reading;
+  }
+  const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(b);
+  double x = 0.5 * c(0), y = 0.5 * c(1);
+  const double radius = relative() ? nominal_path_radius(0.0)
+                                   : std::sqrt(std::max(c(2) + x * x + y * y, 1e-2 * b.maxCoeff()));
+  const double widest = 0.9 * radius / length;
+  const double t = tapers_ ? std::clamp(0.5 * c(3) / (length * radius), -widest, widest) : 0.0;
+  const double inside = 0.8 * (radius - std::abs(t) * length) / std::max(std::hypot(x, y), 1e-300);
+  x *= std::min(1.0, inside), y *= std::min(1.0, inside);
+  std::vector<double> working{x, y};
+  if (tilts_) working.insert(working.end(), 2, 0.0);
+  working.push_back(relative() ? shift : radius);
+  if (tapers_) working.push_back(t);
+  return working;
+}
+
+bool RevolvedSurface::tilt_may_be_mirrored(std::span<const double> working) const {
+  if (!tilts_) return false;
+  const Revolved surface = probed(working);
+  const double k = 1.0 + surface.tan_half_angle * surface.tan_half_angle;
+  const double bend = k * surface.radius_mm * std::hypot(working[2], working[3]);
+  return bend > 0.1 * frame_.half_length_mm;
+}
+
 Revolved RevolvedSurface::probed(std::span<const double> working) const {
   const std::size_t r = radius_index();
-  return {axis(working), relative() ? frame_.nominal_radius_mm : working[r],
-          tapers_ ? working[r + 1] : 0.0};
+  const double t = tapers_ ? working[r + 1] : 0.0;
+  return {axis(working), relative() ? nominal_path_radius(t) : working[r], t};
 }
 
 void RevolvedSurface::evaluate(std::span<const double> working, const ReadingBlock& readings,
@@ -140,7 +196,9 @@ void RevolvedSurface::transform(std::span<const double> working, double* out) co
     at(2 + i, w_r) = d * d * slope[i] * t * t * surface.radius_mm;
     at(2 + i, w_r_s) = d * d * slope[i] * t * k;
   }
-  if (tapers_) at(r + 1, w_r_s) = 1.0;
+  if (!tapers_) return;
+  at(r + 1, w_r_s) = 1.0;
+  if (relative()) at(r + 1, w_r) = frame_.ball_mm * t / std::sqrt(k);
 }
 
 Axis RevolvedSurface::axis(std::span<const double> working) const {

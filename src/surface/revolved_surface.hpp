@@ -23,6 +23,8 @@ class RevolvedSurface : public Surface {
   std::span<const std::string_view> working_names() const override;
   std::vector<double> working_scale_mm(std::span<const double> working) const override;
   std::vector<double> start(const ReadingBlock& readings, std::size_t count) const override;
+  std::vector<double> level_start(const ReadingBlock& readings, std::size_t count) const override;
+  bool tilt_may_be_mirrored(std::span<const double> working) const override;
   void evaluate(std::span<const double> working, const ReadingBlock& readings,
                 PredictionBlock& out) const override;
   void transform(std::span<const double> working, double* out) const override;
@@ -55,6 +57,8 @@ class RevolvedSurface : public Surface {
     }
     return full;
   }
+  double nominal_path_radius(double tan_half_angle) const;
+  double gauge_shift(const ReadingBlock& readings, std::size_t count) const;
   Revolved probed(std::span<const double> working) const;  ///< where the ball's centre runs
   bool relative() const { return frame_.indication == Indication::relative; }
   std::size_t radius_index() const { return tilts_ ? 4 : 2; }

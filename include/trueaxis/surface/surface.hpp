@@ -68,6 +68,15 @@ class Surface {
 
   /// Starting values from readings alone (algebraic least squares); `count` ≥ parameter_count().
   virtual std::vector<double> start(const ReadingBlock& readings, std::size_t count) const = 0;
+  /// A start whose axis is parallel to the spindle and that every probe line meets where the
+  /// spindle axis runs inside the part; empty for a surface whose other start is always good.
+  virtual std::vector<double> level_start(const ReadingBlock& /*readings*/,
+                                          std::size_t /*count*/) const {
+    return {};
+  }
+  /// Whether the axis tilted the other way may be a second minimum: tilt then bends the sections
+  /// (K R slope²) as much as it shifts them (slope × length), as on a short, large part.
+  virtual bool tilt_may_be_mirrored(std::span<const double> /*working*/) const { return false; }
   /// Residuals and Jacobian columns of one block.
   virtual void evaluate(std::span<const double> working, const ReadingBlock& readings,
                         PredictionBlock& out) const = 0;

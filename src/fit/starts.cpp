@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "trueaxis/math/statistics.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t start_blocks = 8;  // 1024 readings fix a start well enough
+
+void take(const ReadingBlock& block, std::size_t count, Sample& sample) {
+  sample.reading.insert(sample.reading.end(), block.reading_mm, block.reading_mm + count);
+  sample.cos_c.insert(sample.cos_c.end(), block.cos_c, block.cos_c + count);
+  sample.sin_c.insert(sample.sin_c.end(), block.sin_c, block.sin_c + count);
+  sample.position.insert(sample.position.end(), block.position_mm, block.position_mm + count);
+}
+
+}  // namespace
+
+Sample sample_of(const PreparedStream& stream) {
+  Sample sample;
+  const std::size_t blocks = stream.blocks();
+  if (blocks <= start_blocks) {
+    for (std::size_t i = 0; i < blocks; ++i) take(stream.block(i), stream.filled(i), sample);
+    return sample;
+  }
+  // 128 readings each: 64 of a block's beginning would do as well; both ends of the stream are in.
+  constexpr std::size_t parts = 2 * start_blocks, part = block_size / 2;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const double golden = std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);
+    std::size_t index = static_cast<std::size_t>(golden * static_cast<double>(blocks - 1));
+    if (k + 1 == parts) index = blocks - 2;
+    take(stream.block(index), std::min(part, stream.filled(index)), sample);
+  }
+  return sample;
+}
+
+namespace {
+
+/// Residuals of the sample at `working`, through the same evaluation as the fit.
+std::vector<double> sample_residuals(const Surface& surface, std::span<const double> working,
+                                     const Sample& sample) {
+  std::vector<double> out;
+  PredictionBlock prediction;
+  for (std::size_t begin = 0; begin < sample.reading.size(); begin += block_size) {
+    const std::size_t count = std::min(block_size, sample.reading.size() - begin);
+    Sample padded;
+    take({sample.reading.data() + begin, sample.cos_c.data() + begin, sample.sin_c.data() + begin,
+          sample.position.data() + begin},
+         count, padded);
+    for (auto* column : {&padded.reading, &padded.cos_c, &padded.sin_c, &padded.position}) {
+      column->resize(block_size, column->back());
+    }
+    surface.evaluate(working, padded.view(), prediction);
+    if (!prediction.valid) return {};
+    out.insert(out.end(), prediction.residual, prediction.residual + count);
+  }
+  return out;
+}
+
+/// Outliers pull an algebraic start: refit twice on the readings within 3 σ of the last one.
+std::vector<double> trimmed_start(const Surface& surface, const Sample& all,
+                                  std::vector<double> start) {
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<double> residual = sample_residuals(surface, start, all);
+    if (residual.empty()) break;
+    const double limit = 3.0 * mad_sigma(residual);
+    Sample kept;
+    for (std::size_t i = 0; i < residual.size(); ++i) {
+      if (std::abs(residual[i]) > limit) continue;
+      take({&all.reading[i], &all.cos_c[i], &all.sin_c[i], &all.position[i]}, 1, kept);
+    }
+    if (kept.reading.size() <= 2 * surface.parameter_count()) break;
+    start = surface.start(kept.view(), kept.reading.size());
+  }
+  return start;
+}
+
+bool lower(const Minimum& a, const Minimum& b) {
+  if (a.normal.valid != b.normal.valid) return a.normal.valid;
+  if (!a.normal.valid) return false;
+  if (a.converged != b.converged) return a.converged;
+  return a.normal.sum_rho < b.normal.sum_rho;
+}
+
+std::vector<double> mirrored(const Surface& surface, std::vector<double> working) {
+  const auto names = surface.working_names();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].starts_with("slope")) working[i] = -working[i];
+  }
+  return working;
+}
+
+}  // namespace
+
+std::vector<double> find_start(const Surface& surface, const PreparedStream& stream,
+                               const Sample& sample, Loss loss) {
+  std::vector<double> start = surface.start(sample.view(), sample.reading.size());
+  if (loss != Loss::plain) start = trimmed_start(surface, sample, std::move(start));
+  if (loss == Loss::plain || accumulate(surface, start, stream, {}).valid) return start;
+  std::vector<double> level = surface.level_start(sample.view(), sample.reading.size());
+  return level.empty() ? start : level;
+}
+
+Minima lowest_minimum(const Surface& surface, const PreparedStream& stream, const Sample& sample,
+                      const std::vector<double>& start, const LossScale& loss, int max_iterations) {
+  Minima minima{minimise(surface, stream, start, loss, max_iterations), {}};
+  const Minimum& best = minima.best;
+  if (best.normal.valid && best.converged && !surface.tilt_may_be_mirrored(best.working))
+    return minima;
+  int passes = best.iterations;
+  const auto attempt = [&](std::vector<double> from) {
+    Minimum other = minimise(surface, stream, std::move(from), loss, max_iterations);
+    passes += other.iterations;
+    if (lower(other, minima.best)) std::swap(other, minima.best);
+    if (other.converged && (!minima.rival || lower(other, *minima.rival)))
+      minima.rival = std::move(other);
+  };
+  std::vector<double> level = surface.level_start(sample.view(), sample.reading.size());
+  if (!level.empty()) attempt(std::move(level));
+  if (best.normal.valid) attempt(mirrored(surface, best.working));
+  minima.best.iterations = passes;
+  return minima;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "fit/minimise.hpp"
+#include "trueaxis/fit/fit.hpp"
+
+namespace trueaxis {
+
+/// Readings a start is taken from: all of a short stream, else whole blocks spread by the golden
+/// ratio, so that no period of the sampling is met.
+struct Sample {
+  std::vector<double> reading, cos_c, sin_c, position;
+  ReadingBlock view() const {
+    return {reading.data(), cos_c.data(), sin_c.data(), position.data()};
+  }
+};
+Sample sample_of(const PreparedStream& stream);
+
+/// The algebraic start; for a robust loss refitted on the readings near it. Where a probe line
+/// misses it, the level start.
+std::vector<double> find_start(const Surface& surface, const PreparedStream& stream,
+                               const Sample& sample, Loss loss);
+
+/// The lowest minimum reached, and the lowest of the others when there is one.
+struct Minima {
+  Minimum best;
+  std::optional<Minimum> rival;
+};
+
+/// Minimises from `start`; where that fails, or a mirrored tilt may do as well, also from the level
+/// start and from the minimum's tilt reversed.
+Minima lowest_minimum(const Surface& surface, const PreparedStream& stream, const Sample& sample,
+                      const std::vector<double>& start, const LossScale& loss, int max_iterations);
+
+}  // namespace trueaxis
