@@ -78,12 +78,12 @@ TargetSurface read_target(TomlTable table, Job& job) {
       {{"cylinder", TargetKind::cylinder}, {"cone", TargetKind::cone}, {"face", TargetKind::face}});
   target.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
   if (target.kind == TargetKind::face) {
-    if (target.bore) table.complain("feature", "a face is neither shaft nor bore: remove it");
+    if (target.bore)
+      table.complain("feature", "is of no use: a face is neither shaft nor bore, remove it");
     target.z_face_mm = table.required_number("z_mm");
     target.radius_start_mm = table.required_number("radius_start_mm", Range::non_negative());
     target.radius_end_mm = table.required_number("radius_end_mm", Range::non_negative());
     target.z_start_mm = target.z_end_mm = target.z_face_mm;
-    if (target.bore) table.complain("feature", "is a bore, but a face is none: leave it out");
     if (target.radius_start_mm == target.radius_end_mm)
       table.complain("radius_end_mm", "equals the start: give the cut a length");
   } else {

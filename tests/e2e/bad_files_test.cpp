@@ -97,7 +97,7 @@ TEST_F(BadJob, WhatNoCutCanBe) {
                      "[target]\nsurface = \"face\"\nfeature = \"bore\"\nz_mm = 0\n"
                      "radius_start_mm = 9\nradius_end_mm = 5\n" +
                      cut + "0.1\n",
-                 {"`feature` is a bore, but a face is none"});
+                 {"`feature` is of no use: a face is neither shaft nor bore"});
   expect_refused(reference + cylinder + "z_end_mm = 9\n" + cut +
                      "0.1\n[[actuator.response]]\nfrequency_hz = 0\ngain = 1\nphase_deg = 0\n",
                  {"has one point at 0 Hz"});
