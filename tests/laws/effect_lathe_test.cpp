@@ -120,6 +120,32 @@ INSTANTIATE_TEST_SUITE_P(Parts, EffectLathe,
                                            LatheBench{"BoreFromTheRear", 0.0, true, true}),
                          [](const auto& bench) { return bench.param.name; });
 
+// The slope along Y follows from that along C, at any height of the line: against central
+// differences over the height, which err by h² X/R³ (1e-8 of the slope) and rounding (1e-15/h ·
+// 40).
+TEST(EffectLatheCases, SlopesAlongYHoldAtAnyHeight) {
+  const Revolved cone = LatheBench{"Cone", 0.1}.surface();
+  const std::vector<double> one{1.0};
+  for (const double height : {-8.0, 0.0, 3.0}) {
+    for (const double c : {0.3, 2.0, 4.4}) {
+      const double step = 1e-3;
+      const Intersection contact = intersect(cone, c, 10.0, height);
+      const double slope = (intersect(cone, c, 10.0, height + step).x_mm -
+                            intersect(cone, c, 10.0, height - step).x_mm) /
+                           (2.0 * step);
+      const std::vector<double> c_rad{c}, x{contact.x_mm}, dx_dc{contact.dx_dc};
+      TermContext at;
+      at.c_rad = c_rad, at.x_mm = x, at.dx_dc = dx_dc, at.height_mm = height;
+      at.z_mm = at.time_s = at.speed_rad_per_s = at.velocity_mm_per_s = at.sensed_mm = one;
+      at.dx_dz = at.theta_rad = at.theta_chuck_rad = at.s_mm = at.clamp_force_ratio = one;
+      double column = 0.0;
+      double* const out[] = {&column};
+      fill_columns(find_effect("probe.height")->term, at, {}, out);
+      EXPECT_NEAR(column, slope, 1e-9) << "height " << height << ", C " << c;
+    }
+  }
+}
+
 TEST(EffectLatheCases, HasACaseForEveryEffect) {
   std::set<std::string_view> covered;
   const std::vector<LatheCase> cases = lathe_cases();
