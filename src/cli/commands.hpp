@@ -13,5 +13,6 @@ void add_run(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_effects(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli

@@ -24,6 +24,7 @@ int run(int argc, char** argv) {
   add_fit(app, code);
   add_correct(app, code);
   add_simulate(app, code);
+  add_effects(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -53,8 +53,12 @@ Body::Body(const Scenario& scenario, const Chain& chain)
 
 double Body::gap(const Vec3& in_part, const Chucking& setup) const {
   Vec3 p = in_part;
-  for (const auto& bend : chain_.bend) {
-    p = p - bend(in_part.z);
+  if (!chain_.bend.empty()) {  // fixed to the part: it turns with the re-indexing
+    const double cosine = std::cos(setup.reindex_rad), sine = std::sin(setup.reindex_rad);
+    for (const auto& bend : chain_.bend) {
+      const Vec3 away = bend(in_part.z);
+      p = p - Vec3{away.x * cosine - away.y * sine, away.x * sine + away.y * cosine, away.z};
+    }
   }
   double form = 0.0;
   if (!chain_.form.empty()) {

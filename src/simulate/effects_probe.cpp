@@ -65,7 +65,7 @@ void enter_pretravel(const Values& of, Chain& chain) {
     const double side = sensor.state.face ? normal.x : normal.z;
     const double across = std::hypot(side, normal.y);
     const double lobes = across > 0.0 ? std::cos(n * std::atan2(normal.y, side) - phase) : 0.0;
-    return x - std::copysign(a + b * across * lobes, along);
+    return x - std::copysign(1.0, along) * (a + b * across * lobes);
   });
 }
 

@@ -229,6 +229,15 @@ TEST(SimulateEffects, TiltedProbeAndBallAreLinesAndSpheres) {
             1e-11);
 }
 
+// On a centred cone the normal across the stylus points to −Z with sin α: ψ = 180°, cos 3ψ = −1,
+// and the probe triggers early.
+TEST(SimulateEffects, PretravelOfSomeDirectionsIsNegative) {
+  EXPECT_LT(
+      worst(helix(PartKind::cone), {"probe.pretravel", {{"amplitude_mm", 0.0}, {"lobing_mm", a}}},
+            [](const At&) { return a * tangent / std::sqrt(1 + tangent * tangent); }),
+      1e-9);  // the normal is a central difference
+}
+
 TEST(SimulateEffects, LimitsClipRoundAndCount) {
   Scenario scenario = helix(PartKind::cylinder);
   scenario.part.x0_mm = 0.2;
@@ -279,6 +288,13 @@ TEST(SimulateEffects, ReindexTurnsThePartAndNotTheChuck) {
             exact_mm);
   EXPECT_LT(worst(scenario, {"spindle.radial_synchronous", {{"order", 2}, {"amplitude_mm", a}}},
                   [](const At& at) { return a * std::cos(2 * at.c); }),
+            exact_mm);
+  EXPECT_LT(worst(scenario, {"part.bow", {{"sagitta_mm", 0.05}, {"length_mm", 40.0}}},
+                  [&](const At& at) {
+                    const double e = 0.05 * at.u * at.u, angle = at.c - 0.5;
+                    return e * std::cos(angle) +
+                           std::sqrt(1600.0 - std::pow(e * std::sin(angle), 2)) - 40.0;
+                  }),
             exact_mm);
   scenario.plan.setups[0].z_shift_mm = 1.5;
   EXPECT_LT(worst(scenario, {"part.waviness", {{"amplitude_mm", a}, {"wavelength_mm", 3.0}}},

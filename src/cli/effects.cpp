@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/io/effects_json.hpp"
+#include "trueaxis/io/effects_text.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  std::string id;
+  bool json = false;
+};
+
+const Effect& known_effect(const std::string& id) {
+  if (const Effect* effect = find_effect(id)) return *effect;
+  std::string nearest;
+  for (const std::string_view near : nearest_effects(id)) {
+    nearest += (nearest.empty() ? "" : ", ") + std::string(near);
+  }
+  throw InputError(id, "is no effect of the catalogue; the nearest are " + nearest +
+                           " ('trueaxis effects' lists all)");
+}
+
+int execute(const Options& options) {
+  std::vector<const Effect*> chosen;
+  if (!options.id.empty()) chosen.push_back(&known_effect(options.id));
+  if (options.json) {
+    if (options.id.empty()) {
+      for (const Effect& effect : effect_catalogue()) chosen.push_back(&effect);
+    }
+    std::cout << effects_json(chosen);
+  } else {
+    std::cout << (chosen.empty() ? effects_list_text() : effect_text(*chosen.front()));
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_effects(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("effects", "list what the ideal surface misses, or explain one effect");
+  auto options = std::make_shared<Options>();
+  command->add_option("id", options->id, "effect to explain, as part.bow");
+  command->add_flag("--json", options->json, "print as JSON (trueaxis.effects/1)");
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

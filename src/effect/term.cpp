@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/effect/term.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "effect/kinds.hpp"
+#include "trueaxis/base/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+template <class T>
+constexpr bool is_nothing = std::is_same_v<std::decay_t<T>, std::monostate>;
+
+// A column that is not there is empty; the one column that only probe.lag reads may be.
+void check(const Term& term, const TermContext& at) {
+  for (const auto column :
+       {at.z_mm, at.time_s, at.speed_rad_per_s, at.velocity_mm_per_s, at.x_mm, at.sensed_mm,
+        at.dx_dc, at.dx_dz, at.theta_rad, at.theta_chuck_rad, at.s_mm, at.clamp_force_ratio}) {
+    expects(column.size() == at.size(), "every column of the context has its size");
+  }
+  const auto* response = std::get_if<Response>(&term);
+  const bool second = response != nullptr && response->of == Response::Of::lag;
+  expects(!second || at.d2x_dc2.size() == at.size(), "probe.lag has d2x_dc2");
+  expects(at.z_half_mm > 0.0, "the probed length is not 0");
+}
+
+}  // namespace
+
+std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape) {
+  return std::visit(
+      [&](const auto& of) -> kind::Linear {
+        if constexpr (is_nothing<decltype(of)>) {
+          return {};
+        } else {
+          return kind::linear(of, shape);
+        }
+      },
+      term);
+}
+
+std::vector<std::string> shape_parameters(const Term& term) {
+  return std::visit(
+      [](const auto& of) -> kind::Names {
+        if constexpr (is_nothing<decltype(of)>) {
+          return {};
+        } else {
+          return kind::shapes(of);
+        }
+      },
+      term);
+}
+
+void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
+                  std::span<double* const> columns) {
+  check(term, context);
+  expects(columns.size() == linear_parameters(term, shape).size(), "one column a linear parameter");
+  std::visit(
+      [&](const auto& of) {
+        if constexpr (!is_nothing<decltype(of)>) kind::fill(of, context, shape, columns);
+      },
+      term);
+}
+
+}  // namespace trueaxis

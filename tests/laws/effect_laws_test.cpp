@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws of the catalogue as a table, and of its terms without any geometry behind them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect/term.hpp"
+#include "trueaxis/simulate/effects.hpp"
+
+namespace trueaxis {
+namespace {
+
+TEST(EffectLaws, IdsAreThoseOfTheVirtualLathe) {
+  // Noise of these kinds has its own table in a scenario; what no catalogue has is `extra.`.
+  std::set<std::string> lathe{"probe.incidence_noise", "probe.correlated_noise", "probe.outliers"};
+  for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
+    if (!kind.id.starts_with("extra.")) lathe.insert(std::string(kind.id));
+  }
+  std::set<std::string> catalogue;
+  for (const Effect& effect : effect_catalogue()) {
+    EXPECT_TRUE(catalogue.insert(std::string(effect.id)).second) << effect.id << " twice";
+    EXPECT_EQ(find_effect(effect.id), &effect);
+  }
+  EXPECT_EQ(catalogue, lathe);
+  EXPECT_EQ(find_effect("part.nothing"), nullptr);
+}
+
+TEST(EffectLaws, EntriesExplainThemselves) {
+  const std::set<std::string_view> units{"mm", "rad", "s", "Hz", "1", "mm/s"};
+  const std::set<std::string_view> families{"part",    "spindle", "slide",      "probe",
+                                            "encoder", "thermal", "environment"};
+  for (const Effect& effect : effect_catalogue()) {
+    SCOPED_TRACE(effect.id);
+    EXPECT_TRUE(families.contains(effect.id.substr(0, effect.id.find('.'))));
+    for (const std::string_view text :
+         {effect.title, effect.formula, effect.signature, effect.source}) {
+      EXPECT_FALSE(text.empty());
+    }
+    EXPECT_FALSE(effect.parameters.empty());
+    std::set<std::string_view> names;
+    for (const EffectParameter& parameter : effect.parameters) {
+      EXPECT_TRUE(names.insert(parameter.name).second) << parameter.name << " twice";
+      EXPECT_TRUE(units.contains(parameter.unit)) << parameter.unit;
+      EXPECT_LE(parameter.low, parameter.high) << parameter.name;
+      EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
+    }
+    EXPECT_EQ(std::holds_alternative<std::monostate>(effect.term), effect.check);
+    if (effect.check) continue;
+    EXPECT_NE(effect.slot, Slot::noise);
+    EXPECT_FALSE(effect.confounders.empty());
+    EXPECT_FALSE(effect.separations.empty());
+  }
+}
+
+TEST(EffectLaws, ConfusionIsMutualAndNeverWithACheck) {
+  for (const Effect& effect : effect_catalogue()) {
+    for (const std::string_view id : effect.confounders) {
+      const Effect* other = find_effect(id);
+      ASSERT_NE(other, nullptr) << effect.id << " names " << id;
+      EXPECT_NE(other, &effect);
+      EXPECT_FALSE(other->check || effect.check) << effect.id << ", " << id;
+      EXPECT_EQ(std::count(other->confounders.begin(), other->confounders.end(), effect.id), 1)
+          << id << " does not name " << effect.id;
+    }
+  }
+}
+
+TEST(EffectLaws, SeparatorsAreKnownAndAllUsed) {
+  std::set<std::string_view> known, used;
+  for (const Separator& separator : separators()) {
+    EXPECT_FALSE(separator.what.empty());
+    EXPECT_TRUE(known.insert(separator.code).second);
+  }
+  EXPECT_EQ(known, (std::set<std::string_view>{"RV", "RZ", "2W", "DW", "ST", "RC", "RE", "MS", "OZ",
+                                               "RM", "XJ"}));
+  for (const Effect& effect : effect_catalogue()) {
+    std::set<std::string_view> own;
+    for (const Separation& separation : effect.separations) {
+      EXPECT_TRUE(known.contains(separation.code)) << effect.id << ": " << separation.code;
+      EXPECT_TRUE(own.insert(separation.code).second) << effect.id << ": " << separation.code;
+      EXPECT_FALSE(separation.how.empty());
+    }
+    used.insert(own.begin(), own.end());
+  }
+  EXPECT_EQ(used, known);
+}
+
+TEST(EffectLaws, MisspeltIdsFindTheirNeighbour) {
+  EXPECT_EQ(nearest_effects("part.bwo").front(), "part.bow");
+  EXPECT_EQ(nearest_effects("backlash").front(), "slide.backlash");
+  EXPECT_EQ(nearest_effects("spindle.roundness").front(), "part.roundness");
+  EXPECT_EQ(nearest_effects("part.bow", 2).size(), 2u);
+}
+
+// Two readings of a centred cylinder, R = 40: every number of the terms can be said beforehand.
+struct Bench {
+  std::vector<double> c{0.0, 1.0}, z{-10.0, 10.0}, t{0.0, 2.0}, speed{6.0, 6.0}, v{1.0, -1.0};
+  std::vector<double> x{40.0, 40.0}, flat{0.0, 0.0}, one{1.0, 1.0};
+
+  TermContext context() const {
+    TermContext at;
+    at.c_rad = at.theta_rad = at.theta_chuck_rad = c;
+    at.z_mm = at.s_mm = z;
+    at.time_s = t;
+    at.speed_rad_per_s = speed;
+    at.velocity_mm_per_s = v;
+    at.x_mm = at.sensed_mm = x;
+    at.dx_dc = at.dx_dz = at.d2x_dc2 = flat;
+    at.clamp_force_ratio = one;
+    at.z_half_mm = 10.0;
+    return at;
+  }
+};
+
+std::vector<std::vector<double>> columns_of(const Term& term, const TermContext& at,
+                                            const TermShape& shape) {
+  std::vector<std::vector<double>> columns(linear_parameters(term, shape).size(),
+                                           std::vector<double>(at.size()));
+  std::vector<double*> rows;
+  for (auto& column : columns) rows.push_back(column.data());
+  fill_columns(term, at, shape, rows);
+  return columns;
+}
+
+TEST(EffectLaws, ACentredCylinderShowsOnlyWhatItCan) {
+  const Bench bench;
+  TermShape shape;
+  shape.order = 3.0;
+  shape.reference_x_mm = 40.0;
+  // Without slopes an argument, a height or a tilt changes nothing; forms are read as they are.
+  for (const char* id : {"encoder.offset", "encoder.eccentricity", "probe.latency", "probe.lag",
+                         "probe.height", "probe.tilt", "probe.gain", "probe.nonlinearity",
+                         "spindle.axial_synchronous", "slide.leadscrew_periodic"}) {
+    for (const auto& column : columns_of(find_effect(id)->term, bench.context(), shape)) {
+      EXPECT_EQ(column, (std::vector<double>{0.0, 0.0})) << id;
+    }
+  }
+  const auto lobes = columns_of(find_effect("part.roundness")->term, bench.context(), shape);
+  ASSERT_EQ(lobes.size(), 4u);
+  EXPECT_DOUBLE_EQ(lobes[0][1], std::cos(3.0));
+  EXPECT_DOUBLE_EQ(lobes[1][1], std::sin(3.0));
+  EXPECT_DOUBLE_EQ(lobes[2][0], -1.0);  // u = −1, θ = 0
+  const auto barrel = columns_of(find_effect("part.barrel")->term, bench.context(), shape);
+  ASSERT_EQ(barrel.size(), 2u);
+  EXPECT_DOUBLE_EQ(barrel[0][0], 1.0);   // P2(−1)
+  EXPECT_DOUBLE_EQ(barrel[1][0], -1.0);  // P3(−1)
+}
+
+TEST(EffectLaws, RearAndBoreTurnTheSignsOfFormAndBall) {
+  const Bench bench;
+  for (const bool rear : {false, true}) {
+    for (const bool bore : {false, true}) {
+      TermContext at = bench.context();
+      at.rear = rear;
+      at.bore = bore;
+      const double form = columns_of(find_effect("part.taper")->term, at, {})[0][1];
+      const double ball = columns_of(find_effect("probe.ball_radius")->term, at, {})[0][1];
+      EXPECT_EQ(form, rear ? -1.0 : 1.0);
+      EXPECT_EQ(ball, rear == bore ? 1.0 : -1.0);
+    }
+  }
+}
+
+TEST(EffectLaws, AMissingColumnIsABrokenContract) {
+  const Bench bench;
+  TermContext at = bench.context();
+  at.time_s = {};
+  std::vector<double> column(2);
+  double* const out[] = {column.data()};
+  const Term offset = find_effect("encoder.offset")->term;
+  EXPECT_THROW(fill_columns(offset, at, {}, out), ContractViolation);
+  at = bench.context();
+  EXPECT_NO_THROW(fill_columns(offset, at, {}, out));
+  EXPECT_THROW(fill_columns(offset, at, {}, {}), ContractViolation);
+  at.d2x_dc2 = {};
+  EXPECT_NO_THROW(fill_columns(offset, at, {}, out));
+  EXPECT_THROW(fill_columns(find_effect("probe.lag")->term, at, {}, out), ContractViolation);
+}
+
+}  // namespace
+}  // namespace trueaxis
