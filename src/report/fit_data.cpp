@@ -6,20 +6,6 @@
 namespace trueaxis {
 namespace {
 
-const char* status_key(FitStatus status) {
-  switch (status) {
-    case FitStatus::converged:
-      return "converged";
-    case FitStatus::max_iterations:
-      return "max_iterations";
-    case FitStatus::rank_deficient:
-      return "rank_deficient";
-    case FitStatus::too_few:
-      return "too_few";
-  }
-  return "unknown";
-}
-
 nlohmann::json parameters_data(const std::vector<FitParameter>& parameters) {
   nlohmann::json list = nlohmann::json::array();
   for (const FitParameter& parameter : parameters) {
@@ -56,7 +42,7 @@ nlohmann::json fit_data(const FitResult& fit) {
   return {{"surface", fit.surface},
           {"bore", fit.bore},
           {"criterion", fit.criterion},
-          {"status", status_key(fit.status)},
+          {"status", to_string(fit.status)},
           {"message", fit.message},
           {"not_determined", fit.not_determined},
           {"k", fit.coverage_factor},
