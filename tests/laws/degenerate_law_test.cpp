@@ -64,6 +64,38 @@ TEST(Degenerate, ASmallHalfAngleIsDeterminedWithoutNoise) {
   }
 }
 
+TEST(Degenerate, TwoTiltsThatFitEquallyWellAreBothNamed) {
+  // A turn of a part of 4 mm length and 222 mm diameter: found by StartLaw. The two minima have RMS
+  // 20.5 µm and 21.0 µm at a noise of 20 µm; the other one is 36 u away.
+  LawCase c{.surface = "cone",
+            .x_mm = -52.416346647821648,
+            .y_mm = -28.680141406430746,
+            .slope_x = 0.024641834690066602,
+            .slope_y = -0.0039693312073209187,
+            .radius_mm = 110.95846659484297,
+            .half_angle_deg = -4.893799625304589,
+            .start_mm = -153.58469861875255,
+            .end_mm = -157.45218954057256,
+            .revolutions = 1.1,
+            .readings_per_revolution = 145.19335327715638,
+            .c_start_rad = 1.9925210167206586,
+            .ball_mm = 2.030490379768402,
+            .noise_mm = 0.020095523301450206,
+            .rear = true,
+            .seed = 51};
+  FitResult result = fit(probe(c), options_of(c));
+  expect_named(result, {"two surfaces", "l ", "m ", "k "});
+  for (const char* name : {"l", "m", "k", "half_angle"}) {
+    EXPECT_FALSE(parameter(result, name).determined()) << name;
+    EXPECT_FALSE(parameter(result, name).why_not.empty()) << name;
+  }
+  c.revolutions = 3.0;  // two turns more tell them apart
+  result = fit(probe(c), options_of(c));
+  ASSERT_EQ(result.status, FitStatus::converged) << result.message;
+  EXPECT_NEAR(parameter(result, "l").value, expected_parameters(c)[2],
+              5.0 * parameter(result, "l").u);
+}
+
 TEST(Degenerate, OneSectionLeavesTheSlopesFree) {
   for (const char* surface : {"cone", "cylinder"}) {
     for (const double noise : {0.0, 0.01}) {

@@ -36,6 +36,7 @@ class FrameLaw : public ::testing::TestWithParam<std::string> {
   void for_examples(const std::function<void(Example&)>& body) {
     constexpr std::uint64_t seed = 20281;
     Draw draw(seed);
+    int used = 0;
     for (int i = 0; i < 40; ++i) {
       Example example;
       example.c = draw_case(GetParam(), draw,
@@ -54,7 +55,9 @@ class FrameLaw : public ::testing::TestWithParam<std::string> {
         continue;  // its reason is tested elsewhere
       example.base = by_name(example.result);
       body(example);
+      ++used;
     }
+    EXPECT_GE(used, 30);
   }
 
   /// Same minimum: what is left of the last step is below 1e-5 of u (the minimiser's tolerance);

@@ -176,6 +176,13 @@ std::vector<std::string> catalogue_ids() {
   return ids;
 }
 
+std::vector<std::string> lateral_ids() {
+  std::vector<std::string> ids = catalogue_ids();
+  std::erase_if(ids,
+                [](const std::string& id) { return surface_info(id).stream == StreamKind::face; });
+  return ids;
+}
+
 std::string name_of(const ::testing::TestParamInfo<std::string>& info) { return info.param; }
 
 double rounding_size_mm(const LawCase& c) {

@@ -64,6 +64,8 @@ double rounding_size_mm(const LawCase& c);
 
 /// Every surface of the catalogue, for INSTANTIATE_TEST_SUITE_P.
 std::vector<std::string> catalogue_ids();
+/// Those with a spindle axis inside: all but faces.
+std::vector<std::string> lateral_ids();
 std::string name_of(const ::testing::TestParamInfo<std::string>& info);
 
 /// Random numbers with a printed seed.
