@@ -14,6 +14,8 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+constexpr const char* no_redundancy =
+    "no uncertainty: as many readings as parameters, and no sensor noise given";
 constexpr double cylinder_sds =
     3.0;  // a half angle within 3 u of zero cannot be told from a cylinder
 constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
@@ -47,9 +49,11 @@ void report_parameters(const Surface::Reported& reported, const Rows& jacobian,
       if (along > 1e-6 * whole * direction.norm())
         parameter.estimate.why_not = "not determined by these readings";
     }
+    if (!std::isfinite(parameter.estimate.value)) {
+      parameter.estimate.why_not = "not determined by these readings";
+    }
     if (parameter.estimate.why_not.empty() && !std::isfinite(parameter.estimate.u)) {
-      parameter.estimate.why_not =
-          "no uncertainty: as many readings as parameters, and no sensor noise given";
+      parameter.estimate.why_not = no_redundancy;
     } else if (!parameter.estimate.why_not.empty()) {
       parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
     }
@@ -128,13 +132,14 @@ FitParameter length(std::string name, double value, double u) {
   return {std::move(name), {value, u, "mm", ""}};
 }
 
+/// (The order in std::max matters below: NaN, no uncertainty, must stay NaN.)
 /// u of |v| for a plane vector v with covariance c: along v, or in the worse direction where v is
 /// within its u.
 double u_of_norm(const Eigen::Vector2d& v, const Eigen::Matrix2d& c) {
   const double worst =
-      std::sqrt(std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c).eigenvalues()(1)));
+      std::sqrt(std::max(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c).eigenvalues()(1), 0.0));
   if (v.norm() <= worst) return worst;
-  return std::sqrt(std::max(0.0, v.dot(c * v))) / v.norm();
+  return std::sqrt(std::max(v.dot(c * v), 0.0)) / v.norm();
 }
 
 void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, FitResult& result) {
@@ -234,7 +239,7 @@ void describe(const Surface& surface, Association& association, const PreparedSt
     BudgetLine line{source.name, source.type, {}};
     const Eigen::VectorXd variance =
         (jacobian * source.covariance * jacobian.transpose()).diagonal();
-    for (const double v : variance) line.u.push_back(std::sqrt(std::max(0.0, v)));
+    for (const double v : variance) line.u.push_back(std::sqrt(std::max(v, 0.0)));
     result.budget.push_back(std::move(line));
   }
   check_cone(surface, working, covariance, result);
@@ -245,7 +250,8 @@ void describe(const Surface& surface, Association& association, const PreparedSt
   if (!result.not_determined.empty()) {
     result.status = FitStatus::rank_deficient;
     result.message = "not determined by these readings: " + result.not_determined.front() +
-                     (result.not_determined.size() > 1 ? ", and more" : "");
+                     (result.not_determined.size() > 1 ? ", and more" : "") +
+                     "; probe more of the length, or more of the circumference";
   }
   result.sigma_mm = noise.sigma_mm;
   result.sigma_source = noise.source;
@@ -253,6 +259,9 @@ void describe(const Surface& surface, Association& association, const PreparedSt
   result.u_factor = noise.u_factor;
   report_axis(surface, working, covariance, result);
   if (determination.free_directions.cols() == 0) report_derived(surface, covariance, result);
+  for (FitParameter& derived : result.derived) {
+    if (!std::isfinite(derived.estimate.u)) derived.estimate.why_not = no_redundancy;
+  }
   result.rejected = list_rejected(association);
   result.residual_mm = std::move(association.residual_mm);
   report_rms(result);

@@ -199,6 +199,13 @@ Job read_job_toml(const std::string& path) {
   if (!root.has("reference"))
     root.complain("reference", "is missing: add a [[reference]] with stream and surface");
   read_cut(root, job, false);
+  for (const JobReference& reference : job.references) {
+    if (job.target && reference.fit.surface == "section") {
+      root.complain("target", "reference '" + reference.name +
+                                  "' is one section, which shows no direction of an axis: probe it "
+                                  "along Z as a cylinder or cone");
+    }
+  }
   document.finish();
   return job;
 }

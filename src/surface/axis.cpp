@@ -19,7 +19,7 @@ double AxisEstimate::u_at(double z_mm) const {
   const double xx = propagated(0, 0), yy = propagated(1, 1);
   const double xy = 0.5 * (propagated(0, 1) + propagated(1, 0));
   const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-  return std::sqrt(std::max(0.0, largest));
+  return std::sqrt(std::max(largest, 0.0));  // in this order NaN stays NaN: no u is not u = 0
 }
 
 }  // namespace trueaxis
