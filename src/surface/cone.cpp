@@ -14,15 +14,10 @@ class Cone final : public RevolvedSurface {
 
   Reported report(std::span<const double> working) const override {
     return differentiate<6>(working, 6, [this](const auto* w, auto* out) {
-      using std::abs, std::atan, std::sqrt;
+      using std::abs, std::atan;
       const auto full = expand(w);
-      const auto n = 1.0 / sqrt(1.0 + full.slope_x * full.slope_x + full.slope_y * full.slope_y);
-      const double z = frame_.position_ref_mm;
-      out[0] = full.x - full.slope_x * z;
-      out[1] = full.y - full.slope_y * z;
-      out[2] = full.slope_x * n;
-      out[3] = full.slope_y * n;
-      out[4] = z / n - full.radius / full.tan;
+      const auto n = report_line(full, out);
+      out[4] = frame_.position_ref_mm / n - full.radius / full.tan;
       out[5] = atan(abs(full.tan)) / rad_per_deg;
     });
   }

@@ -12,14 +12,8 @@ class Cylinder final : public RevolvedSurface {
 
   Reported report(std::span<const double> working) const override {
     return differentiate<5>(working, 5, [this](const auto* w, auto* out) {
-      using std::sqrt;
       const auto full = expand(w);
-      const auto n = 1.0 / sqrt(1.0 + full.slope_x * full.slope_x + full.slope_y * full.slope_y);
-      const double z = frame_.position_ref_mm;
-      out[0] = full.x - full.slope_x * z;
-      out[1] = full.y - full.slope_y * z;
-      out[2] = full.slope_x * n;
-      out[3] = full.slope_y * n;
+      report_line(full, out);
       out[4] =
           relative()
               ? w[4]

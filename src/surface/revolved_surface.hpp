@@ -59,6 +59,17 @@ class RevolvedSurface : public Surface {
   }
   double nominal_path_radius(double tan_half_angle) const;
   double gauge_shift(const ReadingBlock& readings, std::size_t count) const;
+  /// x0, y0 (the axis at Z = 0), l, m (Constantin et al. Eq. 1) into out[0..3]. @returns n.
+  template <typename T>
+  T report_line(const Full<T>& full, T* out) const {
+    using std::sqrt;
+    const T n = 1.0 / sqrt(1.0 + full.slope_x * full.slope_x + full.slope_y * full.slope_y);
+    out[0] = full.x - full.slope_x * frame_.position_ref_mm;
+    out[1] = full.y - full.slope_y * frame_.position_ref_mm;
+    out[2] = full.slope_x * n;
+    out[3] = full.slope_y * n;
+    return n;
+  }
   Revolved probed(std::span<const double> working) const;  ///< where the ball's centre runs
   bool relative() const { return frame_.indication == Indication::relative; }
   std::size_t radius_index() const { return tilts_ ? 4 : 2; }
