@@ -77,9 +77,13 @@ async function look(browser, {name, width, height}) {
   page.on('request', (request) => {
     if (request.url() !== own && !request.url().startsWith('data:')) problems.push(`request: ${request.url()}`);
   });
+  const broken = new Promise((_, reject) => page.once('pageerror', reject));  // a script that threw never gets ready
+  broken.catch(() => {});
   await page.goto(own);
   try {
-    await page.waitForFunction(() => window.trueaxisReport?.ready, null, {timeout: 60000});
+    const ready = page.waitForFunction(() => window.trueaxisReport?.ready, null, {timeout: 60000});
+    ready.catch(() => {});
+    await Promise.race([ready, broken]);
     const charts = await page.evaluate(inspectCharts);
     if (charts.count === 0) problems.push('there is no chart');
     problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText));
