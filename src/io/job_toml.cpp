@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/io/job_toml.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -121,6 +122,17 @@ ToolSetup read_tool(TomlTable table) {
 
 constexpr double most_rows = 5e7;  // 2 GB of text; a bar of a metre at 0.02 mm/rev has 1.8e7
 
+/// The nose of a boring tool is smaller than the bore, at its narrow end too.
+void check_nose(TomlTable table, const TargetSurface& target, const ToolSetup& tool) {
+  if (!target.bore) return;
+  const double at_end =
+      target.radius_mm + target.tan_half_angle * (target.z_end_mm - target.z_start_mm);
+  if (tool.nose_radius_mm >= std::min(target.radius_mm, at_end)) {
+    table.complain("nose_radius_mm",
+                   "does not fit into the bore: give the radius of the tool's nose");
+  }
+}
+
 /// Rows that the table of this cut would have must fit a file that a control can be given.
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   const double travel = target.kind == TargetKind::face
@@ -172,6 +184,7 @@ void read_cut(TomlTable root, Job& job, bool required) {
     const TomlTable cut = root.required_table("cut");
     job.tool = read_tool(cut);
     check_rows(cut, *job.target, job.tool);
+    check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
   } else {
     for (const char* key : {"cut", "actuator"}) {

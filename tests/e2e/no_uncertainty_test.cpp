@@ -53,5 +53,21 @@ TEST(NoUncertainty, OneSectionIsNoReferenceOfATarget) {
   EXPECT_NE(run.output.find("shows no direction"), std::string::npos) << run.output;
 }
 
+TEST(NoUncertainty, ANoseThatDoesNotFitIntoTheBoreIsRefused) {
+  const auto folder = fresh_folder("nose_in_bore");
+  write_text(folder / "probe.csv", circle_stream(200, true));
+  std::string text =
+      std::string("[[reference]]\nstream = \"probe.csv\"\nsurface = \"cylinder\"\n") + target +
+      "nose_radius_mm = 30\n";
+  const std::string kind = "surface = \"cylinder\"\nradius_mm";
+  text.replace(text.find(kind), kind.size(),
+               "surface = \"cylinder\"\nfeature = \"bore\"\nradius_mm");
+  write_text(folder / "job.toml", text);
+  const auto run = trueaxis_command("run " + (folder / "job.toml").string() + " -o " +
+                                    (folder / "out").string());
+  EXPECT_EQ(run.exit_code, 3) << run.output;
+  EXPECT_NE(run.output.find("does not fit into the bore"), std::string::npos) << run.output;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing
