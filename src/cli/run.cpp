@@ -6,35 +6,18 @@
 
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
+#include "cli/job_streams.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/fit_text.hpp"
 #include "trueaxis/io/job_json.hpp"
 #include "trueaxis/io/job_toml.hpp"
-#include "trueaxis/io/stream_csv.hpp"
 #include "trueaxis/io/table_csv.hpp"
 #include "trueaxis/job/job.hpp"
 #include "trueaxis/report/report.hpp"
 
 namespace trueaxis::cli {
 namespace {
-
-/// All streams, with the diagnostics of all of them at once.
-std::vector<ProbeStream> read_streams(const Job& job) {
-  std::vector<ProbeStream> streams;
-  std::vector<Diagnostic> diagnostics;
-  for (const JobReference& reference : job.references) {
-    try {
-      const StreamReading& said = reference.read;
-      streams.push_back(read_stream_csv(reference.stream,
-                                        {said.diameter, said.indication, said.nominal_radius_mm}));
-    } catch (const InputError& error) {
-      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
-  if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
-  return streams;
-}
 
 void print(const JobResult& result) {
   std::cout << result.verdict.line << "\n\n";
