@@ -217,7 +217,7 @@ TEST_P(SetUpLaw, OneSectionBorrowsNoAxis) {
   plan.setups[1].rear = false;
   plan.setups[1].l = plan.setups[1].m = 0.0;
   plan.passes.resize(2);
-  plan.passes[1].end_mm = plan.passes[1].start_mm;
+  plan.passes[1].start_mm = plan.passes[1].end_mm = 42.0;
   plan.passes[1].revolutions = 20.0;
   bench.scenario.noise.sigma_mm = 0.002;
   const FitResult result = fit(virtual_lathe::simulate(bench.scenario), options_for(GetParam()));
