@@ -9,6 +9,9 @@ namespace trueaxis {
 /// The diagnosis as an object (trueaxis.diagnosis/1).
 Json diagnosis_object(const Diagnosis& diagnosis);
 
+/// Verdict and findings of a diagnosis, for a result that names the file of the whole one.
+Json diagnosis_summary(const Diagnosis& diagnosis);
+
 /// A finding without its term and rivals, for results that hold a summary.
 Json finding_summary(const Finding& finding);
 

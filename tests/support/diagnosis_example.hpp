@@ -135,16 +135,14 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
 }
 
 /// The cone of cone_job() with a diagnosis that found something.
-inline JobResult diagnosed_job(std::size_t readings, Diagnosis& diagnosis) {
+inline JobResult diagnosed_job(std::size_t readings = 1500) {
   JobResult result = cone_job(readings);
-  diagnosis = diagnosed(result.streams.front(), result.fits.front());
+  result.diagnoses = {diagnosed(result.streams.front(), result.fits.front())};
   return result;
 }
 
 inline Diagnosis cone_diagnosis(std::size_t readings = 1500) {
-  Diagnosis diagnosis;
-  diagnosed_job(readings, diagnosis);
-  return diagnosis;
+  return *diagnosed_job(readings).diagnoses.front();
 }
 
 }  // namespace trueaxis::example

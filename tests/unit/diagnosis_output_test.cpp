@@ -8,6 +8,7 @@
 #include "io/diagnosis_noise_json.hpp"
 #include "io/text_layout.hpp"
 #include "support/diagnosis_example.hpp"
+#include "trueaxis/effect/catalogue.hpp"
 #include "trueaxis/io/diagnosis_json.hpp"
 #include "trueaxis/io/diagnosis_text.hpp"
 #include "trueaxis/io/residuals_csv.hpp"
