@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "effect/kinds.hpp"
 
 namespace trueaxis::kind {
@@ -25,21 +27,21 @@ Linear linear(const ArgumentShift& term, const TermShape&) {
 Names shapes(const ArgumentShift&) { return {}; }
 
 void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Columns out) {
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    switch (term.by) {
-      case By::angle:
-        out[0][i] = at.dx_dc[i];
-        break;
-      case By::delay:
+  switch (term.by) {
+    case By::angle:
+      std::copy(at.dx_dc.begin(), at.dx_dc.end(), out[0]);
+      break;
+    case By::delay:
+      for (std::size_t i = 0; i < at.size(); ++i) {
         out[0][i] = -at.speed_rad_per_s[i] * at.dx_dc[i] - at.velocity_mm_per_s[i] * at.dx_dz[i];
-        break;
-      case By::backlash: {
-        const double half = 0.5 * sign(at.velocity_mm_per_s[i]);
-        out[0][i] = -half * at.dx_dz[i];
-        out[1][i] = half;
-        break;
       }
-    }
+      break;
+    case By::backlash:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[1][i] = 0.5 * sign(at.velocity_mm_per_s[i]);
+        out[0][i] = -out[1][i] * at.dx_dz[i];
+      }
+      break;
   }
 }
 

@@ -1,62 +1,66 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
-#include "trueaxis/effect/term.hpp"
+#include "effect/kinds.hpp"
+#include "trueaxis/math/sincos.hpp"
 
-/// The contact of reading i, from X(C, Z) and its slopes alone: seen by the machine, the surface is
-/// a height X over (Y, Z) whatever its kind. Its gradient along Y follows from turning it:
-/// ∂X/∂C = Y + X ∂X/∂Y at Y = h, with x = X cos C − Y sin C.
+/// The contact, from X(C, Z) and its slopes alone: seen by the machine, the surface is a height X
+/// over (Y, Z) whatever its kind. Its gradient along Y follows from turning it:
+/// ∂X/∂C = Y + X ∂X/∂Y at Y = h, with x = X cos C − Y sin C. Columns over one chunk.
 namespace trueaxis::contact {
 
-inline double dx_dy(const TermContext& at, std::size_t i) {
-  return (at.dx_dc[i] - at.height_mm) / at.x_mm[i];
+using Chunk = std::array<double, kind::chunk_size>;
+
+/// sin and cos of an angle (rad) over the readings of `at`.
+inline void sin_cos(const TermContext& at, const double* angle_rad, double* sine, double* cosine) {
+  sincos({angle_rad, at.size()}, {sine, at.size()}, {cosine, at.size()});
 }
 
-/// 1/|n_x| of the unit normal.
-inline double secant(const TermContext& at, std::size_t i) {
-  return std::sqrt(1.0 + dx_dy(at, i) * dx_dy(at, i) + at.dx_dz[i] * at.dx_dz[i]);
+inline void dx_dy(const TermContext& at, double* out) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[i] = (at.dx_dc[i] - at.height_mm) / at.x_mm[i];
+  }
 }
 
-/// Form is positive away from the part's axis: at the rear that is towards smaller X.
-inline double dx_dform(const TermContext& at, std::size_t i) {
-  return at.rear ? -secant(at, i) : secant(at, i);
+/// `sign` times 1/|n_x| of the unit normal.
+inline void secant(const TermContext& at, double sign, double* out) {
+  dx_dy(at, out);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[i] = sign * std::sqrt(1.0 + out[i] * out[i] + at.dx_dz[i] * at.dx_dz[i]);
+  }
 }
 
 /// Sign of X out of the material.
 inline double away(const TermContext& at) { return at.rear == at.bore ? 1.0 : -1.0; }
 
-/// Machine X when the part moves along x and y of the spindle frame: X = f(Y − b, Z) + a with
-/// a, b the motion along machine X and Y.
-inline double dx_dpart_x(const TermContext& at, std::size_t i) {
-  return std::cos(at.c_rad[i]) + std::sin(at.c_rad[i]) * dx_dy(at, i);
-}
-inline double dx_dpart_y(const TermContext& at, std::size_t i) {
-  return std::sin(at.c_rad[i]) - std::cos(at.c_rad[i]) * dx_dy(at, i);
-}
-
-inline double dx_d(Port port, const TermContext& at, std::size_t i) {
-  switch (port) {
-    case Port::normal:
-      return dx_dform(at, i);
-    case Port::c:
-      return at.dx_dc[i];
-    case Port::z:
-      return at.dx_dz[i];
-    case Port::x:
-      break;
+/// Multiplies by dX/d(value of `port`). Form is positive away from the part's axis: at the rear
+/// that is towards smaller X.
+inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* const> columns) {
+  if (port == Port::x) return;
+  Chunk normal;
+  if (port == Port::normal) secant(at, at.rear ? -1.0 : 1.0, normal.data());
+  const double* factor = port == Port::normal ? normal.data()
+                         : port == Port::c    ? at.dx_dc.data()
+                                              : at.dx_dz.data();
+  for (double* column : columns) {
+    for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
   }
-  return 1.0;
 }
 
 /// Position that a term along Z is written in: s for what the part has, Z for the machine.
-inline double along_mm(Port port, const TermContext& at, std::size_t i) {
-  return port == Port::normal ? at.s_mm[i] : at.z_mm[i];
+inline std::span<const double> along_mm(Port port, const TermContext& at) {
+  return port == Port::normal ? at.s_mm : at.z_mm;
 }
-inline double normalised(Port port, const TermContext& at, std::size_t i) {
-  return (along_mm(port, at, i) - at.z_mid_mm) / at.z_half_mm;
+
+/// u = (along − z_mid)/z_half.
+inline void normalised(Port port, const TermContext& at, double* out) {
+  const std::span<const double> along = along_mm(port, at);
+  for (std::size_t i = 0; i < at.size(); ++i) out[i] = (along[i] - at.z_mid_mm) / at.z_half_mm;
 }
 
 }  // namespace trueaxis::contact

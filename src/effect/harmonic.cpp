@@ -14,37 +14,56 @@ double order_of(const Harmonic& term, const TermShape& shape) {
   return term.fixed_order > 0.0 ? term.fixed_order : shape.order;
 }
 
-double angle_at(Angle angle, const TermContext& at, std::size_t i) {
+std::span<const double> angle_of(Angle angle, const TermContext& at) {
   switch (angle) {
     case Angle::part:
-      return at.theta_rad[i];
+      return at.theta_rad;
     case Angle::chuck:
-      return at.theta_chuck_rad[i];
+      return at.theta_chuck_rad;
     case Angle::spindle:
       break;
   }
-  return at.c_rad[i];
+  return at.c_rad;
 }
 
-// A shift of the axis by δ towards θ = 0 is the form δ cos α cos θ along the normal.
-double envelope_at(const Harmonic& term, const TermContext& at, const TermShape& shape,
-                   std::size_t i) {
+// The factor along Z; 1 is left out. A shift of the axis by δ towards θ = 0 is the form
+// δ cos α cos θ along the normal.
+void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermShape& shape,
+                       Columns out) {
+  contact::Chunk factor;
   switch (term.envelope) {
-    case Envelope::lever:
-      return contact::along_mm(term.port, at, i) - shape.lever_from_mm;
-    case Envelope::jaws: {
-      const double away = std::abs(at.s_mm[i] - shape.lever_from_mm);
-      return at.clamp_force_ratio[i] * std::exp(-away / shape.decay_length_mm);
+    case Envelope::lever: {
+      const std::span<const double> along = contact::along_mm(term.port, at);
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] = along[i] - shape.lever_from_mm;
+      break;
     }
+    case Envelope::jaws:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double away = std::abs(at.s_mm[i] - shape.lever_from_mm);
+        factor[i] = at.clamp_force_ratio[i] * std::exp(-away / shape.decay_length_mm);
+      }
+      break;
     case Envelope::parabola: {
-      const double u = contact::normalised(term.port, at, i);
-      return u * u / std::hypot(1.0, at.tan_half_angle);
+      contact::normalised(term.port, at, factor.data());
+      const double cosine = 1.0 / std::hypot(1.0, at.tan_half_angle);
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] *= factor[i] * cosine;
+      break;
     }
     case Envelope::constant:
     case Envelope::growing:
-      break;
+      return;
   }
-  return 1.0;
+  for (double* column : out) {
+    for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
+  }
+}
+
+void fill_growing(const Harmonic& term, const TermContext& at, Columns out) {
+  contact::Chunk u;
+  contact::normalised(term.port, at, u.data());
+  for (const std::size_t j : {0u, 1u}) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[j + 2][i] = u[i] * out[j][i];
+  }
 }
 
 }  // namespace
@@ -73,21 +92,18 @@ Names shapes(const Harmonic& term) {
 
 void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out) {
   const double n = order_of(term, shape);
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const double angle = n * angle_at(term.angle, at, i);
-    const double size = envelope_at(term, at, shape, i) * contact::dx_d(term.port, at, i);
-    out[0][i] = size * std::cos(angle);
-    out[1][i] = size * std::sin(angle);
-    if (term.envelope == Envelope::growing) {
-      const double u = contact::normalised(term.port, at, i);
-      out[2][i] = u * out[0][i];
-      out[3][i] = u * out[1][i];
-    }
-    if (term.envelope == Envelope::jaws) {
-      out[2][i] = size * std::cos(2.0 * angle);
-      out[3][i] = size * std::sin(2.0 * angle);
-    }
+  const std::span<const double> angle = angle_of(term.angle, at);
+  contact::Chunk turned;
+  for (std::size_t i = 0; i < at.size(); ++i) turned[i] = n * angle[i];
+  contact::sin_cos(at, turned.data(), out[1], out[0]);
+  if (term.envelope == Envelope::jaws) {
+    for (std::size_t i = 0; i < at.size(); ++i) turned[i] *= 2.0;
+    contact::sin_cos(at, turned.data(), out[3], out[2]);
   }
+  const Columns own = term.envelope == Envelope::growing ? out.first(2) : out;
+  scale_by_envelope(term, at, shape, own);
+  contact::scale_by_dx_d(term.port, at, own);
+  if (term.envelope == Envelope::growing) fill_growing(term, at, out);
 }
 
 }  // namespace trueaxis::kind

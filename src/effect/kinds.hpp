@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 
 /// The kinds of term, a file each: names of the linear and of the shape parameters, columns.
 namespace trueaxis::kind {
+
+/// Readings that a `fill` is given at most: its buffers lie on the stack, in the first cache.
+inline constexpr std::size_t chunk_size = 256;
 
 using Columns = std::span<double* const>;
 using Linear = std::vector<LinearParameter>;

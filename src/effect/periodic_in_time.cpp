@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
+#include "effect/geometry.hpp"
 #include "effect/kinds.hpp"
 #include "trueaxis/base/units.hpp"
 
@@ -13,11 +12,10 @@ Linear linear(const PeriodicInTime&, const TermShape&) {
 Names shapes(const PeriodicInTime&) { return {"frequency_hz"}; }
 
 void fill(const PeriodicInTime&, const TermContext& at, const TermShape& shape, Columns out) {
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const double angle = two_pi * shape.frequency_hz * at.time_s[i];
-    out[0][i] = std::cos(angle);
-    out[1][i] = std::sin(angle);
-  }
+  const double turning_rad_per_s = two_pi * shape.frequency_hz;
+  contact::Chunk angle;
+  for (std::size_t i = 0; i < at.size(); ++i) angle[i] = turning_rad_per_s * at.time_s[i];
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
 }
 
 }  // namespace trueaxis::kind

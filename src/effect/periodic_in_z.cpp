@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include "effect/geometry.hpp"
 #include "effect/kinds.hpp"
 #include "trueaxis/base/units.hpp"
@@ -15,12 +13,13 @@ Names shapes(const PeriodicInZ&) { return {"period_mm"}; }
 
 void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
   const double k = two_pi / shape.period_mm;
+  const std::span<const double> along = contact::along_mm(term.port, at);
+  contact::Chunk angle;
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const double angle = k * contact::along_mm(term.port, at, i) - term.turns * at.theta_rad[i];
-    const double size = contact::dx_d(term.port, at, i);
-    out[0][i] = size * std::cos(angle);
-    out[1][i] = size * std::sin(angle);
+    angle[i] = k * along[i] - term.turns * at.theta_rad[i];
   }
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
+  contact::scale_by_dx_d(term.port, at, out);
 }
 
 }  // namespace trueaxis::kind

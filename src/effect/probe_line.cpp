@@ -21,18 +21,14 @@ Names shapes(const ProbeLine&) { return {}; }
 // Tilt: the contact's height on the line is Z + X sin γ. Ball: its centre stands off along the
 // normal, out of the material.
 void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Columns out) {
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    switch (term.of) {
-      case ProbeLine::Of::height:
-        out[0][i] = contact::dx_dy(at, i);
-        break;
-      case ProbeLine::Of::tilt:
-        out[0][i] = at.x_mm[i] * at.dx_dz[i];
-        break;
-      case ProbeLine::Of::ball:
-        out[0][i] = contact::away(at) * contact::secant(at, i);
-        break;
-    }
+  switch (term.of) {
+    case ProbeLine::Of::height:
+      return contact::dx_dy(at, out[0]);
+    case ProbeLine::Of::tilt:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = at.x_mm[i] * at.dx_dz[i];
+      return;
+    case ProbeLine::Of::ball:
+      return contact::secant(at, contact::away(at), out[0]);
   }
 }
 

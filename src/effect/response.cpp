@@ -12,14 +12,22 @@ using Of = Response::Of;
 
 // The trigger path lies along X, into the material, and varies with the direction ψ of the normal
 // across the stylus, sin of its angle to X being the size.
-void pretravel(const TermContext& at, const TermShape& shape, std::size_t i, Columns out) {
-  const double out_of = contact::away(at), secant = contact::secant(at, i);
-  const double ny = -out_of * contact::dx_dy(at, i) / secant;
-  const double nz = -out_of * at.dx_dz[i] / secant;
-  const double across = std::hypot(ny, nz), psi = shape.order * std::atan2(ny, nz);
-  out[0][i] = -out_of;
-  out[1][i] = -out_of * across * std::cos(psi);
-  out[2][i] = -out_of * across * std::sin(psi);
+void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
+  const double out_of = contact::away(at);
+  contact::Chunk slope, secant, across, psi;
+  contact::dx_dy(at, slope.data());
+  contact::secant(at, 1.0, secant.data());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double ny = -out_of * slope[i], nz = -out_of * at.dx_dz[i];  // times the secant
+    across[i] = -out_of * std::sqrt(ny * ny + nz * nz) / secant[i];
+    psi[i] = shape.order * std::atan2(ny, nz);
+  }
+  contact::sin_cos(at, psi.data(), out[2], out[1]);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[0][i] = -out_of;
+    out[1][i] *= across[i];
+    out[2][i] *= across[i];
+  }
 }
 
 // d/dT of the indication at T. Turning, X is nearly one harmonic of C and H = 1/(1 + jωT) exactly
@@ -68,31 +76,31 @@ Names shapes(const Response& term) {
 }
 
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const double away = at.sensed_mm[i] - shape.reference_x_mm;
-    switch (term.of) {
-      case Of::gain:
-        out[0][i] = away;
-        break;
-      case Of::nonlinearity: {
-        const double v = away / shape.range_mm;
+  switch (term.of) {
+    case Of::gain:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[0][i] = at.sensed_mm[i] - shape.reference_x_mm;
+      }
+      return;
+    case Of::nonlinearity:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double v = (at.sensed_mm[i] - shape.reference_x_mm) / shape.range_mm;
         out[0][i] = v * v;
         out[1][i] = v * v * v;
-        break;
       }
-      case Of::cyclic: {
-        const double angle = two_pi * at.sensed_mm[i] / shape.period_mm;
-        out[0][i] = std::cos(angle);
-        out[1][i] = std::sin(angle);
-        break;
+      return;
+    case Of::cyclic: {
+      contact::Chunk angle;
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        angle[i] = two_pi * at.sensed_mm[i] / shape.period_mm;
       }
-      case Of::pretravel:
-        pretravel(at, shape, i, out);
-        break;
-      case Of::lag:
-        out[0][i] = lag(at, shape.time_constant_s, i);
-        break;
+      return contact::sin_cos(at, angle.data(), out[1], out[0]);
     }
+    case Of::pretravel:
+      return fill_pretravel(at, shape, out);
+    case Of::lag:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = lag(at, shape.time_constant_s, i);
+      return;
   }
 }
 

@@ -26,6 +26,18 @@ void check(const Term& term, const TermContext& at) {
   expects(at.z_half_mm > 0.0, "the probed length is not 0");
 }
 
+// The readings [from, from + count) of every column that is there.
+TermContext part_of(const TermContext& at, std::size_t from, std::size_t count) {
+  TermContext part = at;
+  for (auto* column :
+       {&part.c_rad, &part.z_mm, &part.time_s, &part.speed_rad_per_s, &part.velocity_mm_per_s,
+        &part.x_mm, &part.sensed_mm, &part.dx_dc, &part.dx_dz, &part.d2x_dc2, &part.theta_rad,
+        &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
+    if (!column->empty()) *column = column->subspan(from, count);
+  }
+  return part;
+}
+
 }  // namespace
 
 std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape) {
@@ -56,11 +68,17 @@ void fill_columns(const Term& term, const TermContext& context, const TermShape&
                   std::span<double* const> columns) {
   check(term, context);
   expects(columns.size() == linear_parameters(term, shape).size(), "one column a linear parameter");
-  std::visit(
-      [&](const auto& of) {
-        if constexpr (!is_nothing<decltype(of)>) kind::fill(of, context, shape, columns);
-      },
-      term);
+  std::vector<double*> out(columns.begin(), columns.end());
+  for (std::size_t from = 0; from < context.size(); from += kind::chunk_size) {
+    const std::size_t count = std::min(kind::chunk_size, context.size() - from);
+    const TermContext part = part_of(context, from, count);
+    std::visit(
+        [&](const auto& of) {
+          if constexpr (!is_nothing<decltype(of)>) kind::fill(of, part, shape, out);
+        },
+        term);
+    for (double*& column : out) column += count;
+  }
 }
 
 }  // namespace trueaxis

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "trueaxis/measure/set_up.hpp"
+
 namespace trueaxis {
 
 /// What the probe moves along while it reads.
@@ -34,6 +36,10 @@ struct ProbeStream {
   std::vector<int> pass;            ///< empty when the stream has no pass column
   std::vector<int> setup;           ///< empty when the stream has no setup column
 
+  /// One for every number in the column `setup`, in order of number (see list_set_ups); without the
+  /// column one, number 1.
+  std::vector<SetUp> setups{SetUp{}};
+
   std::optional<double> nominal_radius_mm;  ///< metadata nominal_radius
   std::optional<double> sensor_noise_mm;    ///< metadata sensor_noise, standard deviation
   std::optional<double>
@@ -47,5 +53,12 @@ struct ProbeStream {
   std::size_t size() const { return reading_mm.size(); }
   bool has_position() const { return !position_mm.empty(); }
 };
+
+/// The set-up of a reading. A number that `setups` does not hold: as first clamped.
+SetUp set_up_of(const ProbeStream& stream, std::size_t reading);
+
+/// The set-ups that occur in the column `setup`, in order of number, as `setups` states them; those
+/// it does not hold are as first clamped. A stream without the column: number 1.
+std::vector<SetUp> list_set_ups(const ProbeStream& stream);
 
 }  // namespace trueaxis

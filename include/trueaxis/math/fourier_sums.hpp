@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace trueaxis {
+
+/// Fourier sums of values at irregular abscissae t,
+///   F_k = Σ_i w_i exp(−i (w0 + k dw) t_i),  k = 0 … K−1,
+/// by a non-uniform fast transform of type 1 (Dutt and Rokhlin 1993): every value is spread over
+/// 12 points of a grid twice as fine as needed by the kernel exp(β(√(1 − x²) − 1)) of Barnett,
+/// Magland and af Klinteberg (2019), transformed, and divided by the kernel's own transform.
+/// Error of F_k: at most 1e-9 Σ|w_i|, for phases (w0 + k dw) t below 1e9 rad. The units of t and
+/// w0, dw are free but inverse to each other.
+///
+/// The object keeps what depends on t alone: 28 bytes a reading and 16 an order k. Fastest for t
+/// nearly in order. Copies share it; `of` may be called from several threads.
+class FourierSums {
+ public:
+  /// @throws ContractViolation unless 1 ≤ K ≤ 2^28 and everything is finite.
+  FourierSums(std::span<const double> t, double w0, double dw, std::size_t K);
+
+  std::size_t orders() const;
+
+  /// F_0 … F_{K−1} of one right-hand side, as long as t.
+  std::vector<std::complex<double>> of(std::span<const double> w) const;
+
+ private:
+  struct Plan;
+  std::shared_ptr<const Plan> plan_;
+};
+
+}  // namespace trueaxis

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/atlas.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr int most_harmonics = 12, most_degrees = 4;
+
+Hypothesis cell(int order, int degree, bool spindle = false, bool in_time = false) {
+  Hypothesis h;
+  h.pattern = {.order = static_cast<double>(order),
+               .spindle = spindle,
+               .degree = degree,
+               .in_time = in_time};
+  return h;
+}
+
+}  // namespace
+
+Resolution resolution_of(const Scene& scene, const Rows& rows) {
+  Resolution out;
+  out.per_turn = 1e9;
+  for (const Pass& pass : scene.passes) {
+    if (pass.c_sign == 0 || pass.readings_per_revolution <= 0.0) continue;
+    out.turns += static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
+    if (pass.end - pass.begin > 8) out.per_turn = std::min(out.per_turn, pass.readings_per_revolution);
+  }
+  if (out.per_turn == 1e9) out.per_turn = static_cast<double>(scene.size());
+  out.sections = rows.block == "a section";
+  if (out.sections)
+    out.per_turn = static_cast<double>(scene.size()) / static_cast<double>(rows.folds());
+  out.whole = std::abs(out.per_turn - std::round(out.per_turn)) < 1e-4;
+  // Turns that end between two readings are never at the same angles again: aliases come apart.
+  const double most = out.whole || out.turns < 2.0 ? (out.per_turn - 1.0) / 2.0 : most_harmonics;
+  out.harmonics = static_cast<int>(std::min<double>(most_harmonics, std::floor(most)));
+  out.degrees = scene.has_position ? most_degrees : 0;
+  if (out.sections) out.degrees = std::min<int>(most_degrees, static_cast<int>(rows.folds()) - 2);
+  std::size_t moving = 0;
+  for (const Pass& pass : scene.passes) moving += pass.end - pass.begin > 8;
+  out.one_variable = moving <= 1 && !out.sections;
+  return out;
+}
+
+std::vector<Hypothesis> atlas(const Scene& scene, const Resolution& resolution) {
+  std::vector<Hypothesis> cells;
+  for (int n = 0; n <= resolution.harmonics; ++n) {
+    for (int l = 0; l <= resolution.degrees + (n == 0 && resolution.degrees > 3 ? 1 : 0); ++l)
+      cells.push_back(cell(n, l));
+  }
+  if (scene.reindexed) {
+    for (int n = 2; n <= resolution.harmonics; ++n) {
+      cells.push_back(cell(n, 0, true));
+      if (resolution.degrees > 0) cells.push_back(cell(n, 1, true));
+    }
+  }
+  if (scene.has_time && !resolution.one_variable && !resolution.sections) {
+    for (int n = 0; n <= std::min(resolution.harmonics, 3); ++n) {
+      for (int l = 1; l <= 3; ++l) cells.push_back(cell(n, l, true, true));
+    }
+  }
+  return cells;
+}
+
+std::vector<Hypothesis> small_atlas(const Scene& scene, const Resolution& resolution) {
+  std::vector<Hypothesis> cells;
+  const std::size_t most = scene.size() / 3;
+  std::size_t columns = scene.base.columns();
+  const auto add = [&](int n, int l) {
+    const std::size_t own = n == 0 ? 1 : 2;
+    if (columns + own > most) return;
+    columns += own;
+    cells.push_back(cell(n, l));
+  };
+  for (int n = 0; n <= resolution.harmonics; ++n) {
+    add(n, 0);
+    if (resolution.degrees > 0) add(n, 1);
+    if (n == 0 || n == 2) {
+      for (int l = 2; l <= resolution.degrees; ++l) add(n, l);
+    }
+  }
+  return cells;
+}
+
+}  // namespace trueaxis::diagnose_detail

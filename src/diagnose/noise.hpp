@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnose/atlas.hpp"
+#include "diagnose/evidence.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Deviation minus base and terms at a solution; the solution's columns are in the order base,
+/// terms.
+std::vector<double> remainder(const Scene& scene, std::span<const double> deviation_mm,
+                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution);
+
+/// Masks readings farther than 8 robust σ from the surface with the small atlas, and what clings to
+/// them, until nothing changes. @returns why, a line a reading.
+std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolution,
+                                    std::span<const double> deviation_mm, Rows& rows);
+
+/// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
+/// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,
+/// each one only where the likelihood ratio passes 5 %. Few readings: none.
+std::vector<double> autoregression(const Scene& scene, const Rows& rows,
+                                   std::span<const double> deviation_mm,
+                                   std::span<const Hypothesis> terms);
+
+}  // namespace trueaxis::diagnose_detail

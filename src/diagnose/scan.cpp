@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+
+#include "trueaxis/base/units.hpp"
+#include "trueaxis/math/fourier_sums.hpp"
+#include "trueaxis/math/statistics.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+using Column = std::vector<double>;
+
+constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
+constexpr std::size_t peaks_kept = 2;
+
+/// One scan: cos, sin (2π f x − turns θ).
+struct Scan {
+  const Column* x = nullptr;
+  double turns = 0.0;
+  bool spindle = false;  ///< turns are of C
+  double low = 0.0, high = 0.0;
+  std::function<Hypothesis(double)> make;
+  bool pattern = false;
+  bool counts = true;  ///< false: the same lines as another scan
+};
+
+double variance(const Column& x) {
+  double mean = 0.0, sum = 0.0;
+  for (const double v : x) mean += v;
+  mean /= static_cast<double>(x.size());
+  for (const double v : x) sum += (v - mean) * (v - mean);
+  return sum / static_cast<double>(x.size());
+}
+
+Hypothesis line_of(const char* id, double frequency) {
+  return at_frequency(of_effect(id, {}), frequency);
+}
+
+Hypothesis pattern_line(double order, bool in_time, double frequency) {
+  Hypothesis h;
+  h.pattern = {.kind = Pattern::Kind::line,
+               .order = order,
+               .spindle = in_time,
+               .in_time = in_time,
+               .frequency = frequency};
+  return h;
+}
+
+/// Steps of an abscissa within passes: the median is its sampling, for the highest line seen.
+double sampling(const Scene& scene, const Column& x) {
+  double finest = 0.0;
+  for (const Pass& pass : scene.passes) {
+    if (pass.end - pass.begin < 8) continue;
+    const double step = std::abs(x[pass.end - 1] - x[pass.begin]) / static_cast<double>(pass.end - pass.begin - 1);
+    if (step > 0.0 && (finest == 0.0 || step < finest)) finest = step;
+  }
+  return finest;
+}
+
+std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
+  std::vector<Scan> list;
+  const auto span = [](const Column& x) {
+    const auto [low, high] = range_of(x);
+    return high - low;
+  };
+  const bool single = resolution.one_variable;
+  const double turn_step = sampling(scene, scene.c) / two_pi;
+  if (resolution.turns > 2.5 && turn_step > 0.0 && !resolution.sections) {
+    const double nyquist = 0.5 / turn_step;
+    list.push_back({&scene.c, 0.0, false, 0.3 / two_pi, std::min(nyquist, 15.5) / two_pi,
+                    [](double f) { return line_of("spindle.asynchronous", f); }});
+  }
+  const double time_step = scene.has_time ? sampling(scene, scene.time) : 0.0;
+  if (time_step > 0.0 && !resolution.sections) {
+    const double lasted = span(scene.time);
+    list.push_back({&scene.time, 0.0, false, 1.5 / lasted, std::min(0.5 / time_step, 500.0),
+                    [](double f) { return line_of("environment.vibration", f); }});
+    list.back().counts = !single;
+  }
+  const double length = scene.has_position ? span(scene.s) : 0.0;
+  if (length > 1.0 && !resolution.sections) {
+    const double step = sampling(scene, scene.s), highest = std::min(0.5 / step, 2.0);
+    list.push_back({&scene.s, 0.0, false, 1.5 / length, highest,
+                    [](double f) { return line_of("part.waviness", f); }});
+    list.back().counts = !single;
+    if (std::abs(scene.tan_half_angle) > 1e-3) {
+      list.push_back({&scene.z, 0.0, false, 1.5 / length, std::min(highest, 1.0),
+                      [](double f) { return line_of("slide.leadscrew_periodic", f); }});
+      list.back().counts = scene.shifted;
+    }
+    list.push_back({&scene.s, 1.0, false, 2.0, 20.0,
+                    [](double f) { return line_of("part.feed_marks", f); }});
+    list.back().counts = !single;
+    for (int k = 1; k <= resolution.harmonics; ++k) {
+      for (const double sign : {1.0, -1.0}) {
+        Scan scan{&scene.s, sign * k, false, 0.75 / length, 20.0 / length,
+                  [=](double f) { return pattern_line(k, false, sign * f); }};
+        scan.pattern = true;
+        scan.counts = !single;
+        list.push_back(scan);
+      }
+    }
+  }
+  const double swing = span(scene.sensed);
+  if (swing > 0.02 && !resolution.sections) {
+    list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 1.5 / swing),
+                    std::min(500.0, static_cast<double>(scene.size()) / (4.0 * swing)),
+                    [](double f) { return line_of("probe.cyclic", f); }});
+  }
+  if (time_step > 0.0 && !single && !resolution.sections) {
+    const double lasted = span(scene.time);
+    for (int k = 1; k <= resolution.harmonics; ++k) {
+      for (const double sign : {1.0, -1.0}) {
+        Scan scan{&scene.time, sign * k, true, 0.75 / lasted, 30.0 / lasted,
+                  [=](double f) { return pattern_line(k, true, sign * f); }};
+        scan.pattern = true;
+        list.push_back(scan);
+      }
+    }
+  }
+  std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
+  return list;
+}
+
+/// ½ Σ |A|² over the passes: the square of a whitened line's columns, A the transfer of the filter
+/// at the line's angle from reading to reading.
+double line_norm2(const Evidence& evidence, const std::vector<double>& used_of_pass,
+                  const std::vector<double>& x_step, const std::vector<double>& turn_step,
+                  double frequency, double turns) {
+  const auto& phi = evidence.autoregression();
+  double sum = 0.0;
+  for (std::size_t p = 0; p < used_of_pass.size(); ++p) {
+    const double angle = two_pi * frequency * x_step[p] - turns * turn_step[p];
+    std::complex<double> transfer = 1.0;
+    for (std::size_t j = 0; j < phi.size(); ++j)
+      transfer -= phi[j] * std::polar(1.0, -angle * static_cast<double>(j + 1));
+    sum += 0.5 * used_of_pass[p] * std::norm(transfer);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<double> weighted(const Evidence& evidence, std::span<const double> remainder_mm) {
+  const auto& phi = evidence.autoregression();
+  const Rows& rows = evidence.rows();
+  const std::size_t n = remainder_mm.size(), p = phi.size();
+  std::vector<double> white(n, 0.0), out(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!rows.used[i] || rows.run[i] < p) continue;
+    white[i] = remainder_mm[i];
+    for (std::size_t j = 0; j < p; ++j) white[i] -= phi[j] * remainder_mm[i - j - 1];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] += white[i];
+    for (std::size_t j = 0; j < p; ++j)
+      if (white[i] != 0.0) out[i - j - 1] -= phi[j] * white[i];
+  }
+  return out;
+}
+
+Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
+                 std::span<const double> remainder_mm) {
+  const Scene& scene = evidence.scene();
+  const Rows& rows = evidence.rows();
+  const std::vector<double> g = weighted(evidence, remainder_mm);
+  std::vector<double> used_of_pass;
+  for (const Pass& pass : scene.passes) {
+    double used = 0.0;
+    for (std::size_t i = pass.begin; i < pass.end; ++i)
+      used += rows.used[i] && rows.run[i] >= evidence.autoregression().size();
+    used_of_pass.push_back(used);
+  }
+  const auto steps = [&](const Column& x) {
+    std::vector<double> out;
+    for (const Pass& pass : scene.passes)
+      out.push_back(pass.end - pass.begin > 1 ? (x[pass.end - 1] - x[pass.begin]) /
+                                                    static_cast<double>(pass.end - pass.begin - 1)
+                                              : 0.0);
+    return out;
+  };
+  const std::vector<double> c_step = steps(scene.c);
+
+  Scans out;
+  const Column* planned = nullptr;
+  double planned_low = 0.0, planned_high = 0.0;
+  std::unique_ptr<FourierSums> plan;
+  Column cosine(g.size()), sine(g.size());
+  double modulated = 0.0;
+  std::size_t bins = 0;
+  double df = 0.0;
+  for (const Scan& scan : scans_of(scene, resolution)) {
+    const auto [x_low, x_high] = range_of(*scan.x);
+    if (!plan || planned != scan.x || planned_low != scan.low || planned_high != scan.high) {
+      df = 1.0 / (oversampling * (x_high - x_low));
+      bins = static_cast<std::size_t>((scan.high - scan.low) / df) + 1;
+      plan = std::make_unique<FourierSums>(*scan.x, two_pi * scan.low, two_pi * df, bins);
+      planned = scan.x, planned_low = scan.low, planned_high = scan.high;
+    }
+    const std::vector<double> x_step = steps(*scan.x);
+    std::vector<std::complex<double>> sums;
+    if (scan.turns == 0.0) {
+      sums = plan->of(g);
+    } else {
+      const double n = std::abs(scan.turns);
+      for (std::size_t i = 0; i < g.size(); ++i) {
+        const double angle = n * (scan.spindle ? scene.c[i] : scene.theta[i]);
+        cosine[i] = g[i] * std::cos(angle), sine[i] = g[i] * std::sin(angle);
+      }
+      modulated = scan.turns;
+      // Σ g exp(−i(2πfx − turns θ))
+      sums = plan->of(cosine);
+      const auto other = plan->of(sine);
+      const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
+      for (std::size_t k = 0; k < bins; ++k) sums[k] += turn * other[k];
+    }
+    (void)modulated;
+    std::vector<double> gain(bins);
+    const bool white = evidence.autoregression().empty();
+    const double flat = line_norm2(evidence, used_of_pass, x_step, c_step, scan.low, scan.turns);
+    for (std::size_t k = 0; k < bins; ++k) {
+      const double f = scan.low + df * static_cast<double>(k);
+      const double norm2 =
+          white ? flat : line_norm2(evidence, used_of_pass, x_step, c_step, f, scan.turns);
+      gain[k] = std::norm(sums[k]) / (2.0 * norm2) * 2.0 / 2.0 * 1.0;
+    }
+    // cos and sin columns have the square norm2 each: gain = (c² + s²)/norm2.
+    for (double& v : gain) v *= 2.0;
+    for (std::size_t taken = 0; taken < peaks_kept; ++taken) {
+      const auto top = std::ranges::max_element(gain);
+      if (!(*top > 0.0)) break;
+      const auto k = static_cast<std::size_t>(top - gain.begin());
+      const double f = scan.low + df * static_cast<double>(k);
+      Peak peak{scan.make(f), *top, df, f};
+      (scan.pattern ? out.patterns : out.causes).push_back(std::move(peak));
+      const std::size_t near = static_cast<std::size_t>(2.0 * oversampling);
+      std::fill(gain.begin() + static_cast<long>(k - std::min(k, near)),
+                gain.begin() + static_cast<long>(std::min(bins, k + near + 1)), 0.0);
+    }
+    if (scan.counts)
+      out.bandwidth += (scan.high - scan.low) * std::sqrt(2.0 * two_pi * variance(*scan.x));
+  }
+  return out;
+}
+
+bool is_line(const Hypothesis& h) {
+  if (!h.effect) return h.pattern.kind == Pattern::Kind::line;
+  return h.effect->id == "spindle.asynchronous" || h.effect->id == "environment.vibration" ||
+         h.effect->id == "part.waviness" || h.effect->id == "slide.leadscrew_periodic" ||
+         h.effect->id == "part.feed_marks" || h.effect->id == "probe.cyclic";
+}
+
+Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {
+  Hypothesis h = hypothesis;
+  if (!h.effect) {
+    h.pattern.frequency = std::copysign(frequency, h.pattern.frequency);
+  } else if (h.effect->id == "spindle.asynchronous") {
+    h.shape.order = frequency * two_pi;
+  } else if (h.effect->id == "environment.vibration") {
+    h.shape.frequency_hz = frequency;
+  } else {
+    h.shape.period_mm = 1.0 / frequency;
+  }
+  return h;
+}
+
+double frequency_of(const Hypothesis& h) {
+  if (!h.effect) return std::abs(h.pattern.frequency);
+  if (h.effect->id == "spindle.asynchronous") return h.shape.order / two_pi;
+  if (h.effect->id == "environment.vibration") return h.shape.frequency_hz;
+  return 1.0 / h.shape.period_mm;
+}
+
+std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const double> remainder_mm,
+                                   double& tests) {
+  const Scene& scene = evidence.scene();
+  const Rows& rows = evidence.rows();
+  const std::vector<double> g = weighted(evidence, remainder_mm);
+  std::vector<Hypothesis> best;
+  tests = 0.0;
+  constexpr std::size_t least_readings = 8;
+  for (const std::size_t sectors : {12U, 24U, 48U}) {
+    for (const std::size_t lengths : {1U, 6U, 12U, 24U}) {
+      if (lengths > 1 && !scene.has_position) continue;
+      if (rows.folds() < 12 && lengths > 6) continue;
+      std::vector<double> sum(sectors * lengths, 0.0);
+      std::vector<std::size_t> count(sectors * lengths, 0);
+      const auto place = [&](std::size_t i) {
+        double turn = scene.theta[i] / two_pi;
+        turn -= std::floor(turn);
+        const double u = std::clamp(0.5 + 0.5 * (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm, 0.0, 0.999999);
+        const auto a = std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
+        return a * lengths + (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
+      };
+      for (std::size_t i = 0; i < scene.size(); ++i) {
+        if (!rows.used[i]) continue;
+        sum[place(i)] += g[i];
+        ++count[place(i)];
+      }
+      double top = 0.0;
+      std::size_t where = 0;
+      for (std::size_t b = 0; b < sum.size(); ++b) {
+        if (count[b] < least_readings) continue;
+        tests += 1.0;
+        const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
+        if (value > top) top = value, where = b;
+      }
+      if (!(top > 0.0)) continue;
+      Hypothesis h;
+      const double width = two_pi / static_cast<double>(sectors);
+      const double length = 2.0 * scene.z_half_mm / static_cast<double>(lengths);
+      h.pattern.kind = Pattern::Kind::bump;
+      h.pattern.angle_rad = (static_cast<double>(where / lengths) + 0.5) * width;
+      h.pattern.width_rad = 0.5 * width;
+      h.pattern.position_mm = scene.z_mid_mm - scene.z_half_mm +
+                              (static_cast<double>(where % lengths) + 0.5) * length;
+      h.pattern.length_mm = lengths > 1 ? 0.5 * length : 0.0;
+      best.push_back(h);
+    }
+  }
+  return best;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace trueaxis {
+
+/// φ(x) = exp(β(√(1 − x²) − 1)), |x| ≤ 1, over `spread_width` points of a grid.
+inline constexpr std::size_t spread_width = 12;
+/// 2.3 times the width for a grid twice as fine as needed (Barnett, Magland, af Klinteberg 2019).
+inline constexpr double spread_beta = 2.3 * spread_width;
+
+/// Values to spread: each has its first grid point, the distance of that point from the abscissa,
+/// −width/2 … 1 − width/2 in steps of the grid, and a phase factor.
+struct SpreadPoints {
+  std::span<const std::uint32_t> first;
+  std::span<const double> distance, cosine, sine;
+};
+
+/// Adds value × (cosine, sine) × φ to the real and the imaginary grid, which are `spread_width`
+/// longer than the largest `first`.
+void spread(const SpreadPoints& points, std::span<const double> value, std::span<double> real,
+            std::span<double> imaginary);
+
+}  // namespace trueaxis

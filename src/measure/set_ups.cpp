@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "trueaxis/measure/probe_stream.hpp"
+
+namespace trueaxis {
+namespace {
+
+SetUp stated(const std::vector<SetUp>& setups, int number) {
+  const auto at = std::ranges::find(setups, number, &SetUp::number);
+  if (at != setups.end()) return *at;
+  SetUp as_first;
+  as_first.number = number;
+  return as_first;
+}
+
+}  // namespace
+
+SetUp set_up_of(const ProbeStream& stream, std::size_t reading) {
+  return stated(stream.setups, stream.setup.empty() ? 1 : stream.setup[reading]);
+}
+
+std::vector<SetUp> list_set_ups(const ProbeStream& stream) {
+  if (stream.setup.empty()) return {stated(stream.setups, 1)};
+  std::vector<int> numbers;  // runs of one number are long
+  for (const int number : stream.setup) {
+    if (numbers.empty() || numbers.back() != number) numbers.push_back(number);
+  }
+  std::ranges::sort(numbers);
+  const auto repeated = std::ranges::unique(numbers);
+  numbers.erase(repeated.begin(), repeated.end());
+  std::vector<SetUp> list;
+  for (const int number : numbers) list.push_back(stated(stream.setups, number));
+  return list;
+}
+
+}  // namespace trueaxis
