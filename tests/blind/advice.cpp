@@ -26,9 +26,12 @@ void follow_advice(Result& result, const std::string& command,
   const std::size_t before = class_size(result.answer, id);
   const bool absorbed = made.wanted.kind == Kind::absorbed;
   if (absorbed ? before > 0 : before < 2) return;
-  const auto extended = with_measurement(made.scenario, result.answer.next_plan);
+  const auto own = result.answer.not_observable.find(id);
+  if (absorbed && own == result.answer.not_observable.end()) return;
+  const std::string plan = absorbed ? own->second : result.answer.next_plan;
+  const auto extended = with_measurement(made.scenario, plan);
   if (!extended) return;
-  result.advice = result.answer.next_plan;
+  result.advice = plan;
   BlindCase further = made;
   further.scenario = *extended;
   further.rows.clear();

@@ -118,7 +118,7 @@ Score score(const BlindCase& blind_case, const Sealed& truth, const Answer& answ
       out.named = {first};
       break;
     case Kind::absorbed:
-      out.outcome = silent && holds(answer.not_observable, truth.effects.front().id)
+      out.outcome = silent && answer.not_observable.contains(truth.effects.front().id)
                         ? Outcome::correct
                         : Outcome::not_abstained;
       out.named = {silent && out.outcome == Outcome::correct ? "not observable" : first};

@@ -59,7 +59,8 @@ Answer read_answer(const Json& json) {
                                  cell.at("dependence").get<std::string>());
   }
   for (const Json& absorbed : json.at("not_observable")) {
-    answer.not_observable.push_back(absorbed.at("effect"));
+    const Json with = absorbed.value("separate_with", Json());
+    answer.not_observable[absorbed.at("effect")] = with.is_object() ? with.value("plan", "") : "";
   }
   const Json next = json.value("next_measurement", Json::object());
   if (next.contains("plan") && next.at("plan").is_string()) answer.next_plan = next.at("plan");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -16,7 +17,7 @@ struct Answer {
   std::string text;                               ///< of a crash
   std::vector<std::vector<std::string>> classes;  ///< of the findings, the named one first
   std::vector<std::string> unexplained;           ///< "3 UPR, constant along Z"
-  std::vector<std::string> not_observable;        ///< ids
+  std::map<std::string, std::string> not_observable;  ///< id → measurement that would show it
   std::string next_plan;                          ///< next_measurement.plan
   double threshold = 0.0;                         ///< of a statistic with two degrees of freedom
   double seconds = 0.0;                           ///< of the process
