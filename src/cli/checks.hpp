@@ -23,4 +23,8 @@ inline CLI::Validator positive_length() {
   return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");
 }
 
+inline CLI::Validator false_alarm_level() {
+  return number_in(0.0, true, 0.5, "a probability above 0, up to 0.5");
+}
+
 }  // namespace trueaxis::cli

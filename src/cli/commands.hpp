@@ -11,6 +11,8 @@ enum Exit { done = 0, refused = 1, usage = 2, input = 3, numerical = 4, bug = 70
 /// Each adds its subcommand to `app`; the code it ends with goes to `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app, int& exit_code);
+void add_diagnose(CLI::App& app, int& exit_code);
+void add_advise(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);

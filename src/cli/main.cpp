@@ -22,6 +22,8 @@ int run(int argc, char** argv) {
   int code = done;
   add_run(app, code);
   add_fit(app, code);
+  add_diagnose(app, code);
+  add_advise(app, code);
   add_correct(app, code);
   add_simulate(app, code);
   add_effects(app, code);

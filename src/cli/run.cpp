@@ -6,12 +6,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
+#include "cli/job_streams.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/io/diagnosis_json.hpp"
+#include "trueaxis/io/diagnosis_text.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/fit_text.hpp"
 #include "trueaxis/io/job_json.hpp"
 #include "trueaxis/io/job_toml.hpp"
-#include "trueaxis/io/stream_csv.hpp"
 #include "trueaxis/io/table_csv.hpp"
 #include "trueaxis/job/job.hpp"
 #include "trueaxis/report/report.hpp"
@@ -19,26 +21,21 @@
 namespace trueaxis::cli {
 namespace {
 
-/// All streams, with the diagnostics of all of them at once.
-std::vector<ProbeStream> read_streams(const Job& job) {
-  std::vector<ProbeStream> streams;
-  std::vector<Diagnostic> diagnostics;
-  for (const JobReference& reference : job.references) {
-    try {
-      const StreamReading& said = reference.read;
-      streams.push_back(read_stream_csv(reference.stream,
-                                        {said.diameter, said.indication, said.nominal_radius_mm}));
-    } catch (const InputError& error) {
-      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
-  if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
-  return streams;
-}
-
 void print(const JobResult& result) {
   std::cout << result.verdict.line << "\n\n";
-  for (const FitResult& fit : result.fits) std::cout << fit_text(fit) << '\n';
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    std::cout << fit_text(result.fits[i]);
+    if (result.diagnoses[i])
+      std::cout << findings_text(*result.diagnoses[i]);
+    else if (result.streams[i].kind == StreamKind::face)
+      std::cout << "diagnosis   none: a face is not diagnosed\n";
+    std::cout << '\n';
+  }
+  for (const Inclusion& i : result.inclusions) {
+    std::cout << (i.included ? "followed    " : "not followed ") << i.effect
+              << (i.reference.empty() ? "" : " of " + i.reference)
+              << (i.why.empty() ? "" : ": " + i.why) << '\n';
+  }
   if (result.correction) std::cout << correction_preview(*result.correction) << '\n';
 }
 
@@ -49,6 +46,13 @@ void write(const JobResult& result, const std::filesystem::path& folder) {
                     table = tabled ? correction_csv(*result.correction) : "";
   std::vector<FileContent> files{{(folder / "result.json").string(), json},
                                  {(folder / "report.html").string(), report}};
+  std::vector<std::string> diagnoses;
+  for (const auto& diagnosis : result.diagnoses)
+    diagnoses.push_back(diagnosis ? diagnosis_json(*diagnosis) : "");
+  for (std::size_t i = 0; i < diagnoses.size(); ++i) {
+    if (result.diagnoses[i])
+      files.push_back({(folder / diagnosis_file(result, i)).string(), diagnoses[i]});
+  }
   if (tabled) files.push_back({(folder / "table.csv").string(), table});
   write_files(files);
   print(result);
@@ -79,7 +83,7 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "the whole job: fit, correction, report");
+  CLI::App* command = app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
   auto job = std::make_shared<std::string>();
   auto folder = std::make_shared<std::string>();
   command->add_option("job", *job, "job file (TOML)")->required();

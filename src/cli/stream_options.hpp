@@ -16,8 +16,9 @@ struct StreamOptions {
   bool diameter = false, radius = false, relative = false;
   double nominal_radius_mm = 0.0;
 
-  void add_to(CLI::App& command) {
-    command.add_option("stream", path, "probe stream (CSV), '-' for standard input")->required();
+  void add_to(CLI::App& command,
+              const std::string& what = "probe stream (CSV), '-' for standard input") {
+    command.add_option("stream", path, what)->required();
     auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");

@@ -2,6 +2,7 @@
 #include "trueaxis/correct/correction.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "correct/margin.hpp"
 #include "correct/precompensate.hpp"
@@ -35,15 +36,17 @@ double end_mm(const TargetSurface& target) {
 }  // namespace
 
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
-                           const ToolSetup& tool, const Actuator& actuator) {
+                           const ToolSetup& tool, const Actuator& actuator,
+                           std::vector<RepeatingMotion> motions) {
   actuator.validate();
   Correction correction;
   correction.target = target;
   correction.tool = tool;
   correction.actuator = actuator;
   correction.axis = axis;
+  correction.motions = std::move(motions);
 
-  const Profile profile(axis.axis, target, tool);
+  const Profile profile(axis.axis, target, tool, correction.motions);
   correction.rows = wanted_rows(profile);
   correction.rows.command_mm = correction.rows.wanted_mm;
   correction.harmonics = table_harmonics(profile, end_mm(target), actuator);

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
@@ -43,10 +44,13 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
 
 }  // namespace
 
-Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool)
-    : target_(target), tool_(tool) {
+Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool,
+                 std::vector<RepeatingMotion> motions)
+    : target_(target), tool_(tool), motions_(std::move(motions)) {
   validate(target, tool);
   const bool face = target.kind == TargetKind::face;
+  expects(motions_.empty() || (!face && side_of_tool(tool.angle_from_probe_rad) != 0),
+          "a motion seen along X only for a tool along X");
   start_mm_ = face ? target.radius_start_mm : target.z_start_mm;
   const double travel = (face ? target.radius_end_mm : target.z_end_mm) - start_mm_;
   feed_mm_per_rev_ = std::copysign(tool.feed_mm_per_rev, travel);
@@ -75,8 +79,12 @@ double Profile::c_rad(std::size_t row) const {
 
 double Profile::at(double c_rad, double position_mm) const {
   if (target_.kind == TargetKind::face) return face_mm(c_rad, position_mm);
+  double followed = 0.0;
+  for (const RepeatingMotion& motion : motions_)
+    followed += motion_mm(motion, c_rad, position_mm, target_.tan_half_angle);
   return nose_centre_mm(about_target_, c_rad, position_mm) -
-         nose_centre_mm(about_spindle_, c_rad, position_mm);
+         nose_centre_mm(about_spindle_, c_rad, position_mm) +
+         side_of_tool(tool_.angle_from_probe_rad) * followed;
 }
 
 // The tool's line in its own frame is Y = height; that frame is the probe's turned by the angle

@@ -8,11 +8,13 @@ namespace trueaxis {
 
 /// The wanted correction as a function of the spindle angle and the machine position: where the
 /// centre of the tool's nose must be for the target surface about the target axis, minus where it
-/// would be for the same surface about the spindle axis. Exact at the tool's height, mm.
+/// would be for the same surface about the spindle axis, and with the motions of the machine that
+/// are to be followed. Exact at the tool's height, mm.
 class Profile {
  public:
   /// @throws ContractViolation naming the quantity of the target or tool that cannot be.
-  Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool);
+  Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool,
+          std::vector<RepeatingMotion> motions = {});
 
   /// X_fts at (C, Z), positive away from the spindle axis; for a face Z_fts at (C, X), positive
   /// along +Z. `position_mm` is that of the nose's centre.
@@ -35,6 +37,7 @@ class Profile {
 
   TargetSurface target_;
   ToolSetup tool_;
+  std::vector<RepeatingMotion> motions_;
   Revolved about_target_, about_spindle_;
   double start_mm_ = 0.0, feed_mm_per_rev_ = 0.0;
   std::size_t rows_ = 0;

@@ -191,7 +191,6 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
   double planned_low = 0.0, planned_high = 0.0;
   std::unique_ptr<FourierSums> plan;
   Column cosine(g.size()), sine(g.size());
-  double modulated = 0.0;
   std::size_t bins = 0;
   double df = 0.0;
   for (const Scan& scan : scans_of(scene, resolution)) {
@@ -212,14 +211,12 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
         const double angle = n * (scan.spindle ? scene.c[i] : scene.theta[i]);
         cosine[i] = g[i] * std::cos(angle), sine[i] = g[i] * std::sin(angle);
       }
-      modulated = scan.turns;
       // Σ g exp(−i(2πfx − turns θ))
       sums = plan->of(cosine);
       const auto other = plan->of(sine);
       const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
       for (std::size_t k = 0; k < bins; ++k) sums[k] += turn * other[k];
     }
-    (void)modulated;
     std::vector<double> gain(bins);
     const bool white = evidence.autoregression().empty();
     const double flat = line_norm2(evidence, used_of_pass, x_step, c_step, scan.low, scan.turns);
@@ -227,10 +224,8 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
       const double f = scan.low + df * static_cast<double>(k);
       const double norm2 =
           white ? flat : line_norm2(evidence, used_of_pass, x_step, c_step, f, scan.turns);
-      gain[k] = std::norm(sums[k]) / (2.0 * norm2) * 2.0 / 2.0 * 1.0;
+      gain[k] = std::norm(sums[k]) / norm2;  // of cos and of sin: norm2 each
     }
-    // cos and sin columns have the square norm2 each: gain = (c² + s²)/norm2.
-    for (double& v : gain) v *= 2.0;
     for (std::size_t taken = 0; taken < peaks_kept; ++taken) {
       const auto top = std::ranges::max_element(gain);
       if (!(*top > 0.0)) break;

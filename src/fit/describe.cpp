@@ -25,23 +25,20 @@ Rows as_rows(const std::vector<double>& values, Eigen::Index columns) {
                                 columns);
 }
 
-Eigen::Index index_of(std::span<const std::string_view> names, std::string_view name) {
+Eigen::Index index_of(const std::vector<std::string>& names, std::string_view name) {
   const auto at = std::ranges::find(names, name);
   return at == names.end() ? -1 : at - names.begin();
 }
 
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
-void report_parameters(const Surface::Reported& reported, const Rows& jacobian,
-                       const Eigen::MatrixXd& covariance, const Determination& determination,
-                       FitResult& result) {
-  const SurfaceInfo& info = surface_info(result.surface);
-  const Rows edge = jacobian * covariance * jacobian.transpose();
-  result.covariance.assign(edge.data(), edge.data() + edge.size());
+std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
+                                            const std::vector<double>& value, const Rows& jacobian,
+                                            const Rows& edge, const Determination& determination) {
+  std::vector<FitParameter> parameters;
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    FitParameter parameter{
-        std::string(info.parameters[i]),
-        {reported.value[i], std::sqrt(edge(row, row)), std::string(info.units[i]), ""}};
+    FitParameter parameter{std::string(info.parameters[i]),
+                           {value[i], std::sqrt(edge(row, row)), std::string(info.units[i]), ""}};
     const double whole = jacobian.row(row).norm();
     for (Eigen::Index j = 0; j < determination.free_directions.cols(); ++j) {
       const Eigen::VectorXd direction = determination.free_directions.col(j);
@@ -57,24 +54,30 @@ void report_parameters(const Surface::Reported& reported, const Rows& jacobian,
     } else if (!parameter.estimate.why_not.empty()) {
       parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
     }
-    result.parameters.push_back(std::move(parameter));
+    parameters.push_back(std::move(parameter));
   }
+  return parameters;
+}
+
+void withdraw(FitParameter& parameter, const std::string& why) {
+  parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
+  parameter.estimate.why_not = why;
 }
 
 void withdraw(FitResult& result, std::string_view name, const std::string& why) {
-  for (FitParameter& parameter : result.parameters) {
-    if (parameter.name != name) continue;
-    parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
-    parameter.estimate.why_not = why;
+  for (SetUpFit& one : result.set_ups) {
+    for (FitParameter& parameter : one.parameters) {
+      if (parameter.name == name) withdraw(parameter, why);
+    }
   }
 }
 
 /// A cone whose half angle is zero within its uncertainty has no apex.
-void check_cone(const Surface& surface, std::span<const double> working,
+void check_cone(const JointModel& model, const std::vector<double>& joint,
                 const Eigen::MatrixXd& covariance, FitResult& result) {
-  const Eigen::Index tan = index_of(surface.working_names(), "tan_half_angle");
+  const Eigen::Index tan = index_of(model.names(), "tan_half_angle");
   if (tan < 0 || !result.not_determined.empty()) return;
-  const double value = working[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
+  const double value = joint[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
   // As many readings as parameters have no u: nothing then says that it is a cylinder.
   const double limit = std::isfinite(u) ? std::max(cylinder_sds * u, cylinder_tan) : cylinder_tan;
   if (std::abs(value) > limit) return;
@@ -91,41 +94,58 @@ void check_cone(const Surface& surface, std::span<const double> working,
 constexpr double rival_sds = 3.0;  // likelihood ratio e^-4.5: 1 in 90
 
 /// A second minimum as low as the first, outside its uncertainty: the readings do not choose.
-void check_rival(const Surface& surface, const Association& association, const Noise& noise,
-                 FitResult& result) {
+void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
+                 const Association& association, const Noise& noise, FitResult& result) {
   if (!association.rival || !result.not_determined.empty()) return;
   const Minimum& best = association.minimum;
   const Minimum& rival = *association.rival;
   const auto p = static_cast<Eigen::Index>(best.working.size());
-  const double rounding_mm = 1e-11 * std::abs(surface.shape(best.working).radius_mm);
+  const double rounding_mm = 1e-11 * std::abs(result.set_ups.back().shape.radius_mm);
   const double limit = std::pow(rival_sds * std::max(noise.sigma_mm, rounding_mm), 2);
   if (rival.normal.sum_rho - best.normal.sum_rho > limit) return;
   const Eigen::VectorXd apart = Eigen::Map<const Eigen::VectorXd>(rival.working.data(), p) -
                                 Eigen::Map<const Eigen::VectorXd>(best.working.data(), p);
   if (apart.dot(as_rows(best.normal.jtj, p) * apart) <= limit) return;
-  const Surface::Reported other = surface.report(rival.working);
   std::string text;
-  for (std::size_t i = 0; i < result.parameters.size(); ++i) {
-    FitParameter& parameter = result.parameters[i];
-    if (std::abs(other.value[i] - parameter.estimate.value) <= rival_sds * parameter.estimate.u)
-      continue;
-    char term[120];
-    std::snprintf(term, sizeof term, "%s%s %.6g or %.6g", text.empty() ? "" : ", ",
-                  parameter.name.c_str(), parameter.estimate.value, other.value[i]);
-    text += term;
-    withdraw(result, parameter.name, "two surfaces fit these readings equally well");
+  for (std::size_t s = 0; s < set_ups.size(); ++s) {
+    const JointPart& part = model.part_of(set_ups[s]);
+    const Surface::Reported other = part.surface->report(model.working(rival.working, part));
+    const bool said = s > 0 && set_ups[s].clamping == set_ups[s - 1].clamping;
+    const std::string where =
+        model.clampings() > 1 ? " (" + set_up_name(set_ups[s].set_up) + ")" : "";
+    for (std::size_t i = 0; i < other.value.size(); ++i) {
+      FitParameter& parameter = result.set_ups[s].parameters[i];
+      if (std::abs(other.value[i] - parameter.estimate.value) <= rival_sds * parameter.estimate.u)
+        continue;
+      char term[120];
+      std::snprintf(term, sizeof term, "%s%s%s %.6g or %.6g", text.empty() ? "" : ", ",
+                    parameter.name.c_str(), where.c_str(), parameter.estimate.value,
+                    other.value[i]);
+      if (!said) text += term;
+      withdraw(parameter, "two surfaces fit these readings equally well");
+    }
   }
   if (!text.empty()) result.not_determined.push_back("two surfaces fit equally well: " + text);
 }
 
-void report_axis(const Surface& surface, std::span<const double> working,
-                 const Eigen::MatrixXd& covariance, FitResult& result) {
-  result.axis.axis = surface.axis(working);
-  result.shape = surface.shape(working);
-  const Rows jacobian =
-      as_rows(surface.axis_jacobian(working), static_cast<Eigen::Index>(working.size()));
-  const Rows axis = jacobian * covariance * jacobian.transpose();
-  std::copy_n(axis.data(), 16, result.axis.covariance.begin());
+/// The surface as it stood in one set-up.
+struct Standing {
+  const Surface& surface;
+  std::vector<double> working;
+  Eigen::MatrixXd covariance;  ///< of `working`
+  Rows report_jacobian;        ///< of the reported parameters with respect to the joint ones
+};
+
+SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
+                       const std::vector<FitParameter>& parameters) {
+  const Surface& surface = standing.surface;
+  SetUpFit out{placed.set_up, placed.root, parameters, {}, surface.shape(standing.working)};
+  out.axis.axis = surface.axis(standing.working);
+  const Rows jacobian = as_rows(surface.axis_jacobian(standing.working),
+                                static_cast<Eigen::Index>(standing.working.size()));
+  const Rows axis = jacobian * standing.covariance * jacobian.transpose();
+  std::copy_n(axis.data(), 16, out.axis.covariance.begin());
+  return out;
 }
 
 FitParameter length(std::string name, double value, double u) {
@@ -142,9 +162,11 @@ double u_of_norm(const Eigen::Vector2d& v, const Eigen::Matrix2d& c) {
   return std::sqrt(std::max(v.dot(c * v), 0.0)) / v.norm();
 }
 
-void report_derived(const Surface& surface, const Eigen::MatrixXd& covariance, FitResult& result) {
-  const Eigen::Index radius = index_of(surface.working_names(), "radius");
-  if (result.surface == "cone" && radius >= 0) {
+void report_derived(const Standing& last, FitResult& result) {
+  const std::span<const std::string_view> names = last.surface.working_names();
+  const auto radius = std::ranges::find(names, "radius") - names.begin();
+  const Eigen::MatrixXd& covariance = last.covariance;
+  if (result.surface == "cone" && radius < last.covariance.rows()) {
     result.derived.push_back(
         length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
@@ -213,38 +235,58 @@ void add_notes(const Noise& noise, FitResult& result) {
 
 }  // namespace
 
-void describe(const Surface& surface, Association& association, const PreparedStream& stream,
-              const Noise& noise, const FitOptions& options, FitResult& result) {
-  const std::vector<double>& working = association.minimum.working;
-  const std::vector<double> scale = surface.working_scale_mm(working);
+void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
+              Association& association, const Noise& noise, const FitOptions& options,
+              FitResult& result) {
+  const std::vector<double>& joint = association.minimum.working;
+  const std::vector<double> scale = model.scale_mm(joint);
   // The weights of a robust loss are in its factor (see estimate_noise), so the plain matrix is
   // inverted.
-  const NormalMatrix normal = association.scale_mm > 0.0 ? accumulate(surface, working, stream, {})
-                                                         : association.minimum.normal;
-  const double size = std::max(surface.shape(working).radius_mm, *std::ranges::max_element(scale));
+  const NormalMatrix normal =
+      association.scale_mm > 0.0 ? model.accumulate(joint, {}) : association.minimum.normal;
+  const JointPart& last_part = model.part_of(set_ups.back());
+  const double size = std::max(last_part.surface->shape(model.working(joint, last_part)).radius_mm,
+                               *std::ranges::max_element(scale));
   const Determination determination =
       determine(normal, scale, size, noise.sigma_mm * noise.u_factor, options.coverage_factor);
   for (Eigen::Index j = 0; j < determination.free_directions.cols(); ++j) {
     result.not_determined.push_back(
-        name_direction(determination.free_directions.col(j), surface.working_names(), scale));
+        name_direction(determination.free_directions.col(j), model.names(), scale));
   }
-  const auto sources = budget_sources(surface, association, stream, determination, noise, options);
+  const auto sources = budget_sources(model, association, determination, noise, options);
   Eigen::MatrixXd covariance = sources.front().covariance;
   for (std::size_t i = 1; i < sources.size(); ++i) covariance += sources[i].covariance;
 
-  const Surface::Reported reported = surface.report(working);
-  const Rows jacobian = as_rows(reported.jacobian, static_cast<Eigen::Index>(working.size()));
-  report_parameters(reported, jacobian, covariance, determination, result);
+  const auto stand = [&](const PlacedSetUp& placed) {
+    const JointPart& part = model.part_of(placed);
+    const Eigen::MatrixXd a = model.working_jacobian(joint, part);
+    std::vector<double> working = model.working(joint, part);
+    const Rows report =
+        as_rows(part.surface->report(working).jacobian, static_cast<Eigen::Index>(working.size()));
+    return Standing{*part.surface, std::move(working), a * covariance * a.transpose(), report * a};
+  };
+  for (const PlacedSetUp& placed : set_ups) {
+    const Standing standing = stand(placed);
+    const Rows& jacobian = standing.report_jacobian;
+    const Rows edge = jacobian * covariance * jacobian.transpose();
+    result.set_ups.push_back(
+        report_set_up(placed, standing,
+                      report_parameters(surface_info(result.surface),
+                                        standing.surface.report(standing.working).value, jacobian,
+                                        edge, determination)));
+    result.covariance.assign(edge.data(), edge.data() + edge.size());
+  }
+  const Standing last = stand(set_ups.back());
   for (const Source& source : sources) {
     BudgetLine line{source.name, source.type, {}};
     const Eigen::VectorXd variance =
-        (jacobian * source.covariance * jacobian.transpose()).diagonal();
+        (last.report_jacobian * source.covariance * last.report_jacobian.transpose()).diagonal();
     for (const double v : variance) line.u.push_back(std::sqrt(std::max(v, 0.0)));
     result.budget.push_back(std::move(line));
   }
-  check_cone(surface, working, covariance, result);
-  check_rival(surface, association, noise, result);
-  if (stream.source().indication == Indication::relative) {
+  check_cone(model, joint, covariance, result);
+  check_rival(model, set_ups, association, noise, result);
+  if (model.indication() == Indication::relative) {
     withdraw(result, "radius", "a relative gauge does not show it; the nominal radius was used");
   }
   if (!result.not_determined.empty()) {
@@ -257,14 +299,21 @@ void describe(const Surface& surface, Association& association, const PreparedSt
   result.sigma_source = noise.source;
   result.autocorrelation = noise.autocorrelation;
   result.u_factor = noise.u_factor;
-  report_axis(surface, working, covariance, result);
-  if (determination.free_directions.cols() == 0) report_derived(surface, covariance, result);
+  result.parameters = result.set_ups.back().parameters;
+  result.axis = result.set_ups.back().axis;
+  result.shape = result.set_ups.back().shape;
+  if (determination.free_directions.cols() == 0) report_derived(last, result);
   for (FitParameter& derived : result.derived) {
     if (!std::isfinite(derived.estimate.u)) derived.estimate.why_not = no_redundancy;
   }
   result.rejected = list_rejected(association);
   result.residual_mm = std::move(association.residual_mm);
   report_rms(result);
+  if (model.clampings() > 1) {
+    result.notes.push_back("the part was clamped " + std::to_string(model.clampings()) +
+                           " times; parameters and axis are those of " +
+                           set_up_name(set_ups.back().set_up) + ", the last");
+  }
   add_notes(noise, result);
 }
 

@@ -2,33 +2,15 @@
 #include "trueaxis/fit/fit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fit/describe.hpp"
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
 #include "trueaxis/base/error.hpp"
-#include "trueaxis/math/statistics.hpp"
 #include "trueaxis/surface/surface.hpp"
 
 namespace trueaxis {
 namespace {
-
-/// The side from which the readings were taken, told by the sign of X_M.
-Root find_root(const ProbeStream& stream) {
-  if (stream.kind == StreamKind::face || stream.indication == Indication::relative)
-    return Root::front;
-  const auto [low, high] = range_of(stream.reading_mm);
-  if (low > 0.0) return Root::front;
-  if (high < 0.0) return Root::rear;
-  const auto row = std::ranges::find_if(
-      stream.reading_mm, [&](double x) { return (x > 0.0) != (stream.reading_mm[0] > 0.0); });
-  throw InputError(stream.source,
-                   "X_M changes sign or is zero at data row " +
-                       std::to_string(row - stream.reading_mm.begin() + 1) +
-                       ": the spindle axis must lie inside the part, X_M is its distance to the "
-                       "contact (for a gauge write '# reading: relative')");
-}
 
 /// What the caller says of the ball, or the stream; the two must not contradict each other.
 double ball_radius(const ProbeStream& stream, const FitOptions& options) {
@@ -41,8 +23,7 @@ double ball_radius(const ProbeStream& stream, const FitOptions& options) {
   return std::max(said, options.ball_radius_mm);
 }
 
-SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
-                      const FitOptions& options) {
+void expect_kind(const ProbeStream& stream, const SurfaceInfo& info) {
   if (stream.kind != info.stream) {
     throw InputError(stream.source,
                      info.stream == StreamKind::face
@@ -55,8 +36,11 @@ SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
                                         : "the stream has no Z: fit one section with --surface "
                                           "section");
   }
+}
+
+/// What the frames of all set-ups have in common.
+SurfaceFrame frame_of(const ProbeStream& stream, const FitOptions& options) {
   SurfaceFrame frame;
-  frame.root = find_root(stream);
   frame.indication = stream.indication;
   const double ball_mm = ball_radius(stream, options);
   frame.ball_mm = options.bore ? -ball_mm : ball_mm;
@@ -68,12 +52,11 @@ SurfaceFrame frame_of(const ProbeStream& stream, const SurfaceInfo& info,
     }
     frame.nominal_radius_mm = *stream.nominal_radius_mm;
   }
-  if (stream.has_position()) {
-    const auto [low, high] = range_of(stream.position_mm);
-    frame.position_ref_mm = 0.5 * (low + high);
-    frame.half_length_mm = 0.5 * (high - low);
-  }
   return frame;
+}
+
+std::string in_clampings(std::size_t clampings) {
+  return clampings == 1 ? "" : " that was clamped " + std::to_string(clampings) + " times";
 }
 
 void validate(const FitOptions& options) {
@@ -104,20 +87,21 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
   validate(options);
   expects(stream.size() > 0, "readings");
   const SurfaceInfo& info = surface_info(options.surface);
-  const SurfaceFrame frame = frame_of(stream, info, options);
-  const auto surface = make_surface(options.surface, frame);
-  FitResult result = empty_result(stream, options, frame);
-  if (stream.size() < surface->parameter_count()) {
+  expect_kind(stream, info);
+  const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
+  const SurfaceFrame frame = frame_of(stream, options);
+  const JointModel model(stream, set_ups, options.surface, frame);
+  FitResult result = empty_result(stream, options, model.last_frame());
+  if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
-                     std::to_string(surface->parameter_count()) + " parameters of a " +
-                     options.surface;
+                     std::to_string(model.parameter_count()) + " parameters of a " +
+                     options.surface + in_clampings(model.clampings());
     return result;
   }
   FitOptions known = options;
   if (!known.noise_mm) known.noise_mm = stream.sensor_noise_mm;
 
-  const PreparedStream prepared(stream);
-  Association association = associate(*surface, prepared, options.loss, options.max_iterations);
+  Association association = associate(model, options.loss, options.max_iterations);
   result.iterations = association.minimum.iterations;
   if (!association.minimum.normal.valid) {
     result.status = FitStatus::max_iterations;
@@ -125,13 +109,13 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
         "no surface of this kind meets all probe lines: is the stream a " + options.surface + "?";
     return result;
   }
-  const Noise noise = estimate_noise(association, surface->parameter_count(), known);
+  const Noise noise = estimate_noise(association, model.parameter_count(), known);
   result.status = association.minimum.converged ? FitStatus::converged : FitStatus::max_iterations;
   if (!association.minimum.converged) {
     result.message = "not converged after " + std::to_string(result.iterations) +
                      " passes: raise max_iterations";
   }
-  describe(*surface, association, prepared, noise, known, result);
+  describe(model, set_ups, association, noise, known, result);
   return result;
 }
 

@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -13,15 +12,21 @@
 namespace trueaxis {
 namespace {
 
-// Sizes are bounded, so that nothing is allocated in the hot path.
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor,
-                             max_parameters, max_parameters>;
-using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_parameters, 1>;
+// The sizes of one clamping are bounded, so that nothing is allocated in the hot path; several
+// clampings together have no bound (Most = Eigen::Dynamic).
+template <int Most>
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Most, Most>;
+template <int Most>
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Most, 1>;
+constexpr int one_clamping = static_cast<int>(max_parameters);
 
 constexpr double least_curvature = 0.3;  // below, readings without weight drive the model
 
 /// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.
-void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
+template <int Most>
+void factorise(const NormalMatrix& normal, Square<Most>& r, Column<Most>& z) {
+  using Matrix = Square<Most>;
+  using Vector = Column<Most>;
   const auto p = static_cast<Eigen::Index>(normal.parameters);
   const Eigen::Map<const Matrix> h(normal.jtj.data(), p, p);
   const Eigen::Map<const Vector> g(normal.jtr.data(), p);
@@ -47,21 +52,24 @@ void factorise(const NormalMatrix& normal, Matrix& r, Vector& z) {
 
 /// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
 /// for the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
+template <int Most>
 class CompressedCost final : public ceres::CostFunction {
+  using Matrix = Square<Most>;
+  using Vector = Column<Most>;
+
  public:
-  CompressedCost(const Surface& surface, const PreparedStream& stream, const LossScale& loss)
-      : surface_(surface), stream_(stream), loss_(loss) {
-    set_num_residuals(static_cast<int>(surface.parameter_count()) + 1);
-    mutable_parameter_block_sizes()->push_back(static_cast<int32_t>(surface.parameter_count()));
+  CompressedCost(const JointModel& model, const LossScale& loss) : model_(model), loss_(loss) {
+    set_num_residuals(static_cast<int>(model.parameter_count()) + 1);
+    mutable_parameter_block_sizes()->push_back(static_cast<int32_t>(model.parameter_count()));
   }
 
   bool Evaluate(const double* const* parameters, double* residuals,
                 double** jacobians) const override {
-    const std::size_t p = surface_.parameter_count();
+    const std::size_t p = model_.parameter_count();
     const std::span<const double> working(parameters[0], p);
     if (!std::ranges::equal(working, last_.working)) {
       if (!predict(working)) {
-        last_.normal = accumulate(surface_, working, stream_, loss_);
+        last_.normal = model_.accumulate(working, loss_);
         ++passes_;
       }
       last_.working.assign(working.begin(), working.end());
@@ -72,7 +80,7 @@ class CompressedCost final : public ceres::CostFunction {
     if (!last_.normal.valid) return false;
     Matrix r;
     Vector z;
-    factorise(last_.normal, r, z);
+    factorise<Most>(last_.normal, r, z);
     const double root = std::sqrt(hessian_scale(last_.normal, z.squaredNorm()));
     r *= root;
     z /= root;
@@ -112,7 +120,7 @@ class CompressedCost final : public ceres::CostFunction {
 
   /// The first evaluation, made before Ceres, which would log its failure.
   bool meets_all_lines(const std::vector<double>& start) const {
-    std::array<double, max_parameters + 1> unused;
+    std::vector<double> unused(start.size() + 1);
     const double* const parameters = start.data();
     return Evaluate(&parameters, unused.data(), nullptr);
   }
@@ -121,8 +129,7 @@ class CompressedCost final : public ceres::CostFunction {
   int passes() const { return passes_; }
 
  private:
-  const Surface& surface_;
-  const PreparedStream& stream_;
+  const JointModel& model_;
   const LossScale loss_;
   static constexpr double negligible = 1e-9;  // of the cost: a step of 3e-5 of the noise
   mutable Minimum last_, best_;
@@ -141,17 +148,20 @@ class RoundingFloor final : public ceres::IterationCallback {
   double cost_;
 };
 
-double largest_reading(const PreparedStream& stream) {
-  const ReadingBlock first = stream.block(0);
-  return std::abs(*std::max_element(first.reading_mm, first.reading_mm + stream.filled(0),
-                                    [](double a, double b) { return std::abs(a) < std::abs(b); }));
+double largest_reading(const JointModel& model) {
+  double largest = 0.0;
+  for (const JointPart& part : model.parts()) {
+    const ReadingBlock first = part.prepared->block(0);
+    for (std::size_t i = 0; i < part.prepared->filled(0); ++i)
+      largest = std::max(largest, std::abs(first.reading_mm[i]));
+  }
+  return largest;
 }
 
-}  // namespace
-
-Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vector<double> start,
-                 const LossScale& loss, int max_iterations) {
-  CompressedCost cost(surface, stream, loss);
+template <int Most>
+Minimum minimise_sized(const JointModel& model, std::vector<double> start, const LossScale& loss,
+                       int max_iterations) {
+  CompressedCost<Most> cost(model, loss);
   if (!cost.meets_all_lines(start)) {
     Minimum missed;
     missed.working = std::move(start);
@@ -175,8 +185,8 @@ Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vect
   options.parameter_tolerance = 1e-15;
   options.gradient_tolerance = 1e-300;
   options.logging_type = ceres::SILENT;
-  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest_reading(stream);
-  RoundingFloor floor(0.5 * static_cast<double>(stream.size()) * rounding * rounding);
+  const double rounding = 4.0 * std::numeric_limits<double>::epsilon() * largest_reading(model);
+  RoundingFloor floor(0.5 * static_cast<double>(model.size()) * rounding * rounding);
   options.callbacks.push_back(&floor);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -188,30 +198,43 @@ Minimum minimise(const Surface& surface, const PreparedStream& stream, std::vect
   return minimum;
 }
 
-void polish(const Surface& surface, const PreparedStream& stream, const LossScale& loss,
-            Minimum& minimum) {
+template <int Most>
+void polish_sized(const JointModel& model, const LossScale& loss, Minimum& minimum) {
   constexpr int most = 12;            // each step gains a digit at least
   constexpr double enough = 1e-18;    // relative gain of the cost: a step of 1e-9 of the noise
   constexpr double rounding = 1e-12;  // relative: a cost that rises by more is a step gone wrong
   const auto p = static_cast<Eigen::Index>(minimum.working.size());
-  minimum.normal =
-      accumulate(surface, minimum.working, stream, loss);  // its last step was predicted
+  minimum.normal = model.accumulate(minimum.working, loss);  // its last step was predicted
   ++minimum.iterations;
   for (int i = 0; i < most && minimum.normal.valid; ++i) {
-    Matrix r;
-    Vector z;
-    factorise(minimum.normal, r, z);
+    Square<Most> r;
+    Column<Most> z;
+    factorise<Most>(minimum.normal, r, z);
     const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
     if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
-    const Vector step = r.colPivHouseholderQr().solve(z) / curvature;
+    const Column<Most> step = r.colPivHouseholderQr().solve(z) / curvature;
     Minimum next = minimum;
     for (Eigen::Index j = 0; j < p; ++j) next.working[static_cast<std::size_t>(j)] += step(j);
-    next.normal = accumulate(surface, next.working, stream, loss);
+    next.normal = model.accumulate(next.working, loss);
     if (!next.normal.valid || next.normal.sum_rho > (1.0 + rounding) * minimum.normal.sum_rho)
       return;
     ++next.iterations;
     minimum = std::move(next);
   }
+}
+
+}  // namespace
+
+Minimum minimise(const JointModel& model, std::vector<double> start, const LossScale& loss,
+                 int max_iterations) {
+  return model.clampings() == 1
+             ? minimise_sized<one_clamping>(model, std::move(start), loss, max_iterations)
+             : minimise_sized<Eigen::Dynamic>(model, std::move(start), loss, max_iterations);
+}
+
+void polish(const JointModel& model, const LossScale& loss, Minimum& minimum) {
+  if (model.clampings() == 1) return polish_sized<one_clamping>(model, loss, minimum);
+  polish_sized<Eigen::Dynamic>(model, loss, minimum);
 }
 
 }  // namespace trueaxis

@@ -23,36 +23,34 @@ LossScale loss_scale(Loss loss, double sigma_mm) {
 
 }  // namespace
 
-Association associate(const Surface& surface, const PreparedStream& stream, Loss loss,
-                      int max_iterations) {
+Association associate(const JointModel& model, Loss loss, int max_iterations) {
   Association association;
-  const Sample sample = sample_of(stream);
-  std::vector<double> start = find_start(surface, stream, sample, loss);
-  association.residual_mm.resize(stream.size());
+  const std::vector<Sample> samples = samples_of(model);
+  std::vector<double> start = find_start(model, samples, loss);
+  association.residual_mm.resize(model.size());
   if (loss == Loss::plain) {
-    Minima minima = lowest_minimum(surface, stream, sample, start, {}, max_iterations);
+    Minima minima = lowest_minimum(model, samples, start, {}, max_iterations);
     association.minimum = std::move(minima.best);
     association.rival = std::move(minima.rival);
-    residuals(surface, association.minimum.working, stream, association.residual_mm);
+    model.residuals(association.minimum.working, association.residual_mm);
     return association;
   }
   // Huber's convex loss carries the scale to its place; Tukey's, which has several minima, starts
   // there.
-  residuals(surface, start, stream, association.residual_mm);
+  model.residuals(start, association.residual_mm);
   double sigma = mad_sigma(association.residual_mm);
   int iterations = 0;
   for (const Loss stage : {Loss::huber, Loss::tukey}) {
     if (sigma <= 0.0 || (stage == Loss::tukey && loss == Loss::huber)) break;
     for (int round = 0; round < 20; ++round) {
       association.loss = loss_scale(stage, sigma);
-      Minima minima =
-          lowest_minimum(surface, stream, sample, start, association.loss, max_iterations);
+      Minima minima = lowest_minimum(model, samples, start, association.loss, max_iterations);
       association.minimum = std::move(minima.best);
       association.rival = std::move(minima.rival);
       iterations += association.minimum.iterations;
       start = association.minimum.working;
       association.scale_mm = sigma;
-      residuals(surface, start, stream, association.residual_mm);
+      model.residuals(start, association.residual_mm);
       const double next = mad_sigma(association.residual_mm);
       const bool stands = std::abs(next - sigma) <= 1e-3 * sigma;
       if (stands || next <= 0.0) break;
@@ -61,14 +59,14 @@ Association associate(const Surface& surface, const PreparedStream& stream, Loss
   }
   if (association.minimum.normal.valid) {
     const int before = association.minimum.iterations;
-    polish(surface, stream, association.loss, association.minimum);
+    polish(model, association.loss, association.minimum);
     iterations += association.minimum.iterations - before;
-    residuals(surface, association.minimum.working, stream, association.residual_mm);
+    model.residuals(association.minimum.working, association.residual_mm);
   }
   if (association.minimum.working.empty()) {  // more than half of the residuals are exactly zero
     association.loss = {};
-    association.minimum = minimise(surface, stream, std::move(start), {}, max_iterations);
-    residuals(surface, association.minimum.working, stream, association.residual_mm);
+    association.minimum = minimise(model, std::move(start), {}, max_iterations);
+    model.residuals(association.minimum.working, association.residual_mm);
   }
   association.minimum.iterations = std::max(iterations, association.minimum.iterations);
   return association;

@@ -21,8 +21,7 @@ struct Association {
 
 /// Starting values from the data, then the minimum of the loss; a robust scale and the minimum are
 /// found in turn until the scale stands (Huber, Robust Statistics, 1981, section 7.8).
-Association associate(const Surface& surface, const PreparedStream& stream, Loss loss,
-                      int max_iterations);
+Association associate(const JointModel& model, Loss loss, int max_iterations);
 
 /// ψ and ψ' of a loss at a residual.
 struct Influence1 {

@@ -87,42 +87,63 @@ bool lower(const Minimum& a, const Minimum& b) {
   return a.normal.sum_rho < b.normal.sum_rho;
 }
 
-std::vector<double> mirrored(const Surface& surface, std::vector<double> working) {
-  const auto names = surface.working_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].starts_with("slope")) working[i] = -working[i];
+/// The level starts of all parts; empty for a surface that has none.
+std::vector<double> level_start(const JointModel& model, const std::vector<Sample>& samples) {
+  std::vector<std::vector<double>> working;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    working.push_back(
+        model.parts()[i].surface->level_start(samples[i].view(), samples[i].reading.size()));
+    if (working.back().empty()) return {};
   }
-  return working;
+  return model.joined(working);
 }
 
 }  // namespace
 
-std::vector<double> find_start(const Surface& surface, const PreparedStream& stream,
-                               const Sample& sample, Loss loss) {
-  std::vector<double> start = surface.start(sample.view(), sample.reading.size());
-  if (loss != Loss::plain) start = trimmed_start(surface, sample, std::move(start));
-  if (loss == Loss::plain || accumulate(surface, start, stream, {}).valid) return start;
-  std::vector<double> level = surface.level_start(sample.view(), sample.reading.size());
+std::vector<Sample> samples_of(const JointModel& model) {
+  std::vector<Sample> samples;
+  for (const JointPart& part : model.parts()) samples.push_back(sample_of(*part.prepared));
+  return samples;
+}
+
+std::vector<double> find_start(const JointModel& model, const std::vector<Sample>& samples,
+                               Loss loss) {
+  std::vector<std::vector<double>> working;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Surface& surface = *model.parts()[i].surface;
+    working.push_back(surface.start(samples[i].view(), samples[i].reading.size()));
+    if (loss != Loss::plain)
+      working.back() = trimmed_start(surface, samples[i], std::move(working.back()));
+  }
+  std::vector<double> start = model.joined(working);
+  if (loss == Loss::plain || model.accumulate(start, {}).valid) return start;
+  std::vector<double> level = level_start(model, samples);
   return level.empty() ? start : level;
 }
 
-Minima lowest_minimum(const Surface& surface, const PreparedStream& stream, const Sample& sample,
+Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& samples,
                       const std::vector<double>& start, const LossScale& loss, int max_iterations) {
-  Minima minima{minimise(surface, stream, start, loss, max_iterations), {}};
+  Minima minima{minimise(model, start, loss, max_iterations), {}};
   const Minimum& best = minima.best;
-  if (best.normal.valid && best.converged && !surface.tilt_may_be_mirrored(best.working))
-    return minima;
+  std::vector<std::size_t> to_mirror;  // clampings; all of them where nothing was found
+  const bool found = best.normal.valid && best.converged;
+  for (std::size_t c = 0; c < model.clampings(); ++c) {
+    if (!found || model.tilt_may_be_mirrored(best.working, c)) to_mirror.push_back(c);
+  }
+  if (to_mirror.empty()) return minima;
   int passes = best.iterations;
   const auto attempt = [&](std::vector<double> from) {
-    Minimum other = minimise(surface, stream, std::move(from), loss, max_iterations);
+    Minimum other = minimise(model, std::move(from), loss, max_iterations);
     passes += other.iterations;
     if (lower(other, minima.best)) std::swap(other, minima.best);
     if (other.converged && (!minima.rival || lower(other, *minima.rival)))
       minima.rival = std::move(other);
   };
-  std::vector<double> level = surface.level_start(sample.view(), sample.reading.size());
+  std::vector<double> level = level_start(model, samples);
   if (!level.empty()) attempt(std::move(level));
-  if (best.normal.valid) attempt(mirrored(surface, best.working));
+  for (const std::size_t c : to_mirror) {
+    if (best.normal.valid) attempt(model.mirrored(best.working, c));
+  }
   minima.best.iterations = passes;
   return minima;
 }

@@ -19,10 +19,13 @@ struct Sample {
 };
 Sample sample_of(const PreparedStream& stream);
 
+/// A sample of each part of a model.
+std::vector<Sample> samples_of(const JointModel& model);
+
 /// The algebraic start; for a robust loss refitted on the readings near it. Where a probe line
 /// misses it, the level start.
-std::vector<double> find_start(const Surface& surface, const PreparedStream& stream,
-                               const Sample& sample, Loss loss);
+std::vector<double> find_start(const JointModel& model, const std::vector<Sample>& samples,
+                               Loss loss);
 
 /// The lowest minimum reached, and the lowest of the others when there is one.
 struct Minima {
@@ -31,8 +34,8 @@ struct Minima {
 };
 
 /// Minimises from `start`; where that fails, or a mirrored tilt may do as well, also from the level
-/// start and from the minimum's tilt reversed.
-Minima lowest_minimum(const Surface& surface, const PreparedStream& stream, const Sample& sample,
+/// start and from the minimum's tilt reversed, one clamping after the other.
+Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& samples,
                       const std::vector<double>& start, const LossScale& loss, int max_iterations);
 
 }  // namespace trueaxis

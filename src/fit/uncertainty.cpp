@@ -35,24 +35,24 @@ const char* influence_name(Influence::Kind kind) {
 
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the
 /// kernel.
-Eigen::VectorXd projected(const Surface& surface, const Minimum& minimum,
+Eigen::VectorXd projected(const Surface& surface, std::span<const double> working,
                           const PreparedStream& prepared, Influence::Kind kind) {
   const std::size_t p = surface.parameter_count(), columns = surface.column_count();
   const ProbeStream& stream = prepared.source();
   std::vector<double> transform(p * columns);
-  surface.transform(minimum.working, transform.data());
+  surface.transform(working, transform.data());
   const double mean = std::accumulate(stream.reading_mm.begin(), stream.reading_mm.end(), 0.0) /
                       static_cast<double>(stream.size());
   Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(columns));
   PredictionBlock block;
   for (std::size_t b = 0; b < prepared.blocks(); ++b) {
-    surface.evaluate(minimum.working, prepared.block(b), block);
+    surface.evaluate(working, prepared.block(b), block);
     for (std::size_t i = 0; i < prepared.filled(b); ++i) {
       const std::size_t row = b * block_size + i;
       double a = stream.reading_mm[row] - mean;
       if (kind != Influence::Kind::probe_gain) {
         const double position = stream.has_position() ? stream.position_mm[row] : 0.0;
-        const auto at = surface.influences(minimum.working, stream.c_rad[row], position);
+        const auto at = surface.influences(working, stream.c_rad[row], position);
         a = kind == Influence::Kind::probe_height ? at.height
             : kind == Influence::Kind::c_offset   ? at.c
                                                   : at.position;
@@ -137,8 +137,7 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
   return out;
 }
 
-std::string name_direction(const Eigen::VectorXd& direction,
-                           std::span<const std::string_view> names,
+std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,
                            const std::vector<double>& scale_mm) {
   Eigen::VectorXd size(direction.size());
   for (Eigen::Index i = 0; i < size.size(); ++i)
@@ -153,32 +152,36 @@ std::string name_direction(const Eigen::VectorXd& direction,
     char term[64];
     std::snprintf(term, sizeof term, "%s%.2f %s",
                   text.empty() ? (size(i) < 0 ? "-" : "") : (size(i) < 0 ? " - " : " + "),
-                  std::abs(size(i)), std::string(names[static_cast<std::size_t>(i)]).c_str());
+                  std::abs(size(i)), names[static_cast<std::size_t>(i)].c_str());
     text += term;
   }
   return text;
 }
 
-std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const PreparedStream& stream, const Determination& determination,
-                                   const Noise& noise, const FitOptions& options) {
+std::vector<Source> budget_sources(const JointModel& model, const Association& association,
+                                   const Determination& determination, const Noise& noise,
+                                   const FitOptions& options) {
+  const std::vector<double>& joint = association.minimum.working;
   const double sigma = noise.sigma_mm * noise.u_factor;
   std::vector<Source> sources{
       {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * determination.inverse}};
   if (options.influences.empty()) return sources;
   for (const Influence& influence : options.influences) {
-    Eigen::VectorXd shift;
+    Eigen::VectorXd shift = Eigen::VectorXd::Zero(determination.inverse.rows());
     if (influence.kind == Influence::Kind::ball_radius) {
-      shift = Eigen::VectorXd::Zero(determination.inverse.rows());
-      const auto names = surface.working_names();
-      const double t = surface.shape(association.minimum.working).tan_half_angle;
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        if (names[i] == "radius" || names[i] == "height")
+      const JointPart& part = model.parts().front();
+      const double t = part.surface->shape(model.working(joint, part)).tan_half_angle;
+      for (std::size_t i = 0; i < model.names().size(); ++i) {
+        if (model.names()[i] == "radius" || model.names()[i].starts_with("height"))
           shift(static_cast<Eigen::Index>(i)) = std::sqrt(1.0 + t * t);
       }
     } else {
-      shift =
-          determination.inverse * projected(surface, association.minimum, stream, influence.kind);
+      for (const JointPart& part : model.parts()) {
+        const std::vector<double> working = model.working(joint, part);
+        shift += model.working_jacobian(joint, part).transpose() *
+                 projected(*part.surface, working, *part.prepared, influence.kind);
+      }
+      shift = determination.inverse * shift;
     }
     shift *= influence.u;
     sources.push_back({influence_name(influence.kind), 'B', shift * shift.transpose()});

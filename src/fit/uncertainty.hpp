@@ -35,18 +35,17 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
                         double size_mm, double sigma_mm, double coverage);
 
 /// "0.71 x + 0.70 radius" for a direction, in mm on the surface.
-std::string name_direction(const Eigen::VectorXd& direction,
-                           std::span<const std::string_view> names,
+std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,
                            const std::vector<double>& scale_mm);
 
-/// One covariance of the working parameters per source: the noise first, then the influences.
+/// One covariance of the joint parameters per source: the noise first, then the influences.
 struct Source {
   std::string name;
   char type = 'A';
   Eigen::MatrixXd covariance;
 };
-std::vector<Source> budget_sources(const Surface& surface, const Association& association,
-                                   const PreparedStream& stream, const Determination& determination,
-                                   const Noise& noise, const FitOptions& options);
+std::vector<Source> budget_sources(const JointModel& model, const Association& association,
+                                   const Determination& determination, const Noise& noise,
+                                   const FitOptions& options);
 
 }  // namespace trueaxis

@@ -67,6 +67,22 @@ Json budget(const FitResult& result) {
   return lines;
 }
 
+/// What was done before each set-up, and the part as it then stood.
+Json set_ups(const FitResult& result) {
+  Json list = Json::array();
+  for (const SetUpFit& one : result.set_ups) {
+    const SetUp& set_up = one.set_up;
+    list.push_back({{"number", set_up.number},
+                    {"side", one.side == Root::rear ? "rear" : "front"},
+                    {"reindex", with_unit(set_up.reindex_rad / rad_per_deg, "deg")},
+                    {"z_shift", with_unit(set_up.z_shift_mm, "mm")},
+                    {"x_jog", with_unit(set_up.x_jog_mm, "mm")},
+                    {"clamp_force_ratio", with_unit(set_up.clamp_force_ratio, "1")},
+                    {"parameters", estimates(one.parameters)}});
+  }
+  return list;
+}
+
 /// The axis and the shape as determined: NaN where the readings leave them open. (The axis of a
 /// cone that cannot be told from a cylinder is determined.)
 AxisEstimate determined_axis(const FitResult& result) {
@@ -123,6 +139,7 @@ Json fit_object(const FitResult& result) {
   json["budget"] = budget(result);
   json["axis"] = axis_object(determined_axis(result));
   json["shape"] = shape_object(result);
+  if (result.set_ups.size() > 1) json["set_ups"] = set_ups(result);
   json["rms"] = with_unit(result.rms_mm, "mm");
   json["noise"] = {{"sigma", with_unit(result.sigma_mm, "mm")},
                    {"source", result.sigma_source},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <string>
 
 #include "trueaxis/base/units.hpp"
 
@@ -35,6 +36,23 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
   }
 }
 
+/// "set-up 2  rear: x0 0.3012 ± 0.0004 mm, …".
+void append_set_up(std::string& text, const SetUpFit& one, double k) {
+  append(text, "  %-16s", ("set-up " + std::to_string(one.set_up.number)).c_str());
+  text += one.side == Root::rear ? " rear: " : " front:";
+  for (const FitParameter& p : one.parameters) {
+    const Estimate& e = p.estimate;
+    text += &p == one.parameters.data() ? " " : ", ";
+    if (!e.determined() || !std::isfinite(k * e.u)) {
+      append(text, "%s -", p.name.c_str());
+    } else {
+      append(text, "%s %.*f ± %.2g%s%s", p.name.c_str(), decimals_of(k * e.u), e.value, k * e.u,
+             e.unit == "1" ? "" : " ", e.unit == "1" ? "" : e.unit.c_str());
+    }
+  }
+  text += "\n";
+}
+
 }  // namespace
 
 std::string fit_text(const FitResult& result) {
@@ -46,6 +64,9 @@ std::string fit_text(const FitResult& result) {
   append(text, "  parameters ± U (k = %.3g)\n", result.coverage_factor);
   append_parameters(text, result.parameters, result.coverage_factor);
   append_parameters(text, result.derived, result.coverage_factor);
+  if (result.set_ups.size() > 1) {
+    for (const SetUpFit& one : result.set_ups) append_set_up(text, one, result.coverage_factor);
+  }
   append(text, "  RMS %.4g µm, σ %.4g µm (from %s)\n", result.rms_mm / mm_per_um,
          result.sigma_mm / mm_per_um, result.sigma_source.c_str());
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/io/job_json.hpp"
 
-#include "io/json.hpp"
+#include "io/diagnosis_json.hpp"
 #include "trueaxis/base/units.hpp"
 
 namespace trueaxis {
@@ -65,7 +65,41 @@ Json correction_object(const Correction& correction) {
             {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
 }
 
+Json diagnosis_of(const JobResult& result, std::size_t i) {
+  if (!result.diagnoses[i]) {
+    const bool face = result.streams[i].kind == StreamKind::face;
+    return {{"verdict", nullptr},
+            {"why", face ? "a face is not diagnosed" : "its fit did not converge"}};
+  }
+  Json summary = diagnosis_summary(*result.diagnoses[i]);
+  summary["file"] = diagnosis_file(result, i);
+  summary["axis_of_the_correction"] =
+      &fit_used(result, i) == &result.fits[i] ? "ideal surface" : "extended model";
+  return summary;
+}
+
+Json inclusions_array(const std::vector<Inclusion>& inclusions) {
+  Json list = Json::array();
+  for (const Inclusion& i : inclusions) {
+    list.push_back({{"effect", i.effect},
+                    {"reference", i.reference},
+                    {"included", i.included},
+                    {"refused", i.refused},
+                    {"why", i.why}});
+  }
+  return list;
+}
+
 }  // namespace
+
+std::string diagnosis_file(const JobResult& result, std::size_t reference) {
+  std::string name;
+  for (const char c : result.job.references[reference].name) {
+    const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += kept ? c : '_';
+  }
+  return "diagnosis_" + std::to_string(reference + 1) + "_" + name.substr(0, 40) + ".json";
+}
 
 std::string job_json(const JobResult& result) {
   Json json;
@@ -75,14 +109,17 @@ std::string job_json(const JobResult& result) {
   json["verdict"] = verdict_object(result.verdict);
   Json references = Json::array();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    references.push_back({{"name", result.job.references[i].name},
-                          {"weight", result.job.references[i].weight},
-                          {"fit", fit_object(result.fits[i])}});
+    Json reference{{"name", result.job.references[i].name},
+                   {"weight", result.job.references[i].weight},
+                   {"fit", fit_object(result.fits[i])}};
+    if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
+    references.push_back(reference);
   }
   json["references"] = references;
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.correction) json["correction"] = correction_object(*result.correction);
+  if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
   return json_text(json);
 }
 

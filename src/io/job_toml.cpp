@@ -176,6 +176,22 @@ Actuator read_actuator(TomlTable table) {
   return a;
 }
 
+/// Only what repeats at the tool may be asked for.
+void read_include(TomlTable table, Job& job) {
+  job.include = table.texts("include");
+  for (const std::string& id : job.include) {
+    const auto known = repeating_effects();
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    std::string names;
+    for (const std::string_view name : known)
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    table.complain("include", "holds '" + id +
+                                  "', which no correction may follow; those that repeat at the "
+                                  "tool are " +
+                                  names);
+  }
+}
+
 void read_cut(TomlTable root, Job& job, bool required) {
   auto target =
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
@@ -186,8 +202,9 @@ void read_cut(TomlTable root, Job& job, bool required) {
     check_rows(cut, *job.target, job.tool);
     check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
+    if (auto correction = root.maybe_table("correction")) read_include(*correction, job);
   } else {
-    for (const char* key : {"cut", "actuator"}) {
+    for (const char* key : {"cut", "actuator", "correction"}) {
       if (auto table = root.maybe_table(key)) {
         root.complain(key, "is of no use without a [target]: add it, or remove this table");
         table->ignore_rest();

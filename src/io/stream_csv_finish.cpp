@@ -47,6 +47,24 @@ bool is_diameter(const CsvHeader& header, const CsvKnownMetadata& known,
   return diameter;
 }
 
+/// The set-ups that have readings, as the metadata state them; a statement about another is wrong.
+void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeStream& stream,
+                  CsvDiagnostics& diagnostics) {
+  stream.setups.clear();
+  for (const auto& [number, set_up] : known.set_ups) stream.setups.push_back(set_up);
+  stream.setups = list_set_ups(stream);
+  for (const auto& [number, place] : known.set_up_places) {
+    if (std::ranges::find(stream.setups, number, &SetUp::number) != stream.setups.end()) continue;
+    const std::string name = "setup." + std::to_string(number);
+    diagnostics.add(place.line, place.column,
+                    header.find(CsvRole::setup) != nullptr
+                        ? name + " has no reading: number it as in the column setup, or remove it"
+                        : name +
+                              " has no reading, as there is no column setup: add the column, or "
+                              "remove it");
+  }
+}
+
 }  // namespace
 
 bool csv_is_wrapped(const std::vector<double>& c, double turn) {
@@ -98,6 +116,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
   stream.metadata = metadata.metadata;
+  take_set_ups(header, known, stream, diagnostics);
 }
 
 }  // namespace trueaxis

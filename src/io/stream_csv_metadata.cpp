@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "io/stream_csv_number.hpp"
+#include "io/stream_csv_setup.hpp"
 #include "io/stream_csv_unit.hpp"
 
 namespace trueaxis {
@@ -21,7 +22,8 @@ std::string lower_case(std::string_view text) {
 bool is_known(std::string_view key) {
   constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
                                        "sensor_noise", "spindle_rpm", "ball_radius"};
-  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
+  return csv_is_setup_key(key) ||
+         std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 /// A finite number and what follows it.
@@ -94,7 +96,11 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
   const auto refuse = [&](const char* wanted) {
     diagnostics_.add(line, column, not_understood(key, value, wanted));
   };
-  if (key == "x_convention") {
+  if (csv_is_setup_key(key)) {
+    const std::string wrong = csv_take_setup(key, value, known.set_ups);
+    if (!wrong.empty()) return diagnostics_.add(line, column, wrong);
+    known.set_up_places.try_emplace(csv_setup_number(key), CsvKnownMetadata::Place{line, column});
+  } else if (key == "x_convention") {
     if (value != "radius" && value != "diameter") return refuse("radius or diameter");
     known.diameter = value == "diameter";
     known.diameter_line = line;

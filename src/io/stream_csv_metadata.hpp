@@ -18,6 +18,11 @@ struct CsvKnownMetadata {
   std::size_t diameter_line = 0;
   std::optional<Indication> indication;  ///< reading
   std::optional<double> nominal_radius_mm, sensor_noise_mm, spindle_rpm, ball_radius_mm;
+  std::map<int, SetUp> set_ups;  ///< by number
+  struct Place {
+    std::size_t line = 0, column = 0;
+  };
+  std::map<int, Place> set_up_places;  ///< where each is first spoken of
 };
 
 /// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'; other

@@ -6,6 +6,7 @@
 #include "io/output_file.hpp"
 #include "io/stream_csv_finish.hpp"
 #include "io/stream_csv_metadata.hpp"
+#include "io/stream_csv_setup.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/io/stream_csv.hpp"
@@ -57,6 +58,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
   if (stream.indication != said.known.indication.value_or(Indication::absolute)) {
     out["reading"] = stream.indication == Indication::relative ? "relative" : "absolute";
   }
+  csv_put_setups(stream, said.known.set_ups, out);
   return out;
 }
 

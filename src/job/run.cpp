@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "job/inclusion.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/job/job.hpp"
@@ -31,8 +32,9 @@ std::vector<Reference> references_of(const JobResult& result) {
   std::vector<Reference> references;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
-    references.push_back({named.name, result.fits[i].axis, named.weight,
-                          face_radius(named, result.fits[i], *result.job.target)});
+    const FitResult& fit = fit_used(result, i);
+    references.push_back(
+        {named.name, fit.axis, named.weight, face_radius(named, fit, *result.job.target)});
   }
   return references;
 }
@@ -103,6 +105,12 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
         "NO-GO: the readings give no uncertainty: probe more of them, or give the sensor's noise";
     return;
   }
+  for (const Inclusion& inclusion : result.inclusions) {
+    if (!inclusion.refused) continue;
+    verdict.line = "NO-GO: " + inclusion.effect + " of " + inclusion.reference +
+                   " must not enter the correction: " + inclusion.why;
+    return;
+  }
   if (!result.job.coaxiality_tolerance_mm) {
     verdict.go = true;
     verdict.line = "DONE, no tolerance given: " + numbers;
@@ -114,7 +122,28 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
                  as_given_um(tolerance);
 }
 
+void diagnose_all(JobResult& result) {
+  for (std::size_t i = 0; i < result.streams.size(); ++i) {
+    result.diagnoses.emplace_back();
+    if (result.streams[i].kind == StreamKind::face) continue;
+    if (result.fits[i].status != FitStatus::converged) continue;
+    DiagnoseOptions options;
+    options.fit = result.job.references[i].fit;
+    result.diagnoses.back() = diagnose(result.streams[i], options);
+  }
+}
+
 }  // namespace
+
+const FitResult& fit_used(const JobResult& result, std::size_t reference) {
+  expects(reference < result.fits.size(), "a reference of the job");
+  const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
+  if (!diagnosed) return result.fits[reference];
+  const Diagnosis& diagnosis = *result.diagnoses[reference];
+  const bool extended = diagnosis.verdict != DiagnosisVerdict::ideal &&
+                        diagnosis.extended.status == FitStatus::converged;
+  return extended ? diagnosis.extended : result.fits[reference];
+}
 
 JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   expects(job.references.size() == streams.size() && !streams.empty(), "one stream per reference");
@@ -124,6 +153,7 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
   }
+  diagnose_all(result);
   if (!usable(result)) {
     for (std::size_t i = 0; i < result.fits.size(); ++i) {
       if (result.fits[i].status == FitStatus::converged) continue;
@@ -141,8 +171,8 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   const std::vector<Reference> references = references_of(result);
   result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm,
                                          target.kind != TargetKind::face);
-  result.correction =
-      make_correction(result.target_axis->axis, target, result.job.tool, result.job.actuator);
+  result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
+                                      result.job.actuator, included_motions(result));
   decide(result, references);
   return result;
 }

@@ -65,11 +65,21 @@ FastFourier::Complex FastFourier::root(std::size_t power) const {
   return times(coarse_[power / root_step], fine_[power % root_step]);
 }
 
+FastFourier::Workspace FastFourier::workspace() const {
+  Workspace made;
+  const bool steps = n1_ > 1;
+  made.in.resize(steps ? block * n1_ : n_);
+  made.out.resize(steps ? std::max(n1_, block * n2_) : 0);
+  made.turned.resize(steps ? n_ : 0);
+  made.result.resize(n_);
+  made.plan = plan_;
+  return made;
+}
+
 // j = j1 n2 + j2, k = k1 + n1 k2: transforms over j1, turned by exp(−2πi j2 k1/n), then over j2.
-std::vector<Complex> FastFourier::in_four_steps(std::span<const double> real,
-                                                std::span<const double> imaginary) const {
-  Eigen::FFT<double> fft = plan_;
-  std::vector<Complex> turned(n_), in(block * n1_), out(std::max(n1_, block * n2_));
+void FastFourier::in_four_steps(std::span<const double> real, std::span<const double> imaginary,
+                                Workspace& with) const {
+  auto& [in, out, turned, result, plan] = with;
   for (std::size_t first = 0; first < n2_; first += block) {
     const std::size_t columns = std::min(block, n2_ - first);
     for (std::size_t j1 = 0; j1 < n1_; ++j1) {
@@ -79,7 +89,7 @@ std::vector<Complex> FastFourier::in_four_steps(std::span<const double> real,
       }
     }
     for (std::size_t c = 0; c < columns; ++c) {
-      fft.fwd(out.data(), in.data() + c * n1_, static_cast<Eigen::Index>(n1_));
+      plan.fwd(out.data(), in.data() + c * n1_, static_cast<Eigen::Index>(n1_));
       for (std::size_t k1 = 0; k1 < n1_; ++k1) {
         in[c * n1_ + k1] = times(out[k1], root((first + c) * k1));
       }
@@ -88,28 +98,28 @@ std::vector<Complex> FastFourier::in_four_steps(std::span<const double> real,
       for (std::size_t c = 0; c < columns; ++c) turned[k1 * n2_ + first + c] = in[c * n1_ + k1];
     }
   }
-  std::vector<Complex> result(n_);
   for (std::size_t first = 0; first < n1_; first += block) {
     const std::size_t rows = std::min(block, n1_ - first);
     for (std::size_t r = 0; r < rows; ++r) {
-      fft.fwd(out.data() + r * n2_, turned.data() + (first + r) * n2_,
-              static_cast<Eigen::Index>(n2_));
+      plan.fwd(out.data() + r * n2_, turned.data() + (first + r) * n2_,
+               static_cast<Eigen::Index>(n2_));
     }
     for (std::size_t k2 = 0; k2 < n2_; ++k2) {
       for (std::size_t r = 0; r < rows; ++r) result[first + r + n1_ * k2] = out[r * n2_ + k2];
     }
   }
-  return result;
 }
 
-std::vector<Complex> FastFourier::operator()(std::span<const double> real,
-                                             std::span<const double> imaginary) const {
-  if (n1_ > 1) return in_four_steps(real, imaginary);
-  Eigen::FFT<double> fft = plan_;
-  std::vector<Complex> in(n_), out(n_);
-  for (std::size_t j = 0; j < n_; ++j) in[j] = {real[j], imaginary[j]};
-  fft.fwd(out.data(), in.data(), static_cast<Eigen::Index>(n_));
-  return out;
+std::span<const Complex> FastFourier::operator()(std::span<const double> real,
+                                                 std::span<const double> imaginary,
+                                                 Workspace& with) const {
+  if (n1_ > 1) {
+    in_four_steps(real, imaginary, with);
+  } else {
+    for (std::size_t j = 0; j < n_; ++j) with.in[j] = {real[j], imaginary[j]};
+    with.plan.fwd(with.result.data(), with.in.data(), static_cast<Eigen::Index>(n_));
+  }
+  return with.result;
 }
 
 }  // namespace trueaxis

@@ -22,13 +22,20 @@ class FastFourier {
 
   std::size_t size() const { return n_; }
 
-  /// Thread-safe. @param real, imaginary x, n long.
-  std::vector<Complex> operator()(std::span<const double> real,
-                                  std::span<const double> imaginary) const;
+  /// What one thread works with; kept from one transform to the next.
+  struct Workspace {
+    std::vector<Complex> in, out, turned, result;
+    Eigen::FFT<double> plan;
+  };
+  Workspace workspace() const;
+
+  /// X, in the workspace until its next use. @param real, imaginary x, n long.
+  std::span<const Complex> operator()(std::span<const double> real,
+                                      std::span<const double> imaginary, Workspace& with) const;
 
  private:
-  std::vector<Complex> in_four_steps(std::span<const double> real,
-                                     std::span<const double> imaginary) const;
+  void in_four_steps(std::span<const double> real, std::span<const double> imaginary,
+                     Workspace& with) const;
   Complex root(std::size_t power) const;
 
   std::size_t n_, n1_ = 1, n2_;

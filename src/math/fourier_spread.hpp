@@ -19,9 +19,13 @@ struct SpreadPoints {
   std::span<const double> distance, cosine, sine;
 };
 
-/// Adds value × (cosine, sine) × φ to the real and the imaginary grid, which are `spread_width`
-/// longer than the largest `first`.
-void spread(const SpreadPoints& points, std::span<const double> value, std::span<double> real,
-            std::span<double> imaginary);
+/// Values at the points, and the grids they go to, `spread_width` longer than the largest `first`.
+struct SpreadColumn {
+  const double* value;
+  double *real, *imaginary;
+};
+
+/// Adds value × (cosine, sine) × φ to the grids of every column; φ is computed once for all.
+void spread(const SpreadPoints& points, std::span<const SpreadColumn> columns);
 
 }  // namespace trueaxis

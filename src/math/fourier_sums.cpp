@@ -5,6 +5,7 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "math/fast_fourier.hpp"
 #include "math/fourier_spread.hpp"
@@ -16,6 +17,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t most_orders = std::size_t{1} << 28;  // grid points are 32 bits
+constexpr std::size_t grid_cache = 48 * 1024;              // numbers that stay in the second cache
 constexpr long double turns_per_rad = 0.5L / std::numbers::pi_v<long double>;
 
 // Turns less whole turns, −1/2 … 1/2: the extended format keeps what a double of many turns loses.
@@ -44,6 +46,7 @@ struct FourierSums::Plan {
   Plan(std::span<const double> t, double w0, double dw, std::size_t K);
   void place(std::span<const double> t, double middle, double w0, double dw);
   void correct(double middle, double w0, double dw);
+  Sums sums_of(const SpreadColumn& column, FastFourier::Workspace& workspace) const;
 
   std::size_t orders;
   FastFourier transform;
@@ -110,26 +113,50 @@ FourierSums::FourierSums(std::span<const double> t, double w0, double dw, std::s
 
 std::size_t FourierSums::orders() const { return plan_->orders; }
 
-std::vector<std::complex<double>> FourierSums::of(std::span<const double> w) const {
-  const Plan& plan = *plan_;
-  expects(w.size() == plan.first.size(), "a value an abscissa");
-  const std::size_t grid = plan.transform.size();
-  std::vector<double> real(grid + spread_width), imaginary(grid + spread_width);
-  spread({plan.first, plan.distance, plan.cosine, plan.sine}, w, real, imaginary);
+// F from the grids of a column.
+FourierSums::Sums FourierSums::Plan::sums_of(const SpreadColumn& column,
+                                             FastFourier::Workspace& workspace) const {
+  const std::size_t grid = transform.size(), half = orders / 2;
   for (std::size_t l = 0; l < spread_width; ++l) {  // the grid is a ring
-    real[l] += real[grid + l], imaginary[l] += imaginary[grid + l];
+    column.real[l] += column.real[grid + l];
+    column.imaginary[l] += column.imaginary[grid + l];
   }
-  const std::vector<std::complex<double>> sums =
-      plan.transform(std::span(real).first(grid), std::span(imaginary).first(grid));
-  std::vector<std::complex<double>> result(plan.orders);
-  const std::size_t half = plan.orders / 2;
-  for (std::size_t k = 0; k < plan.orders; ++k) {
+  const auto sums = transform({column.real, grid}, {column.imaginary, grid}, workspace);
+  Sums result(orders);
+  for (std::size_t k = 0; k < orders; ++k) {
     const std::complex<double> sum = sums[k < half ? grid - (half - k) : k - half];
-    const std::complex<double> by = plan.factor[k];
+    const std::complex<double> by = factor[k];
     result[k] = {sum.real() * by.real() - sum.imag() * by.imag(),
                  sum.real() * by.imag() + sum.imag() * by.real()};
   }
   return result;
+}
+
+std::vector<FourierSums::Sums> FourierSums::of(std::span<const std::span<const double>> w) const {
+  const Plan& plan = *plan_;
+  const std::size_t length = plan.transform.size() + spread_width;
+  // Columns spread at a time: their grids stay in the second cache.
+  const std::size_t most = std::clamp(grid_cache / length, std::size_t{1}, w.size() + 1);
+  FastFourier::Workspace workspace = plan.transform.workspace();
+  std::vector<Sums> result;
+  std::vector<double> grids;
+  for (std::size_t from = 0; from < w.size(); from += most) {
+    const auto part = w.subspan(from, std::min(most, w.size() - from));
+    grids.assign(2 * part.size() * length, 0.0);
+    std::vector<SpreadColumn> columns;
+    for (const std::span<const double> values : part) {
+      expects(values.size() == plan.first.size(), "a value an abscissa");
+      double* real = grids.data() + 2 * columns.size() * length;
+      columns.push_back({values.data(), real, real + length});
+    }
+    spread({plan.first, plan.distance, plan.cosine, plan.sine}, columns);
+    for (const SpreadColumn& column : columns) result.push_back(plan.sums_of(column, workspace));
+  }
+  return result;
+}
+
+FourierSums::Sums FourierSums::of(std::span<const double> w) const {
+  return std::move(of(std::span(&w, 1)).front());
 }
 
 }  // namespace trueaxis

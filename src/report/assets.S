@@ -24,6 +24,8 @@ trueaxis_report_js_begin:
     .incbin "report/charts.js"
     .incbin "report/reading_charts.js"
     .incbin "report/reference.js"
+    .incbin "report/diagnosis_charts.js"
+    .incbin "report/diagnosis.js"
     .incbin "report/target.js"
     .incbin "report/correction.js"
     .incbin "report/glossary.js"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/chart_readings.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "report/report_data.hpp"
@@ -32,6 +33,13 @@ double wrapped_deg(double c_rad) {
   const double turns = c_rad / two_pi;
   const double degrees = rounded(360.0 * (turns - std::floor(turns)), 3);
   return degrees >= 360.0 ? 0.0 : degrees;
+}
+
+Bins map_rows(const ChartReadings& all) {
+  constexpr double most = 80.0;
+  const double turns = static_cast<double>(all.kept.size()) / all.readings_per_turn;
+  const double count = std::clamp(std::floor(turns), 1.0, most);
+  return bins_over(all.position_mm, static_cast<std::size_t>(count));
 }
 
 ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,

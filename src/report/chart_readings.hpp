@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "report/coaxial_nominal.hpp"
+#include "report/thinning.hpp"
 
 namespace trueaxis {
 
@@ -23,6 +24,11 @@ struct ChartReadings {
 
 ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,
                              const CoaxialNominal& nominal);
+
+/// Bins of the unrolled surface: of C, and of Z with no more rows than turns (rows between two turns
+/// of a helix would stay blank).
+inline constexpr Bins map_columns{0.0, 360.0, 120};
+Bins map_rows(const ChartReadings& all);
 
 /// Up to three polar sections (both ends and the middle): the readings of about one revolution
 /// nearest to each height, means per degree where there are more than 360, and the model's curve

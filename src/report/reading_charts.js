@@ -18,10 +18,10 @@ const rejectedSeries = (data) => ({
 const positionName = (readings) => readings.face ? 'X in mm' : 'Z in mm';
 
 /** Unrolled map of `key` (deviation_um or residual_um): cells for long streams, else every reading. */
-function readingMap(readings, key, words) {
+function readingMap(readings, key, words, sameLimit = null) {
   const values = readings.thinned ? readings.cells[key] : readings.points[key];
   const shown = readings.thinned ? values : split(readings.points).kept.map((i) => values[i]);
-  const limit = roundUpFinely(largest(shown));
+  const limit = sameLimit ?? roundUpFinely(largest(shown));
   const long = readings.thinned
     ? ` ${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
     : ` Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;

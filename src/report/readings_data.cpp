@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <cmath>
-
 #include "report/chart_readings.hpp"
 #include "report/report_data.hpp"
 #include "report/thinning.hpp"
@@ -9,8 +6,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr Bins turn{0.0, 360.0, 120};
-constexpr std::size_t map_rows = 80, envelope_bins = 400;
+constexpr std::size_t envelope_bins = 400;
 
 nlohmann::json every_reading(const ChartReadings& all) {
   nlohmann::json points{{"c_deg", column(all.c_deg, 3)},
@@ -25,11 +21,6 @@ nlohmann::json every_reading(const ChartReadings& all) {
   return points;
 }
 
-Bins bins_over(const std::vector<double>& values, std::size_t count) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return {*low, *high > *low ? *high : *low + 1.0, count};
-}
-
 nlohmann::json envelope(const ChartReadings& all, const std::vector<double>& x, Bins bins) {
   Envelope found(bins);
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -39,17 +30,14 @@ nlohmann::json envelope(const ChartReadings& all, const std::vector<double>& x, 
 }
 
 nlohmann::json cells(const ChartReadings& all) {
-  // No more rows than turns, or rows between two turns of a helix stay blank.
-  const double turns = static_cast<double>(all.kept.size()) / all.readings_per_turn;
-  const double row_count = std::clamp(std::floor(turns), 1.0, static_cast<double>(map_rows));
-  const Bins rows = bins_over(all.position_mm, static_cast<std::size_t>(row_count));
-  CellMeans deviation(turn, rows), residual(turn, rows);
+  const Bins rows = map_rows(all);
+  CellMeans deviation(map_columns, rows), residual(map_columns, rows);
   for (std::size_t i = 0; i < all.kept.size(); ++i) {
     if (!all.kept[i]) continue;
     deviation.add(all.c_deg[i], all.position_mm[i], all.deviation_um[i]);
     if (all.has_model) residual.add(all.c_deg[i], all.position_mm[i], all.residual_um[i]);
   }
-  nlohmann::json map{{"columns", turn.count},
+  nlohmann::json map{{"columns", map_columns.count},
                      {"rows", rows.count},
                      {"position_min_mm", rows.low},
                      {"position_max_mm", rows.high},

@@ -39,7 +39,7 @@ function inputsSection() {
 }
 
 function build() {
-  const sections = [...data.references.map(referenceSection), targetSection(data), correctionSection(data), marginSection(data),
+  const sections = [...data.references.flatMap((r, i) => [diagnosisSection(r, i), referenceSection(r, i)]), targetSection(data), correctionSection(data), marginSection(data),
     inputsSection(), glossarySection()].filter(Boolean);
   const hashes = data.references.map((r) => r.input_hash).filter(Boolean).join('\n');
   document.getElementById('page').replaceChildren(

@@ -40,6 +40,9 @@ nlohmann::json reference_data(const JobResult& result, std::size_t i) {
   data["input_hash"] = result.fits[i].input_hash;
   if (i < result.streams.size()) {
     data["readings"] = readings_data(result.streams[i], result.fits[i]);
+    if (i < result.diagnoses.size() && result.diagnoses[i])
+      data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i]);
+    data["extended"] = &fit_used(result, i) != &result.fits[i];
     data["relative"] = result.streams[i].indication == Indication::relative;
   }
   return data;

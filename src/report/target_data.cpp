@@ -92,7 +92,7 @@ nlohmann::json target_data(const JobResult& result) {
                       {"of_cut", result.job.target.has_value()},
                       {"references", nlohmann::json::array()}};
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    const FitResult& fit = result.fits[i];
+    const FitResult& fit = fit_used(result, i);
     const bool solved =
         fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations;
     const double radius = face_radius(result, i);

@@ -20,6 +20,11 @@ std::size_t Bins::of(double value) const {
   return static_cast<std::size_t>(std::min(place, static_cast<double>(count - 1)));
 }
 
+Bins bins_over(const std::vector<double>& values, std::size_t count) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return {*low, *high > *low ? *high : *low + 1.0, count};
+}
+
 CellMeans::CellMeans(Bins x, Bins y)
     : x_(x), y_(y), sum_(x.count * y.count, 0.0), count_(x.count * y.count, 0) {}
 

@@ -18,6 +18,9 @@ struct Bins {
   double center(std::size_t bin) const { return low + (static_cast<double>(bin) + 0.5) * width(); }
 };
 
+/// `count` bins over the range of the values; a range of 0 is made 1.
+Bins bins_over(const std::vector<double>& values, std::size_t count);
+
 /// Means of what falls into the cells of an unrolled surface (x: C, y: Z or X).
 class CellMeans {
  public:

@@ -31,7 +31,12 @@ void validate(const Part& part) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
-void describe_setup(const Chucking& setup, std::map<std::string, std::string>& metadata) {
+SetUp stated(const Chucking& setup) {
+  return {setup.number, setup.reindex_rad, setup.z_shift_mm,
+          setup.rear,   setup.x_jog_mm,    setup.clamp_force_ratio};
+}
+
+void describe_setup(const SetUp& setup, std::map<std::string, std::string>& metadata) {
   const std::string prefix = "setup." + std::to_string(setup.number) + '.';
   const auto put = [&](const char* key, double value, const char* unit) {
     std::ostringstream text;
@@ -62,7 +67,10 @@ void describe(const Scenario& scenario, ProbeStream& stream) {
   if (std::all_of(passes.begin(), passes.end(), same_speed) && passes.front().speed_rpm != 0.0) {
     stream.spindle_rpm = passes.front().speed_rpm;
   }
-  for (const Chucking& setup : scenario.plan.setups) describe_setup(setup, stream.metadata);
+  stream.setups.clear();
+  for (const Chucking& setup : scenario.plan.setups) stream.setups.push_back(stated(setup));
+  stream.setups = list_set_ups(stream);
+  for (const SetUp& setup : stream.setups) describe_setup(setup, stream.metadata);
   if (scenario.probe.ball_radius_mm > 0.0) stream.ball_radius_mm = scenario.probe.ball_radius_mm;
 }
 

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "support/report_example.hpp"
+#include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
 namespace {
@@ -63,6 +63,40 @@ class ReportPage : public testing::Test {
 TEST_F(ReportPage, ConeWithCorrection) { expect_sound(example::cone_job(), "cone"); }
 
 TEST_F(ReportPage, LongStreamIsThinned) { expect_sound(example::cone_job(60000), "long"); }
+
+TEST_F(ReportPage, DiagnosisWithFindings) {
+  expect_sound(example::diagnosed_job(), "diagnosis");
+}
+
+TEST_F(ReportPage, DiagnosisOfALongStreamIsThinned) {
+  expect_sound(example::diagnosed_job(60000), "diagnosis_long");
+}
+
+TEST_F(ReportPage, DiagnosisThatFoundNothing) {
+  JobResult result = example::cone_job(300);
+  Diagnosis nothing;
+  nothing.baseline = nothing.extended = result.fits.front();
+  result.diagnoses = {nothing};
+  expect_sound(result, "diagnosis_ideal");
+}
+
+TEST_F(ReportPage, DiagnosisOfOneSectionAndAFaceWithout) {
+  JobResult section = example::section_job();
+  section.diagnoses = {example::diagnosed(section.streams.front(), section.fits.front())};
+  expect_sound(section, "diagnosis_section");
+  JobResult faced = example::shaft_and_face_job();
+  faced.diagnoses = {example::diagnosed(faced.streams.front(), faced.fits.front()), std::nullopt};
+  expect_sound(faced, "diagnosis_face");
+}
+
+TEST_F(ReportPage, HostileNamesOfADiagnosisStayText) {
+  JobResult result = example::diagnosed_job(200);
+  Diagnosis& d = *result.diagnoses.front();
+  const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
+  d.findings.front().alias = d.unexplained.front().harmonic = d.noise.note = d.next.what = hostile;
+  d.not_observable.front().why = d.checks.front().text = hostile;
+  expect_sound(result, "diagnosis_hostile");
+}
 
 TEST_F(ReportPage, RankDeficientWithoutTarget) {
   expect_sound(example::rank_deficient_job(), "rank_deficient");

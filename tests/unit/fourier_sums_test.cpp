@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "laws/targets.hpp"
-#include "math/fast_fourier.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 
@@ -128,7 +127,7 @@ TEST(FourierSums, ManyOrdersAndReadings) {
 }
 
 TEST(FourierSums, NoReadingsAndNoStep) {
-  const auto nothing = FourierSums({}, 1.0, 1.0, 5).of({});
+  const auto nothing = FourierSums({}, 1.0, 1.0, 5).of(std::span<const double>());
   EXPECT_EQ(nothing, std::vector<std::complex<double>>(5));
   Problem of = random_problem(20, 6, 92);
   of.dw = 0.0;
@@ -147,48 +146,29 @@ TEST(FourierSums, APlanServesThreadsAndRepeatsItsBits) {
   EXPECT_EQ(once, other);
 }
 
+TEST(FourierSums, ColumnsTogetherHaveTheBitsTheyHaveAlone) {
+  for (const std::size_t orders : {40u, 9000u}) {  // several at a time, and one
+    const Problem of = random_problem(70, orders, 94);
+    const FourierSums sums(of.t, of.w0, of.dw, of.orders);
+    std::vector<std::vector<double>> values(5, of.w);
+    std::vector<std::span<const double>> columns;
+    for (std::size_t c = 0; c < values.size(); ++c) {
+      for (double& w : values[c]) w += static_cast<double>(c);
+      columns.emplace_back(values[c]);
+    }
+    const auto together = sums.of(columns);
+    ASSERT_EQ(together.size(), columns.size());
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      EXPECT_EQ(together[c], sums.of(columns[c])) << orders << ' ' << c;
+    }
+  }
+}
+
 TEST(FourierSums, BrokenContracts) {
   const std::vector<double> t{0.0, 1.0}, w{1.0};
   EXPECT_THROW(FourierSums(t, 0.0, 1.0, 0), ContractViolation);
   EXPECT_THROW(FourierSums(t, std::nan(""), 1.0, 1), ContractViolation);
   EXPECT_THROW(FourierSums(t, 0.0, 1.0, 1).of(w), ContractViolation);
-}
-
-// Both ways of the transform on lines: x_j = exp(2πi jm/n) has X_m = n and nothing else.
-TEST(FastFourier, LinesOfShortAndLongTransforms) {
-  for (const std::size_t n : {2u, 30u, 6000u, 16384u, 16875u * 2u, 65536u}) {
-    ASSERT_EQ(smooth_even_size(n), n);
-    const FastFourier transform(n);
-    for (const std::size_t m : {std::size_t{0}, std::size_t{1}, n / 3, n - 1}) {
-      std::vector<double> real(n), imaginary(n);
-      for (std::size_t j = 0; j < n; ++j) {
-        const double angle = two_pi * static_cast<double>(j * m % n) / static_cast<double>(n);
-        real[j] = std::cos(angle), imaginary[j] = std::sin(angle);
-      }
-      const auto sums = transform(real, imaginary);
-      double worst = 0.0;
-      for (std::size_t k = 0; k < n; ++k) {
-        const double expected = k == m ? static_cast<double>(n) : 0.0;
-        worst = std::max(worst, std::abs(sums[k] - expected));
-      }
-      // Rounding: a few ε for each of the log2 n ≤ 16 steps, times Σ|x| = n.
-      EXPECT_LE(worst, 100.0 * 2.2e-16 * static_cast<double>(n)) << n << ' ' << m;
-    }
-  }
-}
-
-TEST(FastFourier, SmoothSizesAreTheSmallest) {
-  for (std::size_t least = 1; least < 3000; ++least) {
-    std::size_t expected = least + least % 2;
-    const auto smooth = [](std::size_t n) {
-      for (const std::size_t p : {2u, 3u, 5u}) {
-        while (n % p == 0) n /= p;
-      }
-      return n == 1;
-    };
-    while (!smooth(expected)) expected += 2;
-    EXPECT_EQ(smooth_even_size(least), expected) << least;
-  }
 }
 
 }  // namespace

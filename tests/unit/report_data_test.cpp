@@ -10,7 +10,7 @@
 
 #include "report/page.hpp"
 #include "report/thinning.hpp"
-#include "support/report_example.hpp"
+#include "support/diagnosis_example.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/report/report.hpp"
 
@@ -57,6 +57,38 @@ TEST(ReportPageText, LoadsNothingFromElsewhere) {
   const std::string page = render_report(example::cone_job(100));
   EXPECT_EQ(count(page, "<script src"), 0u);
   EXPECT_EQ(count(page, "<link"), count(page, "<link rel=\"icon\" href=\"data:,\">"));
+}
+
+/// Three lobes of 6 µm and a wander of 1.2 µm over 2 µm of noise: the extended model leaves the
+/// noise, 4/(18 + 0.72 + 4) of the variance; the sample's own share is within 5/√1500 of that.
+TEST(ReportData, ShareOfTheVarianceThatIsLeft) {
+  const json data = report_data(example::diagnosed_job(1500));
+  const json& gain = data["references"][0]["diagnosis"]["gain"];
+  EXPECT_NEAR(gain["left_share"], 4.0 / 22.72, 4.0 / 22.72 * 5.0 / std::sqrt(1500.0));
+  EXPECT_EQ(gain["noise_share"].is_number(), true);
+}
+
+TEST(ReportData, MapsLeaveMaskedReadingsOut) {
+  const json maps = report_data(example::diagnosed_job(1500))["references"][0]["diagnosis"]["maps"];
+  EXPECT_EQ(maps["before_um"].size(), 1500u);
+  const json& rejected = maps["rejected"];
+  EXPECT_NE(std::find(rejected.begin(), rejected.end(), 200), rejected.end()) << "row 201";
+  const json lines = report_data(example::diagnosed_job())["references"][0]["diagnosis"]["lines"];
+  EXPECT_EQ(lines[0]["order"], 3.0);
+  EXPECT_EQ(lines[1]["order"], 7.41);
+}
+
+TEST(ReportData, AxisShownIsThatOfTheCorrection) {
+  JobResult result = example::diagnosed_job(200);
+  result.diagnoses.front()->extended.axis.axis.x_mm += 0.5;
+  EXPECT_EQ(&fit_used(result, 0), &result.diagnoses.front()->extended);
+  const double x = report_data(result)["target"]["references"][0]["axis"]["start"]["x_mm"];
+  EXPECT_NEAR(x, example::true_axis().at(25.0)[0] + 0.5, 1e-12);
+  result.diagnoses.front()->extended.status = FitStatus::rank_deficient;
+  EXPECT_EQ(&fit_used(result, 0), &result.fits[0]);
+  result.diagnoses.front()->extended.status = FitStatus::converged;
+  result.diagnoses.front()->verdict = DiagnosisVerdict::ideal;
+  EXPECT_EQ(&fit_used(result, 0), &result.fits[0]);
 }
 
 TEST(ReportData, SameResultSameBytes) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "trueaxis/correct/actuator.hpp"
+#include "trueaxis/correct/repeating_motion.hpp"
 #include "trueaxis/surface/axis.hpp"
 
 namespace trueaxis {
@@ -79,6 +80,7 @@ struct Correction {
   ToolSetup tool;
   Actuator actuator;
   AxisEstimate axis;  ///< the target axis
+  std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
   CorrectionRows rows;
   std::vector<CorrectionHarmonic> harmonics;
   ActuatorMargin margin;
@@ -90,6 +92,7 @@ struct Correction {
 /// its
 ///         radius); ContractViolation for quantities that cannot be.
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
-                           const ToolSetup& tool, const Actuator& actuator);
+                           const ToolSetup& tool, const Actuator& actuator,
+                           std::vector<RepeatingMotion> motions = {});
 
 }  // namespace trueaxis

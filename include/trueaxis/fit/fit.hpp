@@ -64,7 +64,18 @@ struct BudgetLine {
   std::vector<double> u;  ///< in the order and unit of FitResult::parameters
 };
 
-/// The associated feature. `status` says whether the numbers may be used.
+/// A set-up of the stream, and the part as it then stood.
+struct SetUpFit {
+  SetUp set_up;
+  Root side = Root::front;               ///< as stated, or as the sign of X_M tells
+  std::vector<FitParameter> parameters;  ///< in the order of the surface's catalogue line
+  AxisEstimate axis;
+  Revolved shape;
+};
+
+/// The associated feature. With several set-ups the parameters, their covariance and budget, what
+/// is derived of them, axis and shape are those of the last set-up: so the part is clamped now,
+/// when the correction is cut. `status` says whether the numbers may be used.
 struct FitResult {
   std::string surface;
   std::string criterion = "probe";
@@ -83,6 +94,11 @@ struct FitResult {
   AxisEstimate axis;  ///< a plane: its normal through (0, 0, 0); all budget lines in it
   Revolved shape;     ///< lateral surfaces: the associated surface of the part
 
+  /// In order of number. Those that the part was moved before (turned, shifted or clamped anew
+  /// against the set-up before) have an axis of their own; all share radius and half angle, in one
+  /// least-squares problem. A part shifted by z_shift has its apex at k + z_shift / n.
+  std::vector<SetUpFit> set_ups;
+
   double rms_mm = 0.0;           ///< of the residuals that were not rejected
   double sigma_mm = 0.0;         ///< standard deviation of one reading, as used in u
   std::string sigma_source;      ///< "residuals", "robust residuals" or "sensor"
@@ -91,13 +107,14 @@ struct FitResult {
   std::size_t points = 0;
   std::vector<Rejected> rejected;
   int iterations = 0;
-  double position_min_mm = 0.0, position_max_mm = 0.0;  ///< Z (or X of a face) of the data
-  std::vector<double> residual_mm;                      ///< measured minus model, one per reading
+  /// Z (or X of a face) of the data, of those since the part was last moved.
+  double position_min_mm = 0.0, position_max_mm = 0.0;
+  std::vector<double> residual_mm;  ///< measured minus model, one per reading
   std::string input_hash, source;
 };
 
-/// Associates a surface with a stream: starting values from the data alone, Levenberg-Marquardt on
-/// the compressed normal matrix, robust loss, uncertainties.
+/// Associates a surface with a stream, over all set-ups at once: starting values from the data
+/// alone, Levenberg-Marquardt on the compressed normal matrix, robust loss, uncertainties.
 /// @throws InputError if the stream cannot belong to the surface (a face for a cone, a relative
 ///         gauge without nominal radius). Numerical outcomes are data: see FitResult::status.
 FitResult fit(const ProbeStream& stream, const FitOptions& options);

@@ -11,4 +11,7 @@ namespace trueaxis {
 /// of the correction and the actuator's margin.
 std::string job_json(const JobResult& result);
 
+/// Name of the file beside the result that holds the diagnosis of a reference.
+std::string diagnosis_file(const JobResult& result, std::size_t reference);
+
 }  // namespace trueaxis

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/correct/correction.hpp"
 #include "trueaxis/correct/target_axis.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
 #include "trueaxis/fit/fit.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 
@@ -39,6 +42,21 @@ struct Job {
       coaxiality_tolerance_mm;  ///< ISO 1101, a diameter; of a face its axial run-out
   ToolSetup tool;
   Actuator actuator;
+  /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
+  std::vector<std::string> include;
+};
+
+/// The machine motions that repeat at the tool: only these may be asked into a correction. A form of
+/// the reference acts through the target axis alone, an error of the probe never.
+std::span<const std::string_view> repeating_effects();
+
+/// What became of a motion that the job asked into the correction.
+struct Inclusion {
+  std::string effect;
+  std::string reference;  ///< where it was found; empty: nowhere
+  bool included = false;
+  bool refused = false;  ///< found, but it must not be cut with: then there is no go
+  std::string why;       ///< why it is not included
 };
 
 /// ISO 14253-1 decision about the tolerance, with the numbers it rests on.
@@ -56,13 +74,20 @@ struct Verdict {
 struct JobResult {
   Job job;
   std::vector<ProbeStream> streams;  ///< one per reference
-  std::vector<FitResult> fits;       ///< one per reference
+  std::vector<FitResult> fits;       ///< one per reference: the ideal surface
+  /// One per reference; none for a face, which is not diagnosed, and where a fit failed.
+  std::vector<std::optional<Diagnosis>> diagnoses;
+  std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;
   Verdict verdict;
 };
 
-/// Fit, target axis, correction, verdict. Streams come read, one per reference.
+/// The fit whose axis the correction takes: that of the extended model where the diagnosis found
+/// something and it converged, else that of the ideal surface.
+const FitResult& fit_used(const JobResult& result, std::size_t reference);
+
+/// Fit, diagnosis, target axis, correction, verdict. Streams come read, one per reference.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 
 }  // namespace trueaxis

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/causes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/math/statistics.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+using Keep = std::vector<std::size_t>;
+
+constexpr double decay_lengths[] = {10.0, 20.0, 40.0, 80.0, 160.0};
+constexpr double bearings[] = {-500.0, -250.0, -100.0, -50.0, -20.0, 0.0};  // effects.md: far to near
+constexpr double no_motion = 1e-9;
+
+struct Span {
+  double low, high;
+  double length() const { return high - low; }
+};
+Span span_of(const std::vector<double>& column) {
+  const auto [low, high] = range_of(column);
+  return {low, high};
+}
+
+TermShape with_order(double order) {
+  TermShape shape;
+  shape.order = order;
+  return shape;
+}
+
+void add_harmonics(const Scene& scene, const Resolution& resolution, std::vector<Hypothesis>& list) {
+  const double tests = resolution.harmonics;
+  for (int n = 2; n <= resolution.harmonics; ++n) {
+    list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
+    if (resolution.degrees > 0) list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
+    if (!scene.reindexed) continue;
+    list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
+    TermShape tilt = with_order(n);
+    tilt.lever_from_mm = bearings[2];
+    if (resolution.degrees > 0) list.push_back(of_effect("spindle.tilt_synchronous", tilt, {}, tests));
+  }
+}
+
+void add_along_z(const Scene& scene, const Resolution& resolution, std::vector<Hypothesis>& list) {
+  if (resolution.degrees == 0) return;
+  list.push_back(of_effect("part.barrel", {}, {0}, 2));
+  if (resolution.degrees > 2) list.push_back(of_effect("part.barrel", {}, {}, 2));
+  if (!scene.base.tapers) list.push_back(of_effect("part.taper", {}));
+  list.push_back(of_effect("part.bow", {}));
+  const int highest = std::min(5, resolution.degrees + 1);
+  for (int degree = 2; degree <= highest; ++degree) {
+    TermShape shape;
+    shape.degree = degree;
+    list.push_back(of_effect("slide.z_straightness", shape, {}, 6));
+    const auto last = static_cast<std::size_t>(degree - 2);
+    if (degree > 2) list.push_back(of_effect("slide.z_straightness", shape, {last}, 6));
+  }
+  list.push_back(of_effect("slide.xz_parallelism", {}));
+}
+
+bool both_ways(const Scene& scene) {
+  const Span v = span_of(scene.velocity);
+  return v.low < -no_motion && v.high > no_motion;
+}
+
+void add_probe(const Scene& scene, const Resolution& resolution, std::vector<Hypothesis>& list) {
+  list.push_back(of_effect("probe.height", {}));
+  list.push_back(of_effect("encoder.offset", {}));
+  list.push_back(of_effect("encoder.eccentricity", {}));
+  if (resolution.degrees > 0) {
+    list.push_back(of_effect("probe.tilt", {}));
+    if (both_ways(scene)) {
+      for (const Keep& keep : {Keep{0}, Keep{1}, Keep{}})
+        list.push_back(of_effect("slide.backlash", {}, keep, 3));
+    }
+  }
+  TermShape response;
+  response.reference_x_mm = scene.reference_x_mm;
+  response.order = 3.0;
+  list.push_back(of_effect("probe.gain", response));
+  for (const Keep& keep : {Keep{0}, Keep{1}, Keep{}})
+    list.push_back(of_effect("probe.nonlinearity", response, keep, 3));
+  list.push_back(of_effect("probe.ball_radius", {}));
+  list.push_back(of_effect("probe.pretravel", response, {0}));
+  if (!scene.has_time) return;
+  list.push_back(of_effect("probe.latency", {}));
+  for (const double T : {0.0, 5e-3}) {
+    TermShape lag;
+    lag.time_constant_s = T;
+    list.push_back(of_effect("probe.lag", lag, {}, 2));
+  }
+}
+
+void add_time(const Scene& scene, std::vector<Hypothesis>& list) {
+  if (!scene.has_time) return;
+  const double lasted = span_of(scene.time).length();
+  list.push_back(of_effect("thermal.drift", {}, {0}, 4));
+  for (const double share : {0.1, 0.3, 1.0}) {
+    TermShape shape;
+    shape.time_constant_s = share * lasted;
+    list.push_back(of_effect("thermal.drift", shape, {1}, 4));
+  }
+}
+
+}  // namespace
+
+std::vector<Hypothesis> slips(const Scene& scene, std::size_t instants) {
+  std::vector<Hypothesis> list;
+  if (!scene.has_time || scene.size() < 8 * instants) return list;
+  for (std::size_t k = 1; k < instants; ++k) {
+    TermShape shape;
+    shape.onset_s = scene.time[k * scene.size() / instants];
+    list.push_back(of_effect("part.slip", shape, {0, 1}, 4.0 * static_cast<double>(instants)));
+    list.push_back(of_effect("part.slip", shape, {2}, 4.0 * static_cast<double>(instants)));
+  }
+  return list;
+}
+
+std::vector<Hypothesis> preset_causes(const Scene& scene, const Resolution& resolution) {
+  std::vector<Hypothesis> list;
+  add_harmonics(scene, resolution, list);
+  add_along_z(scene, resolution, list);
+  add_probe(scene, resolution, list);
+  add_time(scene, list);
+  return list;
+}
+
+std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& resolution,
+                                        int order) {
+  std::vector<Hypothesis> list;
+  const double tests = resolution.harmonics;
+  const double n = order;
+  list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
+  if (resolution.degrees > 0) list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
+  list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
+  if (resolution.degrees > 0) {
+    for (const double bearing : bearings) {
+      TermShape shape = with_order(n);
+      shape.lever_from_mm = bearing;
+      list.push_back(of_effect("spindle.tilt_synchronous", shape, {}, tests * std::size(bearings)));
+    }
+    if (std::abs(scene.tan_half_angle) > 1e-3)
+      list.push_back(of_effect("spindle.axial_synchronous", with_order(n), {}, tests));
+    const double jaws = scene.z_mid_mm - scene.z_half_mm;
+    for (const int j : {order, order / 2}) {
+      if (j < 2 || j > 6 || (j != order && 2 * j != order)) continue;
+      for (const double decay : decay_lengths) {
+        TermShape shape = with_order(j);
+        shape.lever_from_mm = jaws;
+        shape.decay_length_mm = decay;
+        const double all = 5.0 * std::size(decay_lengths);
+        if (j == order) list.push_back(of_effect("part.chuck_lobing", shape, {0, 1}, all));
+        if (2 * j <= resolution.harmonics) list.push_back(of_effect("part.chuck_lobing", shape, {}, all));
+      }
+    }
+  }
+  return list;
+}
+
+std::vector<Hypothesis> neighbours(const Hypothesis& h, const Scene& scene, double step) {
+  std::vector<Hypothesis> list;
+  const auto vary = [&](auto change) {
+    for (const double d : {-step, step}) {
+      Hypothesis other = h;
+      change(other, d);
+      list.push_back(std::move(other));
+    }
+  };
+  if (!h.effect) {
+    if (h.pattern.kind != Pattern::Kind::bump) return list;
+    vary([](Hypothesis& o, double d) { o.pattern.angle_rad += d * o.pattern.width_rad * 8.0; });
+    vary([](Hypothesis& o, double d) { o.pattern.width_rad *= std::exp(4.0 * d); });
+    if (h.pattern.length_mm > 0.0) {
+      vary([](Hypothesis& o, double d) { o.pattern.position_mm += d * o.pattern.length_mm * 8.0; });
+      vary([](Hypothesis& o, double d) { o.pattern.length_mm *= std::exp(4.0 * d); });
+    }
+    return list;
+  }
+  const auto id = h.effect->id;
+  if (id == "spindle.tilt_synchronous") {
+    // The envelope 1 + u κ, κ = half length / (middle − bearing): κ is what the data show.
+    vary([&](Hypothesis& o, double d) {
+      const double kappa = scene.z_half_mm / (scene.z_mid_mm - o.shape.lever_from_mm) + d;
+      if (kappa > 0.01 && kappa < 1.2) o.shape.lever_from_mm = scene.z_mid_mm - scene.z_half_mm / kappa;
+    });
+  } else if (id == "part.chuck_lobing") {
+    vary([](Hypothesis& o, double d) { o.shape.decay_length_mm *= std::exp(3.0 * d); });
+  } else if (id == "part.slip") {
+    const auto [first, last] = range_of(scene.time);
+    vary([&](Hypothesis& o, double d) {
+      o.shape.onset_s = std::clamp(o.shape.onset_s + d * (last - first), first, last);
+    });
+  } else if (id == "thermal.drift" && !h.keep.empty() && h.keep[0] == 1) {
+    vary([](Hypothesis& o, double d) { o.shape.time_constant_s *= std::exp(3.0 * d); });
+  } else if (id == "probe.lag") {
+    vary([](Hypothesis& o, double d) {
+      o.shape.time_constant_s = std::clamp(o.shape.time_constant_s + 0.02 * d, 0.0, 0.05);
+    });
+  }
+  return list;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "diagnose/causes.hpp"
+#include "diagnose/noise.hpp"
+#include "diagnose/search.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t slip_instants = 24;
+constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
+constexpr std::size_t most_rivals = 16;
+constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
+constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
+constexpr double step_start = 0.06, step_shrink = 0.4;
+constexpr int rounds = 4;
+
+void append_columns(Columns& to, const std::vector<Columns>& from) {
+  for (const Columns& own : from) to.insert(to.end(), own.begin(), own.end());
+}
+
+std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
+  std::vector<Hypothesis> out(a);
+  out.insert(out.end(), b.begin(), b.end());
+  return out;
+}
+
+/// Scores of hypotheses beside terms from one evidence over [terms, list].
+std::vector<Candidate> judge(const Evidence& evidence, const std::vector<Columns>& places,
+                             const std::vector<Hypothesis>& list, std::size_t terms) {
+  Columns taken = evidence.base();
+  for (std::size_t t = 0; t < terms; ++t) taken.insert(taken.end(), places[t].begin(), places[t].end());
+  const Projection projection = project(evidence.total(), taken);
+  const auto freedom = static_cast<double>(evidence.count() - projection.rank);
+  std::vector<Candidate> out;
+  for (std::size_t h = 0; h < list.size(); ++h) {
+    const Columns& own = places[terms + h];
+    const Score s = score(projection, own);
+    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
+    c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
+    Eigen::VectorXd size = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(own.size()));
+    if (s.rank == own.size()) {
+      Eigen::MatrixXd part(size.size() + 1, size.size() + 1);
+      Columns all{0};
+      all.insert(all.end(), own.begin(), own.end());
+      for (Eigen::Index i = 0; i < part.rows(); ++i) {
+        for (Eigen::Index j = 0; j < part.cols(); ++j)
+          part(i, j) = projection.gram(static_cast<Eigen::Index>(all[static_cast<std::size_t>(i)]),
+                                       static_cast<Eigen::Index>(all[static_cast<std::size_t>(j)]));
+      }
+      Columns local(own.size());
+      for (std::size_t j = 0; j < local.size(); ++j) local[j] = j + 1;
+      size = solve(part, local).coefficients;
+    }
+    c.criterion = freedom * std::log(std::max(1.0 - s.gain / projection.rss, 1e-12)) +
+                  penalty(list[h], s.rank, evidence.count(), size);
+    if (s.rank == 0) c.criterion = 0.0;
+    out.push_back(std::move(c));
+  }
+  return out;
+}
+
+bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
+
+/// Variants of a hypothesis in a round of refining.
+std::vector<Hypothesis> variants(const Hypothesis& h, const Scene& scene, double step,
+                                 double line_step) {
+  if (!is_line(h)) return neighbours(h, scene, step);
+  const double f = frequency_of(h);
+  return {at_frequency(h, std::max(f - line_step, 1e-6)), at_frequency(h, f + line_step)};
+}
+
+/// Half a resolution cell of a line in its own variable.
+double line_cell(const Hypothesis& h, const Scene& scene) {
+  const auto width = [](const std::vector<double>& x) {
+    const auto [low, high] = std::ranges::minmax(x);
+    return high - low;
+  };
+  if (!h.effect) return 0.4 / width(h.pattern.in_time ? scene.time : scene.s);
+  if (h.effect->id == "spindle.asynchronous") return 0.4 / width(scene.c);
+  if (h.effect->id == "environment.vibration") return 0.4 / width(scene.time);
+  if (h.effect->id == "probe.cyclic") return 0.4 / width(scene.sensed);
+  return 0.4 / width(scene.s);
+}
+
+}  // namespace
+
+std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
+                              const std::vector<Hypothesis>& others,
+                              std::vector<Hypothesis> candidates) {
+  double step = step_start, shrink = 1.0;
+  std::vector<double> cell;
+  for (const Hypothesis& h : candidates)
+    cell.push_back(is_line(h) ? line_cell(h, problem.scene) : 0.0);
+  std::vector<Candidate> best;
+  for (int round = 0; round <= rounds; ++round) {
+    std::vector<Hypothesis> tried;
+    std::vector<std::size_t> owner;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      tried.push_back(candidates[i]);
+      owner.push_back(i);
+      if (round == rounds) continue;
+      for (Hypothesis& v : variants(candidates[i], problem.scene, step, 0.5 * shrink * cell[i])) {
+        tried.push_back(std::move(v));
+        owner.push_back(i);
+      }
+    }
+    if (round > 0 && round < rounds && tried.size() == candidates.size()) continue;
+    Evidence evidence(problem.scene, problem.rows, problem.deviation_mm, phi, problem.threads);
+    const auto places = evidence.append(joined(others, tried));
+    const std::vector<Candidate> judged = judge(evidence, places, tried, others.size());
+    best.assign(candidates.size(), {});
+    std::vector<char> seen(candidates.size(), 0);
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+      Candidate& b = best[owner[k]];
+      if (!seen[owner[k]] || judged[k].gain > b.gain) b = judged[k];
+      seen[owner[k]] = 1;
+    }
+    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] = best[i].hypothesis;
+    step *= step_shrink;
+    shrink *= step_shrink;
+  }
+  std::ranges::stable_sort(best, better);
+  return best;
+}
+
+Proposal propose(const Problem& problem, const std::vector<double>& phi,
+                 const std::vector<Hypothesis>& terms, const Hypothesis* named) {
+  const Scene& scene = problem.scene;
+  const Resolution& resolution = problem.resolution;
+  Proposal out;
+
+  std::vector<Hypothesis> presets = preset_causes(scene, resolution);
+  for (Hypothesis& h : slips(scene, slip_instants)) presets.push_back(std::move(h));
+  std::vector<Hypothesis> cells = atlas(scene, resolution);
+  for (Hypothesis& h : cells) h.tests = static_cast<double>(cells.size());
+  Evidence evidence(scene, problem.rows, problem.deviation_mm, phi, problem.threads);
+  const std::vector<Hypothesis> fixed = joined(presets, cells);
+  const auto places = evidence.append(joined(terms, fixed));
+  std::vector<Candidate> judged = judge(evidence, places, fixed, terms.size());
+  for (const Candidate& c : judged) out.family.single += c.rank > 0;
+
+  Columns taken = evidence.base();
+  append_columns(taken, {places.begin(), places.begin() + static_cast<long>(terms.size())});
+  const Eigen::VectorXd solution = solve(evidence.total(), taken).coefficients;
+  const std::vector<double> left = remainder(scene, problem.deviation_mm, terms, solution);
+  Scans scans = scan_lines(evidence, resolution, left);
+  double bumps_tested = 0.0;
+  std::vector<Hypothesis> bumps = scan_bumps(evidence, left, bumps_tested);
+  for (Hypothesis& h : bumps) h.tests = bumps_tested;
+  out.family.single += bumps_tested;
+  out.family.bandwidth = scans.bandwidth;
+  const double line_choice = std::max(1.0, line_tests * scans.bandwidth);
+
+  // The orders that stick out, whatever their dependence on Z.
+  std::map<int, double> order_gain;
+  for (const Candidate& c : judged) {
+    const double n = c.hypothesis.effect ? 0.0 : c.hypothesis.pattern.order;
+    if (n >= 2.0) {
+      double& g = order_gain[static_cast<int>(n)];
+      g = std::max(g, -c.criterion);
+    }
+  }
+  std::vector<std::pair<double, int>> orders;
+  for (const auto& [n, g] : order_gain) orders.emplace_back(g, n);
+  std::ranges::sort(orders, std::greater<>());
+
+  std::vector<Candidate> causes(judged.begin(), judged.begin() + static_cast<long>(presets.size()));
+  std::vector<Candidate> patterns(judged.begin() + static_cast<long>(presets.size()), judged.end());
+  std::ranges::stable_sort(causes, better);
+  std::ranges::stable_sort(patterns, better);
+  std::vector<Hypothesis> shortlist;
+  const std::size_t presets_kept = named ? causes.size() : best_presets;
+  for (std::size_t i = 0; i < std::min(presets_kept, causes.size()); ++i)
+    shortlist.push_back(causes[i].hypothesis);
+  if (named) shortlist.push_back(*named);
+  for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i) {
+    for (Hypothesis& h : causes_of_order(scene, resolution, orders[i].second))
+      if (h.effect->id != "part.roundness") shortlist.push_back(std::move(h));
+  }
+  std::vector<Hypothesis> odd;
+  for (std::size_t i = 0; i < std::min(best_patterns, patterns.size()); ++i)
+    odd.push_back(patterns[i].hypothesis);
+  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list, std::size_t most) {
+    std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
+    for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i) {
+      if (peaks[i].gain < 0.3 * peaks[0].gain) break;
+      list.push_back(peaks[i].hypothesis);
+      list.back().tests = line_choice;
+    }
+  };
+  take_peaks(scans.causes, shortlist, 8);
+  take_peaks(scans.patterns, odd, 3);
+  for (Hypothesis& h : bumps) odd.push_back(std::move(h));
+
+  // One evidence for the shortlist at its first shapes; only the best of it is refined.
+  const auto sift = [&](std::vector<Hypothesis>& list, bool one_of_each) {
+    Evidence light(scene, problem.rows, problem.deviation_mm, phi, problem.threads);
+    const auto at = light.append(joined(terms, list));
+    std::vector<Candidate> first = judge(light, at, list, terms.size());
+    std::ranges::stable_sort(first, better);
+    if (one_of_each) {
+      std::vector<Candidate> each;
+      double most = 0.0;
+      for (const Candidate& c : first) most = std::max(most, c.gain);
+      for (Candidate& c : first) {
+        const auto same = [&](const Candidate& e) { return e.hypothesis.effect == c.hypothesis.effect; };
+        if (c.gain > far_behind * most && std::ranges::none_of(each, same)) each.push_back(std::move(c));
+      }
+      first = std::move(each);
+    }
+    first.resize(std::min(first.size(), one_of_each ? most_rivals : best_refined));
+    list.clear();
+    for (Candidate& c : first) list.push_back(std::move(c.hypothesis));
+    return refine(problem, phi, terms, list);
+  };
+  out.causes = sift(shortlist, named != nullptr);
+  if (!named) out.patterns = sift(odd, false);
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/gain.hpp"
+#include "diagnose/noise.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double catalogue_first = 6.0;  // 2 ln of the odds that a pattern is no new cause
+constexpr double correlation_moved = 0.02;
+
+Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
+  Columns out;
+  for (std::size_t t = begin; t < end; ++t) out.insert(out.end(), places[t].begin(), places[t].end());
+  return out;
+}
+
+bool moved(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return true;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > correlation_moved) return true;
+  return false;
+}
+
+std::vector<Hypothesis> without(const std::vector<Hypothesis>& terms, std::size_t i) {
+  std::vector<Hypothesis> out(terms);
+  out.erase(out.begin() + static_cast<long>(i));
+  return out;
+}
+
+class Search {
+ public:
+  explicit Search(const Problem& problem)
+      : problem_(problem), cells_(small_atlas(problem.scene, problem.resolution)) {}
+
+  /// @param patterns whether a pattern may be taken while a cause still passes.
+  Model run(bool patterns, bool& pattern_was_better) {
+    Model model;
+    model.phi = noise({});
+    forward(model, patterns, pattern_was_better);
+    for (int round = 0; round < 3; ++round) {
+      bool changed = backward(model);
+      if (model.terms.size() > 1) changed |= swap(model, patterns);
+      if (!changed) break;
+      forward(model, patterns, pattern_was_better);
+    }
+    finish(model);
+    return model;
+  }
+
+ private:
+  std::vector<double> noise(const std::vector<Hypothesis>& terms) const {
+    std::vector<Hypothesis> all(cells_);
+    all.insert(all.end(), terms.begin(), terms.end());
+    return autoregression(problem_.scene, problem_.rows, problem_.deviation_mm, all);
+  }
+
+  double family_p(const Family& family, const Candidate& c) const {
+    return family.p_value(std::exp(c.log_p));
+  }
+
+  void forward(Model& model, bool patterns, bool& pattern_was_better) {
+    while (model.terms.size() < problem_.most_terms) {
+      Proposal p = propose(problem_, model.phi, model.terms);
+      model.family = p.family;
+      const auto passes = [&](const Candidate& c) {
+        return c.rank > 0 && family_p(p.family, c) < problem_.false_alarm;
+      };
+      std::erase_if(p.causes, [&](const Candidate& c) { return !passes(c); });
+      std::erase_if(p.patterns, [&](const Candidate& c) { return !passes(c); });
+      if (p.causes.empty() && p.patterns.empty()) return;
+      const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
+      const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
+      if (!p.causes.empty() && pattern < cause) pattern_was_better = true;
+      const bool take_pattern = p.causes.empty() || (patterns && pattern < cause);
+      model.terms.push_back((take_pattern ? p.patterns : p.causes).front().hypothesis);
+      renew_noise(model);
+    }
+  }
+
+  // A strong slow effect looks like autocorrelation, until it is a term.
+  void renew_noise(Model& model) const {
+    if (model.phi.empty()) return;
+    std::vector<double> phi = noise(model.terms);
+    if (moved(phi, model.phi)) model.phi = std::move(phi);
+  }
+
+  struct Fitted {
+    Evidence evidence;
+    std::vector<Columns> places;
+  };
+  Fitted fitted(const Model& model) const {
+    Fitted out{Evidence(problem_.scene, problem_.rows, problem_.deviation_mm, model.phi,
+                        problem_.threads),
+               {}};
+    out.places = out.evidence.append(model.terms);
+    return out;
+  }
+
+  double term_log_p(const Fitted& f, std::size_t i) const {
+    Columns taken = f.evidence.base();
+    for (std::size_t t = 0; t < f.places.size(); ++t)
+      if (t != i) taken.insert(taken.end(), f.places[t].begin(), f.places[t].end());
+    const Projection projection = project(f.evidence.total(), taken);
+    const Score s = score(projection, f.places[i]);
+    return log_p_value(s.gain, static_cast<double>(s.rank), projection.rss,
+                       static_cast<double>(f.evidence.count() - projection.rank));
+  }
+
+  /// Pooled held-out sum of squares with a term minus without it.
+  bool predicts(const Fitted& f, std::size_t i) const {
+    const Hypothesis& h = problem_terms_[i];
+    if (h.effect ? h.effect->id == "part.slip" : h.pattern.kind == Pattern::Kind::bump) return true;
+    Columns with = f.evidence.base(), rest = with;
+    for (std::size_t t = 0; t < f.places.size(); ++t) {
+      with.insert(with.end(), f.places[t].begin(), f.places[t].end());
+      if (t != i) rest.insert(rest.end(), f.places[t].begin(), f.places[t].end());
+    }
+    double change = 0.0;
+    for (const Eigen::MatrixXd& fold : f.evidence.folds())
+      change += held_out(f.evidence.total(), fold, with) - held_out(f.evidence.total(), fold, rest);
+    return change < 0.0;
+  }
+
+  bool backward(Model& model) {
+    bool changed = false;
+    while (!model.terms.empty()) {
+      problem_terms_ = model.terms;
+      const Fitted f = fitted(model);
+      std::size_t worst = 0;
+      double worst_log_p = -1e300;
+      for (std::size_t i = 0; i < model.terms.size(); ++i) {
+        const double log_p = predicts(f, i) ? term_log_p(f, i) : 0.0;
+        if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
+      }
+      if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;
+      model.terms.erase(model.terms.begin() + static_cast<long>(worst));
+      renew_noise(model);
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// ν ln RSS and the penalties: what two models with the same noise are compared by.
+  double criterion(const Model& model) const {
+    const Fitted f = fitted(model);
+    Columns all = f.evidence.base();
+    const Columns terms = flat(f.places, 0, f.places.size());
+    all.insert(all.end(), terms.begin(), terms.end());
+    const Solution s = solve(f.evidence.total(), all);
+    double sum = static_cast<double>(f.evidence.count() - f.evidence.base().size()) *
+                 std::log(s.rss / f.evidence.total()(0, 0));
+    auto at = static_cast<Eigen::Index>(f.evidence.base().size());
+    for (const Hypothesis& h : model.terms) {
+      const auto own = static_cast<Eigen::Index>(h.columns());
+      sum += penalty(h, h.columns(), f.evidence.count(), s.coefficients.segment(at, own)) +
+             (h.effect ? 0.0 : catalogue_first);
+      at += own;
+    }
+    return sum;
+  }
+
+  /// Every term against the best there is in its place, and pairs of one angular order against a
+  /// single hypothesis.
+  bool swap(Model& model, bool patterns) {
+    bool changed = false;
+    for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      Model other = model;
+      other.terms = without(model.terms, i);
+      changed |= replace(model, std::move(other), patterns);
+    }
+    for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
+      for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
+        if (angular_order(model.terms[i]) != angular_order(model.terms[j])) continue;
+        Model other = model;
+        other.terms = without(without(model.terms, j), i);
+        if (!replace(model, std::move(other), patterns)) continue;
+        changed = true;
+        break;
+      }
+    }
+    return changed;
+  }
+
+  bool replace(Model& model, Model reduced, bool patterns) {
+    const Proposal p = propose(problem_, model.phi, reduced.terms);
+    const Candidate* best = p.causes.empty() ? nullptr : &p.causes.front();
+    if (!p.patterns.empty() && (patterns || best == nullptr) &&
+        (best == nullptr || p.patterns.front().criterion + catalogue_first < best->criterion))
+      best = &p.patterns.front();
+    if (best == nullptr || best->rank == 0) return false;
+    reduced.terms.push_back(best->hypothesis);
+    if (criterion(reduced) > criterion(model) - 0.5) return false;
+    model.terms = std::move(reduced.terms);
+    return true;
+  }
+
+  static double angular_order(const Hypothesis& h) {
+    if (!h.effect) return h.pattern.kind == Pattern::Kind::cell ? h.pattern.order : -1.0;
+    if (is_line(h)) return -1.0;
+    const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
+    if (harmonic) return harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
+    return 0.0;
+  }
+
+  void finish(Model& model) {
+    problem_terms_ = model.terms;
+    model.criterion = criterion(model);
+    const Fitted f = fitted(model);
+    model.p_values.clear();
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      model.p_values.push_back(model.family.p_value(std::exp(term_log_p(f, i))));
+  }
+
+  const Problem& problem_;
+  std::vector<Hypothesis> cells_;
+  std::vector<Hypothesis> problem_terms_;
+};
+
+}  // namespace
+
+Model search(const Problem& problem) {
+  Search engine(problem);
+  bool pattern_was_better = false;
+  Model causes = engine.run(false, pattern_was_better);
+  if (!pattern_was_better) return causes;
+  Model mixed = engine.run(true, pattern_was_better);
+  if (moved(mixed.phi, causes.phi)) {
+    // Compared with the noise of the better described of the two.
+    return mixed.terms.size() <= causes.terms.size() ? mixed : causes;
+  }
+  return mixed.criterion < causes.criterion ? mixed : causes;
+}
+
+}  // namespace trueaxis::diagnose_detail

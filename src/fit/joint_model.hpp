@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "trueaxis/measure/set_up.hpp"
+#include "trueaxis/model/normal_matrix.hpp"
+
+namespace trueaxis {
+
+/// A set-up of the stream, the clamping it stands in (the set-ups from one move of the part to the
+/// next) and the side it was probed from.
+struct PlacedSetUp {
+  SetUp set_up;
+  std::size_t clamping = 0;
+  Root root = Root::front;
+  double z_shift_mm =
+      0.0;  ///< of the part; 0 for a face, whose position is X, and for one clamping
+};
+
+/// "set-up 2".
+std::string set_up_name(const SetUp& set_up);
+
+/// Clampings are told by the metadata, sides by the metadata or else by the sign of X_M.
+/// @throws InputError where X_M changes sign within a set-up, or contradicts a stated side.
+std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream);
+
+/// Lowest and highest position on the part, Z less its shift (X of a face), for every clamping.
+std::vector<std::array<double, 2>> probed_ranges(const ProbeStream& stream,
+                                                 const std::vector<PlacedSetUp>& set_ups);
+
+/// The readings of one clamping from one side, with the surface that they are of.
+struct JointPart {
+  std::size_t clamping = 0;
+  Root root = Root::front;
+  std::vector<std::size_t> rows;          ///< of the stream; empty: all of it
+  std::unique_ptr<ProbeStream> readings;  ///< of these rows; none where they are the whole stream
+  std::unique_ptr<PreparedStream> prepared;
+  std::unique_ptr<Surface> surface;
+  double reach = 0.0;  ///< probed length × readings: how well it determines a start
+};
+
+/// The surfaces of all set-ups as one. Every clamping has an axis (or gauge offset, or face) of its
+/// own, taken in the middle of its readings and first in the joint parameters; radius and half
+/// angle follow, which all share. They belong to the part: radius(s) = radius + tan · (s − ref), s
+/// along the axis from where it pierces the plane Z = z_shift, ref the middle of all readings. One
+/// clamping: the parameters are the working parameters of the surface themselves.
+class JointModel {
+ public:
+  /// Of `frame` all but side and positions, which are those of each set-up. The stream must outlive
+  /// the model.
+  JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
+             std::string_view surface, const SurfaceFrame& frame);
+
+  std::size_t parameter_count() const { return names_.size(); }
+  std::size_t size() const { return size_; }
+  Indication indication() const { return parts_.front().prepared->source().indication; }
+  std::size_t clampings() const { return first_.size(); }
+  const SurfaceFrame& last_frame() const { return frames_.back(); }
+  const std::vector<JointPart>& parts() const { return parts_; }
+  const JointPart& part_of(const PlacedSetUp& set_up) const { return parts_[part_index(set_up)]; }
+  const std::vector<std::string>& names() const { return names_; }
+  std::vector<double> scale_mm(const std::vector<double>& joint) const;
+
+  /// Working parameters of a part's surface, and their derivative with respect to the joint ones.
+  std::vector<double> working(std::span<const double> joint, const JointPart& part) const;
+  Eigen::MatrixXd working_jacobian(std::span<const double> joint, const JointPart& part) const;
+  /// Joint parameters from working ones of each part: the shape of the part that reaches farthest.
+  std::vector<double> joined(const std::vector<std::vector<double>>& working) const;
+  /// The same with the tilt of one clamping reversed.
+  std::vector<double> mirrored(std::vector<double> joint, std::size_t clamping) const;
+  bool tilt_may_be_mirrored(std::span<const double> joint, std::size_t clamping) const;
+
+  /// As the functions of these names for one surface; residuals in the order of the stream.
+  NormalMatrix accumulate(std::span<const double> joint, const LossScale& loss) const;
+  bool residuals(std::span<const double> joint, std::span<double> out_mm) const;
+
+ private:
+  void place_frames(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
+                    const SurfaceFrame& frame);
+  std::size_t part_index(const PlacedSetUp& set_up) const;
+  std::size_t joint_index(std::size_t clamping, std::size_t working_index) const;
+  /// What the tilt of an axis and the place where it is taken add to s.
+  double beyond_ref(std::size_t clamping, double slope_x, double slope_y) const;
+  bool shares_taper() const {
+    return clampings() > 1 && radius_ < working_names_.size() && tan_ < working_names_.size();
+  }
+
+  std::vector<JointPart> parts_;
+  std::size_t size_;
+  std::span<const std::string_view> working_names_;
+  std::vector<SetUp> first_;  ///< of each clamping
+  std::vector<std::string> names_;
+  std::size_t own_ = 0;  ///< how many working parameters a clamping has for itself
+  std::size_t radius_ = 0, tan_ = 0, slope_ = 0;  ///< working indices; past the end where absent
+  double ref_mm_ = 0.0;
+  std::vector<double> middle_mm_;     ///< of each clamping, on the part
+  std::vector<SurfaceFrame> frames_;  ///< of each clamping, the side that of its first set-up
+};
+
+}  // namespace trueaxis

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/inclusion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/effect/catalogue.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::array<std::string_view, 4> repeating{
+    "spindle.radial_synchronous", "spindle.tilt_synchronous", "spindle.axial_synchronous",
+    "slide.z_straightness"};
+
+bool repeats(std::string_view id) {
+  return std::ranges::find(repeating, id) != repeating.end();
+}
+
+/// Why a finding must not be cut with; empty: it may.
+std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
+  for (const std::string& member : finding.members) {
+    if (repeats(member)) continue;
+    std::string names;
+    for (const std::string& id : finding.members) names += (names.empty() ? "" : ", ") + id;
+    return "the data cannot tell it from " + member + " (class " + names +
+           "), which must not be copied into the cut";
+  }
+  if (std::abs(finding.shape.order - std::round(finding.shape.order)) > 1e-9)
+    return "it does not repeat every revolution";
+  if (result.job.target->kind == TargetKind::face)
+    return "it was seen along X, and a face is cut along Z";
+  if (side_of_tool(result.job.tool.angle_from_probe_rad) == 0)
+    return "the probe saw it along its own direction; the tool's angle from the probe must be 0 or "
+           "180 deg";
+  const auto [low, high] =
+      std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
+  const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
+                       high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
+  if (finding.effect.rfind("slide.", 0) == 0 && outside)
+    return "the length to be cut reaches beyond the one that was probed";
+  return "";
+}
+
+bool known_already(const std::vector<RepeatingMotion>& motions, const Finding& finding) {
+  return std::ranges::any_of(motions, [&](const RepeatingMotion& m) {
+    return m.effect == finding.effect && m.shape.order == finding.shape.order;
+  });
+}
+
+}  // namespace
+
+std::span<const std::string_view> repeating_effects() { return repeating; }
+
+std::vector<RepeatingMotion> included_motions(JobResult& result) {
+  std::vector<RepeatingMotion> motions;
+  for (const std::string& wish : result.job.include) {
+    bool found = false;
+    for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+      if (!result.diagnoses[i]) continue;
+      const Diagnosis& diagnosis = *result.diagnoses[i];
+      for (const Finding& finding : diagnosis.findings) {
+        if (std::ranges::find(finding.members, wish) == finding.members.end()) continue;
+        found = true;
+        Inclusion inclusion{wish, result.job.references[i].name, false, false,
+                            objection(result, diagnosis, finding)};
+        if (!inclusion.why.empty()) {
+          inclusion.refused = true;
+        } else if (finding.effect != wish) {
+          inclusion.why = "it is named " + finding.effect + " there";
+        } else if (known_already(motions, finding)) {
+          inclusion.why = "another reference shows it already";
+        } else {
+          inclusion.included = true;
+          motions.push_back({finding.effect, find_effect(finding.effect)->term, finding.shape,
+                             finding.linear, diagnosis.z_mid_mm, diagnosis.z_half_mm});
+        }
+        result.inclusions.push_back(inclusion);
+      }
+    }
+    if (!found) result.inclusions.push_back({wish, "", false, false, "it was not found"});
+  }
+  return motions;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the model gets wrong: findings, gain, what cannot be seen, noise, the next measurement.
+
+const diagnosisWords = {
+  ideal: 'Nothing was found that the ideal surface misses.',
+  effects: 'The ideal surface misses something, and its causes are named below.',
+  unexplained: 'The ideal surface misses something that no catalogued cause explains in full.',
+};
+
+const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)} %`;
+const spoken = (name) => name.replaceAll('_', ' ');
+
+/** "value ± U" of an estimate in the unit that suits its size, or why it is not there. */
+function estimated({value, u, unit, why_not: why}, k) {
+  if (!isNumber(value)) return `not determined${why ? `: ${why}` : ''}`;
+  if (u === 0 && (unit === '1' || unit === '')) return tick(Number(value.toPrecision(6)));
+  const shown = quantity(value, isNumber(u) ? k * u : null, unit);
+  return isNumber(u) && u > 0 ? `${shown} ± ${uncertainty(k * u, unit)}` : shown;
+}
+
+function measurementWords(plan) {
+  if (!plan) return null;
+  if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
+  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.before)} → ${chance(plan.after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min.`;
+}
+
+function classTable(finding) {
+  return table(finding.class.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
+    ['Cause', 'Chance'], finding.class.map((member) => [
+      element('span', {}, member.effect, element('small', {}, member.title + (member.structural ? ': the same column, no amount of such data helps' : ''))),
+      chance(member.probability)]));
+}
+
+function findingCard(finding, number, k) {
+  const list = finding.parameters.map((p) => [spoken(p.name), estimated(p, k)]);
+  list.push(['Part of the readings (RMS)', micrometres(finding.rms_mm)],
+    ['Axis shift when left out', estimated(finding.axis_shift, k)],
+    ['False-alarm probability (all hypotheses counted)', isNumber(finding.p_value) ? (finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)) : '–']);
+  const parts = [element('h4', {}, `${number}. ${finding.effect}`, finding.cosmetic ? element('span', {class: 'pill neutral'}, 'cosmetic for coaxiality') : null),
+    paragraph(finding.title, 'quiet'), facts(list), classTable(finding)];
+  if (finding.alias) parts.push(paragraph(`The sampling cannot tell it from ${finding.alias}.`, 'quiet'));
+  if (finding.separate_with) parts.push(paragraph(`To tell apart: ${measurementWords(finding.separate_with)}`));
+  return element('div', {class: 'card'}, parts);
+}
+
+function findingsBlock({findings, unexplained, k}) {
+  if (!findings.length && !unexplained.length) return null;
+  const cards = findings.map((f, i) => findingCard(f, i + 1, k));
+  unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
+    element('h4', {}, `Unexplained: ${u.harmonic}`), paragraph(u.dependence, 'quiet'), facts([['Amplitude', estimated(u.amplitude, k)]]),
+    paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
+  return block('Findings, the most harmful first', paragraph(`± is U = k u, k = ${tick(k)}.`, 'quiet'), element('div', {class: 'cards'}, cards));
+}
+
+const spread = ({value, low, high}) => isNumber(value) && value > 0
+  ? `${micrometres(value)}${isNumber(low) && high > low ? ` (95 % ${micrometres(low).replace(nbsp + 'µm', '')} to ${micrometres(high)})` : ''}` : 'not determined';
+
+function gainFacts({gain, k}) {
+  const ratio = gain.held_out_ratio;
+  return facts([
+    ['Held-out RMS, ideal surface', spread(gain.held_out_before_mm)],
+    ['Held-out RMS, extended model', spread(gain.held_out_after_mm)],
+    ['Ratio (95 %)', isNumber(ratio.value) && ratio.value > 0 ? `${fixed(ratio.value, 2)} (${fixed(ratio.low ?? ratio.value, 2)} to ${fixed(ratio.high ?? ratio.value, 2)})` : 'not determined'],
+    ['Noise floor', micrometres(gain.noise_floor_mm)],
+    ['Shift of the axis', estimated(gain.axis_shift, k)],
+    ['Coaxiality cut from the ideal surface', estimated(gain.coaxiality_before, k)],
+    ['Coaxiality cut from the extended model', estimated(gain.coaxiality_after, k)],
+  ]);
+}
+
+function simulationBlock(reference) {
+  const {diagnosis} = reference;
+  if (!diagnosis.maps) return paragraph('There are no differences to draw: the model was not evaluated at every reading.', 'quiet');
+  const {gain} = diagnosis;
+  const left = isNumber(gain.left_share)
+    ? paragraph(`Of the variance by which the simulation of the ideal surface misses the measured readings, the extended model takes away ${percent(Math.max(0, 1 - gain.left_share))} and leaves ${percent(gain.left_share)}; noise alone would leave ${percent(gain.noise_share)}.`)
+    : null;
+  const maps = diagnosisMaps(reference);
+  return block('Measured against simulated, before and after', left, paragraph('The maps share one colour scale.', 'quiet'),
+    element('div', {class: maps.length > 1 ? 'pair' : ''}, maps, diagnosis.spectrum.order.length ? spectrumChart(diagnosis) : null));
+}
+
+const harmUnit = ({value, unit, why_not: why}) => {
+  if (!isNumber(value)) return why || 'not known';
+  if (unit === 'mm/mm') return `${significant(value, 2)} µm per µm`;
+  return unit.startsWith('mm/') ? `${significant(value * 1000, 3)} µm per ${unit.slice(3)}` : `${significant(value, 3)} ${unit}`;
+};
+
+function notObservableTable({not_observable: list}) {
+  if (!list.length) return null;
+  return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
+    ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
+      element('span', {}, n.effect, element('small', {}, n.title)), n.why,
+      n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
+      harmUnit(n.harm), isNumber(n.detectable) ? quantity(n.detectable, null, n.detectable_unit) : 'no size']), 3));
+}
+
+function noiseBlock({noise, checks, k}) {
+  const list = [['σ of one reading', estimated({value: noise.sigma_mm, u: noise.u_sigma_mm, unit: 'mm'}, k)], ['Source', noise.source || 'none']];
+  for (const [name, key] of [['stationary capture', 'stationary_mm'], ['repeated passes', 'repeated_mm'], ['revolution differences', 'revolutions_mm'], ['stated', 'stated_mm']]) {
+    if (isNumber(noise[key])) list.push([`σ, ${name}`, micrometres(noise[key])]);
+  }
+  list.push(['Autoregression', noise.autoregression.length ? noise.autoregression.map((phi) => fixed(phi, 2)).join(', ') : 'none: white'],
+    ['Readings left out', String(noise.masked)]);
+  if (noise.interruptions) list.push(['Interruptions', String(noise.interruptions)]);
+  if (noise.gaps.length) list.push(['Gaps', noise.gaps.join('; ')]);
+  const found = checks.filter((check) => check.found);
+  return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
+    found.length ? table('Checks that found something', ['Check', 'What was seen'],
+      found.map((check) => [element('span', {}, check.effect, element('small', {}, check.title)), check.text]), 2)
+      : paragraph('No check of the data found anything.', 'quiet'));
+}
+
+function nextBlock({next, plans}) {
+  if (!next.plan && !next.why_not && !plans.length) return null;
+  const what = next.plan ? measurementWords(next) + (next.separates.length ? ` It separates ${next.separates.join(', ')}.` : '')
+    : next.why_not ? `None: ${next.why_not}.` : 'None: there is nothing to tell apart.';
+  const impossible = plans.filter((plan) => plan.why_not);
+  return block('Next measurement', paragraph(what), plansChart(plans),
+    impossible.length ? paragraph(`Not possible here: ${impossible.map((plan) => `${plan.plan} (${plan.why_not})`).join('; ')}.`, 'quiet') : null);
+}
+
+function diagnosisSection(reference, index) {
+  const {diagnosis, readings} = reference;
+  const title = `What the model gets wrong: ${reference.name}`;
+  if (!diagnosis) {
+    return readings?.face ? section(`diagnosis-${index + 1}`, title, paragraph('A face is not diagnosed.', 'quiet')) : null;
+  }
+  const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
+  const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
+  if (hypotheses) {
+    parts.push(paragraph(`${hypotheses} hypotheses were tried; the chance of any finding in a stream that has none is ${percent(alarm)}.` +
+      (reference.extended ? ' The correction takes the axis of the extended model.' : ''), 'quiet'));
+  }
+  if (diagnosis.status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[diagnosis.status] ?? diagnosis.status}. ${diagnosis.message}`, 'alert'));
+  if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis));
+  parts.push(findingsBlock(diagnosis), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
+  return section(`diagnosis-${index + 1}`, title, ...parts);
+}

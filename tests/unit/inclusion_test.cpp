@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which findings a correction may follow, and what the tool then does.
+#include "job/inclusion.hpp"
+
+#include <gtest/gtest.h>
+
+#include "correct/profile.hpp"
+#include "support/diagnosis_example.hpp"
+#include "trueaxis/effect/catalogue.hpp"
+
+namespace trueaxis {
+namespace {
+
+Finding spindle_lobes() {
+  Finding finding = example::lobes();
+  finding.effect = "spindle.radial_synchronous";
+  finding.members = {finding.effect};
+  finding.rivals.clear();
+  finding.linear.resize(2);
+  return finding;
+}
+
+JobResult asked(const Finding& finding) {
+  JobResult result = example::diagnosed_job(100);
+  result.diagnoses.front()->findings = {finding};
+  result.job.include = {"spindle.radial_synchronous"};
+  return result;
+}
+
+TEST(Inclusion, AMotionOfTheSpindleAloneIsFollowed) {
+  JobResult result = asked(spindle_lobes());
+  const auto motions = included_motions(result);
+  ASSERT_EQ(motions.size(), 1u);
+  EXPECT_TRUE(result.inclusions.at(0).included);
+}
+
+TEST(Inclusion, AClassThatHoldsTheFormIsRefusedByName) {
+  Finding finding = spindle_lobes();
+  finding.members.push_back("part.roundness");
+  JobResult result = asked(finding);
+  EXPECT_TRUE(included_motions(result).empty());
+  EXPECT_TRUE(result.inclusions.at(0).refused);
+  EXPECT_NE(result.inclusions.at(0).why.find("part.roundness"), std::string::npos);
+  finding.members = {"probe.nonlinearity", "spindle.radial_synchronous"};
+  result = asked(finding);
+  EXPECT_TRUE(included_motions(result).empty());
+  EXPECT_NE(result.inclusions.at(0).why.find("probe.nonlinearity"), std::string::npos);
+}
+
+TEST(Inclusion, WhatWasNotFoundIsNoRefusal) {
+  JobResult result = asked(example::tilt_motion());
+  EXPECT_TRUE(included_motions(result).empty());
+  EXPECT_FALSE(result.inclusions.at(0).refused);
+  EXPECT_EQ(result.inclusions.at(0).why, "it was not found");
+}
+
+TEST(Inclusion, AToolBesideTheProbesDirectionIsRefused) {
+  JobResult result = asked(spindle_lobes());
+  result.job.tool.angle_from_probe_rad = 0.5;
+  EXPECT_TRUE(included_motions(result).empty());
+  EXPECT_TRUE(result.inclusions.at(0).refused);
+}
+
+/// The spindle carries the part towards the probe by m(C): a tool at X cuts the radius X − m on the
+/// probe's side and X + m on the other. With the motion followed the part gets the radius of the
+/// programmed profile, whatever the angle.
+TEST(Inclusion, TheCutPartIsTrueOnBothSides) {
+  JobResult result = asked(spindle_lobes());
+  const auto motions = included_motions(result);
+  const TargetSurface& target = *result.job.target;
+  for (const double turn : {0.0, two_pi / 2.0}) {
+    ToolSetup tool = result.job.tool;
+    tool.angle_from_probe_rad = turn;
+    const double towards_tool = turn == 0.0 ? 1.0 : -1.0;
+    const Profile plain({}, target, tool), followed({}, target, tool, motions);
+    for (int degree = 0; degree < 360; degree += 7) {
+      const double c = degree * rad_per_deg;
+      const double m = example::lobes_mm * std::cos(3.0 * c - example::lobes_phase_deg * rad_per_deg);
+      const double cut = followed.at(c, 20.0) - towards_tool * m;
+      EXPECT_NEAR(cut, plain.at(c, 20.0), 1e-12) << degree;
+    }
+  }
+}
+
+/// An axial motion moves X by tan α of the surface that is cut: a cylinder does not see it.
+TEST(Inclusion, AnAxialMotionActsThroughTheSlopeOfTheTarget) {
+  RepeatingMotion axial{"spindle.axial_synchronous",
+                        find_effect("spindle.axial_synchronous")->term, {}, {0.004, 0.0}};
+  axial.shape.order = 2.0;
+  EXPECT_EQ(motion_mm(axial, 0.3, 10.0, 0.0), 0.0);
+  EXPECT_NEAR(motion_mm(axial, 0.3, 10.0, 0.1), 0.1 * 0.004 * std::cos(0.6), 1e-15);
+}
+
+}  // namespace
+}  // namespace trueaxis
