@@ -202,8 +202,7 @@ constexpr const char* names[] = {"null", "one", "two", "three", "unknown", "abso
 std::string to_string(Kind kind) { return names[static_cast<int>(kind)]; }
 
 std::vector<Kind> all_kinds() {
-  return {Kind::null,    Kind::one,      Kind::two, Kind::three,
-          Kind::unknown, Kind::absorbed, Kind::gaps};
+  return {Kind::null, Kind::one, Kind::two, Kind::three, Kind::unknown, Kind::absorbed, Kind::gaps};
 }
 
 Kind kind_from(std::string_view text) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How answers are scored, with answers written by hand.
+#include "blind/score.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "blind/goals.hpp"
-#include "blind/score.hpp"
 #include "blind/tally.hpp"
 
 namespace trueaxis::blind {
