@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <thread>
+
+#include "trueaxis/math/gram.hpp"
+#include "trueaxis/math/wide_gram.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -15,6 +19,54 @@ constexpr double undetermined = 1e-11;  // of a column's square: rounding of the
                                         // the linearisation leave nothing to trust below
 
 using Matrix = Eigen::MatrixXd;
+
+/// Columns of some readings as computed and as whitened, in aligned memory padded with zeros.
+class Chunk {
+ public:
+  Chunk(std::size_t columns, std::size_t history)
+      : history_(history),
+        stride_((chunk_rows + history + 7) / 8 * 8),
+        raw_(columns * stride_ + 8),
+        white_(history > 0 ? columns * stride_ + 8 : 0) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      raw_column_.push_back(aligned(raw_) + j * stride_);
+      white_column_.push_back(history > 0 ? aligned(white_) + j * stride_ : raw_column_.back());
+    }
+    view_.assign(white_column_.begin(), white_column_.end());
+  }
+
+  std::span<double* const> raw() const { return raw_column_; }
+  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them behind `lead` others.
+  void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows) {
+    for (std::size_t c = 0; c < raw_column_.size() && history_ > 0; ++c) {
+      const double* from = raw_column_[c] + lead;
+      double* to = white_column_[c];
+      std::copy(from, from + rows, to);
+      for (std::size_t lag = 1; lag <= phi.size(); ++lag) {
+        const std::size_t skip = lag > lead ? lag - lead : 0;
+        for (std::size_t i = skip; i < rows; ++i) to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
+      }
+    }
+  }
+  void drop(std::size_t row) {
+    for (double* column : white_column_) column[row] = 0.0;
+  }
+  std::span<const double* const> white(std::size_t rows) {
+    for (std::size_t row = rows; row < (rows + 7) / 8 * 8; ++row) drop(row);
+    return view_;
+  }
+
+ private:
+  static double* aligned(std::vector<double>& memory) {
+    void* at = memory.data();
+    std::size_t room = memory.size() * sizeof(double);
+    return memory.empty() ? nullptr : static_cast<double*>(std::align(64, 8, at, room));
+  }
+  std::size_t history_, stride_;
+  std::vector<double> raw_, white_;
+  std::vector<double*> raw_column_, white_column_;
+  std::vector<const double*> view_;
+};
 
 }  // namespace
 
@@ -57,6 +109,20 @@ void Evidence::shrink(std::size_t columns) {
   for (Matrix& fold : folds_) fold.conservativeResize(size, size);
 }
 
+void Evidence::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
+                        std::span<double* const> columns) const {
+  std::copy(deviation_.begin() + static_cast<long>(begin),
+            deviation_.begin() + static_cast<long>(end), columns[0]);
+  scene_->fill_base(begin, end, columns.subspan(1, base_.size()));
+  std::size_t next = 1 + base_.size();
+  for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
+    for (const Hypothesis& h : some) {
+      fill(h, *scene_, begin, end, columns.subspan(next, h.columns()));
+      next += h.columns();
+    }
+  }
+}
+
 void Evidence::pass(std::span<const Hypothesis> fresh) {
   const Scene& scene = *scene_;
   const bool first = total_.rows() == 0;
@@ -64,58 +130,40 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
   const std::size_t before = first ? 0 : static_cast<std::size_t>(total_.rows());
   const std::size_t after = first ? fixed : before + columns_of(fresh);
   const std::size_t history = autoregression_.size();
-  const auto k0 = static_cast<Eigen::Index>(before), k1 = static_cast<Eigen::Index>(after);
+  const auto k1 = static_cast<Eigen::Index>(after);
 
   const auto work = [&](std::size_t f) {
-    Matrix& gram = folds_[f];
-    gram.conservativeResize(k1, k1);
-    gram.bottomRows(k1 - k0).setZero();
-    Matrix raw(static_cast<Eigen::Index>(chunk_rows + history), k1);
-    Matrix white(static_cast<Eigen::Index>(chunk_rows), k1);
-    std::vector<double*> column(after);
+    Chunk chunk(after, history);
+    std::vector<double> own(gram_size(after - before), 0.0), cross((after - before) * before, 0.0);
     for (std::size_t begin = rows_->fold_begin[f]; begin < rows_->fold_begin[f + 1];) {
       std::size_t end = std::min(begin + chunk_rows, rows_->fold_begin[f + 1]);
-      const std::size_t from = begin - std::min(begin, history);
-      for (std::size_t i = from + 1; i < end; ++i) {
-        if (scene.rear[i] != scene.rear[i - 1] && i > begin) end = i;
+      for (std::size_t i = begin + 1; i < end; ++i) {
+        if (scene.rear[i] != scene.rear[begin]) end = i;
       }
-      // A fold begins with its pass where the side changes: nothing before it is then read.
-      const std::size_t start = scene.rear[from] == scene.rear[begin] ? from : begin;
-      const auto lead = static_cast<Eigen::Index>(begin - start);
-      const auto rows = static_cast<Eigen::Index>(end - begin);
-      for (std::size_t j = 0; j < after; ++j)
-        column[j] = raw.data() + static_cast<Eigen::Index>(j) * raw.rows();
-      std::copy(deviation_.begin() + static_cast<long>(start),
-                deviation_.begin() + static_cast<long>(end), column[0]);
-      scene.fill_base(start, end, {column.data() + 1, base_.size()});
-      std::size_t next = fixed;
-      for (const auto* some : {&list_}) {
-        for (const Hypothesis& h : *some) {
-          fill(h, scene, start, end, {column.data() + next, h.columns()});
-          next += h.columns();
-        }
+      // Where the side changes a pass begins: nothing before it is then read.
+      std::size_t start = begin - std::min(begin, history);
+      if (scene.rear[start] != scene.rear[begin]) start = begin;
+      fill_raw(fresh, start, end, chunk.raw());
+      chunk.whiten(autoregression_, begin - start, end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!rows_->used[i] || rows_->run[i] < history) chunk.drop(i - begin);
       }
-      for (const Hypothesis& h : fresh) {
-        fill(h, scene, start, end, {column.data() + next, h.columns()});
-        next += h.columns();
-      }
-      white.topRows(rows) = raw.middleRows(lead, rows);
-      for (std::size_t lag = 1; lag <= history; ++lag) {
-        const auto shift = static_cast<Eigen::Index>(lag);
-        const Eigen::Index skip = std::max<Eigen::Index>(0, shift - lead);
-        if (skip >= rows) continue;
-        white.middleRows(skip, rows - skip) -=
-            autoregression_[lag - 1] * raw.middleRows(lead + skip - shift, rows - skip);
-      }
-      for (Eigen::Index i = 0; i < rows; ++i) {
-        const std::size_t reading = begin + static_cast<std::size_t>(i);
-        if (!rows_->used[reading] || rows_->run[reading] < history) white.row(i).setZero();
-      }
-      const auto block = white.topRows(rows);
-      gram.bottomRows(k1 - k0).noalias() += block.rightCols(k1 - k0).transpose() * block;
+      const std::span<const double* const> columns = chunk.white(end - begin);
+      const WideBlock left{columns.subspan(before), end - begin};
+      add_wide_products(left, own);
+      if (before > 0) add_cross_products(left, {columns.first(before), end - begin}, cross);
       begin = end;
     }
-    gram.topRightCorner(k0, k1 - k0) = gram.bottomLeftCorner(k1 - k0, k0).transpose();
+    Matrix& gram = folds_[f];
+    gram.conservativeResize(k1, k1);
+    for (std::size_t i = before; i < after; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double value = j < before ? cross[(i - before) * before + j]
+                                        : own[gram_index(i - before, j - before)];
+        gram(row, static_cast<Eigen::Index>(j)) = gram(static_cast<Eigen::Index>(j), row) = value;
+      }
+    }
   };
 
   std::atomic<std::size_t> next{0};

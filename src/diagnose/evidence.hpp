@@ -40,6 +40,8 @@ class Evidence {
 
  private:
   void pass(std::span<const Hypothesis> fresh);
+  void fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
+                std::span<double* const> columns) const;
 
   const Scene* scene_;
   const Rows* rows_;

@@ -26,6 +26,7 @@ struct Scan {
   double low = 0.0, high = 0.0;
   std::function<Hypothesis(double)> make;
   bool pattern = false;
+  bool form = false;     ///< along the surface's normal: of the other sign at the rear
   bool counts = true;  ///< false: the same lines as another scan
 };
 
@@ -88,19 +89,21 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
     list.push_back({&scene.s, 0.0, false, 1.5 / length, highest,
                     [](double f) { return line_of("part.waviness", f); }});
     list.back().counts = !single;
+    list.back().form = true;
     if (std::abs(scene.tan_half_angle) > 1e-3) {
       list.push_back({&scene.z, 0.0, false, 1.5 / length, std::min(highest, 1.0),
                       [](double f) { return line_of("slide.leadscrew_periodic", f); }});
       list.back().counts = scene.shifted;
     }
-    list.push_back({&scene.s, 1.0, false, 2.0, 20.0,
+    list.push_back({&scene.s, 1.0, false, 0.7, 20.0,
                     [](double f) { return line_of("part.feed_marks", f); }});
     list.back().counts = !single;
+    list.back().form = true;
     for (int k = 1; k <= resolution.harmonics; ++k) {
       for (const double sign : {1.0, -1.0}) {
         Scan scan{&scene.s, sign * k, false, 0.75 / length, 20.0 / length,
                   [=](double f) { return pattern_line(k, false, sign * f); }};
-        scan.pattern = true;
+        scan.pattern = scan.form = true;
         scan.counts = !single;
         list.push_back(scan);
       }
@@ -168,7 +171,10 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
                  std::span<const double> remainder_mm) {
   const Scene& scene = evidence.scene();
   const Rows& rows = evidence.rows();
-  const std::vector<double> g = weighted(evidence, remainder_mm);
+  const std::vector<double> plain = weighted(evidence, remainder_mm);
+  std::vector<double> outward = plain;  // of what lies along the normal
+  for (std::size_t i = 0; i < outward.size(); ++i)
+    if (scene.rear[i]) outward[i] = -outward[i];
   std::vector<double> used_of_pass;
   for (const Pass& pass : scene.passes) {
     double used = 0.0;
@@ -190,7 +196,7 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
   const Column* planned = nullptr;
   double planned_low = 0.0, planned_high = 0.0;
   std::unique_ptr<FourierSums> plan;
-  Column cosine(g.size()), sine(g.size());
+  Column cosine(plain.size()), sine(plain.size());
   std::size_t bins = 0;
   double df = 0.0;
   for (const Scan& scan : scans_of(scene, resolution)) {
@@ -201,6 +207,7 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
       plan = std::make_unique<FourierSums>(*scan.x, two_pi * scan.low, two_pi * df, bins);
       planned = scan.x, planned_low = scan.low, planned_high = scan.high;
     }
+    const std::vector<double>& g = scan.form ? outward : plain;
     const std::vector<double> x_step = steps(*scan.x);
     std::vector<std::complex<double>> sums;
     if (scan.turns == 0.0) {
@@ -294,7 +301,7 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
       };
       for (std::size_t i = 0; i < scene.size(); ++i) {
         if (!rows.used[i]) continue;
-        sum[place(i)] += g[i];
+        sum[place(i)] += scene.rear[i] ? -g[i] : g[i];
         ++count[place(i)];
       }
       double top = 0.0;
