@@ -68,16 +68,27 @@ class Chunk {
   std::vector<const double*> view_;
 };
 
+/// Beginnings of blocks, far apart: parts that threads share, none within a block.
+std::vector<std::size_t> whole_passes(const Rows& rows, std::size_t size) {
+  constexpr std::size_t least = 20'000;
+  std::vector<std::size_t> begins{0};
+  for (const std::size_t b : rows.fold_begin)
+    if (b - begins.back() >= least && size - b >= least / 2) begins.push_back(b);
+  begins.push_back(size);
+  return begins;
+}
+
 }  // namespace
 
 Evidence::Evidence(const Scene& scene, const Rows& rows, std::span<const double> deviation_mm,
-                   std::vector<double> autoregression, int threads)
+                   std::vector<double> autoregression, int threads, bool blocks)
     : scene_(&scene),
       rows_(&rows),
       deviation_(deviation_mm),
       autoregression_(std::move(autoregression)),
       threads_(threads),
-      folds_(rows.folds()) {
+      part_begin_(blocks ? rows.fold_begin : whole_passes(rows, scene.size())),
+      folds_(part_begin_.size() - 1) {
   for (std::size_t i = 0; i < scene.size(); ++i)
     count_ += rows.used[i] && rows.run[i] >= autoregression_.size();
   base_.resize(scene.base.columns());
@@ -135,8 +146,8 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
   const auto work = [&](std::size_t f) {
     Chunk chunk(after, history);
     std::vector<double> own(gram_size(after - before), 0.0), cross((after - before) * before, 0.0);
-    for (std::size_t begin = rows_->fold_begin[f]; begin < rows_->fold_begin[f + 1];) {
-      std::size_t end = std::min(begin + chunk_rows, rows_->fold_begin[f + 1]);
+    for (std::size_t begin = part_begin_[f]; begin < part_begin_[f + 1];) {
+      std::size_t end = std::min(begin + chunk_rows, part_begin_[f + 1]);
       for (std::size_t i = begin + 1; i < end; ++i) {
         if (scene.rear[i] != scene.rear[begin]) end = i;
       }
