@@ -1,43 +1,158 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/diagnose/diagnosis.hpp"
+
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <thread>
 
+#include "diagnose/describe.hpp"
+#include "diagnose/distinguish.hpp"
+#include "diagnose/extended.hpp"
+#include "diagnose/gain.hpp"
 #include "diagnose/noise.hpp"
-#include "diagnose/search.hpp"
-#include "trueaxis/diagnose/diagnosis.hpp"
+#include "diagnose/sources.hpp"
+#include "diagnose/spectrum.hpp"
+#include "trueaxis/base/error.hpp"
 
 namespace trueaxis {
 
 using namespace diagnose_detail;
 
+namespace {
+
+double ball_of(const ProbeStream& stream, const FitOptions& options) {
+  return std::max(stream.ball_radius_mm.value_or(0.0), options.ball_radius_mm);
+}
+
+/// A fit that ended short of a minimum, or a face, has no scene to diagnose.
+bool usable(const FitResult& fit) {
+  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+         (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
+         std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
+}
+
+/// Readings minus the scene's surface; a gauge's zero stays in it and the base takes it out.
+std::vector<double> deviation_from(const ProbeStream& stream, const Scene& scene) {
+  std::vector<double> out(scene.size());
+  for (std::size_t i = 0; i < scene.size(); ++i) out[i] = stream.reading_mm[i] - scene.x[i];
+  return out;
+}
+
+Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
+                   const Resolution& resolution, std::size_t term) {
+  const Class found = distinguish(problem, model, term);
+  const Hypothesis& h = model.terms[term];
+  Finding out;
+  out.effect = h.id();
+  for (const Candidate& c : found.members) out.members.push_back(c.hypothesis.id());
+  out.rivals = found.rivals;
+  out.probability = found.probability;
+  out.parameters = parameters_of(problem, model, joint, term);
+  out.alias = alias_of(h, resolution);
+  out.frame = to_string(h.effect->frame);
+  out.p_value = model.p_values[term];
+  out.shape = h.shape;
+  out.linear = linear_of(h, joint.of(term));
+  return out;
+}
+
+void add_harm(const Joint& joint, std::size_t term, Estimate& shift, bool& cosmetic) {
+  const Solution without = joint.without(term);
+  const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
+  const double variance = joint.sigma_mm * joint.sigma_mm;
+  const AxisShift moved =
+      axis_shift(joint.evidence.scene(), joint.base() - without.coefficients.head(n),
+                 variance * (joint.solution.inverse.topLeftCorner(n, n) -
+                             without.inverse.topLeftCorner(n, n)));
+  shift = {moved.value_mm, moved.u_mm, "mm", ""};
+  const double u = axis_uncertainty(joint.evidence.scene(), joint.base_covariance()).u_mm;
+  cosmetic = moved.value_mm < 2.0 * u;
+}
+
+double rms_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+}  // namespace
+
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
-  Diagnosis diagnosis;
-  diagnosis.baseline = fit(stream, options.fit);
-  diagnosis.extended = diagnosis.baseline;
-  Clamping clamping;
-  clamping.shape = diagnosis.baseline.shape;
-  BaseKind base;
-  base.tilts = options.fit.surface != "section";
-  base.tapers = options.fit.surface == "cone";
-  base.offset = stream.indication == Indication::relative;
-  const Scene scene = make_scene(stream, {clamping}, base, options.fit.bore);
-  Rows rows = make_rows(scene);
-  const Resolution resolution = resolution_of(scene, rows);
-  const auto masked = mask_outliers(scene, resolution, diagnosis.baseline.residual_mm, rows);
-  const Problem problem{scene, rows, resolution, diagnosis.baseline.residual_mm, options.false_alarm,
-                        1, 8};
-  const Model model = search(problem);
-  std::fprintf(stderr, "masked %zu phi %zu %g terms %zu tests %g bw %g thr %g\n", masked.size(),
-               model.phi.size(), model.phi.empty() ? 0.0 : model.phi[0], model.terms.size(),
-               model.family.single, model.family.bandwidth, model.family.threshold(0.01));
-  for (std::size_t i = 0; i < model.terms.size(); ++i) {
-    const Hypothesis& h = model.terms[i];
-    std::fprintf(stderr, "  %s order %g keep %zu per %g f %g p %g\n", h.id().c_str(),
-                 h.effect ? h.shape.order : h.pattern.order, h.keep.size(), h.shape.period_mm,
-                 h.pattern.frequency, model.p_values[i]);
+  expects(options.false_alarm > 0.0 && options.false_alarm < 1.0, "a false alarm rate in (0, 1)");
+  Diagnosis out;
+  out.false_alarm = options.false_alarm;
+  out.baseline = fit(stream, options.fit);
+  out.extended = out.baseline;
+  if (!usable(out.baseline)) {
+    out.noise.note = out.baseline.surface == "plane"
+                         ? "faces are not diagnosed: the catalogue's terms are those of X_M"
+                         : "the surface was not found: nothing can be said beside it";
+    out.next.why_not = out.noise.note;
+    return out;
   }
-  return diagnosis;
+  const int threads = options.threads > 0 ? options.threads
+                                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const double ball_mm = ball_of(stream, options.fit);
+  const std::vector<Clamping> clampings = clampings_of(out.baseline, ball_mm);
+  const BaseKind base = base_of(stream, out.baseline, clampings);
+  const Scene first = make_scene(stream, clampings, base, options.fit.bore);
+  Rows rows = make_rows(first);
+  const Resolution resolution = resolution_of(first, rows);
+  const std::vector<double> deviation = deviation_from(stream, first);
+  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows);
+  const Problem search_problem{first, rows, resolution, deviation, options.false_alarm, threads,
+                               static_cast<std::size_t>(options.max_findings)};
+  const Model model = search(search_problem);
+
+  // Once more about the extended model: its columns are then those of the part without the effects.
+  const Joint near(search_problem, model.phi, model.terms, model.terms.size());
+  const Eigen::VectorXd near_terms =
+      near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
+  std::vector<double> effect_mm = contribution(first, model.terms, near_terms);
+  out.extended = extended_fit(stream, options.fit, near, effect_mm, masked);
+  const bool again = usable(out.extended) && !model.terms.empty();
+  const Scene second =
+      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore) : first;
+  const std::vector<double> second_deviation = deviation_from(stream, second);
+  const Problem problem{second, rows, resolution, second_deviation, options.false_alarm, threads,
+                        static_cast<std::size_t>(options.max_findings)};
+  const Joint joint(problem, model.phi, model.terms, model.terms.size());
+  const Eigen::VectorXd terms =
+      joint.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
+  effect_mm = contribution(second, model.terms, terms);
+  out.extended = extended_fit(stream, options.fit, joint, effect_mm, masked);
+  out.effect_mm = effect_mm;
+  out.residual_before_mm = out.baseline.residual_mm;
+  out.residual_after_mm =
+      remainder(second, second_deviation, model.terms, joint.solution.coefficients);
+  out.z_mid_mm = second.z_mid_mm, out.z_half_mm = second.z_half_mm;
+
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    if (!model.terms[t].effect) {
+      Unexplained left = unexplained_of(joint, t);
+      left.p_value = model.p_values[t];
+      out.unexplained.push_back(std::move(left));
+      continue;
+    }
+    Finding finding = finding_of(problem, model, joint, resolution, t);
+    add_harm(joint, t, finding.axis_shift, finding.cosmetic);
+    finding.rms_mm = rms_of(contribution(second, {model.terms[t]}, joint.of(t)));
+    out.findings.push_back(std::move(finding));
+  }
+  std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
+    return a.axis_shift.value > b.axis_shift.value;
+  });
+  out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
+                : !out.findings.empty()  ? DiagnosisVerdict::effects
+                                         : DiagnosisVerdict::ideal;
+  out.noise = report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
+  out.checks = check_quality(stream, joint, out.residual_after_mm, out.noise);
+  out.gain = measure_gain(problem, joint, out.noise.sigma_mm);
+  out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
+  out.threshold = model.family.threshold(options.false_alarm);
+  out.effective_hypotheses = options.false_alarm / std::exp(-0.5 * out.threshold);
+  out.spectrum = spectrum_of(second, resolution, out.residual_before_mm, out.residual_after_mm);
+  return out;
 }
 
 const char* to_string(DiagnosisVerdict verdict) {

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t slip_instants = 24;
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
+constexpr std::size_t most_rivals = 16;
+constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
 constexpr double step_start = 0.06, step_shrink = 0.4;
 constexpr int rounds = 4;
@@ -126,7 +128,7 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
 }
 
 Proposal propose(const Problem& problem, const std::vector<double>& phi,
-                 const std::vector<Hypothesis>& terms) {
+                 const std::vector<Hypothesis>& terms, const Hypothesis* named) {
   const Scene& scene = problem.scene;
   const Resolution& resolution = problem.resolution;
   Proposal out;
@@ -171,8 +173,10 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   std::ranges::stable_sort(causes, better);
   std::ranges::stable_sort(patterns, better);
   std::vector<Hypothesis> shortlist;
-  for (std::size_t i = 0; i < std::min(best_presets, causes.size()); ++i)
+  const std::size_t presets_kept = named ? causes.size() : best_presets;
+  for (std::size_t i = 0; i < std::min(presets_kept, causes.size()); ++i)
     shortlist.push_back(causes[i].hypothesis);
+  if (named) shortlist.push_back(*named);
   for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i) {
     for (Hypothesis& h : causes_of_order(scene, resolution, orders[i].second))
       if (h.effect->id != "part.roundness") shortlist.push_back(std::move(h));
@@ -193,18 +197,28 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   for (Hypothesis& h : bumps) odd.push_back(std::move(h));
 
   // One evidence for the shortlist at its first shapes; only the best of it is refined.
-  const auto sift = [&](std::vector<Hypothesis>& list) {
+  const auto sift = [&](std::vector<Hypothesis>& list, bool one_of_each) {
     Evidence light(scene, problem.rows, problem.deviation_mm, phi, problem.threads);
     const auto at = light.append(joined(terms, list));
     std::vector<Candidate> first = judge(light, at, list, terms.size());
     std::ranges::stable_sort(first, better);
-    if (first.size() > best_refined) first.resize(best_refined);
+    if (one_of_each) {
+      std::vector<Candidate> each;
+      double most = 0.0;
+      for (const Candidate& c : first) most = std::max(most, c.gain);
+      for (Candidate& c : first) {
+        const auto same = [&](const Candidate& e) { return e.hypothesis.effect == c.hypothesis.effect; };
+        if (c.gain > far_behind * most && std::ranges::none_of(each, same)) each.push_back(std::move(c));
+      }
+      first = std::move(each);
+    }
+    first.resize(std::min(first.size(), one_of_each ? most_rivals : best_refined));
     list.clear();
     for (Candidate& c : first) list.push_back(std::move(c.hypothesis));
     return refine(problem, phi, terms, list);
   };
-  out.causes = sift(shortlist);
-  out.patterns = sift(odd);
+  out.causes = sift(shortlist, named != nullptr);
+  if (!named) out.patterns = sift(odd, false);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/gain.hpp"
 #include "diagnose/noise.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -121,22 +122,8 @@ class Search {
     }
     double change = 0.0;
     for (const Eigen::MatrixXd& fold : f.evidence.folds())
-      change += held_out(f, fold, with) - held_out(f, fold, rest);
+      change += held_out(f.evidence.total(), fold, with) - held_out(f.evidence.total(), fold, rest);
     return change < 0.0;
-  }
-
-  static double held_out(const Fitted& f, const Eigen::MatrixXd& fold, const Columns& columns) {
-    const Solution s = solve(f.evidence.total() - fold, columns);
-    double sum = fold(0, 0);
-    for (std::size_t a = 0; a < columns.size(); ++a) {
-      const auto i = static_cast<Eigen::Index>(columns[a]);
-      sum -= 2.0 * s.coefficients(static_cast<Eigen::Index>(a)) * fold(i, 0);
-      for (std::size_t b = 0; b < columns.size(); ++b)
-        sum += s.coefficients(static_cast<Eigen::Index>(a)) *
-               s.coefficients(static_cast<Eigen::Index>(b)) *
-               fold(i, static_cast<Eigen::Index>(columns[b]));
-    }
-    return sum;
   }
 
   bool backward(Model& model) {

@@ -50,13 +50,14 @@ struct Model {
   Family family;
 };
 
-/// The best next hypotheses beside `terms`, refined, best first; patterns only when asked.
+/// The best next hypotheses beside `terms`, refined, best first. With `named`, one of each effect
+/// that might explain the same, the named one included.
 struct Proposal {
   std::vector<Candidate> causes, patterns;
   Family family;
 };
 Proposal propose(const Problem& problem, const std::vector<double>& phi,
-                 const std::vector<Hypothesis>& terms);
+                 const std::vector<Hypothesis>& terms, const Hypothesis* named = nullptr);
 
 /// Candidates of one finding refined to their own best shape beside `others`, best first.
 std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,

@@ -38,9 +38,8 @@ void expect_kind(const ProbeStream& stream, const SurfaceInfo& info) {
   }
 }
 
-/// The frame of the part as it stood before any shift; the side is that of each set-up.
-SurfaceFrame frame_of(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
-                      const FitOptions& options) {
+/// What the frames of all set-ups have in common.
+SurfaceFrame frame_of(const ProbeStream& stream, const FitOptions& options) {
   SurfaceFrame frame;
   frame.indication = stream.indication;
   const double ball_mm = ball_radius(stream, options);
@@ -52,11 +51,6 @@ SurfaceFrame frame_of(const ProbeStream& stream, const std::vector<PlacedSetUp>&
           "a relative gauge does not show the radius: give '# nominal_radius: ...' in mm");
     }
     frame.nominal_radius_mm = *stream.nominal_radius_mm;
-  }
-  if (stream.has_position()) {
-    const auto [low, high] = probed_range(stream, set_ups);
-    frame.position_ref_mm = 0.5 * (low + high);
-    frame.half_length_mm = 0.5 * (high - low);
   }
   return frame;
 }
@@ -73,7 +67,7 @@ void validate(const FitOptions& options) {
 }
 
 FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
-                       const SurfaceFrame& frame, double z_shift_mm) {
+                       const SurfaceFrame& frame) {
   FitResult result;
   result.surface = options.surface;
   result.loss = options.loss;
@@ -82,8 +76,8 @@ FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
   result.points = stream.size();
   result.input_hash = stream.input_hash;
   result.source = stream.source;
-  result.position_min_mm = frame.position_ref_mm - frame.half_length_mm + z_shift_mm;
-  result.position_max_mm = frame.position_ref_mm + frame.half_length_mm + z_shift_mm;
+  result.position_min_mm = frame.position_ref_mm - frame.half_length_mm;
+  result.position_max_mm = frame.position_ref_mm + frame.half_length_mm;
   return result;
 }
 
@@ -95,9 +89,9 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
   const SurfaceInfo& info = surface_info(options.surface);
   expect_kind(stream, info);
   const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
-  const SurfaceFrame frame = frame_of(stream, set_ups, options);
+  const SurfaceFrame frame = frame_of(stream, options);
   const JointModel model(stream, set_ups, options.surface, frame);
-  FitResult result = empty_result(stream, options, frame, set_ups.back().z_shift_mm);
+  FitResult result = empty_result(stream, options, model.last_frame());
   if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
                      std::to_string(model.parameter_count()) + " parameters of a " +

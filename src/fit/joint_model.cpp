@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "trueaxis/math/statistics.hpp"
-
 namespace trueaxis {
 namespace {
 
@@ -40,17 +38,17 @@ double stretch(double slope_x, double slope_y) {
 
 JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
                        std::string_view surface, const SurfaceFrame& frame)
-    : size_(stream.size()), ref_mm_(frame.position_ref_mm) {
+    : size_(stream.size()) {
+  place_frames(stream, set_ups, frame);
   for (const PlacedSetUp& placed : set_ups) {
     if (placed.clamping == first_.size()) first_.push_back(placed.set_up);
     if (part_index(placed) < parts_.size()) continue;
     JointPart& part = parts_.emplace_back();
     part.clamping = placed.clamping;
     part.root = placed.root;
-    SurfaceFrame moved = frame;
-    moved.root = placed.root;
-    moved.position_ref_mm += placed.z_shift_mm;
-    part.surface = make_surface(surface, moved);
+    SurfaceFrame from_side = frames_[placed.clamping];
+    from_side.root = placed.root;
+    part.surface = make_surface(surface, from_side);
   }
   if (parts_.size() == 1) {
     parts_.front().prepared = std::make_unique<PreparedStream>(stream);
@@ -64,10 +62,7 @@ JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>
     for (JointPart& part : parts_) {
       part.readings = std::make_unique<ProbeStream>(taken(stream, part.rows));
       part.prepared = std::make_unique<PreparedStream>(*part.readings);
-      if (stream.has_position()) {
-        const auto [low, high] = range_of(part.readings->position_mm);
-        part.reach = (high - low) * static_cast<double>(part.rows.size());
-      }
+      part.reach = frames_[part.clamping].half_length_mm * static_cast<double>(part.rows.size());
     }
   }
   working_names_ = parts_.front().surface->working_names();
@@ -83,6 +78,34 @@ JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>
   }
   names_.insert(names_.end(), working_names_.begin() + static_cast<std::ptrdiff_t>(own_),
                 working_names_.end());
+}
+
+void JointModel::place_frames(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
+                              const SurfaceFrame& frame) {
+  const std::size_t count = set_ups.back().clamping + 1;
+  frames_.assign(count, frame);
+  middle_mm_.assign(count, 0.0);
+  if (!stream.has_position()) return;
+  const auto ranges = probed_ranges(stream, set_ups);
+  double lowest = ranges.front()[0], highest = ranges.front()[1];
+  for (const auto& [low, high] : ranges) {
+    lowest = std::min(lowest, low);
+    highest = std::max(highest, high);
+  }
+  ref_mm_ = 0.5 * (lowest + highest);
+  // The nominal radius of a gauge is that of the part's middle.
+  const bool at_ref = frame.indication == Indication::relative;
+  for (const PlacedSetUp& placed : set_ups) {
+    const auto [low, high] = ranges[placed.clamping];
+    middle_mm_[placed.clamping] = at_ref ? ref_mm_ : 0.5 * (low + high);
+    frames_[placed.clamping].position_ref_mm = middle_mm_[placed.clamping] + placed.z_shift_mm;
+    frames_[placed.clamping].half_length_mm = 0.5 * (high - low);
+  }
+}
+
+double JointModel::beyond_ref(std::size_t clamping, double slope_x, double slope_y) const {
+  const double middle = middle_mm_[clamping];
+  return middle - ref_mm_ + middle * stretch(slope_x, slope_y);
 }
 
 std::size_t JointModel::part_index(const PlacedSetUp& set_up) const {
@@ -109,13 +132,13 @@ std::vector<double> JointModel::scale_mm(const std::vector<double>& joint) const
   return scale;
 }
 
-// Where an axis is tilted, its point at the height ref is farther along it: s = ref √(1 + slope²).
+// An axis point at the height z above the shift is z √(1 + slope²) along the axis.
 std::vector<double> JointModel::working(std::span<const double> joint,
                                         const JointPart& part) const {
   std::vector<double> out(working_names_.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = joint[joint_index(part.clamping, i)];
-  if (stretches() && radius_ < out.size())
-    out[radius_] += out[tan_] * ref_mm_ * stretch(out[slope_], out[slope_ + 1]);
+  if (shares_taper())
+    out[radius_] += out[tan_] * beyond_ref(part.clamping, out[slope_], out[slope_ + 1]);
   return out;
 }
 
@@ -128,13 +151,13 @@ Eigen::MatrixXd JointModel::working_jacobian(std::span<const double> joint,
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(p),
                                               static_cast<Eigen::Index>(parameter_count()));
   for (std::size_t i = 0; i < p; ++i) out(static_cast<Eigen::Index>(i), index(i)) = 1.0;
-  if (stretches() && radius_ < p) {
+  if (shares_taper()) {
     const auto row = static_cast<Eigen::Index>(radius_);
     const std::vector<double> w = working(joint, part);
-    const double longer = stretch(w[slope_], w[slope_ + 1]);
-    out(row, index(tan_)) = ref_mm_ * longer;
+    out(row, index(tan_)) = beyond_ref(part.clamping, w[slope_], w[slope_ + 1]);
+    const double secant = 1.0 + stretch(w[slope_], w[slope_ + 1]);
     for (const std::size_t i : {slope_, slope_ + 1})
-      out(row, index(i)) = w[tan_] * ref_mm_ * w[i] / (1.0 + longer);
+      out(row, index(i)) = w[tan_] * middle_mm_[part.clamping] * w[i] / secant;
   }
   return out;
 }
@@ -147,8 +170,8 @@ std::vector<double> JointModel::joined(const std::vector<std::vector<double>>& w
   std::vector<double> joint(parameter_count(), 0.0);
   for (const std::size_t i : order) {
     std::vector<double> w = working[i];
-    if (stretches() && radius_ < w.size())
-      w[radius_] -= w[tan_] * ref_mm_ * stretch(w[slope_], w[slope_ + 1]);
+    if (shares_taper())
+      w[radius_] -= w[tan_] * beyond_ref(parts_[i].clamping, w[slope_], w[slope_ + 1]);
     for (std::size_t j = 0; j < w.size(); ++j) joint[joint_index(parts_[i].clamping, j)] = w[j];
   }
   return joint;

@@ -30,9 +30,9 @@ std::string set_up_name(const SetUp& set_up);
 /// @throws InputError where X_M changes sign within a set-up, or contradicts a stated side.
 std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream);
 
-/// Lowest and highest position on the part: Z less the part's shift, or X of a face.
-std::array<double, 2> probed_range(const ProbeStream& stream,
-                                   const std::vector<PlacedSetUp>& set_ups);
+/// Lowest and highest position on the part, Z less its shift (X of a face), for every clamping.
+std::vector<std::array<double, 2>> probed_ranges(const ProbeStream& stream,
+                                                 const std::vector<PlacedSetUp>& set_ups);
 
 /// The readings of one clamping from one side, with the surface that they are of.
 struct JointPart {
@@ -46,13 +46,14 @@ struct JointPart {
 };
 
 /// The surfaces of all set-ups as one. Every clamping has an axis (or gauge offset, or face) of its
-/// own, first in the joint parameters; radius and half angle follow, which all share. They belong
-/// to the part: radius(s) = radius + tan · (s − ref), s along the axis from where it pierces the
-/// plane Z = z_shift, ref the middle of the probed length. One clamping: the parameters are the
-/// working parameters of the surface themselves.
+/// own, taken in the middle of its readings and first in the joint parameters; radius and half
+/// angle follow, which all share. They belong to the part: radius(s) = radius + tan · (s − ref), s
+/// along the axis from where it pierces the plane Z = z_shift, ref the middle of all readings. One
+/// clamping: the parameters are the working parameters of the surface themselves.
 class JointModel {
  public:
-  /// `frame` is that of the part, before any shift along Z. The stream must outlive the model.
+  /// Of `frame` all but side and positions, which are those of each set-up. The stream must outlive
+  /// the model.
   JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
              std::string_view surface, const SurfaceFrame& frame);
 
@@ -60,6 +61,7 @@ class JointModel {
   std::size_t size() const { return size_; }
   Indication indication() const { return parts_.front().prepared->source().indication; }
   std::size_t clampings() const { return first_.size(); }
+  const SurfaceFrame& last_frame() const { return frames_.back(); }
   const std::vector<JointPart>& parts() const { return parts_; }
   const JointPart& part_of(const PlacedSetUp& set_up) const { return parts_[part_index(set_up)]; }
   const std::vector<std::string>& names() const { return names_; }
@@ -79,9 +81,15 @@ class JointModel {
   bool residuals(std::span<const double> joint, std::span<double> out_mm) const;
 
  private:
+  void place_frames(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
+                    const SurfaceFrame& frame);
   std::size_t part_index(const PlacedSetUp& set_up) const;
   std::size_t joint_index(std::size_t clamping, std::size_t working_index) const;
-  bool stretches() const { return clampings() > 1 && tan_ < working_names_.size(); }
+  /// What the tilt of an axis and the place where it is taken add to s.
+  double beyond_ref(std::size_t clamping, double slope_x, double slope_y) const;
+  bool shares_taper() const {
+    return clampings() > 1 && radius_ < working_names_.size() && tan_ < working_names_.size();
+  }
 
   std::vector<JointPart> parts_;
   std::size_t size_;
@@ -90,7 +98,9 @@ class JointModel {
   std::vector<std::string> names_;
   std::size_t own_ = 0;  ///< how many working parameters a clamping has for itself
   std::size_t radius_ = 0, tan_ = 0, slope_ = 0;  ///< working indices; past the end where absent
-  double ref_mm_;
+  double ref_mm_ = 0.0;
+  std::vector<double> middle_mm_;     ///< of each clamping, on the part
+  std::vector<SurfaceFrame> frames_;  ///< of each clamping, the side that of its first set-up
 };
 
 }  // namespace trueaxis

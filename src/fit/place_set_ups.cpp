@@ -81,17 +81,20 @@ std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream) {
   return placed;
 }
 
-std::array<double, 2> probed_range(const ProbeStream& stream,
-                                   const std::vector<PlacedSetUp>& set_ups) {
+std::vector<std::array<double, 2>> probed_ranges(const ProbeStream& stream,
+                                                 const std::vector<PlacedSetUp>& set_ups) {
   std::vector<SetUp> stated;
   for (const PlacedSetUp& placed : set_ups) stated.push_back(placed.set_up);
   const std::vector<Extremes> extremes = find_extremes(stream, stated, stream.position_mm);
-  Extremes all;
+  std::vector<Extremes> of_clamping(set_ups.back().clamping + 1);
   for (std::size_t i = 0; i < set_ups.size(); ++i) {
-    all.low = std::min(all.low, extremes[i].low - set_ups[i].z_shift_mm);
-    all.high = std::max(all.high, extremes[i].high - set_ups[i].z_shift_mm);
+    Extremes& range = of_clamping[set_ups[i].clamping];
+    range.low = std::min(range.low, extremes[i].low - set_ups[i].z_shift_mm);
+    range.high = std::max(range.high, extremes[i].high - set_ups[i].z_shift_mm);
   }
-  return {all.low, all.high};
+  std::vector<std::array<double, 2>> ranges;
+  for (const Extremes& range : of_clamping) ranges.push_back({range.low, range.high});
+  return ranges;
 }
 
 }  // namespace trueaxis

@@ -91,7 +91,7 @@ inline SetUpBench fixed_bench(std::string_view surface) {
   second.reindex_rad = 70.0 * rad_per_deg, second.z_shift_mm = 12.0, second.rear = true;
   second.x_jog_mm = 0.1, second.clamp_force_ratio = 0.6;
   bench.add(first, 30.0, 50.0, 30.0);
-  bench.add(second, 30.0, 50.0, 30.0);
+  bench.add(second, 36.0, 56.0, 30.0);
   return bench;
 }
 

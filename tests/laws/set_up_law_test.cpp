@@ -16,6 +16,12 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double known_noise_mm = 1e-6;  // makes u / known_noise the √ of the diagonal of (JᵀJ)⁻¹
 
+FitOptions options_for(const std::string& surface) {
+  FitOptions options;
+  options.surface = surface;
+  return options;
+}
+
 /// How far rounding of N readings can move a parameter: ‖δ‖ √(JᵀJ)⁻¹ᵢᵢ, |δ| ≤ 4 ε of the largest
 /// coordinate a reading meets.
 double rounding_of(const FitParameter& parameter, std::size_t n, double size_mm) {
@@ -58,7 +64,7 @@ TEST_P(SetUpLaw, RecoversEveryAxisAndTheSharedShape) {
   for (int i = 0; i < 100; ++i) {
     const SetUpBench bench = draw_bench(GetParam(), draw, i % 2 == 0 ? 2 : 3);
     SCOPED_TRACE("seed 31001, case " + std::to_string(i));
-    FitOptions options{.surface = GetParam()};
+    FitOptions options = options_for(GetParam());
     options.noise_mm = known_noise_mm;
     expect_recovered(bench, fit(virtual_lathe::simulate(bench.scenario), options));
     if (HasFailure()) break;
@@ -76,7 +82,7 @@ TEST_P(SetUpLaw, OrderOfTheReadingsDoesNotMatter) {
     shuffled.reading_mm[i] = stream.reading_mm[from], shuffled.c_rad[i] = stream.c_rad[from];
     shuffled.position_mm[i] = stream.position_mm[from], shuffled.setup[i] = stream.setup[from];
   }
-  FitOptions options{.surface = GetParam()};
+  FitOptions options = options_for(GetParam());
   options.noise_mm = known_noise_mm;
   expect_recovered(bench, fit(shuffled, options));
 }
@@ -118,8 +124,7 @@ TEST_P(SetUpLaw, UncertaintyIsTheCramerRaoBoundAndCovers) {
   for (int trial = 0; trial < trials; ++trial) {
     bench.scenario.seed = seed + static_cast<std::uint64_t>(trial);
     SCOPED_TRACE("seed " + std::to_string(bench.scenario.seed));
-    const FitResult result =
-        fit(virtual_lathe::simulate(bench.scenario), FitOptions{.surface = GetParam()});
+    const FitResult result = fit(virtual_lathe::simulate(bench.scenario), options_for(GetParam()));
     ASSERT_EQ(result.status, FitStatus::converged) << result.message;
     for (std::size_t j = 0; j < covered.size(); ++j) {
       // x0, y0, l, m of each set-up; the shape as the first one (without shift) shows it.
@@ -168,7 +173,7 @@ TEST_P(SetUpLaw, TwoSetUpsTellTheShapeBetterThanOne) {
   for (auto* column : {&first.reading_mm, &first.c_rad, &first.position_mm, &first.time_s})
     column->resize(n);
   first.pass.resize(n), first.setup.resize(n);
-  const FitOptions options{.surface = GetParam()};
+  const FitOptions options = options_for(GetParam());
   const double u_both = fit(both, options).parameters.back().estimate.u;
   const double u_first = fit(first, options).parameters.back().estimate.u;
   EXPECT_LT(u_both, 0.8 * u_first);  // twice the readings or more: 0.71 of it and less
@@ -183,7 +188,7 @@ TEST_P(SetUpLaw, RobustLossesTakeOneScaleForAll) {
     bench.scenario.noise.outlier_size_mm = 0.2;
     bench.scenario.seed = 31004;
     const auto simulation = virtual_lathe::simulate_with_truth(bench.scenario);
-    FitOptions options{.surface = GetParam()};
+    FitOptions options = options_for(GetParam());
     options.loss = loss;
     const FitResult result = fit(simulation.stream, options);
     ASSERT_EQ(result.status, FitStatus::converged) << result.message;
@@ -212,10 +217,10 @@ TEST_P(SetUpLaw, OneSectionBorrowsNoAxis) {
   plan.setups[1].rear = false;
   plan.setups[1].l = plan.setups[1].m = 0.0;
   plan.passes.resize(2);
-  plan.passes[1].end_mm = plan.passes[1].start_mm;
+  plan.passes[1].start_mm = plan.passes[1].end_mm = 42.0;
   plan.passes[1].revolutions = 20.0;
   bench.scenario.noise.sigma_mm = 0.002;
-  const FitResult result = fit(virtual_lathe::simulate(bench.scenario), {.surface = GetParam()});
+  const FitResult result = fit(virtual_lathe::simulate(bench.scenario), options_for(GetParam()));
   EXPECT_EQ(result.status, FitStatus::rank_deficient);
   ASSERT_FALSE(result.not_determined.empty());
   for (const std::string& what : result.not_determined) {
@@ -240,9 +245,9 @@ TEST(SetUps, SeveralOfOneClampingAreOnePath) {
   ASSERT_EQ(one.set_ups.size(), 1u);
   EXPECT_EQ(one.set_ups[0].parameters[4].estimate.value, one.parameters[4].estimate.value);
   for (std::size_t i = 0; i < stream.size(); ++i) stream.setup[i] = stream.pass[i];
-  SetUp jogged;
+  trueaxis::SetUp jogged;
   jogged.number = 2, jogged.x_jog_mm = 0.1;
-  stream.setups = {SetUp{}, jogged};
+  stream.setups = {trueaxis::SetUp{}, jogged};
   const FitResult two = fit(stream, options_of(c));
   ASSERT_EQ(two.set_ups.size(), 2u);
   for (std::size_t i = 0; i < one.parameters.size(); ++i) {

@@ -119,7 +119,7 @@ TEST_F(StreamCsv, ByteOrderMarkLineEndsCommentsAndBlankLines) {
 TEST_F(StreamCsv, MetadataIsKeptAndRead) {
   const ProbeStream s = read(
       "# measured: a tube, 12 angles: five sections\n#reading:relative\n# nominal_radius: 0.5 in\n"
-      "X_M,C\n1,0\n2,90\n# sensor_noise: 2 um\n# spindle_rpm: -60 rpm\n# setup.2.reindex: 70 deg\n"
+      "X_M,C\n1,0\n2,90\n# sensor_noise: 2 um\n# spindle_rpm: -60 rpm\n# setup.1.x_jog: 0.1 mm\n"
       "# note: one\n# note: two\n# no key here\n# not a key: value\n");
   EXPECT_EQ(s.indication, Indication::relative);
   EXPECT_DOUBLE_EQ(s.nominal_radius_mm.value(), 12.7);
@@ -130,10 +130,26 @@ TEST_F(StreamCsv, MetadataIsKeptAndRead) {
                                                   {"nominal_radius", "0.5 in"},
                                                   {"sensor_noise", "2 um"},
                                                   {"spindle_rpm", "-60 rpm"},
-                                                  {"setup.2.reindex", "70 deg"},
+                                                  {"setup.1.x_jog", "0.1 mm"},
                                                   {"note", "one; two"}};
   EXPECT_EQ(s.metadata, wanted);
   EXPECT_FALSE(s.has_position());
+}
+
+TEST_F(StreamCsv, SetUpsAreReadInOrderOfNumber) {
+  const ProbeStream s = read(
+      "# setup.3.side: rear\n# SETUP.2.ReIndex: 0.25 rev\n# setup.2.z_shift: 0.5 in\n"
+      "# setup.2.x_jog: -100 um\n# setup.2.clamp_force_ratio: 0.6\n# setup.3.side: rear\n"
+      "X_M,C,setup\n1,0,3\n2,90,1\n3,180,2\n4,270,3\n");
+  const std::vector<trueaxis::SetUp> wanted{{1, 0.0, 0.0, false, 0.0, 1.0},
+                                            {2, two_pi / 4.0, 12.7, false, -0.1, 0.6},
+                                            {3, 0.0, 0.0, true}};
+  EXPECT_EQ(s.setups, wanted);
+  EXPECT_EQ(set_up_of(s, 0), wanted[2]);
+  EXPECT_EQ(set_up_of(s, 2), wanted[1]);
+  EXPECT_FALSE(wanted[2].moved());  // only the probe went elsewhere
+  EXPECT_TRUE(wanted[1].moved());
+  EXPECT_EQ(read("X_M,C\n1,0\n2,90\n").setups, std::vector<trueaxis::SetUp>{{}});
 }
 
 TEST_F(StreamCsv, CallerOverridesIndicationAndNominalRadius) {
@@ -197,6 +213,7 @@ void expect_same(const ProbeStream& a, const ProbeStream& b) {
   EXPECT_EQ(a.time_s, b.time_s);
   EXPECT_EQ(a.pass, b.pass);
   EXPECT_EQ(a.setup, b.setup);
+  EXPECT_EQ(a.setups, b.setups);
   EXPECT_EQ(a.nominal_radius_mm, b.nominal_radius_mm);
   EXPECT_EQ(a.sensor_noise_mm, b.sensor_noise_mm);
   EXPECT_EQ(a.spindle_rpm, b.spindle_rpm);
@@ -227,7 +244,14 @@ TEST_F(StreamCsv, RoundTripIsBitwise) {
     if (trial % 3 == 1) s.nominal_radius_mm = std::abs(value());
     if (trial % 3 == 2) s.sensor_noise_mm = std::abs(value());
     if (trial % 4 == 1) s.spindle_rpm = value();
-    s.metadata["setup.2.reindex"] = "70 deg";
+    s.setups.front().x_jog_mm = value();
+    if (!s.setup.empty()) {
+      s.setups.push_back({0, value(), value(), trial % 4 == 0, value(), std::abs(value())});
+      s.metadata["setup.0.reindex"] = "70 deg";  // the member decides
+      s.metadata["setup.0.side"] = "rear";
+    }
+    s.setups = list_set_ups(s);
+    s.metadata["setup.9.reindex"] = "70 deg";  // no reading: not written
     if (trial % 5 == 1) s.metadata["x_convention"] = "diameter";
     if (trial % 5 == 2) s.metadata["reading"] = "relative";  // the member decides
     write_stream_csv(s, path("once.csv"));

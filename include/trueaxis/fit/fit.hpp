@@ -107,7 +107,7 @@ struct FitResult {
   std::size_t points = 0;
   std::vector<Rejected> rejected;
   int iterations = 0;
-  /// Z (or X of a face) of the data; on a part that was shifted, where it now stands.
+  /// Z (or X of a face) of the data, of those since the part was last moved.
   double position_min_mm = 0.0, position_max_mm = 0.0;
   std::vector<double> residual_mm;  ///< measured minus model, one per reading
   std::string input_hash, source;

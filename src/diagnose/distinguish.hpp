@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/search.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// A finding with everything that explains it as well: the named cause first.
+struct Class {
+  std::vector<Candidate> members;
+  std::vector<Rival> rivals;  ///< one per member but the first
+  double probability = 1.0;   ///< of the first
+};
+
+/// The class of term i of a model. A rival belongs to it when its best fit is nearer to the named
+/// prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood ratio does not tell.
+Class distinguish(const Problem& problem, const Model& model, std::size_t term);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/joint.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// How the part stands in every set-up of a fit, the ball's centre on its surface.
+std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm);
+
+/// What the base of a model of a surface is.
+BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
+                 const std::vector<Clamping>& clampings);
+
+/// ∂X of all terms, one per reading, mm.
+std::vector<double> contribution(const Scene& scene, const std::vector<Hypothesis>& terms,
+                                 const Eigen::VectorXd& coefficients);
+
+/// The surface fitted to the readings less what the terms contribute, masked readings left out; u of
+/// axis and parameters from the joint covariance, so that what a term takes from the axis widens it.
+FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
+                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "diagnose/joint.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Before and after: the surface alone and with all terms, block by block held out.
+Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor_mm);
+
+/// Sum of squares of a block that was held out.
+double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "diagnose/joint.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// σ of a reading from each source that the data have, the best one chosen; gaps and interruptions.
+/// @param left_mm readings minus the extended model
+NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
+                         const std::vector<double>& left_mm, std::vector<Rejected> masked,
+                         const std::optional<double>& stated_mm);
+
+/// The checks of the catalogue: saturation, quantisation, outliers, interruption, incidence and
+/// correlation of the noise.
+std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,
+                                        const std::vector<double>& left_mm,
+                                        const NoiseReport& noise);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "blind/blind_case.hpp"
+
+namespace trueaxis::blind {
+
+/// The share of cases that design.md ("Numbers the design must reach") wants right.
+double goal(Kind kind, PlanId plan);
+
+/// Of the recommended measurements, taken in the virtual lathe, that resolve the class (issue 3).
+inline constexpr double advice_goal = 0.90;
+
+/// A class member may be this far, in σ, from the truth: Φ(d/2) = 0.95.
+inline constexpr double demanded_distance = 3.29;
+
+/// The engine may also keep a rival that its second rule, the likelihood ratio of the data, cannot
+/// exclude; beyond Φ(d/2) = 0.9995 no data leave that open.
+inline constexpr double allowed_distance = 6.6;
+
+/// A test fails where so few right ones have less than this probability at the goal.
+inline constexpr double test_level = 1e-4;
+
+/// The least count of `cases` that a test accepts.
+std::size_t least_right(std::size_t cases, double goal_share);
+
+struct Share {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+/// right/cases with its 95 % interval after Clopper and Pearson.
+Share share(std::size_t right, std::size_t cases);
+
+}  // namespace trueaxis::blind
