@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "diagnose/advise.hpp"
 #include "diagnose/describe.hpp"
 #include "diagnose/distinguish.hpp"
 #include "diagnose/extended.hpp"
@@ -39,8 +40,7 @@ std::vector<double> deviation_from(const ProbeStream& stream, const Scene& scene
 }
 
 Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
-                   const Resolution& resolution, std::size_t term) {
-  const Class found = distinguish(problem, model, term);
+                   const Class& found, const Resolution& resolution, std::size_t term) {
   const Hypothesis& h = model.terms[term];
   Finding out;
   out.effect = h.id();
@@ -127,6 +127,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       remainder(second, second_deviation, model.terms, joint.solution.coefficients);
   out.z_mid_mm = second.z_mid_mm, out.z_half_mm = second.z_half_mm;
 
+  std::vector<Question> questions;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {
       Unexplained left = unexplained_of(joint, t);
@@ -134,11 +135,23 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       out.unexplained.push_back(std::move(left));
       continue;
     }
-    Finding finding = finding_of(problem, model, joint, resolution, t);
+    questions.push_back({t, distinguish(problem, model, t)});
+    Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
     add_harm(joint, t, finding.axis_shift, finding.cosmetic);
     finding.rms_mm = rms_of(contribution(second, {model.terms[t]}, joint.of(t)));
     out.findings.push_back(std::move(finding));
   }
+  const std::vector<Hidden> hidden = hidden_effects(problem, model, joint.sigma_mm);
+  Advice advice = advise(problem, model, stream, clampings_of(out.extended, ball_mm), questions,
+                         hidden, joint.sigma_mm);
+  for (std::size_t k = 0; k < out.findings.size(); ++k)
+    out.findings[k].separate_with = advice.questions[k];
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    out.not_observable.push_back(hidden[k].entry);
+    out.not_observable.back().separate_with = advice.hidden[k];
+  }
+  out.next = std::move(advice.next);
+  out.plans = std::move(advice.plans);
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });

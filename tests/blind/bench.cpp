@@ -93,7 +93,8 @@ Eigen::MatrixXd Bench::surface_columns() const {
     differ(angle_step, [](Scenario& s, double by) { s.part.half_angle_rad += by; });
   }
   Eigen::MatrixXd all(size(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j) all.col(static_cast<Eigen::Index>(j)) = columns[j];
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    all.col(static_cast<Eigen::Index>(j)) = columns[j];
   return all;
 }
 

@@ -10,8 +10,8 @@
 
 namespace trueaxis::blind {
 
-/// A plan on the virtual lathe without effects, the readings of it that are kept, and what the ideal
-/// surface's parameters can move them by.
+/// A plan on the virtual lathe without effects, the readings of it that are kept, and what the
+/// ideal surface's parameters can move them by.
 class Bench {
  public:
   /// `scenario`: without effects; `rows`: of the stream, ascending; empty: all.

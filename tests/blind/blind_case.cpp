@@ -86,7 +86,7 @@ class Maker {
     out_.scenario.noise.sigma_mm = sigma_mm_;
     switch (wanted_.kind) {
       case Kind::null:
-        out_.noise = wanted_.noise.empty() ? any_of(null_noises(), random_) : wanted_.noise;
+        out_.noise = null_noises()[wanted_.seed % null_noises().size()];
         out_.scenario.noise = null_noise(out_.noise, sigma_mm_, random_);
         return;
       case Kind::one:
@@ -202,8 +202,7 @@ constexpr const char* names[] = {"null", "one", "two", "three", "unknown", "abso
 std::string to_string(Kind kind) { return names[static_cast<int>(kind)]; }
 
 std::vector<Kind> all_kinds() {
-  return {Kind::null,    Kind::one,      Kind::two, Kind::three,
-          Kind::unknown, Kind::absorbed, Kind::gaps};
+  return {Kind::null, Kind::one, Kind::two, Kind::three, Kind::unknown, Kind::absorbed, Kind::gaps};
 }
 
 Kind kind_from(std::string_view text) {

@@ -29,7 +29,6 @@ struct Wanted {
   PlanId plan = PlanId::p1;
   SurfaceId surface = SurfaceId::cone;
   std::uint64_t seed = 1;
-  std::string noise = {};             ///< of a null case; empty: drawn
   std::optional<Effect> effect = {};  ///< of kind one: this cause instead of a drawn one
   std::optional<double> lambda = {};  ///< instead of a drawn one
 };

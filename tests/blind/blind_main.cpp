@@ -145,7 +145,8 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Streams with a hidden cause from the virtual lathe; trueaxis diagnose must name it."};
+  CLI::App app{
+      "Streams with a hidden cause from the virtual lathe; trueaxis diagnose must name it."};
   Arguments arguments;
   declare(app, arguments);
   CLI11_PARSE(app, argc, argv);

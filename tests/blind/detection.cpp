@@ -35,9 +35,11 @@ std::vector<DetectionPoint> detection_curve(const std::vector<double>& lambdas,
   std::vector<Wanted> wanted = select(selection);
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     wanted[i].lambda = lambdas[i / cases_each];
-    wanted[i].effect = Effect{
-        cause,
-        {{"order", 3.0}, {"amplitude_mm", 1e-3}, {"growth_mm", 0.0}, {"phase_rad", 0.1 * static_cast<double>(i)}}};
+    wanted[i].effect = Effect{cause,
+                              {{"order", 3.0},
+                               {"amplitude_mm", 1e-3},
+                               {"growth_mm", 0.0},
+                               {"phase_rad", 0.1 * static_cast<double>(i)}}};
   }
   const std::vector<Result> results = run_study(wanted, options);
   std::vector<DetectionPoint> curve;

@@ -32,7 +32,6 @@ double fractional_order(Draw& draw) {
   return draw.whole(1, 10) + draw.between(0.12, 0.88);
 }
 
-
 double largest_lead(const Bench& bench) {
   double lead = 0.0;
   for (const auto& pass : bench.scenario().plan.passes) {

@@ -29,9 +29,8 @@ const Effect barrel{"part.barrel", {{"amplitude_mm", 0.01}, {"cubic_mm", 0.0}}};
 const Effect latency{"probe.latency", {{"delay_s", 0.02}}};
 const Effect whirl{"spindle.asynchronous",
                    {{"order", 3.37}, {"amplitude_mm", 0.005}, {"phase_rad", 0.3}}};
-const Effect spiral{
-    "extra.spiral",
-    {{"order", 3}, {"amplitude_mm", 0.01}, {"lead_mm", 40}, {"phase_rad", 0.2}}};
+const Effect spiral{"extra.spiral",
+                    {{"order", 3}, {"amplitude_mm", 0.01}, {"lead_mm", 40}, {"phase_rad", 0.2}}};
 
 // d of a twin is what eccentricity and tilt couple (e/R = 5e-3, times the root of λ = 200: 0.07);
 // without rivalry d is near √200 = 14.1.
@@ -40,9 +39,9 @@ constexpr double twin = 0.5, apart = 6.6;
 TEST(Judge, LambdaOfLobesIsNA2Over2Sigma2) {
   for (const SurfaceId surface : {SurfaceId::cone, SurfaceId::cylinder}) {
     const Bench bench = bench_of(PlanId::p1, surface);
-    const double expected =
-        static_cast<double>(bench.size()) * 0.01 * 0.01 / (2.0 * sigma_mm * sigma_mm) *
-        (surface == SurfaceId::cone ? 1.0 + tangent * tangent : 1.0);
+    const double expected = static_cast<double>(bench.size()) * 0.01 * 0.01 /
+                            (2.0 * sigma_mm * sigma_mm) *
+                            (surface == SurfaceId::cone ? 1.0 + tangent * tangent : 1.0);
     // 63 revolutions that do not close: 1/(2 pi 3 63) of the sum, and e/R of the normal.
     EXPECT_NEAR(lambda(bench, three_lobes, {}, sigma_mm, false) / expected, 1.0, 0.006);
   }
@@ -66,8 +65,10 @@ TEST(Judge, RoundnessIsASpindleErrorUntilThePartIsReclamped) {
   const std::string rival = "spindle.radial_synchronous";
   EXPECT_LT(distance_at(bench_of(PlanId::p1), three_lobes, rival), twin);
   EXPECT_LT(distance_at(bench_of(PlanId::p3), three_lobes, rival), twin);
-  // 70 deg turn three lobes by 210: the best compromise over 2 : 1 readings leaves 2/9·|1 − e^i210|²
-  const double left = std::sqrt(200.0 * (2.0 / 9.0) * (2.0 - 2.0 * std::cos(3.0 * 70.0 * M_PI / 180)));
+  // 70 deg turn three lobes by 210: the best compromise over 2 : 1 readings leaves 2/9·|1 −
+  // e^i210|²
+  const double left =
+      std::sqrt(200.0 * (2.0 / 9.0) * (2.0 - 2.0 * std::cos(3.0 * 70.0 * M_PI / 180)));
   EXPECT_NEAR(distance_at(bench_of(PlanId::p6), three_lobes, rival), left, 0.02 * left);
 }
 

@@ -122,13 +122,15 @@ std::vector<Effect> mimics(const Bench& bench, const std::string& id, const Resi
     return orders_of(id, likely_orders(bench, of.left, 1), {{}}, "order");
   }
   if (id == "spindle.tilt_synchronous") {
-    return orders_of(
-        id, likely_orders(bench, of.left, 1),
-        {{{"bearing_mm", -5000.0}}, {{"bearing_mm", -300.0}}, {{"bearing_mm", -80.0}},
-         {{"bearing_mm", 0.0}}},
-        "order");
+    return orders_of(id, likely_orders(bench, of.left, 1),
+                     {{{"bearing_mm", -5000.0}},
+                      {{"bearing_mm", -300.0}},
+                      {{"bearing_mm", -80.0}},
+                      {{"bearing_mm", 0.0}}},
+                     "order");
   }
-  if (id == "spindle.asynchronous") return each(id, scan(bench.c_rad(), 0.02, 24.0), "order", as_is);
+  if (id == "spindle.asynchronous")
+    return each(id, scan(bench.c_rad(), 0.02, 24.0), "order", as_is);
   if (id == "environment.vibration") {
     return each(id, scan(bench.time_s(), 0.02 * two_pi, 60.0 * two_pi), "frequency_hz", hertz);
   }
@@ -151,12 +153,14 @@ std::vector<Effect> mimics(const Bench& bench, const std::string& id, const Resi
   }
   if (id == "thermal.drift") {
     std::vector<Effect> list;
-    for (const double tau : {2.0, 10.0, 40.0, 200.0}) list.push_back({id, {{"time_constant_s", tau}}});
+    for (const double tau : {2.0, 10.0, 40.0, 200.0})
+      list.push_back({id, {{"time_constant_s", tau}}});
     return list;
   }
   if (id == "probe.nonlinearity" || id == "probe.gain") {
     std::vector<Effect> list;
-    for (const double at : {bench.plain().minCoeff(), bench.plain().mean(), bench.plain().maxCoeff()}) {
+    for (const double at :
+         {bench.plain().minCoeff(), bench.plain().mean(), bench.plain().maxCoeff()}) {
       list.push_back({id, {{"reference_mm", at}}});
     }
     return list;

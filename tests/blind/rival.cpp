@@ -75,8 +75,7 @@ Residue residue(const Bench& bench, const TrueEffect& truth) {
   for (const Effect& other : truth.others) of.taken.add(columns(bench, other));
   std::vector<Effect> all = truth.others;
   all.push_back(truth.effect);
-  const Eigen::VectorXd without =
-      truth.others.empty() ? bench.plain() : bench.clean(truth.others);
+  const Eigen::VectorXd without = truth.others.empty() ? bench.plain() : bench.clean(truth.others);
   of.left = of.taken.residual(bench.clean(all) - without);
   return of;
 }

@@ -20,8 +20,8 @@ bool place(std::size_t i, const std::vector<Effect>& truths,
   for (std::size_t j = 0; j < classes.size(); ++j) {
     if (seen[j] || !holds(classes[j], truths[i].id)) continue;
     seen[j] = true;
-    const bool free = truth_of[j] < 0 || place(static_cast<std::size_t>(truth_of[j]), truths,
-                                               classes, seen, truth_of);
+    const bool free = truth_of[j] < 0 ||
+                      place(static_cast<std::size_t>(truth_of[j]), truths, classes, seen, truth_of);
     if (!free) continue;
     truth_of[j] = static_cast<int>(i);
     return true;
@@ -70,9 +70,9 @@ Outcome judge_names(const BlindCase& blind_case, const Sealed& truth, const Answ
   return std::ranges::any_of(out.members, excluded) ? Outcome::too_wide : Outcome::correct;
 }
 
-constexpr const char* names[] = {"correct",     "too wide",      "wrong name",
-                                 "missed",      "false alarm",   "extra finding",
-                                 "not called unknown", "not abstained", "crash"};
+constexpr const char* names[] = {
+    "correct",       "too wide",           "wrong name",    "missed", "false alarm",
+    "extra finding", "not called unknown", "not abstained", "crash"};
 
 }  // namespace
 
@@ -80,7 +80,8 @@ std::string to_string(Outcome outcome) { return names[static_cast<int>(outcome)]
 
 std::vector<Outcome> all_outcomes() {
   std::vector<Outcome> list;
-  for (int i = 0; i <= static_cast<int>(Outcome::crash); ++i) list.push_back(static_cast<Outcome>(i));
+  for (int i = 0; i <= static_cast<int>(Outcome::crash); ++i)
+    list.push_back(static_cast<Outcome>(i));
   return list;
 }
 
@@ -113,8 +114,8 @@ Score score(const BlindCase& blind_case, const Sealed& truth, const Answer& answ
       out.named = {first};
       break;
     case Kind::unknown:
-      out.outcome = answer.classes.empty() && !silent ? Outcome::correct
-                                                      : Outcome::not_called_unknown;
+      out.outcome =
+          answer.classes.empty() && !silent ? Outcome::correct : Outcome::not_called_unknown;
       out.named = {first};
       break;
     case Kind::absorbed:

@@ -31,9 +31,10 @@ struct Member {
 
 struct Score {
   Outcome outcome = Outcome::crash;
-  std::vector<std::string> named;  ///< per true effect the finding that holds it, or what stands there
-  std::vector<Member> members;     ///< all listed rivals of all truths
-  bool strict = true;              ///< every member within the demanded distance
+  std::vector<std::string>
+      named;                    ///< per true effect the finding that holds it, or what stands there
+  std::vector<Member> members;  ///< all listed rivals of all truths
+  bool strict = true;           ///< every member within the demanded distance
 };
 
 /// Pairs truths and findings so that the most truths lie in the class of their finding; at most

@@ -22,9 +22,8 @@ void write_sealed(const BlindCase& blind_case, const path& folder) {
   Json effects = Json::array();
   for (std::size_t i = 0; i < blind_case.scenario.effects.size(); ++i) {
     const Effect& effect = blind_case.scenario.effects[i];
-    effects.push_back({{"id", effect.id},
-                       {"parameters", effect.parameters},
-                       {"lambda", blind_case.lambdas[i]}});
+    effects.push_back(
+        {{"id", effect.id}, {"parameters", effect.parameters}, {"lambda", blind_case.lambdas[i]}});
   }
   const Json truth{{"case", blind_case.id},
                    {"kind", to_string(blind_case.wanted.kind)},

@@ -22,7 +22,8 @@ Effect sized_for(const Bench& bench, Effect effect, double sigma_mm, double want
     const double now = lambda(bench, effect, {}, sigma_mm, false);
     if (!(now > 1e-9) || std::abs(now / wanted - 1.0) < 0.005) break;
     effect = scaled(std::move(effect), std::sqrt(wanted / now));
-    if (over_typical(effect) > 100.0) break;  // out of the linear range: not to be seen by this plan
+    if (over_typical(effect) > 100.0)
+      break;  // out of the linear range: not to be seen by this plan
   }
   return effect;
 }

@@ -32,10 +32,6 @@ std::vector<Wanted> select(const Selection& selection) {
     wanted.plan = selection.plans[i / kinds % plans];
     wanted.surface = selection.surfaces[i / (kinds * plans) % surfaces];
     wanted.seed = mixed(selection.seed * 0x100000001B3ULL + i) % 1000000007ULL;
-    if (wanted.kind == Kind::null) {
-      const std::vector<std::string> noises = null_noises();
-      wanted.noise = noises[i / kinds % noises.size()];
-    }
     list.push_back(wanted);
   }
   return list;

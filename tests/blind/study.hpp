@@ -23,10 +23,10 @@ struct Result {
 };
 
 struct StudyOptions {
-  std::string command;             ///< the trueaxis command
-  std::filesystem::path scratch;   ///< streams and truths, case by case
-  bool keep = false;               ///< leave them there
-  bool follow_advice = false;      ///< take the next measurement of every case with one cause
+  std::string command;            ///< the trueaxis command
+  std::filesystem::path scratch;  ///< streams and truths, case by case
+  bool keep = false;              ///< leave them there
+  bool follow_advice = false;     ///< take the next measurement of every case with one cause
   int jobs = 2;
   /// Called after every case, under a lock.
   std::function<void(std::size_t done, const Result&)> progress;

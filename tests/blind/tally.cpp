@@ -27,12 +27,13 @@ void count(Cell& cell, Outcome outcome) {
 
 std::string row_of(const std::string& name, const Cell& cell) {
   const Share at = share(cell.right(), cell.cases);
-  std::string row = printed("%-22s %6zu %6zu  %6.1f %%  [%5.1f, %5.1f]  goal %4.0f %%%s ",
-                            name.c_str(), cell.cases, cell.right(), 100.0 * at.value,
-                            100.0 * at.low, 100.0 * at.high, 100.0 * cell.goal_share,
-                            at.high < cell.goal_share ? "  BELOW" : "");
+  std::string row =
+      printed("%-22s %6zu %6zu  %6.1f %%  [%5.1f, %5.1f]  goal %4.0f %%%s ", name.c_str(),
+              cell.cases, cell.right(), 100.0 * at.value, 100.0 * at.low, 100.0 * at.high,
+              100.0 * cell.goal_share, at.high < cell.goal_share ? "  BELOW" : "");
   for (const auto& [outcome, number] : cell.outcomes) {
-    if (outcome != Outcome::correct) row += "  " + to_string(outcome) + " " + std::to_string(number);
+    if (outcome != Outcome::correct)
+      row += "  " + to_string(outcome) + " " + std::to_string(number);
   }
   return row + '\n';
 }
@@ -41,9 +42,9 @@ Json json_of(const std::string& name, const Cell& cell) {
   const Share at = share(cell.right(), cell.cases);
   Json outcomes = Json::object();
   for (const auto& [outcome, number] : cell.outcomes) outcomes[to_string(outcome)] = number;
-  return {{"name", name},         {"cases", cell.cases}, {"right", cell.right()},
-          {"rate", at.value},     {"low", at.low},       {"high", at.high},
-          {"goal", cell.goal_share}, {"outcomes", outcomes}};
+  return {
+      {"name", name},  {"cases", cell.cases}, {"right", cell.right()},   {"rate", at.value},
+      {"low", at.low}, {"high", at.high},     {"goal", cell.goal_share}, {"outcomes", outcomes}};
 }
 
 }  // namespace
@@ -181,7 +182,8 @@ std::string line_of(const Result& result) {
       line += printed(" d(%s)=%.1f", member.effect.c_str(), member.distance);
     }
   }
-  if (result.answer.broken()) line += " exit " + std::to_string(result.answer.exit_code) + ": " + result.answer.text;
+  if (result.answer.broken())
+    line += " exit " + std::to_string(result.answer.exit_code) + ": " + result.answer.text;
   return line;
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// The diagnosis against sealed truths, some hundred cases. Each bound is binomial: it fails where
+// the goal of design.md would give so few right ones with a probability below 1e-4 (goals.hpp).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "blind/detection.hpp"
+#include "blind/tally.hpp"
+
+namespace trueaxis::blind {
+namespace {
+
+constexpr std::uint64_t seed = 20260704;
+
+/// Cases of a test; a case takes up to half a second of one core, all tests about two minutes of
+/// two.
+struct KindShare {
+  Kind kind;
+  std::size_t cases;
+};
+
+constexpr KindShare shares[] = {{Kind::null, 120}, {Kind::one, 96},     {Kind::two, 48},
+                                {Kind::three, 40}, {Kind::unknown, 40}, {Kind::absorbed, 48},
+                                {Kind::gaps, 24}};
+
+StudyOptions options_of(const std::string& folder) {
+  StudyOptions options;
+  options.command = TRUEAXIS_COMMAND;
+  options.scratch = std::filesystem::path(TRUEAXIS_SCRATCH) / "blind" / folder;
+  options.jobs = 1;  // ctest runs the tests side by side
+  options.progress = [](std::size_t, const Result& result) {
+    if (result.score.outcome != Outcome::correct) std::cout << line_of(result) << '\n';
+  };
+  return options;
+}
+
+class Blind : public ::testing::TestWithParam<KindShare> {};
+
+TEST_P(Blind, ReachesTheGoal) {
+  const auto [kind, cases] = GetParam();
+  Selection selection;
+  selection.kinds = {kind};
+  selection.cases = cases;
+  selection.seed = seed;
+  std::cout << "seed " << seed << '\n';
+  const std::vector<Result> results = run_study(select(selection), options_of(to_string(kind)));
+  const Tally all = tally(results);
+  std::cout << text_of(all);
+  // Goals differ from plan to plan: those with the same one are counted together.
+  std::map<double, Cell> same_goal;
+  for (const auto& [at, cell] : all.cells) {
+    Cell& sum = same_goal[cell.goal_share];
+    sum.cases += cell.cases;
+    sum.outcomes[Outcome::correct] += cell.right();
+  }
+  for (const auto& [goal_share, cell] : same_goal) {
+    EXPECT_GE(cell.right(), least_right(cell.cases, goal_share))
+        << to_string(kind) << ": goal " << goal_share << ", " << cell.cases << " cases";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Blind, ::testing::ValuesIn(shares),
+                         [](const auto& at) { return to_string(at.param.kind); });
+
+TEST(BlindDetection, PowerIsTheNoncentralF) {
+  constexpr std::size_t cases = 30;
+  std::cout << "seed " << seed << '\n';
+  StudyOptions options = options_of("detection");
+  options.progress = nullptr;
+  for (const DetectionPoint& point : detection_curve({20.0, 32.0, 50.0}, cases, seed, options)) {
+    SCOPED_TRACE(point.lambda);
+    ASSERT_GT(point.threshold, 0.0) << "the answer states no threshold";
+    std::cout << point.lambda << ": " << point.found << " of " << cases << ", expected "
+              << point.expected << " at threshold " << point.threshold << '\n';
+    EXPECT_GE(point.found, least_right(cases, point.expected)) << "lost power";
+    EXPECT_GE(cases - point.found, least_right(cases, 1.0 - point.expected)) << "false alarms";
+  }
+}
+
+TEST(BlindAdvice, TheRecommendedMeasurementResolves) {
+  Selection selection;
+  selection.kinds = {Kind::one, Kind::absorbed};
+  selection.plans = {PlanId::p1, PlanId::p2, PlanId::p3};
+  selection.cases = 48;
+  selection.seed = seed + 1;
+  std::cout << "seed " << selection.seed << '\n';
+  StudyOptions options = options_of("advice");
+  options.follow_advice = true;
+  const Tally all = tally(run_study(select(selection), options));
+  std::cout << text_of(all);
+  EXPECT_GE(all.advice_taken, 8u);
+  EXPECT_GE(all.advice_resolved, least_right(all.advice_taken, advice_goal));
+}
+
+}  // namespace
+}  // namespace trueaxis::blind
