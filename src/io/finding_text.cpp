@@ -82,11 +82,11 @@ std::string separating_text(const Separating& s) {
 
 std::string harm_per_unit_text(const Estimate& harm) {
   if (!harm.determined()) return harm.why_not.empty() ? "not known" : harm.why_not;
-  if (harm.unit == "mm/mm") return format("%.2g µm per µm", harm.value);
-  const bool length = harm.unit.rfind("mm", 0) == 0;
-  if (!length) return format("%.2g ", harm.value) + harm.unit;
-  const std::string per = harm.unit.size() > 3 && harm.unit[2] == '/' ? harm.unit.substr(3) : "1";
-  return format("%.3g µm", harm.value / mm_per_um) + (per == "1" ? " per 1" : " per " + per);
+  if (harm.unit.rfind("mm/", 0) != 0) return format("%.2g ", harm.value) + harm.unit;
+  std::string per = harm.unit.substr(3);
+  std::erase_if(per, [](char c) { return c == '(' || c == ')'; });
+  if (per == "mm") return format("%.2g µm per µm", harm.value);
+  return format("%.3g µm per ", harm.value / mm_per_um) + (per == "1" ? "unit" : per);
 }
 
 }  // namespace trueaxis

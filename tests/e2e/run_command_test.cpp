@@ -53,8 +53,8 @@ TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
   EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1")) << first_line(done.out);
-  EXPECT_EQ(files_in(folder_ / "out"), (std::vector<std::string>{"diagnosis_1_cylinder.json",
-                                                                 "report.html", "result.json"}));
+  EXPECT_EQ(files_in(folder_ / "out"),
+            (std::vector<std::string>{"diagnosis_1_cylinder.json", "report.html", "result.json"}));
 }
 
 TEST_F(RunCommand, ActuatorThatCannotFollow) {
