@@ -52,6 +52,7 @@ class Evidence {
   std::vector<Hypothesis> list_;
   Columns base_;
   std::size_t count_ = 0;
+  double floor2_ = 0.0;  ///< mm²: what rounding and the linearisation of the columns leave
   Eigen::MatrixXd total_;
   std::vector<std::size_t> part_begin_;  ///< of what one Gram matrix sums over
   std::vector<Eigen::MatrixXd> folds_;
