@@ -133,9 +133,20 @@ void Evidence::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, st
   scene_->fill_base(begin, end, columns.subspan(1, base_.size()));
   std::size_t next = 1 + base_.size();
   for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
+    const Hypothesis* constant = nullptr;  // the cell of degree 0 whose order the next ones share
+    std::vector<const double*> constant_columns;
     for (const Hypothesis& h : some) {
-      fill(h, *scene_, begin, end, columns.subspan(next, h.columns()));
-      next += h.columns();
+      const std::span<double* const> own = columns.subspan(next, h.columns());
+      next += own.size();
+      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::cell && !h.pattern.in_time;
+      if (cell && h.pattern.degree > 0 && constant != nullptr &&
+          constant->pattern.order == h.pattern.order && constant->pattern.spindle == h.pattern.spindle) {
+        raise_degree(h, *scene_, begin, end, constant_columns, own);
+        continue;
+      }
+      fill(h, *scene_, begin, end, own);
+      constant = cell && h.pattern.degree == 0 ? &h : nullptr;
+      if (constant != nullptr) constant_columns.assign(own.begin(), own.end());
     }
   }
 }

@@ -39,6 +39,10 @@ struct Hypothesis {
 void fill(const Hypothesis& hypothesis, const Scene& scene, std::size_t begin, std::size_t end,
           std::span<double* const> columns);
 
+/// The columns of a cell of a Legendre degree along s from those of its degree 0.
+void raise_degree(const Hypothesis& cell, const Scene& scene, std::size_t begin, std::size_t end,
+                  std::span<const double* const> constant, std::span<double* const> columns);
+
 /// A hypothesis of an effect by id. @throws ContractViolation for an unknown id.
 Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> keep = {},
                      double tests = 1.0);

@@ -124,7 +124,8 @@ std::vector<double> remainder(const Scene& scene, std::span<const double> deviat
 }
 
 std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolution,
-                                    std::span<const double> deviation_mm, Rows& rows) {
+                                    std::span<const double> deviation_mm, Rows& rows,
+                                    int threads) {
   const std::vector<Hypothesis> cells = small_atlas(scene, resolution);
   std::vector<double> left(deviation_mm.begin(), deviation_mm.end());
   double sigma = 0.0;
@@ -145,7 +146,7 @@ std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolu
     masked = count;
     if (same || (round == 0 && masked == 0 && scene.size() < least_rows)) break;
     rows.find_runs(scene);
-    Evidence evidence(scene, rows, deviation_mm, {}, 1);
+    Evidence evidence(scene, rows, deviation_mm, {}, threads);
     Columns all = evidence.base();
     for (const Columns& own : evidence.append(cells)) all.insert(all.end(), own.begin(), own.end());
     left = remainder(scene, deviation_mm, cells, solve(evidence.total(), all).coefficients);
@@ -167,7 +168,10 @@ std::vector<double> autoregression(const Scene& scene, const Rows& rows,
   Lagged lagged;
   const auto columns = static_cast<Eigen::Index>(1 + scene.base.columns() + columns_of(terms));
   for (auto& line : lagged.gram) line.fill(Matrix::Zero(columns, columns));
-  const std::size_t stride = 1 + scene.size() / (2 * enough_rows);
+  std::size_t available = 0;
+  for (std::size_t f = 0; f < rows.folds(); ++f)
+    available += std::min(rows.fold_begin[f + 1] - rows.fold_begin[f], enough_rows / 4);
+  const std::size_t stride = 1 + available / (2 * enough_rows);
   for (std::size_t f = 0; f < rows.folds(); f += stride) {
     // A block of a long stream is cut: whole blocks would be more than enough.
     const std::size_t begin = rows.fold_begin[f];

@@ -10,7 +10,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t slip_instants = 24;
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
 constexpr std::size_t most_rivals = 16;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
@@ -133,19 +132,21 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   const Resolution& resolution = problem.resolution;
   Proposal out;
 
-  std::vector<Hypothesis> presets = preset_causes(scene, resolution);
-  for (Hypothesis& h : slips(scene, slip_instants)) presets.push_back(std::move(h));
-  std::vector<Hypothesis> cells = atlas(scene, resolution);
-  for (Hypothesis& h : cells) h.tests = static_cast<double>(cells.size());
-  Evidence evidence(scene, problem.rows, problem.deviation_mm, phi, problem.threads);
-  const std::vector<Hypothesis> fixed = joined(presets, cells);
-  const auto places = evidence.append(joined(terms, fixed));
-  std::vector<Candidate> judged = judge(evidence, places, fixed, terms.size());
-  for (const Candidate& c : judged) out.family.single += c.rank > 0;
-
+  std::unique_ptr<Dictionary>& kept = *problem.dictionary;
+  if (!kept || kept->phi != phi)
+    kept = make_dictionary(scene, problem.rows, resolution, problem.deviation_mm, phi, problem.threads);
+  Evidence& evidence = kept->evidence;
+  const std::vector<Hypothesis>& presets = kept->presets;
+  const std::vector<Hypothesis> fixed = joined(presets, kept->cells);
+  std::vector<Columns> places = evidence.append(terms);
   Columns taken = evidence.base();
-  append_columns(taken, {places.begin(), places.begin() + static_cast<long>(terms.size())});
+  append_columns(taken, places);
+  places.insert(places.end(), kept->preset_places.begin(), kept->preset_places.end());
+  places.insert(places.end(), kept->cell_places.begin(), kept->cell_places.end());
+  const std::vector<Candidate> judged = judge(evidence, places, fixed, terms.size());
+  for (const Candidate& c : judged) out.family.single += c.rank > 0;
   const Eigen::VectorXd solution = solve(evidence.total(), taken).coefficients;
+  evidence.shrink(kept->columns);
   const std::vector<double> left = remainder(scene, problem.deviation_mm, terms, solution);
   Scans scans = scan_lines(evidence, resolution, left);
   double bumps_tested = 0.0;
