@@ -15,9 +15,9 @@ constexpr double means_per_turn = 40.0;
 using Column = std::vector<double>;
 
 constexpr Column Scene::*straight[] = {
-    &Scene::c,     &Scene::z,     &Scene::time,    &Scene::speed, &Scene::velocity,  &Scene::x,
-    &Scene::sensed, &Scene::dx_dc, &Scene::dx_dz, &Scene::d2x_dc2, &Scene::s, &Scene::clamp,
-    &Scene::dx_dnormal};
+    &Scene::c, &Scene::z,      &Scene::time,      &Scene::speed, &Scene::velocity,
+    &Scene::x, &Scene::sensed, &Scene::dx_dc,     &Scene::dx_dz, &Scene::d2x_dc2,
+    &Scene::s, &Scene::clamp,  &Scene::dx_dnormal};
 constexpr Column Scene::*turning[] = {&Scene::theta, &Scene::chuck};
 
 /// First reading of every group, and one past the last.
@@ -37,7 +37,8 @@ std::vector<std::size_t> groups_of(const Scene& scene, const Rows& rows, std::si
 /// Mean over the readings of a group that count, or over all where none does.
 class Mean {
  public:
-  Mean(const Rows& rows, std::size_t begin, std::size_t end) : rows_(rows), begin_(begin), end_(end) {
+  Mean(const Rows& rows, std::size_t begin, std::size_t end)
+      : rows_(rows), begin_(begin), end_(end) {
     for (std::size_t i = begin; i < end; ++i) count_ += rows.used[i];
   }
   std::size_t count() const { return count_; }

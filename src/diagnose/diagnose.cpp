@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/diagnose/diagnosis.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -15,6 +13,7 @@
 #include "diagnose/sources.hpp"
 #include "diagnose/spectrum.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
 
 namespace trueaxis {
 
@@ -91,8 +90,9 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     out.next.why_not = out.noise.note;
     return out;
   }
-  const int threads = options.threads > 0 ? options.threads
-                                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const double ball_mm = ball_of(stream, options.fit);
   const std::vector<Clamping> clampings = clampings_of(out.baseline, ball_mm);
   const BaseKind base = base_of(stream, out.baseline, clampings);
@@ -114,9 +114,11 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.extended = extended_fit(stream, options.fit, near, effect_mm, masked);
   const bool again = usable(out.extended) && !model.terms.empty();
   const Scene second =
-      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore) : first;
+      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore)
+            : first;
   const std::vector<double> second_deviation = deviation_from(stream, second);
-  const Problem problem{second, rows, resolution, second_deviation, options.false_alarm, threads, most};
+  const Problem problem{second,  rows, resolution, second_deviation, options.false_alarm,
+                        threads, most};
   const Joint joint(problem, model.phi, model.terms, model.terms.size());
   const Eigen::VectorXd terms =
       joint.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
@@ -159,7 +161,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
                 : !out.findings.empty()  ? DiagnosisVerdict::effects
                                          : DiagnosisVerdict::ideal;
-  out.noise = report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
+  out.noise =
+      report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
   out.checks = check_quality(stream, joint, out.residual_after_mm, out.noise);
   out.gain = measure_gain(problem, joint, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);

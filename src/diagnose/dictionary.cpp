@@ -63,9 +63,14 @@ std::unique_ptr<Dictionary> make_dictionary(const Scene& scene, const Rows& rows
                                             const Resolution& resolution,
                                             std::span<const double> deviation_mm,
                                             const std::vector<double>& phi, int threads) {
-  auto out = std::make_unique<Dictionary>(
-      Dictionary{phi, Evidence(scene, rows, deviation_mm, phi, threads), preset_causes(scene, resolution),
-                 atlas(scene, resolution), {}, {}, 0});
+  auto out =
+      std::make_unique<Dictionary>(Dictionary{phi,
+                                              Evidence(scene, rows, deviation_mm, phi, threads),
+                                              preset_causes(scene, resolution),
+                                              atlas(scene, resolution),
+                                              {},
+                                              {},
+                                              0});
   for (Hypothesis& h : slips(scene, slip_instants)) out->presets.push_back(std::move(h));
   for (Hypothesis& h : out->cells) h.tests = static_cast<double>(out->cells.size());
   std::vector<Hypothesis> list = out->cells;
@@ -93,7 +98,8 @@ std::unique_ptr<Dictionary> make_dictionary(const Scene& scene, const Rows& rows
   const std::vector<Columns> places = out->evidence.append(list);
   out->cell_places.assign(places.begin(), places.begin() + static_cast<long>(out->cells.size()));
   for (std::size_t i = 0; i < out->presets.size(); ++i) {
-    out->preset_places.push_back(shared[i] ? *shared[i] : subset(places[carrier[i]], out->presets[i]));
+    out->preset_places.push_back(shared[i] ? *shared[i]
+                                           : subset(places[carrier[i]], out->presets[i]));
   }
   out->columns = static_cast<std::size_t>(out->evidence.total().rows());
   return out;

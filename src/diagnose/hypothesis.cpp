@@ -47,8 +47,9 @@ void fill_pattern(const Pattern& of, const Scene& scene, std::size_t begin, std:
       continue;
     }
     if (of.kind == Pattern::Kind::cell) {
-      const double u = of.in_time ? (lasted > 0.0 ? 2.0 * (scene.time[i] - first) / lasted - 1.0 : 0.0)
-                                  : (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
+      const double u = of.in_time
+                           ? (lasted > 0.0 ? 2.0 * (scene.time[i] - first) / lasted - 1.0 : 0.0)
+                           : (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
       size *= legendre(of.degree, u);
     }
     columns[0][k] = size * cosine[k];
@@ -63,7 +64,8 @@ void raise_degree(const Hypothesis& cell, const Scene& scene, std::size_t begin,
   for (std::size_t i = begin; i < end; ++i) {
     const double u = (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
     const double size = legendre(cell.pattern.degree, u);
-    for (std::size_t j = 0; j < columns.size(); ++j) columns[j][i - begin] = size * constant[j][i - begin];
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      columns[j][i - begin] = size * constant[j][i - begin];
   }
 }
 
@@ -72,7 +74,8 @@ std::size_t Hypothesis::columns() const {
     const bool line = pattern.kind == Pattern::Kind::line;
     return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
   }
-  const std::size_t own = keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
+  const std::size_t own =
+      keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
   return own + (with_radial ? 2 : 0);
 }
 

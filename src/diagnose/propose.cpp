@@ -31,7 +31,8 @@ std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vect
 std::vector<Candidate> judge(const Evidence& evidence, const std::vector<Columns>& places,
                              const std::vector<Hypothesis>& list, std::size_t terms) {
   Columns taken = evidence.base();
-  for (std::size_t t = 0; t < terms; ++t) taken.insert(taken.end(), places[t].begin(), places[t].end());
+  for (std::size_t t = 0; t < terms; ++t)
+    taken.insert(taken.end(), places[t].begin(), places[t].end());
   const Projection projection = project(evidence.total(), taken);
   const auto freedom = static_cast<double>(evidence.count() - projection.rank);
   std::vector<Candidate> out;
@@ -134,7 +135,8 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
 
   std::unique_ptr<Dictionary>& kept = *problem.dictionary;
   if (!kept || kept->phi != phi)
-    kept = make_dictionary(scene, problem.rows, resolution, problem.deviation_mm, phi, problem.threads);
+    kept = make_dictionary(scene, problem.rows, resolution, problem.deviation_mm, phi,
+                           problem.threads);
   Evidence& evidence = kept->evidence;
   const std::vector<Hypothesis>& presets = kept->presets;
   const std::vector<Hypothesis> fixed = joined(presets, kept->cells);
@@ -193,7 +195,8 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   std::vector<Hypothesis> odd;
   for (std::size_t i = 0; i < std::min(best_patterns, patterns.size()); ++i)
     odd.push_back(patterns[i].hypothesis);
-  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list, std::size_t most) {
+  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list,
+                              std::size_t most) {
     std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
     for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i) {
       if (peaks[i].gain < 0.3 * peaks[0].gain) break;
@@ -219,7 +222,8 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
         const auto same = [&](const Candidate& e) {
           return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
         };
-        if (c.gain > far_behind * most && std::ranges::none_of(each, same)) each.push_back(std::move(c));
+        if (c.gain > far_behind * most && std::ranges::none_of(each, same))
+          each.push_back(std::move(c));
       }
       first = std::move(each);
     }

@@ -40,7 +40,8 @@ void fill_motion(Scene& scene) {
   scene.velocity.resize(scene.size());
   for (const Pass& pass : scene.passes) {
     double velocity = pass.feed_mm_per_rev * std::abs(pass.speed_rad_per_s) / two_pi;
-    const double lasted = pass.end > pass.begin + 1 ? scene.time[pass.end - 1] - scene.time[pass.begin] : 0.0;
+    const double lasted =
+        pass.end > pass.begin + 1 ? scene.time[pass.end - 1] - scene.time[pass.begin] : 0.0;
     if (pass.c_sign == 0 && lasted > 0.0)
       velocity = (scene.z[pass.end - 1] - scene.z[pass.begin]) / lasted;
     std::fill(scene.speed.begin() + static_cast<long>(pass.begin),
@@ -56,7 +57,8 @@ struct PartFrame {
   double x0, y0, kx, ky, n, sine;
 
   explicit PartFrame(const Axis& axis) {
-    const double secant = std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
+    const double secant =
+        std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
     const double l = axis.slope_x / secant, m = axis.slope_y / secant;
     const auto origin = axis.at(0.0);
     x0 = origin[0], y0 = origin[1], n = 1.0 / secant, sine = std::hypot(l, m);
@@ -160,7 +162,8 @@ void Scene::fill_base(std::size_t begin, std::size_t end, std::span<double* cons
   const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
   const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
   for (std::size_t j = 0; j < columns.size(); ++j) std::fill_n(columns[j], end - begin, 0.0);
-  std::vector<double> turn[2] = {std::vector<double>(end - begin), std::vector<double>(end - begin)};
+  std::vector<double> turn[2] = {std::vector<double>(end - begin),
+                                 std::vector<double>(end - begin)};
   sincos(std::span(c).subspan(begin, end - begin), turn[0], turn[1]);
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t k = i - begin, own = axis[i] * per_axis;

@@ -40,7 +40,7 @@ struct Family {
 /// A hypothesis beside the terms of a model.
 struct Candidate {
   Hypothesis hypothesis;
-  double gain = 0.0;       ///< decrease of the residual sum of squares
+  double gain = 0.0;  ///< decrease of the residual sum of squares
   std::size_t rank = 0;
   double log_p = 0.0;      ///< ln of its own p-value
   double criterion = 0.0;  ///< change of the extended BIC; negative is better
