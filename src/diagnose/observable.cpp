@@ -16,6 +16,7 @@ namespace {
 constexpr double seen = 0.5;           // power below which an effect counts as not observable
 constexpr double no_prior_rad = 1e-2;  // a size for those whose catalogue entry names none
 constexpr double nearly_absorbed = 0.05;
+constexpr double typical_range_mm = 0.5;  // of a gauge, what its nonlinearity is a share of
 
 bool possible(const Effect& effect, const Scene& scene, std::string& why) {
   const auto id = effect.id;
@@ -49,7 +50,7 @@ double size_of(const Effect& effect, const LinearParameter& linear) {
 TermShape typical_shape(const Effect& effect, const Scene& scene) {
   TermShape s;
   s.reference_x_mm = scene.reference_x_mm;
-  s.range_mm = scene.range_x_mm;
+  s.range_mm = std::max(typical_range_mm, scene.range_x_mm);
   s.lever_from_mm = effect.id == "part.chuck_lobing" ? scene.z_mid_mm - scene.z_half_mm : -250.0;
   s.decay_length_mm = 40.0;
   s.time_constant_s = 0.0;
@@ -87,17 +88,12 @@ std::vector<Typical> typical_effects(const Scene& scene) {
               linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0, ""};
     list.push_back(std::move(t));
     Typical other = list.back();
-    if (effect.id == "part.slip") {
-      other.form = "as a turn about its own axis: ";
-      other.hypothesis.keep = {2};
-      other.size = size_of(effect, linear[2]);
-      other.unit = "deg", other.edge = 1.0 / rad_per_deg;
-    } else if (effect.id == "probe.nonlinearity") {
+    if (effect.id == "probe.nonlinearity") {
       other.form = "of the third degree: ";
       other.hypothesis.keep = {1};
     } else if (effect.id == "probe.cyclic") {
-      other.form = "of one period over what is sensed: ";
-      other.hypothesis.shape.period_mm = std::max(sensed_swing(scene), least_swing_mm);
+      other.form = "of a period twice what is sensed: ";
+      other.hypothesis.shape.period_mm = 2.0 * std::max(sensed_swing(scene), least_swing_mm);
     } else {
       continue;
     }
