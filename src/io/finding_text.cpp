@@ -73,7 +73,12 @@ std::string finding_class(const Finding& finding) {
 }
 
 std::string finding_harm(const Finding& finding, double coverage_factor) {
-  const std::string shift = plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
+  constexpr double nothing_mm = 1e-6;
+  const bool nothing =
+      finding.axis_shift.value + coverage_factor * finding.axis_shift.u < nothing_mm;
+  const std::string shift =
+      nothing ? "less than 0.001 µm"
+              : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
   return "left out it moves the axis by " + shift +
          (finding.cosmetic ? ": cosmetic for coaxiality" : "");
 }
