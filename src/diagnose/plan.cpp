@@ -11,7 +11,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t thinned_to = 600;  // readings of what was measured, and of a plan
+constexpr std::size_t thinned_to = 600;   // readings of what was measured
+constexpr double most_readings = 2000.0;  // of a plan, thinned likewise
 constexpr double golden = 0.6180339887498949;
 constexpr double second_speed = 151.0 / 60.0;  // no simple ratio: no order meets a line
 constexpr double jog_mm = 0.1, reindex_rad = 70.0 * rad_per_deg, less_force = 0.5;
@@ -43,17 +44,19 @@ Manner manner_of(const Scene& scene) {
   return m;
 }
 
-/// Appends a motion: `count` readings in `seconds`, C and Z linear in time.
+/// A run of the probe, C and Z linear in time.
 struct Motion {
   double z_from, z_to, turns, seconds;
+  double turned = 0.37;  ///< C from the run before, rad
 };
-void append(ProbeStream& stream, const Motion& motion, int pass, int setup) {
+void append(ProbeStream& stream, const Motion& motion, double readings, int pass, int setup) {
+  const auto count = static_cast<std::size_t>(std::clamp(std::round(readings), 2.0, most_readings));
   const double t0 = stream.time_s.empty() ? 0.0 : stream.time_s.back() + 2.0;
-  const double c0 = stream.c_rad.empty() ? 0.0 : stream.c_rad.back() + 0.37;
-  for (std::size_t k = 0; k < thinned_to; ++k) {
+  const double c0 = stream.c_rad.empty() ? 0.0 : stream.c_rad.back() + motion.turned;
+  for (std::size_t k = 0; k < count; ++k) {
     // A golden sequence, sorted within its own cell: dense, and no order an alias of another.
     const double jitter = std::fmod(golden * static_cast<double>(k), 1.0);
-    const double part = (static_cast<double>(k) + jitter) / static_cast<double>(thinned_to);
+    const double part = (static_cast<double>(k) + jitter) / static_cast<double>(count);
     stream.reading_mm.push_back(0.0);
     stream.c_rad.push_back(c0 + two_pi * motion.turns * part);
     stream.position_mm.push_back(motion.z_from + (motion.z_to - motion.z_from) * part);
@@ -108,7 +111,8 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
   char text[200];
 
   const auto add = [&](const char* code, const std::string& what, double minutes,
-                       const Motion& motion, const std::function<void(Clamping&)>& change) {
+                       const std::vector<Motion>& motions,
+                       const std::function<void(Clamping&)>& change) {
     Plan p{code, what, minutes + minutes_between, before, clampings, weight};
     int number = now.number;
     if (change) {
@@ -117,35 +121,43 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
       change(next);
       p.clampings.push_back(next);
     }
-    append(p.stream, motion, pass, number);
+    int own = pass;
+    for (const Motion& motion : motions) {
+      const double run =
+          motion.turns != 0.0 ? std::abs(motion.turns) : motion.seconds * m.speed / two_pi;
+      append(p.stream, motion, run * m.per_turn / weight, own++, number);
+    }
     list.push_back(std::move(p));
   };
-  const Motion same{m.z_start, m.z_end, turns, m.seconds};
+  const std::vector<Motion> same{{m.z_start, m.z_end, turns, m.seconds}};
   const double pass_minutes = m.seconds / 60.0;
   const bool timed = scene.has_time;
   const bool along = scene.has_position && m.z_start != m.z_end;
   if (along) {
     std::snprintf(text, sizeof text, "probe back from Z %.4g to %.4g mm at %.4g rpm", m.z_end,
                   m.z_start, rpm);
-    add("RZ", text, pass_minutes, {m.z_end, m.z_start, turns, m.seconds}, nullptr);
+    add("RZ", text, pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
   }
   if (timed) {
     std::snprintf(text, sizeof text, "probe back at %.4g rpm, the same feed a turn",
                   rpm * second_speed);
     add("2W", text, pass_minutes / second_speed,
-        {m.z_end, m.z_start, turns, m.seconds / second_speed}, nullptr);
+        {{m.z_end, m.z_start, turns, m.seconds / second_speed}}, nullptr);
     std::snprintf(text, sizeof text, "probe again with the spindle reversed, %.4g rpm",
                   -rpm * m.sign);
-    add("RV", text, pass_minutes, {m.z_start, m.z_end, -turns, m.seconds}, nullptr);
+    add("RV", text, pass_minutes, {{m.z_start, m.z_end, -turns, m.seconds}}, nullptr);
   }
   const double middle = 0.5 * (m.z_start + m.z_end),
                dwell = std::max(10.0, std::min(60.0, m.seconds));
   std::snprintf(text, sizeof text, "dwell %.3g s at Z %.4g mm, %.4g rpm", dwell, middle, rpm);
-  add("DW", text, dwell / 60.0, {middle, middle, m.sign * dwell * m.speed / two_pi, dwell},
+  add("DW", text, dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}},
       nullptr);
   if (timed) {
-    std::snprintf(text, sizeof text, "10 s at Z %.4g mm with the spindle standing still", middle);
-    add("ST", text, 10.0 / 60.0, {middle, middle, 0.0, 10.0}, nullptr);
+    std::snprintf(text, sizeof text,
+                  "10 s at Z %.4g mm with the spindle standing still, and 10 s a quarter turn on",
+                  middle);
+    add("ST", text, 20.0 / 60.0,
+        {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}}, nullptr);
   }
   add("RC", "turn the part by 70° against the spindle, clamp it again and probe it again",
       pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
@@ -153,7 +165,9 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
         // Clamped again the part runs out otherwise: what goes with the eccentricity shows.
         c.shape.axis.x_mm = -c.shape.axis.x_mm + 0.05;
       });
-  add("RE", "probe again from the rear side", pass_minutes + minutes_to_turn_probe, same,
+  const bool behind = now.root == Root::rear;
+  add("RE", behind ? "probe again from the front side" : "probe again from the rear side",
+      pass_minutes + minutes_to_turn_probe, same,
       [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
   if (along) {
     const double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * scene.z_half_mm;

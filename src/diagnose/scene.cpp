@@ -130,10 +130,14 @@ Scene make_scene(const ProbeStream& stream, const std::vector<Clamping>& clampin
   scene.z_half_mm = std::max(0.5 * (high - low), 1e-9);
   if (!scene.has_position || scene.z_half_mm < 1e-3) scene.z_half_mm = 1.0;
   scene.s_ref_mm = scene.z_mid_mm;
+  std::vector<double> outward(scene.sensed);  // as the gauge sees it, which behind is turned round
   double sum = 0.0;
-  for (const double x : scene.sensed) sum += x;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    if (scene.rear[i]) outward[i] = -outward[i];
+    sum += outward[i];
+  }
   scene.reference_x_mm = sum / static_cast<double>(scene.size());
-  const auto [least, most] = range_of(scene.sensed);
+  const auto [least, most] = range_of(outward);
   scene.range_x_mm =
       std::max({most - scene.reference_x_mm, scene.reference_x_mm - least, least_range_mm});
   for (const Clamping& c : clampings) {

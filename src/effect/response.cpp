@@ -76,17 +76,18 @@ Names shapes(const Response& term) {
 }
 
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const double side = at.rear ? -1.0 : 1.0;  // behind, the gauge is turned round
   switch (term.of) {
     case Of::gain:
       for (std::size_t i = 0; i < at.size(); ++i) {
-        out[0][i] = at.sensed_mm[i] - shape.reference_x_mm;
+        out[0][i] = at.sensed_mm[i] - side * shape.reference_x_mm;
       }
       return;
     case Of::nonlinearity:
       for (std::size_t i = 0; i < at.size(); ++i) {
-        const double v = (at.sensed_mm[i] - shape.reference_x_mm) / shape.range_mm;
-        out[0][i] = v * v;
-        out[1][i] = v * v * v;
+        const double v = (side * at.sensed_mm[i] - shape.reference_x_mm) / shape.range_mm;
+        out[0][i] = side * v * v;
+        out[1][i] = side * v * v * v;
       }
       return;
     case Of::cyclic: {

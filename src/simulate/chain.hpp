@@ -55,7 +55,8 @@ struct ProbeLine {
 /// What the sensor knows besides the position.
 struct ResponseState {
   const TrueState& state;
-  Vec3 normal;  ///< out of the material, machine frame; only if Chain::needs_normal
+  double facing = 1.0;  ///< of the gauge: −1 behind, where it is turned round
+  Vec3 normal;          ///< out of the material, machine frame; only if Chain::needs_normal
 };
 
 /// The measuring chain of a scenario: one list of terms a slot.

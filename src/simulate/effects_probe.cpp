@@ -25,8 +25,10 @@ constexpr EffectParameter gain_parameters[] = {{"gain", {}}, {"reference_mm", {}
 
 void enter_gain(const Values& of, Chain& chain) {
   const double g = of("gain"), reference = of("reference_mm");
-  chain.response.push_back(
-      [=](double x, const ResponseState&) { return reference + (1.0 + g) * (x - reference); });
+  chain.response.push_back([=](double x, const ResponseState& sensor) {
+    const double outward = sensor.facing * x;
+    return sensor.facing * (reference + (1.0 + g) * (outward - reference));
+  });
 }
 
 constexpr EffectParameter nonlinearity_parameters[] = {
@@ -35,9 +37,9 @@ constexpr EffectParameter nonlinearity_parameters[] = {
 void enter_nonlinearity(const Values& of, Chain& chain) {
   const double c2 = of("quadratic_mm"), c3 = of("cubic_mm");
   const double reference = of("reference_mm"), range = of("range_mm");
-  chain.response.push_back([=](double x, const ResponseState&) {
-    const double v = (x - reference) / range;
-    return x + c2 * v * v + c3 * v * v * v;
+  chain.response.push_back([=](double x, const ResponseState& sensor) {
+    const double v = (sensor.facing * x - reference) / range;
+    return x + sensor.facing * (c2 * v * v + c3 * v * v * v);
   });
 }
 

@@ -118,7 +118,7 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
 
   CleanReading reading;
   reading.value_mm = side_ * *q + state.across_mm + (face ? state.part_z_mm : state.part_x_mm);
-  ResponseState sensor{state, {}};
+  ResponseState sensor{state, side_, {}};
   if (chain_.needs_normal || with_incidence) {
     const Vec3 n = outward_ * normal_at(gap, line.at(*q));
     const double along = dot(n, line.direction);

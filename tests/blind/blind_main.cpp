@@ -121,11 +121,13 @@ void run(const Arguments& arguments) {
 
   nlohmann::json json = json_of(all);
   json["seed"] = arguments.seed;
-  nlohmann::json wrong = nlohmann::json::array();
+  nlohmann::json wrong = nlohmann::json::array(), open = nlohmann::json::array();
   for (const Result& result : results) {
     if (result.score.outcome != Outcome::correct) wrong.push_back(line_of(result));
+    if (result.advice_taken && !result.advice_resolved) open.push_back(line_of(result));
   }
   json["not_right"] = wrong;
+  json["not_resolved"] = open;
   if (arguments.detection > 0) {
     options.progress = nullptr;
     const auto curve = detection_curve({8, 14, 20, 26, 32, 40, 50, 64}, arguments.detection,

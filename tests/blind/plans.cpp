@@ -162,8 +162,13 @@ std::optional<Scenario> with_measurement(Scenario scenario, std::string_view cod
   virtual_lathe::Plan& plan = scenario.plan;
   int setups = 1;
   for (const PlannedPass& pass : plan.passes) setups = std::max(setups, pass.setup);
-  PlannedPass again = helical(2.837, slow_rpm, false);
-  PlannedPass back = helical(2.837, slow_rpm, true);
+  // As the part is clamped now.
+  const int now = plan.passes.back().setup;
+  Chucking as_it_is;
+  for (const Chucking& s : plan.setups)
+    if (s.number == now) as_it_is = s;
+  PlannedPass again = in_setup(helical(2.837, slow_rpm, false), now);
+  PlannedPass back = in_setup(helical(2.837, slow_rpm, true), now);
   const auto in_new_setup = [&](const Chucking& setup) {
     plan.setups.push_back(setup);
     plan.passes.push_back(in_setup(again, setup.number));
@@ -180,13 +185,18 @@ std::optional<Scenario> with_measurement(Scenario scenario, std::string_view cod
     back.speed_rpm = fast_rpm;
     plan.passes.push_back(back);
   } else if (code == "DW") {
-    plan.passes.push_back(dwell());
+    plan.passes.push_back(in_setup(dwell(), now));
   } else if (code == "ST") {
-    plan.passes.push_back(stationary());
+    PlannedPass quarter = dwell();
+    quarter.revolutions = 0.25;
+    for (const PlannedPass& pass : {stationary(), quarter, stationary()})
+      plan.passes.push_back(in_setup(pass, now));
   } else if (code == "RC") {
     in_new_setup(rechucked(next, 1));
   } else if (code == "RE") {
-    in_new_setup(from_behind(next));
+    setup = as_it_is;
+    setup.number = next, setup.rear = !as_it_is.rear;
+    in_new_setup(setup);
   } else if (code == "OZ") {
     setup = clamped_anew(next, 1);
     setup.z_shift_mm = 7.3;
@@ -196,7 +206,8 @@ std::optional<Scenario> with_measurement(Scenario scenario, std::string_view cod
     setup.clamp_force_ratio = 0.5;
     in_new_setup(setup);
   } else if (code == "XJ") {
-    setup.x_jog_mm = 0.1;
+    setup = as_it_is;
+    setup.number = next, setup.x_jog_mm += 0.1;
     in_new_setup(setup);
   } else {
     return std::nullopt;

@@ -48,6 +48,8 @@ Answer read_answer(const Json& json) {
   Answer answer;
   for (const Json& finding : json.at("findings")) {
     answer.classes.push_back(finding.at("class").get<std::vector<std::string>>());
+    const Json with = finding.value("separate_with", Json());
+    answer.separators.push_back(with.is_object() ? with.value("plan", "") : "");
     const std::string named = finding.at("effect");
     if (answer.classes.back().empty() || answer.classes.back().front() != named) {
       throw std::runtime_error("class of " + named + " does not begin with it");
@@ -61,8 +63,6 @@ Answer read_answer(const Json& json) {
     const Json with = absorbed.value("separate_with", Json());
     answer.not_observable[absorbed.at("effect")] = with.is_object() ? with.value("plan", "") : "";
   }
-  const Json next = json.value("next_measurement", Json::object());
-  if (next.contains("plan") && next.at("plan").is_string()) answer.next_plan = next.at("plan");
   if (json.contains("threshold") && json.at("threshold").is_number()) {
     answer.threshold = json.at("threshold");
   }

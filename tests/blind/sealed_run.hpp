@@ -14,11 +14,11 @@ namespace trueaxis::blind {
 /// What the command said of a stream, as far as it is judged.
 struct Answer {
   int exit_code = -1;
-  std::string text;                                   ///< of a crash
-  std::vector<std::vector<std::string>> classes;      ///< of the findings, the named one first
-  std::vector<std::string> unexplained;               ///< "3 UPR, constant along Z"
+  std::string text;                               ///< of a crash
+  std::vector<std::vector<std::string>> classes;  ///< of the findings, the named one first
+  std::vector<std::string> separators;   ///< of each class: its separate_with.plan, or empty
+  std::vector<std::string> unexplained;  ///< "3 UPR, constant along Z"
   std::map<std::string, std::string> not_observable;  ///< id → measurement that would show it
-  std::string next_plan;                              ///< next_measurement.plan
   double threshold = 0.0;  ///< of a statistic with two degrees of freedom
   double seconds = 0.0;    ///< of the process
 

@@ -19,7 +19,8 @@ struct Result {
   Score score;
   /// Of a followed advice: the measurement, and what the command said with it.
   std::string advice;
-  bool advice_taken = false, advice_resolved = false;
+  bool advice_wanted = false, advice_taken = false, advice_resolved = false;
+  Answer advised;  ///< with the measurement added
 };
 
 struct StudyOptions {

@@ -74,6 +74,7 @@ Tally tally(const std::vector<Result>& results) {
       if (member.distance < demanded_distance) ++all.members_strict;
       if (!(member.distance < allowed_distance)) ++all.members_excluded;
     }
+    all.advice_wanted += result.advice_wanted;
     if (result.advice_taken) {
       ++all.advice_taken, ++all.advice[result.advice].first;
       if (result.advice_resolved) ++all.advice_resolved, ++all.advice[result.advice].second;
@@ -97,9 +98,11 @@ std::string text_of(const Tally& all) {
                   all.members, all.members_strict, all.members_excluded);
   if (all.advice_taken > 0) {
     const Share at = share(all.advice_resolved, all.advice_taken);
-    text += printed("advice followed %zu times, resolved %zu: %.1f %% [%.1f, %.1f], goal %.0f %%\n",
-                    all.advice_taken, all.advice_resolved, 100.0 * at.value, 100.0 * at.low,
-                    100.0 * at.high, 100.0 * advice_goal);
+    text += printed(
+        "a measurement wanted %zu times, recommended and taken %zu, resolved %zu: %.1f %% "
+        "[%.1f, %.1f], goal %.0f %%\n",
+        all.advice_wanted, all.advice_taken, all.advice_resolved, 100.0 * at.value, 100.0 * at.low,
+        100.0 * at.high, 100.0 * advice_goal);
   }
   text += printed("%.0f ms a diagnosis, its process included\n",
                   1e3 * all.seconds / static_cast<double>(std::max<std::size_t>(1, all.cases)));
@@ -128,7 +131,8 @@ Json json_of(const Tally& all) {
             {"strict", all.members_strict},
             {"excluded", all.members_excluded}}},
           {"advice",
-           {{"taken", all.advice_taken},
+           {{"wanted", all.advice_wanted},
+            {"taken", all.advice_taken},
             {"resolved", all.advice_resolved},
             {"rate", resolved.value},
             {"low", resolved.low},
@@ -177,6 +181,15 @@ std::string line_of(const Result& result) {
     line += " ]";
   }
   for (const std::string& cell : result.answer.unexplained) line += " unexplained (" + cell + ')';
+  if (result.advice_taken) {
+    line += "; with " + result.advice + ':';
+    for (const auto& members : result.advised.classes) {
+      line += " [";
+      for (const std::string& id : members) line += ' ' + id;
+      line += " ]";
+    }
+    if (result.advised.classes.empty()) line += " nothing";
+  }
   for (const Member& member : result.score.members) {
     if (member.distance >= demanded_distance) {
       line += printed(" d(%s)=%.1f", member.effect.c_str(), member.distance);

@@ -31,7 +31,7 @@ struct Tally {
   std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth → named → count
   std::size_t members = 0, members_strict = 0;  ///< listed rivals; those with d < 3.29
   std::size_t members_excluded = 0;             ///< those with d ≥ 6.6
-  std::size_t advice_taken = 0, advice_resolved = 0;
+  std::size_t advice_wanted = 0, advice_taken = 0, advice_resolved = 0;
   std::map<std::string, std::pair<std::size_t, std::size_t>> advice;  ///< plan → taken, resolved
   double seconds = 0.0;                                               ///< of the command, all cases
   std::size_t cases = 0;
