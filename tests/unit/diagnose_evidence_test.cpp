@@ -42,6 +42,13 @@ struct Bench {
     deviation = testing::white_noise(stream.size(), 0.01, 8);
   }
 
+  double floor_mm() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < stream.size(); ++i)
+      sum += rows.used[i] ? deviation[i] * deviation[i] : 0.0;
+    return std::max(1e-6, 5e-4 * std::sqrt(sum / static_cast<double>(stream.size())));
+  }
+
   /// Unbroken used readings before i: one pass, one clock.
   std::size_t before(std::size_t i) const {
     const std::size_t pass = stream.size() / 2, gap = pass / 2;
@@ -69,9 +76,11 @@ struct Bench {
   }
 };
 
-// Both sums have rounding of N units in the last place of the columns' sizes.
-void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, const char* what) {
-  const MatrixXd expected = dense.transpose() * dense;
+// Both sums have rounding of N units in the last place of the columns' sizes. The readings' own
+// square has a floor a row beside it: a nanometre, or 5e-4 of their root mean square.
+void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, double floor_mm, const char* what) {
+  MatrixXd expected = dense.transpose() * dense;
+  expected(0, 0) += floor_mm * floor_mm * static_cast<double>(dense.rows());
   ASSERT_EQ(gram.rows(), expected.rows()) << what;
   for (Index i = 0; i < gram.rows(); ++i) {
     for (Index j = 0; j < gram.cols(); ++j) {
@@ -82,11 +91,13 @@ void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, const char* w
   }
 }
 
+enum : bool { sum_alone = false, with_blocks = true };
+
 class EvidenceOf : public ::testing::TestWithParam<std::vector<double>> {};
 
 TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
   const Bench b(1301);
-  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1);
+  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1, with_blocks);
   const std::vector<Hypothesis> list = some_hypotheses();
   const auto places = evidence.append(list);
   ASSERT_EQ(places.size(), list.size());
@@ -95,41 +106,49 @@ TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
   EXPECT_EQ(places[3], (Columns{12, 13}));
   const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
   EXPECT_EQ(evidence.count(), static_cast<std::size_t>(all.rows()));
-  expect_same_gram(evidence.total(), all, "total");
+  expect_same_gram(evidence.total(), all, b.floor_mm(), "total");
   ASSERT_GE(evidence.folds().size(), 25u);  // about thirty blocks
   for (std::size_t f = 0; f < evidence.folds().size(); f += 5)
     expect_same_gram(
         evidence.folds()[f],
-        b.dense(list, GetParam(), b.rows.fold_begin[f], b.rows.fold_begin[f + 1]), "a block");
+        b.dense(list, GetParam(), b.rows.fold_begin[f], b.rows.fold_begin[f + 1]),
+        b.floor_mm(), "a block");
+  Evidence alone(b.scene, b.rows, b.deviation, GetParam(), 1, sum_alone);
+  alone.append(list);
+  expect_same_gram(alone.total(), all, b.floor_mm(), "the sum alone");
 }
 
 TEST_P(EvidenceOf, AppendsAndShrinks) {
   const Bench b(700);
   const std::vector<Hypothesis> list = some_hypotheses();
-  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1);
+  const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
+  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1, with_blocks);
   const MatrixXd bare = evidence.total();
   evidence.append(std::span(list).first(2));
   const MatrixXd two = evidence.total();
   evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), b.dense(list, GetParam(), 0, b.stream.size()), "in two steps");
+  expect_same_gram(evidence.total(), all, b.floor_mm(), "in two steps");
   evidence.shrink(static_cast<std::size_t>(two.rows()));
   EXPECT_EQ(evidence.total(), two);
   evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), b.dense(list, GetParam(), 0, b.stream.size()), "again");
+  expect_same_gram(evidence.total(), all, b.floor_mm(), "again");
   evidence.shrink(static_cast<std::size_t>(bare.rows()));
   EXPECT_EQ(evidence.total(), bare);
   for (const MatrixXd& fold : evidence.folds()) EXPECT_EQ(fold.rows(), bare.rows());
 }
 
 TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
-  const Bench b(12000);  // above the size from which helpers are started
+  const Bench b(24000);  // two passes: above the size from which the sum alone is shared out
   const std::vector<Hypothesis> list = some_hypotheses();
-  MatrixXd first;
-  for (const int threads : {1, 2, 5}) {
-    Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), threads);
-    evidence.append(list);
-    if (threads == 1) first = evidence.total();
-    EXPECT_EQ(evidence.total(), first) << threads;  // every bit
+  for (const bool blocks : {with_blocks, sum_alone}) {
+    MatrixXd first;
+    for (const int threads : {1, 2, 5}) {
+      Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), threads, blocks);
+      evidence.append(list);
+      if (threads == 1) first = evidence.total();
+      EXPECT_GE(evidence.folds().size(), blocks ? 25u : 2u);
+      EXPECT_EQ(evidence.total(), first) << threads;  // every bit
+    }
   }
 }
 
