@@ -5,8 +5,8 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/non_central_f.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/non_central_f.hpp>
 #include <cmath>
 #include <iostream>
 
@@ -33,7 +33,8 @@ struct Bench {
   std::vector<Hypothesis> lobes{testing::roundness(3)};
 
   std::vector<double> deviation(double amplitude_mm, double phase, int stream) const {
-    auto y = testing::white_noise(scene.size(), sigma_mm, seed + 100003u * static_cast<std::uint64_t>(stream));
+    auto y = testing::white_noise(scene.size(), sigma_mm,
+                                  seed + 100003u * static_cast<std::uint64_t>(stream));
     // Along the normal: on a cone of tan α = 0.1 the probe sees secα of it.
     const double along = std::sqrt(1.01);
     for (std::size_t i = 0; i < y.size(); ++i)
@@ -48,7 +49,8 @@ struct Bench {
 TEST(PowerOfOneCause, IsTheTable) {
   std::cout << "seed " << seed << ", " << streams << " streams a point\n";
   const Bench b;
-  const Point table[] = {{0.0, level}, {0.81, 0.5}, {1.14, 0.8}, {1.30, 0.9}, {1.44, 0.95}, {1.69, 0.99}};
+  const Point table[] = {{0.0, level}, {0.81, 0.5},  {1.14, 0.8},
+                         {1.30, 0.9},  {1.44, 0.95}, {1.69, 0.99}};
   const auto n = static_cast<double>(b.scene.size());
   int number = 0;
   for (const Point& point : table) {

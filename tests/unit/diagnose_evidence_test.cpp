@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/evidence.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "diagnose/evidence.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -42,13 +41,6 @@ struct Bench {
     deviation = testing::white_noise(stream.size(), 0.01, 8);
   }
 
-  double floor_mm() const {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < stream.size(); ++i)
-      sum += rows.used[i] ? deviation[i] * deviation[i] : 0.0;
-    return std::max(1e-6, 5e-4 * std::sqrt(sum / static_cast<double>(stream.size())));
-  }
-
   /// Unbroken used readings before i: one pass, one clock.
   std::size_t before(std::size_t i) const {
     const std::size_t pass = stream.size() / 2, gap = pass / 2;
@@ -77,15 +69,15 @@ struct Bench {
 };
 
 // Both sums have rounding of N units in the last place of the columns' sizes. The readings' own
-// square has a floor a row beside it: a nanometre, or 5e-4 of their root mean square.
-void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, double floor_mm, const char* what) {
-  MatrixXd expected = dense.transpose() * dense;
-  expected(0, 0) += floor_mm * floor_mm * static_cast<double>(dense.rows());
+// square has a floor beside it, of at most 5e-4 of their root mean square.
+void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, const char* what) {
+  const MatrixXd expected = dense.transpose() * dense;
   ASSERT_EQ(gram.rows(), expected.rows()) << what;
   for (Index i = 0; i < gram.rows(); ++i) {
     for (Index j = 0; j < gram.cols(); ++j) {
+      const double rounding = i == 0 && j == 0 ? 1e-6 : 1e-12;
       EXPECT_NEAR(gram(i, j), expected(i, j),
-                  1e-12 * std::sqrt(expected(i, i) * expected(j, j)) + 1e-300)
+                  rounding * std::sqrt(expected(i, i) * expected(j, j)) + 1e-300)
           << what << " " << i << " " << j;
     }
   }
@@ -106,16 +98,15 @@ TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
   EXPECT_EQ(places[3], (Columns{12, 13}));
   const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
   EXPECT_EQ(evidence.count(), static_cast<std::size_t>(all.rows()));
-  expect_same_gram(evidence.total(), all, b.floor_mm(), "total");
+  expect_same_gram(evidence.total(), all, "total");
   ASSERT_GE(evidence.folds().size(), 25u);  // about thirty blocks
   for (std::size_t f = 0; f < evidence.folds().size(); f += 5)
-    expect_same_gram(
-        evidence.folds()[f],
-        b.dense(list, GetParam(), b.rows.fold_begin[f], b.rows.fold_begin[f + 1]),
-        b.floor_mm(), "a block");
+    expect_same_gram(evidence.folds()[f],
+                     b.dense(list, GetParam(), b.rows.fold_begin[f], b.rows.fold_begin[f + 1]),
+                     "a block");
   Evidence alone(b.scene, b.rows, b.deviation, GetParam(), 1, sum_alone);
   alone.append(list);
-  expect_same_gram(alone.total(), all, b.floor_mm(), "the sum alone");
+  expect_same_gram(alone.total(), all, "the sum alone");
 }
 
 TEST_P(EvidenceOf, AppendsAndShrinks) {
@@ -127,11 +118,11 @@ TEST_P(EvidenceOf, AppendsAndShrinks) {
   evidence.append(std::span(list).first(2));
   const MatrixXd two = evidence.total();
   evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), all, b.floor_mm(), "in two steps");
+  expect_same_gram(evidence.total(), all, "in two steps");
   evidence.shrink(static_cast<std::size_t>(two.rows()));
   EXPECT_EQ(evidence.total(), two);
   evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), all, b.floor_mm(), "again");
+  expect_same_gram(evidence.total(), all, "again");
   evidence.shrink(static_cast<std::size_t>(bare.rows()));
   EXPECT_EQ(evidence.total(), bare);
   for (const MatrixXd& fold : evidence.folds()) EXPECT_EQ(fold.rows(), bare.rows());
@@ -155,6 +146,23 @@ TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
 INSTANTIATE_TEST_SUITE_P(Noise, EvidenceOf,
                          ::testing::Values(std::vector<double>{}, std::vector<double>{0.6},
                                            std::vector<double>{0.5, 0.3}));
+
+// A gauge reads from its own zero, which the base takes in whole: it is neither noise nor floor.
+TEST(EvidenceFloor, DoesNotCountWhatTheBaseTakes) {
+  BaseKind gauge = testing::bench_base(0.0);
+  gauge.offset = true;
+  const Scene scene = make_scene(testing::arguments({.readings = 700}),
+                                 {testing::bench_clamping(0.0)}, gauge, false);
+  const Rows rows = make_rows(scene);
+  const auto rss = [&](double zero_mm) {
+    std::vector<double> deviation = testing::white_noise(scene.size(), 0.5e-3, 8);
+    for (double& v : deviation) v += zero_mm;
+    const Evidence evidence(scene, rows, deviation, {}, 1);
+    return project(evidence.total(), evidence.base()).rss;
+  };
+  // Rounding of the Gram matrix: 1e-16 of (zero/σ)² = 1e9, times √N and some.
+  EXPECT_NEAR(rss(-14.5) / rss(0.0), 1.0, 1e-4);
+}
 
 }  // namespace
 }  // namespace trueaxis

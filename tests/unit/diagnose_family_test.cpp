@@ -52,7 +52,7 @@ TEST(FamilyOfTests, IsMonotone) {
   }
 }
 
-// The largest of a periodogram of white noise, drawn: Rice's rate (Baluev 2008, eq. 6) is an upper
+// The largest of a periodogram of white noise, drawn: Rice's rate (Baluev 2008) is an upper
 // bound that is close at 5 %: the share may be a fifth below it, and above it only within the
 // binomial interval.
 TEST(FamilyOfTests, BandwidthIsThatOfAPeriodogram) {
@@ -64,8 +64,8 @@ TEST(FamilyOfTests, BandwidthIsThatOfAPeriodogram) {
   Eigen::MatrixXd cosine(bins, count), sine(bins, count);
   for (Eigen::Index k = 0; k < bins; ++k) {
     for (Eigen::Index i = 0; i < count; ++i) {
-      const double angle = two_pi * (lowest + static_cast<double>(k) / (count * finer)) *
-                           static_cast<double>(i);
+      const double angle =
+          two_pi * (lowest + static_cast<double>(k) / (count * finer)) * static_cast<double>(i);
       cosine(k, i) = std::cos(angle), sine(k, i) = std::sin(angle);
     }
   }
@@ -108,7 +108,8 @@ TEST(DetectionPower, IsTheTailOfTheNoncentralChiSquared) {
                   mixture(lambda, static_cast<double>(q), threshold), 1e-9)
           << lambda << " " << q;
       const boost::math::non_central_chi_squared direct(static_cast<double>(q), lambda);
-      EXPECT_NEAR(detection_power(lambda, q, family, 0.01), cdf(complement(direct, threshold)), 1e-9);
+      EXPECT_NEAR(detection_power(lambda, q, family, 0.01), cdf(complement(direct, threshold)),
+                  1e-9);
     }
   }
   EXPECT_EQ(detection_power(0.0, 2, family, 0.01), 0.01);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/noise.hpp"
-
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/binomial.hpp>
@@ -9,6 +7,7 @@
 #include <iostream>
 #include <set>
 
+#include "diagnose/noise.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -46,8 +45,8 @@ TEST_P(Correlation, IsFoundBesideAStrongHarmonic) {
   const double error = std::sqrt((1.0 - rho * rho) / n);
   double sum = 0.0;
   for (int s = 0; s < streams; ++s) {
-    const auto y = b.with_lobes(testing::correlated_noise(
-        b.scene.size(), sigma_mm, rho, seed + static_cast<std::uint64_t>(s)));
+    const auto y = b.with_lobes(testing::correlated_noise(b.scene.size(), sigma_mm, rho,
+                                                          seed + static_cast<std::uint64_t>(s)));
     const std::vector<double> found = autoregression(b.scene, b.rows, y, cells);
     ASSERT_FALSE(found.empty()) << s;
     // Of a second order φ₁/(1 − φ₂) is the correlation of neighbours.
@@ -91,8 +90,8 @@ std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) 
   return out;
 }
 
-// Far out is 8 σ of the MAD: chips of 20 σ are masked beside noise of one and lobes of 50 σ; of 1500
-// white readings none comes near 8 σ.
+// Far out is 8 σ of the MAD: chips of 20 σ are masked beside noise of one and lobes of 50 σ; of
+// 1500 white readings none comes near 8 σ.
 TEST(MaskOutliers, MasksChipsAndNothingElse) {
   const Bench b;
   std::vector<double> y = b.with_lobes(testing::white_noise(b.scene.size(), sigma_mm, seed));
@@ -105,7 +104,8 @@ TEST(MaskOutliers, MasksChipsAndNothingElse) {
   EXPECT_EQ(masked_rows(b, y), chips);
   const std::vector<double> six = [&] {
     std::vector<double> v = testing::white_noise(b.scene.size(), 0.1 * sigma_mm, seed);
-    const std::vector<double> alternating = testing::white_noise(b.scene.size(), sigma_mm, seed + 1);
+    const std::vector<double> alternating =
+        testing::white_noise(b.scene.size(), sigma_mm, seed + 1);
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += alternating[i];
     for (std::size_t i = 31; i < v.size(); i += 97) v[i] = 5.5 * sigma_mm;
     return v;

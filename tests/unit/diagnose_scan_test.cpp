@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/scan.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
+#include "diagnose/scan.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -21,7 +20,7 @@ constexpr std::uint64_t seed = 4;
 struct LineCase {
   const char* id;  ///< nullptr: a pattern
   Pattern pattern;
-  double frequency;                  ///< cycles per rad of C, s, mm
+  double frequency;                   ///< cycles per rad of C, s, mm
   std::vector<double> Scene::*along;  ///< what it is periodic in
 };
 
@@ -72,7 +71,8 @@ class ScannedLine : public ::testing::TestWithParam<std::tuple<LineCase, double>
 // A line of 20 σ²-units per reading's worth: λ = N/2 (0.5)² ≈ 225, the tallest of its own scan.
 // - peak: within half a cell 1/T of the truth, of which a quarter is the bins' and the rest of what
 //   noise moves it (√6/(π √λ) cells, 0.05);
-// - gain: the two sums of a scan forget what cos and sin share, of order 1/(cycles), and the ends of
+// - gain: the two sums of a scan forget what cos and sin share, of order 1/(cycles), and the ends
+// of
 //   whitening: within 5 % of QR at the same frequency;
 // - a bin of 0.4 cells misses at most 1 − sinc²(0.2) = 12.5 % of the best gain.
 TEST_P(ScannedLine, IsFoundWithItsGain) {
@@ -84,10 +84,11 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
   const Hypothesis truth = hypothesis_of(c, c.frequency);
   const Eigen::MatrixXd columns =
       testing::explicit_columns(b.scene, std::vector<Hypothesis>{truth}).rightCols(2);
-  const double size = 0.5 * sigma_mm * std::sqrt(0.5 * static_cast<double>(b.scene.size())) /
-                      columns.col(0).norm();
+  const double size =
+      0.5 * sigma_mm * std::sqrt(0.5 * static_cast<double>(b.scene.size())) / columns.col(0).norm();
   for (std::size_t i = 0; i < y.size(); ++i)
-    y[i] += size * (0.8 * columns(static_cast<Index>(i), 0) - 0.6 * columns(static_cast<Index>(i), 1));
+    y[i] +=
+        size * (0.8 * columns(static_cast<Index>(i), 0) - 0.6 * columns(static_cast<Index>(i), 1));
   const Evidence evidence(b.scene, b.rows, y, phi, 1);
   const Scans scans = scan_lines(evidence, b.resolution, y);
   const Peak* best = nullptr;
@@ -114,20 +115,19 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, ScannedLine,
     ::testing::Combine(
-        ::testing::Values(
-            LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &Scene::c},
-            LineCase{"environment.vibration", {}, 7.31, &Scene::time},
-            LineCase{"part.waviness", {}, 1.0 / 7.3, &Scene::s},
-            LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &Scene::z},
-            LineCase{"part.feed_marks", {}, 1.0 / 0.87, &Scene::s},
-            LineCase{nullptr,
-                     {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
-                     0.057,
-                     &Scene::s},
-            LineCase{nullptr,
-                     {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
-                     0.083,
-                     &Scene::s}),
+        ::testing::Values(LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &Scene::c},
+                          LineCase{"environment.vibration", {}, 7.31, &Scene::time},
+                          LineCase{"part.waviness", {}, 1.0 / 7.3, &Scene::s},
+                          LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &Scene::z},
+                          LineCase{"part.feed_marks", {}, 1.0 / 0.87, &Scene::s},
+                          LineCase{nullptr,
+                                   {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
+                                   0.057,
+                                   &Scene::s},
+                          LineCase{nullptr,
+                                   {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
+                                   0.083,
+                                   &Scene::s}),
         ::testing::Values(0.0, 0.5)));
 
 // Σ W over the scans that count, W = Δf √(4π var x): of one pass C, Z and t are one variable and

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/scene.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "diagnose/scene.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -14,7 +13,8 @@ namespace {
 
 using namespace diagnose_detail;
 
-/// Two clampings, each probed on the side it says: the second re-indexed, shifted, jogged and moved.
+/// Two clampings, each probed on the side it says: the second re-indexed, shifted, jogged and
+/// moved.
 struct Bench {
   double tangent;
   Root first_side, second_side;
@@ -69,8 +69,8 @@ Revolved nudged(const Revolved& shape, const Clamping& clamping, const Scene& sc
     }
     return out;
   }
-  const double secant = std::sqrt(1.0 + out.axis.slope_x * out.axis.slope_x +
-                                  out.axis.slope_y * out.axis.slope_y);
+  const double secant =
+      std::sqrt(1.0 + out.axis.slope_x * out.axis.slope_x + out.axis.slope_y * out.axis.slope_y);
   out.tan_half_angle += by;
   // s of the part is 0 at z_shift beyond the axis' point at z = 0.
   out.radius_mm += by * (scene.z_mid_mm * secant - clamping.z_shift_mm - scene.s_ref_mm);
@@ -85,8 +85,8 @@ class SceneOf : public ::testing::TestWithParam<std::tuple<double, Root, Root>> 
 };
 
 // Central differences of the exact intersection with a step h err by h²/6 of the third derivative
-// and by rounding, 1e-16 × 40 mm/h: below 1e-7 of the lever for the steps chosen. What is left out is
-// the square of the tilt, 2e-5: slopes are tangents, s runs along the axis.
+// and by rounding, 1e-16 × 40 mm/h: below 1e-7 of the lever for the steps chosen. What is left out
+// is the square of the tilt, 2e-5: slopes are tangents, s runs along the axis.
 TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
   const Bench b = bench();
   const Scene scene = b.scene();
@@ -123,8 +123,7 @@ TEST_P(SceneOf, ContactsAreInThePartsFrame) {
   for (std::size_t i = 0; i < scene.size(); i += 7) {
     const Clamping& clamping = b.of(i);
     const Axis& axis = clamping.shape.axis;
-    const double x =
-        intersect(clamping.shape, scene.c[i], scene.z[i], 0.0, clamping.root).x_mm;
+    const double x = intersect(clamping.shape, scene.c[i], scene.z[i], 0.0, clamping.root).x_mm;
     const Eigen::Vector3d along = Eigen::Vector3d(axis.slope_x, axis.slope_y, 1.0).normalized();
     const Eigen::Vector3d contact(x * std::cos(scene.c[i]), x * std::sin(scene.c[i]), scene.z[i]);
     const Eigen::Vector3d own =
