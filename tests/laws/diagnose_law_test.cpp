@@ -131,6 +131,28 @@ double largest_size(const LatheCase& c) {
 
 class EveryEffect : public ::testing::TestWithParam<LatheCase> {};
 
+/// Whose sizes are what one chooses beside them: jaws' beyond the probed length their place, a
+/// sensor's its zero and range, a drift's that is both linear and exponential the part of each.
+bool told_in_other_words(const std::string& id) {
+  return id == "part.chuck_lobing" || id == "probe.gain" || id == "probe.nonlinearity" ||
+         id == "thermal.drift";
+}
+
+/// Parameters of the finding that bears the planted effect's name, beside what was planted:
+/// lengths, times and pure numbers (an angle has a zero of its own).
+void expect_planted_sizes(const Finding& finding, const std::map<std::string, double>& planted) {
+  if (told_in_other_words(finding.effect)) return;
+  for (const auto& [key, truth] : planted) {
+    for (const FitParameter& p : finding.parameters) {
+      const std::string& unit = p.estimate.unit;
+      if (key != p.name + '_' + unit && !(unit == "1" && key == p.name)) continue;
+      // 4 u, and the second order: below a twentieth of the first (lathe_cases.hpp).
+      EXPECT_NEAR(p.estimate.value, truth, 4.0 * p.estimate.u + 0.05 * std::abs(truth))
+          << finding.effect << ' ' << key;
+    }
+  }
+}
+
 /// A statistic of 28 is found with power one half (effects.md): 5.3 σ of what the surface leaves.
 /// At five times that every naming is right with Φ(d/2), d = 26, unless the rival is a twin; at
 /// twenty times what is left out looks most like autocorrelation of the noise.
@@ -154,11 +176,28 @@ TEST_P(EveryEffect, IsFoundWithItsCauseInTheClassOrCannotBeSeen) {
     std::cout << t << " times: " << classes_of(found) << '\n';
     EXPECT_NE(finding_with(found, c.id), nullptr)
         << c.id << " of " << t * detectable << ": " << classes_of(found);
+    for (const Finding& f : found.findings)
+      if (f.effect == c.id) expect_planted_sizes(f, c.lathe(t * detectable));
   }
   if (seen || c.id == "part.taper") return;  // a taper of a cone is its angle, and no effect
   const Diagnosis nothing = bench.diagnosis({});
   EXPECT_TRUE(std::ranges::any_of(nothing.not_observable,
                                   [&](const NotObservable& n) { return n.effect == c.id; }));
+}
+
+// A scale's period seen from the front and from the rear, 80 mm apart: the fringes of the two
+// stretches, p²/80 mm = 3 µm from each other, are not to be mistaken for one another.
+TEST(ScaleSeenFromBothSides, PeriodIsTrue) {
+  std::cout << "seed " << seed << '\n';
+  constexpr double period_mm = 0.5;
+  const Bench bench(all_passes(0.1));
+  const Diagnosis found = bench.diagnosis(
+      {{"probe.cyclic", {{"amplitude_mm", 2.3e-3}, {"period_mm", period_mm}, {"phase_rad", phi}}}});
+  const Finding* f = finding_with(found, "probe.cyclic");
+  ASSERT_NE(f, nullptr);
+  const Estimate* period = parameter_of(*f, "period");
+  ASSERT_NE(period, nullptr);
+  EXPECT_NEAR(period->value, period_mm, 4.0 * period->u);
 }
 
 std::string case_name(const ::testing::TestParamInfo<LatheCase>& info) {

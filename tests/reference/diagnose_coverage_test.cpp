@@ -17,10 +17,10 @@ namespace trueaxis {
 namespace {
 
 constexpr std::uint64_t seed = 31000;
-constexpr int streams = 200;
+constexpr int streams = 400;
 constexpr double sigma_mm = 0.01;
 
-// At 1 % a stream the count exceeds the limit with probability 1e-4 (7 of 200).
+// At 1 % a stream the count exceeds the limit with probability 1e-4 (13 of 400).
 TEST(DiagnoseWhiteNoise, AlarmsAtItsLevel) {
   std::cout << "seeds " << seed << " …, " << streams << " streams\n";
   virtual_lathe::Scenario scenario = testing::one_pass(0.1, 20.0, sigma_mm);
