@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "diagnose/causes.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/math/statistics.hpp"
 
@@ -83,14 +84,24 @@ std::vector<Typical> typical_effects(const Scene& scene) {
     const auto linear = linear_parameters(effect.term, shape);
     Typical t{of_effect(effect.id.data(), shape, typical_keep(effect.id)),
               size_of(effect, linear[0]), linear[0].unit == "rad" ? "deg" : linear[0].unit,
-              linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0};
+              linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0, ""};
     list.push_back(std::move(t));
-    if (effect.id != "part.slip") continue;
-    Typical turned = list.back();  // about its own axis
-    turned.hypothesis.keep = {2};
-    turned.size = size_of(effect, linear[2]);
-    turned.unit = "deg", turned.edge = 1.0 / rad_per_deg;
-    list.push_back(std::move(turned));
+    Typical other = list.back();
+    if (effect.id == "part.slip") {
+      other.form = "as a turn about its own axis: ";
+      other.hypothesis.keep = {2};
+      other.size = size_of(effect, linear[2]);
+      other.unit = "deg", other.edge = 1.0 / rad_per_deg;
+    } else if (effect.id == "probe.nonlinearity") {
+      other.form = "of the third degree: ";
+      other.hypothesis.keep = {1};
+    } else if (effect.id == "probe.cyclic") {
+      other.form = "of one period over what is sensed: ";
+      other.hypothesis.shape.period_mm = std::max(sensed_swing(scene), least_swing_mm);
+    } else {
+      continue;
+    }
+    list.push_back(std::move(other));
   }
   return list;
 }
@@ -159,6 +170,7 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
     }
     h.harm_mm = worst * t.size;
     h.entry.harm_per_unit = {worst / t.edge, 0.0, "mm/(" + t.unit + ")", ""};
+    h.entry.harm_typical = {h.harm_mm, 0.0, "mm", ""};
     h.entry.detectable_unit = t.unit;
     const double at_threshold = model.family.threshold(problem.false_alarm);
     h.entry.detectable = lambda > 0.0 ? t.size * t.edge * std::sqrt(at_threshold / lambda)
@@ -181,6 +193,7 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
                     h.entry.detectable, t.unit.c_str());
       h.entry.why = text;
     }
+    h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));
   }
   std::ranges::stable_sort(out,

@@ -82,7 +82,10 @@ std::string separating_text(const Separating& s) {
   if (s.plan.empty()) return "none of the plans: " + s.why_not;
   std::string text = s.plan + (s.what.empty() ? "" : ", " + s.what);
   text += ": right name " + probability(s.power_before) + " → " + probability(s.power);
-  return text + format(", %.3g min", s.minutes);
+  text += format(", %.3g min", s.minutes);
+  for (const Separating::Other& o : s.others)
+    text += "; or " + o.plan + " (→ " + probability(o.power) + format(", %.3g min)", o.minutes);
+  return text;
 }
 
 std::string harm_per_unit_text(const Estimate& harm) {
