@@ -147,22 +147,5 @@ INSTANTIATE_TEST_SUITE_P(Noise, EvidenceOf,
                          ::testing::Values(std::vector<double>{}, std::vector<double>{0.6},
                                            std::vector<double>{0.5, 0.3}));
 
-// A gauge reads from its own zero, which the base takes in whole: it is neither noise nor floor.
-TEST(EvidenceFloor, DoesNotCountWhatTheBaseTakes) {
-  BaseKind gauge = testing::bench_base(0.0);
-  gauge.offset = true;
-  const Scene scene = make_scene(testing::arguments({.readings = 700}),
-                                 {testing::bench_clamping(0.0)}, gauge, false);
-  const Rows rows = make_rows(scene);
-  const auto rss = [&](double zero_mm) {
-    std::vector<double> deviation = testing::white_noise(scene.size(), 0.5e-3, 8);
-    for (double& v : deviation) v += zero_mm;
-    const Evidence evidence(scene, rows, deviation, {}, 1);
-    return project(evidence.total(), evidence.base()).rss;
-  };
-  // Rounding of the Gram matrix: 1e-16 of (zero/σ)² = 1e9, times √N and some.
-  EXPECT_NEAR(rss(-14.5) / rss(0.0), 1.0, 1e-4);
-}
-
 }  // namespace
 }  // namespace trueaxis
