@@ -126,8 +126,8 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
             12.0,
             ""};
   d.plans = {*d.findings.front().separate_with,
-             {"2W", "a second speed", 0.5, 0.5, 3.0, ""},
-             {"ST", "", 0.5, 0.5, 0.0, "the stream has no time column"}};
+             {"2W", "a second speed", 0.5, 0.5, 3.0, "", {}},
+             {"ST", "", 0.5, 0.5, 0.0, "the stream has no time column", {}}};
   d.hypotheses = 812;
   d.effective_hypotheses = 640.0;
   d.threshold = 26.3;
