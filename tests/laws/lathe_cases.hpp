@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct LatheCase {
   TermShape shape;
   std::vector<double> linear;
 };
+
+inline void PrintTo(const LatheCase& c, std::ostream* out) { *out << c.id; }
 
 inline std::vector<LatheCase> lathe_cases() {
   const double co = std::cos(phi), si = std::sin(phi);
