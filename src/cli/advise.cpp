@@ -64,8 +64,7 @@ void add_advise(CLI::App& app, int& exit_code) {
       return;
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
-    exit_code =
-        advise(options->stream.read(), options->association.chosen(), options->false_alarm);
+    exit_code = advise(options->stream.read(), options->association.chosen(), options->false_alarm);
   });
 }
 

@@ -83,7 +83,8 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
+  CLI::App* command =
+      app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
   auto job = std::make_shared<std::string>();
   auto folder = std::make_shared<std::string>();
   command->add_option("job", *job, "job file (TOML)")->required();

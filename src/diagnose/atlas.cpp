@@ -50,7 +50,7 @@ std::vector<Hypothesis> atlas(const Scene& scene, const Resolution& resolution) 
     for (int l = 0; l <= resolution.degrees + (n == 0 && resolution.degrees > 3 ? 1 : 0); ++l)
       cells.push_back(cell(n, l));
   }
-  if (scene.reindexed) {
+  if (scene.reindexed || scene.two_sided) {
     for (int n = 2; n <= resolution.harmonics; ++n) {
       cells.push_back(cell(n, 0, true));
       if (resolution.degrees > 0) cells.push_back(cell(n, 1, true));

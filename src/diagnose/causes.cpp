@@ -35,7 +35,7 @@ void add_harmonics(const Scene& scene, const Resolution& resolution, std::vector
   for (int n = 2; n <= resolution.harmonics; ++n) {
     list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
     if (resolution.degrees > 0) list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
-    if (!scene.reindexed) continue;
+    if (!scene.reindexed && !scene.two_sided) continue;
     list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
     TermShape tilt = with_order(n);
     tilt.lever_from_mm = bearings[2];
@@ -179,7 +179,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const Scene& scene, doub
     return list;
   }
   const auto id = h.effect->id;
-  if (id == "spindle.tilt_synchronous") {
+  if (id == "spindle.tilt_synchronous" && !h.with_radial) {
     // The envelope 1 + u κ, κ = half length / (middle − bearing): κ is what the data show.
     vary([&](Hypothesis& o, double d) {
       const double kappa = scene.z_half_mm / (scene.z_mid_mm - o.shape.lever_from_mm) + d;

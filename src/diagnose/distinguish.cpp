@@ -12,6 +12,7 @@ namespace {
 constexpr double told_apart = 3.2897;   // d with Φ(d/2) = 0.95
 constexpr double likelihood_tells = 7.0;  // a true cause is farther behind in 0.4 % of cases
 constexpr double structural = 0.999;
+constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
 
 /// ‖(I − P_rival) μ‖² and ‖μ‖² beside base and the other terms; μ: columns × coefficients.
 struct Distance {
@@ -76,6 +77,10 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
     rival.likelihood_ratio =
         freedom * std::log(std::max(beside.rss - c.gain, 1e-300) / (beside.rss - best.gain)) +
         2.0 * (static_cast<double>(c.rank) - static_cast<double>(best.rank));
+    const auto listed = std::ranges::find_if(out.members, [&](const Candidate& m) {
+      return m.hypothesis.effect == c.hypothesis.effect;
+    });
+    if (listed != out.members.end()) continue;  // another variant of it, which is the better one
     rival.structural = d.all2 > 0.0 && 1.0 - d.left2 / d.all2 > structural * structural;
     if (rival.distance >= told_apart && rival.likelihood_ratio >= likelihood_tells) continue;
     out.members.push_back(c);
@@ -96,6 +101,7 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
   });
   Class sorted{{out.members.front()}, {}, out.probability};
   for (const std::size_t r : order) {
+    if (out.rivals[r].probability < implausible && !out.members[r + 1].hypothesis.with_radial) continue;
     sorted.members.push_back(out.members[r + 1]);
     sorted.rivals.push_back(out.rivals[r]);
   }

@@ -15,6 +15,8 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t chunk_rows = 512;
+constexpr double least_floor_mm = 1e-6;  // readings are written to a nanometre
+constexpr double second_order = 5e-4;    // of what the terms take, their next order is left
 constexpr double undetermined = 1e-11;  // of a column's square: rounding of the Gram matrix and of
                                         // the linearisation leave nothing to trust below
 
@@ -68,18 +70,33 @@ class Chunk {
   std::vector<const double*> view_;
 };
 
+/// Beginnings of blocks, far apart: parts that threads share, none within a block.
+std::vector<std::size_t> whole_passes(const Rows& rows, std::size_t size) {
+  constexpr std::size_t least = 20'000;
+  std::vector<std::size_t> begins{0};
+  for (const std::size_t b : rows.fold_begin)
+    if (b - begins.back() >= least && size - b >= least / 2) begins.push_back(b);
+  begins.push_back(size);
+  return begins;
+}
+
 }  // namespace
 
 Evidence::Evidence(const Scene& scene, const Rows& rows, std::span<const double> deviation_mm,
-                   std::vector<double> autoregression, int threads)
+                   std::vector<double> autoregression, int threads, bool blocks)
     : scene_(&scene),
       rows_(&rows),
       deviation_(deviation_mm),
       autoregression_(std::move(autoregression)),
       threads_(threads),
-      folds_(rows.folds()) {
+      part_begin_(blocks ? rows.fold_begin : whole_passes(rows, scene.size())),
+      folds_(part_begin_.size() - 1) {
   for (std::size_t i = 0; i < scene.size(); ++i)
     count_ += rows.used[i] && rows.run[i] >= autoregression_.size();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < scene.size(); ++i) sum += rows.used[i] ? deviation_[i] * deviation_[i] : 0.0;
+  floor2_ = std::max(least_floor_mm * least_floor_mm,
+                     second_order * second_order * sum / static_cast<double>(scene.size()));
   base_.resize(scene.base.columns());
   std::iota(base_.begin(), base_.end(), 1U);
   pass({});
@@ -134,9 +151,10 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
 
   const auto work = [&](std::size_t f) {
     Chunk chunk(after, history);
+    double counted = 0.0;
     std::vector<double> own(gram_size(after - before), 0.0), cross((after - before) * before, 0.0);
-    for (std::size_t begin = rows_->fold_begin[f]; begin < rows_->fold_begin[f + 1];) {
-      std::size_t end = std::min(begin + chunk_rows, rows_->fold_begin[f + 1]);
+    for (std::size_t begin = part_begin_[f]; begin < part_begin_[f + 1];) {
+      std::size_t end = std::min(begin + chunk_rows, part_begin_[f + 1]);
       for (std::size_t i = begin + 1; i < end; ++i) {
         if (scene.rear[i] != scene.rear[begin]) end = i;
       }
@@ -148,12 +166,14 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!rows_->used[i] || rows_->run[i] < history) chunk.drop(i - begin);
       }
+      for (std::size_t i = begin; i < end; ++i) counted += rows_->used[i] && rows_->run[i] >= history;
       const std::span<const double* const> columns = chunk.white(end - begin);
       const WideBlock left{columns.subspan(before), end - begin};
       add_wide_products(left, own);
       if (before > 0) add_cross_products(left, {columns.first(before), end - begin}, cross);
       begin = end;
     }
+    if (first) own[0] += floor2_ * counted;
     Matrix& gram = folds_[f];
     gram.conservativeResize(k1, k1);
     for (std::size_t i = before; i < after; ++i) {

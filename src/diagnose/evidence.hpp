@@ -13,15 +13,16 @@ namespace trueaxis::diagnose_detail {
 
 using Columns = std::vector<std::size_t>;
 
-/// The Gram matrices of [readings | base | hypotheses], whitened, one for every block of readings:
-/// all that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
+/// The Gram matrix of [readings | base | hypotheses], whitened, also block by block of readings: all
+/// that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
 /// the readings from the scene's surface (mm); then the base; then what was appended.
 class Evidence {
  public:
   /// @param autoregression φ of ε_i = Σ φ_j ε_{i−j} + e_i: a row is y_i − Σ φ_j y_{i−j}; rows
   ///        without that many unbroken predecessors do not count.
+  /// @param blocks whether the Gram matrices of the blocks are wanted, or their sum alone
   Evidence(const Scene& scene, const Rows& rows, std::span<const double> deviation_mm,
-           std::vector<double> autoregression, int threads);
+           std::vector<double> autoregression, int threads, bool blocks = false);
 
   /// One pass over the readings. @returns the columns of each hypothesis.
   std::vector<Columns> append(std::span<const Hypothesis> list);
@@ -51,7 +52,9 @@ class Evidence {
   std::vector<Hypothesis> list_;
   Columns base_;
   std::size_t count_ = 0;
+  double floor2_ = 0.0;  ///< mm²: what rounding and the linearisation of the columns leave
   Eigen::MatrixXd total_;
+  std::vector<std::size_t> part_begin_;  ///< of what one Gram matrix sums over
   std::vector<Eigen::MatrixXd> folds_;
 };
 

@@ -59,7 +59,7 @@ Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor
   Gain out;
   out.noise_floor_mm = noise_floor_mm;
   // In the readings' own units: not whitened.
-  const Joint plain(problem, {}, joint.terms, joint.terms.size());
+  const Joint plain(problem, {}, joint.terms, joint.terms.size(), true);
   const Evidence& evidence = plain.evidence;
   const Columns& before = evidence.base();
   const Columns& after = plain.solution.columns;

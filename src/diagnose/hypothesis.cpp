@@ -69,13 +69,19 @@ std::size_t Hypothesis::columns() const {
     const bool line = pattern.kind == Pattern::Kind::line;
     return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
   }
-  return keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
+  const std::size_t own = keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
+  return own + (with_radial ? 2 : 0);
 }
 
 void fill(const Hypothesis& hypothesis, const Scene& scene, std::size_t begin, std::size_t end,
           std::span<double* const> columns) {
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, scene, begin, end, columns);
   const Term& term = hypothesis.effect->term;
+  if (hypothesis.with_radial) {
+    static const Effect* const radial = find_effect("spindle.radial_synchronous");
+    fill_columns(radial->term, scene.context(begin, end), hypothesis.shape, columns.last(2));
+    columns = columns.first(columns.size() - 2);
+  }
   if (hypothesis.keep.empty()) {
     return fill_columns(term, scene.context(begin, end), hypothesis.shape, columns);
   }

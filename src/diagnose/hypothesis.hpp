@@ -28,6 +28,7 @@ struct Hypothesis {
   TermShape shape;
   std::vector<std::size_t> keep;  ///< which linear parameters of the term are free; empty: all
   Pattern pattern;
+  bool with_radial = false;  ///< beside a tilt motion the radial one of its order: a lever anywhere
   double tests = 1.0;  ///< how many hypotheses of its kind were tried: what its choice costs
 
   std::size_t columns() const;

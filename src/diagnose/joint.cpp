@@ -23,8 +23,8 @@ Eigen::Index last_axis(const Scene& scene) {
 }  // namespace
 
 Joint::Joint(const Problem& problem, const std::vector<double>& phi,
-             std::vector<Hypothesis> hypotheses, std::size_t fitted_terms)
-    : evidence(problem.scene, problem.rows, problem.deviation_mm, phi, problem.threads),
+             std::vector<Hypothesis> hypotheses, std::size_t fitted_terms, bool blocks)
+    : evidence(problem.scene, problem.rows, problem.deviation_mm, phi, problem.threads, blocks),
       places(evidence.append(hypotheses)),
       terms(std::move(hypotheses)),
       fitted(fitted_terms) {

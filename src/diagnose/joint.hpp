@@ -16,7 +16,7 @@ struct Joint {
   double sigma_mm = 0.0;        ///< of the innovations: √(RSS/ν)
 
   Joint(const Problem& problem, const std::vector<double>& phi, std::vector<Hypothesis> hypotheses,
-        std::size_t fitted);
+        std::size_t fitted, bool blocks = false);
 
   /// Coefficients and covariance of the base alone (x, y, slopes at mid length of every axis …).
   Eigen::VectorXd base() const;

@@ -176,7 +176,15 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   const std::size_t presets_kept = named ? causes.size() : best_presets;
   for (std::size_t i = 0; i < std::min(presets_kept, causes.size()); ++i)
     shortlist.push_back(causes[i].hypothesis);
-  if (named) shortlist.push_back(*named);
+  if (named) {
+    shortlist.push_back(*named);
+    if (named->effect->id == "part.roundness" && named->columns() == 4 && !scene.reindexed) {
+      TermShape shape = named->shape;
+      shape.lever_from_mm = -250.0;
+      shortlist.push_back(of_effect("spindle.tilt_synchronous", shape, {}, resolution.harmonics));
+      shortlist.back().with_radial = true;
+    }
+  }
   for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i) {
     for (Hypothesis& h : causes_of_order(scene, resolution, orders[i].second))
       if (h.effect->id != "part.roundness") shortlist.push_back(std::move(h));
@@ -207,7 +215,9 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
       double most = 0.0;
       for (const Candidate& c : first) most = std::max(most, c.gain);
       for (Candidate& c : first) {
-        const auto same = [&](const Candidate& e) { return e.hypothesis.effect == c.hypothesis.effect; };
+        const auto same = [&](const Candidate& e) {
+          return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
+        };
         if (c.gain > far_behind * most && std::ranges::none_of(each, same)) each.push_back(std::move(c));
       }
       first = std::move(each);

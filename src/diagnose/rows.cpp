@@ -10,6 +10,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t blocks_wanted = 30;  // effects.md: 30, not 5
+constexpr double few_turns = 6.0;            // fewer revolutions than this are no blocks to hold out
 constexpr unsigned char longest_run = 8;
 
 double median(std::vector<double> values) {
@@ -65,6 +66,12 @@ Rows make_rows(const Scene& scene) {
   double turns = 0.0;
   for (const Pass& pass : scene.passes)
     turns += std::abs(scene.c[pass.end - 1] - scene.c[pass.begin]) / two_pi;
+  if (turns < few_turns) {
+    const std::size_t blocks = std::min(blocks_wanted, scene.size() / 2);
+    for (std::size_t b = 0; b <= blocks; ++b) rows.fold_begin.push_back(b * scene.size() / blocks);
+    rows.block = "an arc";
+    return rows;
+  }
   const double per_block = std::max(1.0, std::floor(turns / static_cast<double>(blocks_wanted)));
   for (const Pass& pass : scene.passes) {
     const double own = std::abs(scene.c[pass.end - 1] - scene.c[pass.begin]) / two_pi;

@@ -94,6 +94,7 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
       list.push_back({&scene.z, 0.0, false, 1.5 / length, std::min(highest, 1.0),
                       [](double f) { return line_of("slide.leadscrew_periodic", f); }});
       list.back().counts = scene.shifted;
+      list.back().form = true;  // ∂X/∂Z too is of the other sign
     }
     list.push_back({&scene.s, 1.0, false, 0.7, 20.0,
                     [](double f) { return line_of("part.feed_marks", f); }});
@@ -109,10 +110,18 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
       }
     }
   }
-  const double swing = span(scene.sensed);
+  double swing = 0.0;  // of one side: from side to side nothing is read
+  for (const char side : {0, 1}) {
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      if (scene.rear[i] != side) continue;
+      low = std::min(low, scene.sensed[i]), high = std::max(high, scene.sensed[i]);
+    }
+    swing = std::max(swing, high - low);
+  }
   if (swing > 0.02 && !resolution.sections) {
     list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 1.5 / swing),
-                    std::min(500.0, static_cast<double>(scene.size()) / (4.0 * swing)),
+                    std::min(500.0, static_cast<double>(scene.size()) / (3.0 * swing)),
                     [](double f) { return line_of("probe.cyclic", f); }});
   }
   if (time_step > 0.0 && !single && !resolution.sections) {

@@ -95,7 +95,7 @@ class Search {
   };
   Fitted fitted(const Model& model) const {
     Fitted out{Evidence(problem_.scene, problem_.rows, problem_.deviation_mm, model.phi,
-                        problem_.threads),
+                        problem_.threads, true),
                {}};
     out.places = out.evidence.append(model.terms);
     return out;

@@ -59,6 +59,7 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
   const auto names = linear_parameters(hypothesis.effect->term, hypothesis.shape);
   double worst = 0.0, pair = 0.0;
   for (Eigen::Index j = 0; j < coefficients.size(); ++j) {
+    if (hypothesis.with_radial && j >= coefficients.size() - 2) break;
     const std::size_t place = hypothesis.keep.empty() ? static_cast<std::size_t>(j)
                                                       : hypothesis.keep[static_cast<std::size_t>(j)];
     const double high = typical_high(*hypothesis.effect, names[place].name);

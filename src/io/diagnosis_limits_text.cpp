@@ -40,8 +40,7 @@ std::string rejected_lines(const char* head, const std::vector<Rejected>& reject
   }
   if (rejected.size() > listed)
     rows += "; " + std::to_string(rejected.size() - listed) + " more, all in the JSON";
-  return rejected.empty() ? ""
-                          : wrapped(head, std::to_string(rejected.size()) + " (" + rows + ")");
+  return rejected.empty() ? "" : wrapped(head, std::to_string(rejected.size()) + " (" + rows + ")");
 }
 
 }  // namespace
@@ -57,35 +56,33 @@ std::string not_observable_text(const Diagnosis& d) {
   harm = std::min<std::size_t>(harm, 22);
   const auto row = [&](const std::string& a, const std::string& b, const std::string& c,
                        const std::string& e, const std::string& why) {
-    return wrapped("  " + padded(a, id + 2) + padded(b, harm + 2) + padded(c, found + 2) +
-                       padded(e, 9),
-                   why);
+    return wrapped(
+        "  " + padded(a, id + 2) + padded(b, harm + 2) + padded(c, found + 2) + padded(e, 9), why);
   };
   std::string text = "\nCannot be seen with these readings at its typical size\n";
   text += row("effect", "axis shift", "seen from", "shown by", "why");
   for (const NotObservable& n : d.not_observable) {
-    text += row(n.effect, harm_per_unit_text(n.harm_per_unit), detectable_text(n), shown_by(n),
-                n.why);
+    text +=
+        row(n.effect, harm_per_unit_text(n.harm_per_unit), detectable_text(n), shown_by(n), n.why);
   }
   return text;
 }
 
 std::string noise_text(const NoiseReport& noise) {
   std::string text = "\nNoise\n";
-  text += wrapped("  σ           ",
-                  plus_minus({noise.sigma_mm, noise.u_sigma_mm, "mm", ""}, 2.0, 1.0 / mm_per_um,
-                             "µm") +
-                      " (U, k = 2), from " + noise.source +
-                      source_line("stationary", noise.stationary_mm) +
-                      source_line("repeated passes", noise.repeated_mm) +
-                      source_line("revolution differences", noise.revolutions_mm) +
-                      source_line("stated", noise.stated_mm));
+  text += wrapped(
+      "  σ           ",
+      plus_minus({noise.sigma_mm, noise.u_sigma_mm, "mm", ""}, 2.0, 1.0 / mm_per_um, "µm") +
+          " (U, k = 2), from " + noise.source + source_line("stationary", noise.stationary_mm) +
+          source_line("repeated passes", noise.repeated_mm) +
+          source_line("revolution differences", noise.revolutions_mm) +
+          source_line("stated", noise.stated_mm));
   if (!noise.note.empty()) text += wrapped("  note        ", noise.note);
   if (!noise.autoregression.empty()) {
     std::string factors;
     for (const double phi : noise.autoregression) factors += format(" %.2f", phi);
-    text += wrapped("  correlated  ", "autoregression" + factors +
-                                          ": every test and uncertainty is widened by it");
+    text += wrapped("  correlated  ",
+                    "autoregression" + factors + ": every test and uncertainty is widened by it");
   }
   text += rejected_lines("  masked      ", noise.masked);
   for (const std::string& gap : noise.gaps) text += wrapped("  gap         ", gap);
@@ -122,9 +119,9 @@ std::string advice_text(const Diagnosis& d) {
   for (const Separating& plan : d.plans) widest = std::max(widest, width(plan.plan));
   const auto row = [&](const std::string& plan, const std::string& before, const std::string& after,
                        const std::string& minutes, const std::string& what) {
-    return wrapped("  " + padded(plan, widest + 2) + padded(before, 8) + padded(after, 8) +
-                       padded(minutes, 7),
-                   what);
+    return wrapped(
+        "  " + padded(plan, widest + 2) + padded(before, 8) + padded(after, 8) + padded(minutes, 7),
+        what);
   };
   text += "\nAll plans, probability of the right name before and after\n";
   text += row("plan", "before", "after", "min", "what");

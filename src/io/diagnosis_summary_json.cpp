@@ -12,12 +12,9 @@ Json diagnosis_summary(const Diagnosis& d) {
                            {"dependence", u.dependence},
                            {"amplitude", estimate_object(u.amplitude)}});
   }
-  return {{"schema", "trueaxis.diagnosis/1"},
-          {"verdict", to_string(d.verdict)},
-          {"line", diagnosis_line(d)},
-          {"findings", findings},
-          {"unexplained", unexplained},
-          {"axis_shift", estimate_object(d.gain.axis_shift)},
+  return {{"schema", "trueaxis.diagnosis/1"}, {"verdict", to_string(d.verdict)},
+          {"line", diagnosis_line(d)},        {"findings", findings},
+          {"unexplained", unexplained},       {"axis_shift", estimate_object(d.gain.axis_shift)},
           {"next_measurement", d.next.plan}};
 }
 

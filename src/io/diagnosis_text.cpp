@@ -67,12 +67,12 @@ std::string gain_block(const Diagnosis& d) {
   const double k = d.baseline.coverage_factor, um_per_mm = 1.0 / mm_per_um;
   if (d.findings.empty() && d.unexplained.empty()) return "";
   std::string text = "\nGain\n";
-  text += wrapped("  axis        ",
-                  "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
-  text += wrapped("  coaxiality  ", "of the part that the correction would cut: " +
-                                       plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") +
-                                       " → " +
-                                       plus_minus(gain.coaxiality_after, k, um_per_mm, "µm"));
+  text +=
+      wrapped("  axis        ", "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
+  text +=
+      wrapped("  coaxiality  ", "of the part that the correction would cut: " +
+                                    plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " +
+                                    plus_minus(gain.coaxiality_after, k, um_per_mm, "µm"));
   if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);
   return text;
 }
@@ -119,8 +119,8 @@ std::string diagnosis_text(const Diagnosis& d) {
   std::string text = wrapped("", diagnosis_line(d)) + "\n" + origin(d);
   if (d.baseline.status != FitStatus::converged) return text;
   if (d.extended.status != FitStatus::converged) {
-    text += wrapped("the extended model: ", std::string(to_string(d.extended.status)) + ": " +
-                                                d.extended.message);
+    text += wrapped("the extended model: ",
+                    std::string(to_string(d.extended.status)) + ": " + d.extended.message);
   }
   if (!d.findings.empty()) {
     text += format("\nFindings, the most harmful first; ± U (k = %.3g)\n", k);

@@ -28,7 +28,9 @@ bool is_small_length(const std::string& effect, const FitParameter& parameter) {
 std::string parameter_text(const std::string& effect, const FitParameter& p, double k) {
   const Estimate& e = p.estimate;
   std::string name = p.name;
-  std::ranges::replace(name, '_', ' ');
+  for (std::size_t i = 0; i + 1 < name.size(); ++i) {  // amplitude_2 keeps its number
+    if (name[i] == '_' && (name[i + 1] < '0' || name[i + 1] > '9')) name[i] = ' ';
+  }
   const bool exact = e.determined() && e.u == 0.0;
   if (exact) return name + format(" %.6g", e.value) + (e.unit == "1" ? "" : " " + e.unit);
   const bool small = is_small_length(effect, p);
@@ -47,9 +49,12 @@ double probability_of(const Finding& finding, const std::string& member) {
 
 std::string finding_parameters(const Finding& finding, double coverage_factor) {
   std::string text;
-  for (const FitParameter& p : finding.parameters) {
-    if (!text.empty()) text += ", ";
-    text += parameter_text(finding.effect, p, coverage_factor);
+  for (const bool order : {true, false}) {  // the order first
+    for (const FitParameter& p : finding.parameters) {
+      if ((p.name == "order") != order) continue;
+      if (!text.empty()) text += ", ";
+      text += parameter_text(finding.effect, p, coverage_factor);
+    }
   }
   if (!finding.alias.empty()) text += "; the sampling cannot tell it from " + finding.alias;
   return text;
@@ -82,11 +87,11 @@ std::string separating_text(const Separating& s) {
 
 std::string harm_per_unit_text(const Estimate& harm) {
   if (!harm.determined()) return harm.why_not.empty() ? "not known" : harm.why_not;
-  if (harm.unit == "mm/mm") return format("%.2g µm per µm", harm.value);
-  const bool length = harm.unit.rfind("mm", 0) == 0;
-  if (!length) return format("%.2g ", harm.value) + harm.unit;
-  const std::string per = harm.unit.size() > 3 && harm.unit[2] == '/' ? harm.unit.substr(3) : "1";
-  return format("%.3g µm", harm.value / mm_per_um) + (per == "1" ? " per 1" : " per " + per);
+  if (harm.unit.rfind("mm/", 0) != 0) return format("%.2g ", harm.value) + harm.unit;
+  std::string per = harm.unit.substr(3);
+  std::erase_if(per, [](char c) { return c == '(' || c == ')'; });
+  if (per == "mm") return format("%.2g µm per µm", harm.value);
+  return format("%.3g µm per ", harm.value / mm_per_um) + (per == "1" ? "unit" : per);
 }
 
 }  // namespace trueaxis

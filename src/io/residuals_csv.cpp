@@ -51,10 +51,10 @@ std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis)
       "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked\n";
   for (std::size_t i = 0; i < stream.size(); ++i) {
     char row[120];
-    text.append(
-        row, static_cast<std::size_t>(std::snprintf(
-                 row, sizeof row, "%zu,%.6f,%.6f,%.7f", i + 1, stream.c_rad[i] / rad_per_deg,
-                 stream.has_position() ? stream.position_mm[i] : 0.0, stream.reading_mm[i])));
+    text.append(row,
+                static_cast<std::size_t>(std::snprintf(
+                    row, sizeof row, "%zu,%.6f,%.6f,%.7f", i + 1, stream.c_rad[i] / rad_per_deg,
+                    stream.has_position() ? stream.position_mm[i] : 0.0, stream.reading_mm[i])));
     append_um(text, before, i);
     append_um(text, diagnosis.effect_mm, i);
     append_um(text, diagnosis.residual_after_mm, i);

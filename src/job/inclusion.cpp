@@ -15,9 +15,7 @@ constexpr std::array<std::string_view, 4> repeating{
     "spindle.radial_synchronous", "spindle.tilt_synchronous", "spindle.axial_synchronous",
     "slide.z_straightness"};
 
-bool repeats(std::string_view id) {
-  return std::ranges::find(repeating, id) != repeating.end();
-}
+bool repeats(std::string_view id) { return std::ranges::find(repeating, id) != repeating.end(); }
 
 /// Why a finding must not be cut with; empty: it may.
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
@@ -35,8 +33,7 @@ std::string objection(const JobResult& result, const Diagnosis& diagnosis, const
   if (side_of_tool(result.job.tool.angle_from_probe_rad) == 0)
     return "the probe saw it along its own direction; the tool's angle from the probe must be 0 or "
            "180 deg";
-  const auto [low, high] =
-      std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
+  const auto [low, high] = std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
   if (finding.effect.rfind("slide.", 0) == 0 && outside)

@@ -82,9 +82,17 @@ function simulationBlock(reference) {
 
 const harmUnit = ({value, unit, why_not: why}) => {
   if (!isNumber(value)) return why || 'not known';
-  if (unit === 'mm/mm') return `${significant(value, 2)} µm per µm`;
-  return unit.startsWith('mm/') ? `${significant(value * 1000, 3)} µm per ${unit.slice(3)}` : `${significant(value, 3)} ${unit}`;
+  const per = unit.startsWith('mm/') ? unit.slice(3).replace(/[()]/g, '') : null;
+  if (per === null) return `${significant(value, 3)} ${unit}`;
+  return per === 'mm' ? `${significant(value, 2)} µm per µm` : `${significant(value * 1000, 3)} µm per ${per === '1' ? 'unit' : per}`;
 };
+
+/** The size that would be found, two digits. */
+function seenFrom({detectable: size, detectable_unit: unit}) {
+  if (!isNumber(size)) return 'no size';
+  if (unit === 'mm' && size < 1) return `${significant(size * 1000, 2)} µm`;
+  return `${significant(size, 2)}${unit === '1' || unit === '' ? '' : ` ${unit}`}`;
+}
 
 function notObservableTable({not_observable: list}) {
   if (!list.length) return null;
@@ -92,7 +100,7 @@ function notObservableTable({not_observable: list}) {
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
       element('span', {}, n.effect, element('small', {}, n.title)), n.why,
       n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
-      harmUnit(n.harm), isNumber(n.detectable) ? quantity(n.detectable, null, n.detectable_unit) : 'no size']), 3));
+      harmUnit(n.harm), seenFrom(n)]), 3));
 }
 
 function noiseBlock({noise, checks, k}) {

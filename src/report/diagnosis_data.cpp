@@ -103,9 +103,7 @@ double variance(const std::vector<double>& values, const std::vector<bool>& kept
   return count > 1.0 ? squares / count - sum * sum / (count * count) : std::nan("");
 }
 
-json interval(const Interval& i) {
-  return {{"value", i.value}, {"low", i.low}, {"high", i.high}};
-}
+json interval(const Interval& i) { return {{"value", i.value}, {"low", i.low}, {"high", i.high}}; }
 
 json gain_data(const Diagnosis& d, const std::vector<bool>& kept) {
   const double before = variance(d.residual_before_mm, kept),
@@ -212,7 +210,8 @@ json unexplained_data(const Unexplained& u) {
 }
 
 json check_data(const QualityCheck& c) {
-  return {{"effect", c.effect}, {"title", title_of(c.effect)}, {"found", c.found}, {"text", c.text}};
+  return {
+      {"effect", c.effect}, {"title", title_of(c.effect)}, {"found", c.found}, {"text", c.text}};
 }
 
 }  // namespace

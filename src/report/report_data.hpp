@@ -25,8 +25,8 @@ nlohmann::json fit_data(const FitResult& fit);
 /// `max_points` readings.
 nlohmann::json readings_data(const ProbeStream& stream, const FitResult& fit);
 
-/// What the model gets wrong: findings, gain, spectrum and, where there is a value for each reading,
-/// maps of what is left before and after.
+/// What the model gets wrong: findings, gain, spectrum and, where there is a value for each
+/// reading, maps of what is left before and after.
 nlohmann::json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis);
 
 /// Coaxiality of each reference before and after, the axes over the length to be cut.

@@ -121,6 +121,9 @@ class Maker {
   // A cause with the wanted λ whose sizes are still those of real machines.
   std::optional<Effect> cause(double wanted) {
     const Effect drawn = drawn_cause();
+    // P8's lead is so long that feeds of the typical range alias.
+    const auto feed = drawn.parameters.find("feed_mm_per_rev");
+    if (feed != drawn.parameters.end() && feed->second > 0.5) return std::nullopt;
     const double most = largest_stretch * largest_stretch * at(drawn);
     if (most < 0.5 * wanted) return std::nullopt;
     const Effect sized = sized_for(*bench_, drawn, sigma_mm_, wanted);

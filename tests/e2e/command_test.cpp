@@ -26,6 +26,9 @@ TEST_F(ExitCode, ZeroWhenDone) {
   EXPECT_EQ(code("--help"), 0);
   EXPECT_EQ(code("fit --help"), 0);
   EXPECT_EQ(code("fit part.csv --surface cylinder"), 0);
+  EXPECT_EQ(code("diagnose part.csv --surface cylinder"), 0);
+  EXPECT_EQ(code("advise part.csv --surface cylinder"), 0);
+  EXPECT_EQ(code("advise job.toml"), 0);
   EXPECT_EQ(code("run job.toml -o out"), 0);
   EXPECT_EQ(code("run identify.toml -o identified"), 0);
   EXPECT_EQ(code("simulate scenario.toml -o simulated.csv"), 0);
@@ -57,6 +60,13 @@ TEST_F(ExitCode, TwoForUsage) {
                                 "fit part.csv --surface cone --diameter --radius",
                                 "fit part.csv --surface cone --json - --residuals -",
                                 "fit part.csv --surface cone --json same --residuals same",
+                                "diagnose part.csv",
+                                "diagnose part.csv --surface sphere",
+                                "diagnose part.csv --surface cone --false-alarm 0",
+                                "diagnose part.csv --surface cone --false-alarm 0.6",
+                                "diagnose part.csv --surface cone --json - --residuals -",
+                                "advise",
+                                "advise part.csv",
                                 "run",
                                 "run job.toml",
                                 "correct",
@@ -82,6 +92,10 @@ TEST_F(ExitCode, ThreeForInput) {
   expect_input_error("fit - --surface cone --json f.json", "-: is empty");
   expect_input_error("fit face.csv --surface cone --json f.json", "--surface plane");
   expect_input_error("fit part.csv --surface plane --json f.json", "Z_M,C,X");
+  expect_input_error("diagnose gone.csv --surface cone --json f.json", "gone.csv: cannot be read");
+  expect_input_error("diagnose face.csv --surface cone --json f.json", "--surface plane");
+  expect_input_error("advise job.toml", "gone.csv: cannot be read");
+  expect_input_error("advise gone.toml", "gone.toml: cannot be read");
   expect_input_error("run job.toml -o out", "gone.csv: cannot be read");
   expect_input_error("run gone.toml -o out", "gone.toml: cannot be read");
   expect_input_error("correct part.csv --target job.toml -o table.csv", "trueaxis.fit/1");
@@ -93,6 +107,9 @@ TEST_F(ExitCode, FourWhenNotDetermined) {
   file("job.toml", simple_job("stream = \"part.csv\"\nsurface = \"cone\"\n"));
   EXPECT_EQ(code("fit part.csv --surface cone"), 4);
   EXPECT_EQ(code("fit section.csv --surface cylinder"), 4);
+  EXPECT_EQ(code("diagnose part.csv --surface cone --json d.json"), 4);
+  EXPECT_EQ(result("d.json").at("baseline").at("status"), "rank_deficient");
+  EXPECT_EQ(code("advise part.csv --surface cone"), 4);
   EXPECT_EQ(code("run job.toml -o out"), 4);
 }
 

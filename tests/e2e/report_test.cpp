@@ -64,9 +64,7 @@ TEST_F(ReportPage, ConeWithCorrection) { expect_sound(example::cone_job(), "cone
 
 TEST_F(ReportPage, LongStreamIsThinned) { expect_sound(example::cone_job(60000), "long"); }
 
-TEST_F(ReportPage, DiagnosisWithFindings) {
-  expect_sound(example::diagnosed_job(), "diagnosis");
-}
+TEST_F(ReportPage, DiagnosisWithFindings) { expect_sound(example::diagnosed_job(), "diagnosis"); }
 
 TEST_F(ReportPage, DiagnosisOfALongStreamIsThinned) {
   expect_sound(example::diagnosed_job(60000), "diagnosis_long");

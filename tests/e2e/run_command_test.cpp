@@ -19,7 +19,8 @@ class RunCommand : public CommandTest {
   }
 };
 
-const std::vector<std::string> all_results{"report.html", "result.json", "table.csv"};
+const std::vector<std::string> all_results{"diagnosis_1_cylinder.json", "report.html",
+                                           "result.json", "table.csv"};
 
 /// Rows of a table without its header, whose numbers may be rounded otherwise.
 std::string rows_of(const std::string& table) { return table.substr(table.find("\nrev,")); }
@@ -52,7 +53,8 @@ TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
   EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1")) << first_line(done.out);
-  EXPECT_EQ(files_in(folder_ / "out"), (std::vector<std::string>{"report.html", "result.json"}));
+  EXPECT_EQ(files_in(folder_ / "out"),
+            (std::vector<std::string>{"diagnosis_1_cylinder.json", "report.html", "result.json"}));
 }
 
 TEST_F(RunCommand, ActuatorThatCannotFollow) {
@@ -98,10 +100,14 @@ TEST_F(RunCommand, TheSameBytesEveryTime) {
     ASSERT_EQ(command(std::string("run ") + job + " -o " + folder).exit_code, 0);
   ASSERT_EQ(command(std::string("run ") + job + " -o second").exit_code,
             0);  // over its own results
-  for (const std::string& name : all_results) {
+  const std::vector<std::string> names = files_in(folder_ / "first");
+  for (const std::string& name : names) {
     EXPECT_EQ(read_text(folder_ / "first" / name), read_text(folder_ / "second" / name)) << name;
   }
-  EXPECT_EQ(files_in(folder_ / "second"), all_results);
+  EXPECT_EQ(files_in(folder_ / "second"), names);
+  EXPECT_EQ(names, (std::vector<std::string>{"diagnosis_1_cone_seat.json",
+                                             "diagnosis_2_cylinder_seat.json", "report.html",
+                                             "result.json", "table.csv"}));
 }
 
 TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {
@@ -113,6 +119,36 @@ TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {
   EXPECT_EQ(files_in(folder_ / "out"), all_results);
   for (const std::string& name : all_results)
     EXPECT_EQ(read_text(folder_ / "alone" / name), read_text(folder_ / "out" / name)) << name;
+}
+
+TEST_F(RunCommand, EachReferenceHasItsDiagnosis) {
+  file("job.toml", simple_job(cylinder_reference));
+  ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
+  ASSERT_EQ(command("diagnose part.csv --surface cylinder --json alone.json").exit_code, 0);
+  json of_job = result("out/diagnosis_1_cylinder.json"), alone = result("alone.json");
+  EXPECT_EQ(of_job.at("schema"), "trueaxis.diagnosis/1");
+  for (json* diagnosis : {&of_job, &alone}) {  // the job names its stream by another path
+    diagnosis->at("input").erase("file");
+    for (const char* fit : {"baseline", "extended"}) diagnosis->at(fit).at("input").erase("file");
+  }
+  EXPECT_EQ(of_job, alone);
+  const json summary = result("out/result.json").at("references").at(0).at("diagnosis");
+  EXPECT_EQ(summary.at("verdict"), alone.at("verdict"));
+  EXPECT_EQ(summary.at("file"), "diagnosis_1_cylinder.json");
+  EXPECT_EQ(summary.at("axis_of_the_correction"), "ideal surface");
+}
+
+TEST_F(RunCommand, OnlyRepeatingMotionsMayBeAskedFor) {
+  for (const char* id : {"probe.height", "part.roundness", "spindle.asynchronous", "bogus"}) {
+    file("job.toml", simple_job(cylinder_reference) + "[correction]\ninclude = [\"" + id + "\"]\n");
+    expect_input_error("run job.toml -o out", std::string("holds '") + id + "'");
+  }
+  file("job.toml", simple_job(cylinder_reference) +
+                       "[correction]\ninclude = [\"spindle.radial_synchronous\"]\n");
+  const CommandStreams done = command("run job.toml -o out");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_TRUE(contains(done.out, "not followed spindle.radial_synchronous: it was not found"));
+  EXPECT_EQ(result("out/result.json").at("included").at(0).at("included"), false);
 }
 
 class CorrectCommand : public CommandTest {

@@ -85,8 +85,8 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   d.extended = fit;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const double c = stream.c_rad[i];
-    const double effect =
-        lobes_mm * std::cos(3.0 * c - lobes_phase_deg * rad_per_deg) + wander_mm * std::cos(7.41 * c);
+    const double effect = lobes_mm * std::cos(3.0 * c - lobes_phase_deg * rad_per_deg) +
+                          wander_mm * std::cos(7.41 * c);
     d.effect_mm.push_back(effect);
     d.residual_after_mm.push_back(fit.residual_mm[i]);
     d.residual_before_mm.push_back(fit.residual_mm[i] + effect);
@@ -117,9 +117,15 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
             {5e-5, 2e-5, "mm", ""},
             {4e-4, 1e-4, "mm", ""},
             {3e-4, 1e-4, "mm", ""}};
-  d.next = {"RC",  "the part re-indexed by 70 deg", {"part.roundness", "spindle.radial_synchronous"},
-            0.5, 0.993, 12.0, ""};
-  d.plans = {*d.findings.front().separate_with, {"2W", "a second speed", 0.5, 0.5, 3.0, ""},
+  d.next = {"RC",
+            "the part re-indexed by 70 deg",
+            {"part.roundness", "spindle.radial_synchronous"},
+            0.5,
+            0.993,
+            12.0,
+            ""};
+  d.plans = {*d.findings.front().separate_with,
+             {"2W", "a second speed", 0.5, 0.5, 3.0, ""},
              {"ST", "", 0.5, 0.5, 0.0, "the stream has no time column"}};
   d.hypotheses = 812;
   d.effective_hypotheses = 640.0;

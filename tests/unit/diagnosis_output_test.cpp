@@ -150,8 +150,7 @@ TEST(DiagnosisText, SaysWhatItKnowsWithinAHundredColumns) {
   }
   EXPECT_EQ(text.find("probe.quantisation"), std::string::npos) << "a check that found nothing";
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    EXPECT_LE(layout::width(line), 100u) << line;
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(layout::width(line), 100u) << line;
 }
 
 TEST(DiagnosisText, AdviceListsEveryPlan) {

@@ -75,7 +75,8 @@ TEST(Inclusion, TheCutPartIsTrueOnBothSides) {
     const Profile plain({}, target, tool), followed({}, target, tool, motions);
     for (int degree = 0; degree < 360; degree += 7) {
       const double c = degree * rad_per_deg;
-      const double m = example::lobes_mm * std::cos(3.0 * c - example::lobes_phase_deg * rad_per_deg);
+      const double m =
+          example::lobes_mm * std::cos(3.0 * c - example::lobes_phase_deg * rad_per_deg);
       const double cut = followed.at(c, 20.0) - towards_tool * m;
       EXPECT_NEAR(cut, plain.at(c, 20.0), 1e-12) << degree;
     }
@@ -85,7 +86,9 @@ TEST(Inclusion, TheCutPartIsTrueOnBothSides) {
 /// An axial motion moves X by tan α of the surface that is cut: a cylinder does not see it.
 TEST(Inclusion, AnAxialMotionActsThroughTheSlopeOfTheTarget) {
   RepeatingMotion axial{"spindle.axial_synchronous",
-                        find_effect("spindle.axial_synchronous")->term, {}, {0.004, 0.0}};
+                        find_effect("spindle.axial_synchronous")->term,
+                        {},
+                        {0.004, 0.0}};
   axial.shape.order = 2.0;
   EXPECT_EQ(motion_mm(axial, 0.3, 10.0, 0.0), 0.0);
   EXPECT_NEAR(motion_mm(axial, 0.3, 10.0, 0.1), 0.1 * 0.004 * std::cos(0.6), 1e-15);

@@ -79,7 +79,7 @@ struct Correction {
   TargetSurface target;
   ToolSetup tool;
   Actuator actuator;
-  AxisEstimate axis;  ///< the target axis
+  AxisEstimate axis;                     ///< the target axis
   std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
   CorrectionRows rows;
   std::vector<CorrectionHarmonic> harmonics;

@@ -46,8 +46,8 @@ struct Job {
   std::vector<std::string> include;
 };
 
-/// The machine motions that repeat at the tool: only these may be asked into a correction. A form of
-/// the reference acts through the target axis alone, an error of the probe never.
+/// The machine motions that repeat at the tool: only these may be asked into a correction. A form
+/// of the reference acts through the target axis alone, an error of the probe never.
 std::span<const std::string_view> repeating_effects();
 
 /// What became of a motion that the job asked into the correction.
