@@ -17,6 +17,8 @@ using Column = std::vector<double>;
 
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2;
+constexpr double slowest_hz = 0.2;          // slower is no vibration: drift, or the form of a pass
+constexpr double longest_wave_mm = 30.0;    // of a waviness, a screw's pitch
 
 /// One scan: cos, sin (2π f x − turns θ).
 struct Scan {
@@ -79,19 +81,21 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
   const double time_step = scene.has_time ? sampling(scene, scene.time) : 0.0;
   if (time_step > 0.0 && !resolution.sections) {
     const double lasted = span(scene.time);
-    list.push_back({&scene.time, 0.0, false, 1.5 / lasted, std::min(0.5 / time_step, 500.0),
+    list.push_back({&scene.time, 0.0, false, std::max(slowest_hz, 1.5 / lasted),
+                    std::min(0.5 / time_step, 500.0),
                     [](double f) { return line_of("environment.vibration", f); }});
     list.back().counts = !single;
   }
   const double length = scene.has_position ? span(scene.s) : 0.0;
   if (length > 1.0 && !resolution.sections) {
     const double step = sampling(scene, scene.s), highest = std::min(0.5 / step, 2.0);
-    list.push_back({&scene.s, 0.0, false, 1.5 / length, highest,
+    const double lowest = std::max(1.5 / length, 1.0 / longest_wave_mm);
+    list.push_back({&scene.s, 0.0, false, lowest, highest,
                     [](double f) { return line_of("part.waviness", f); }});
     list.back().counts = !single;
     list.back().form = true;
     if (std::abs(scene.tan_half_angle) > 1e-3) {
-      list.push_back({&scene.z, 0.0, false, 1.5 / length, std::min(highest, 1.0),
+      list.push_back({&scene.z, 0.0, false, lowest, std::min(highest, 1.0),
                       [](double f) { return line_of("slide.leadscrew_periodic", f); }});
       list.back().counts = scene.shifted;
       list.back().form = true;  // ∂X/∂Z too is of the other sign
@@ -120,7 +124,7 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
     swing = std::max(swing, high - low);
   }
   if (swing > 0.02 && !resolution.sections) {
-    list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 1.5 / swing),
+    list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 0.7 / swing),
                     std::min(500.0, static_cast<double>(scene.size()) / (3.0 * swing)),
                     [](double f) { return line_of("probe.cyclic", f); }});
   }
@@ -295,6 +299,7 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
   std::vector<Hypothesis> best;
   tests = 0.0;
   constexpr std::size_t least_readings = 8;
+  constexpr double not_one_reading = 0.7;
   for (const std::size_t sectors : {12U, 24U, 48U}) {
     for (const std::size_t lengths : {1U, 6U, 12U, 24U}) {
       if (lengths > 1 && !scene.has_position) continue;
@@ -308,10 +313,14 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
         const auto a = std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
         return a * lengths + (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
       };
+      std::vector<double> largest(sum.size(), 0.0);
       for (std::size_t i = 0; i < scene.size(); ++i) {
         if (!rows.used[i]) continue;
-        sum[place(i)] += scene.rear[i] ? -g[i] : g[i];
-        ++count[place(i)];
+        const std::size_t at = place(i);
+        const double value = scene.rear[i] ? -g[i] : g[i];
+        sum[at] += value;
+        ++count[at];
+        if (std::abs(value) > std::abs(largest[at])) largest[at] = value;
       }
       double top = 0.0;
       std::size_t where = 0;
@@ -319,6 +328,8 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
         if (count[b] < least_readings) continue;
         tests += 1.0;
         const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
+        const double rest = sum[b] - largest[b];  // a form is not made by one reading
+        if (rest * rest / static_cast<double>(count[b] - 1) < not_one_reading * value) continue;
         if (value > top) top = value, where = b;
       }
       if (!(top > 0.0)) continue;

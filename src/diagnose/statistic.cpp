@@ -10,6 +10,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr double generous = 3.0;  // times the largest typical size: no surprise yet
+constexpr double most_second = 0.3;  // of a jaw's second harmonic; ring theory says 0.05 for three
 constexpr double surprise = 2.0;  // of ln(size/(generous × typical))², in units of 2 ln L
 
 /// Largest typical size of the catalogue's parameter that a linear one is the factor of; 0: none.
@@ -66,6 +67,12 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
     const bool second = names[place].name.ends_with("_sin");
     pair = second ? std::hypot(pair, coefficients(j)) : std::abs(coefficients(j));
     if (high > 0.0 && pair > generous * high) worst = std::max(worst, std::log(pair / (generous * high)));
+  }
+  if (hypothesis.effect->id == "part.chuck_lobing" && coefficients.size() == 4) {
+    const double first = std::hypot(coefficients(0), coefficients(1));
+    const double second = std::hypot(coefficients(2), coefficients(3));
+    if (second > most_second * first)
+      sum += 4.0 * surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
   }
   return sum + surprise * worst * worst;
 }
