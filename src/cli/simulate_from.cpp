@@ -6,13 +6,12 @@
 #include <iostream>
 
 #include "cli/commands.hpp"
+#include "cli/resimulation.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/comparison_json.hpp"
 #include "trueaxis/io/diagnosis_scenario.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/truth_json.hpp"
-#include "trueaxis/job/comparison.hpp"
-#include "trueaxis/simulate/resimulate.hpp"
 #include "trueaxis/simulate/simulate.hpp"
 
 namespace trueaxis::cli {
@@ -54,12 +53,8 @@ int simulate_from(const SimulateFromOptions& options) {
   const ProbeStream measured = stream.read();
   DiagnosedScenarios scenarios =
       diagnosed_scenarios(text, options.diagnosis, measured, options.ball_radius_mm);
-  SimulatedReadings simulated;
-  simulated.before_mm = lathe::resimulate(scenarios.before, measured, scenarios.masked);
-  simulated.after_mm = lathe::resimulate(scenarios.after, measured, scenarios.masked);
-  expect_read_as_then(options, measured, simulated, scenarios);
-  const Comparison comparison =
-      compare(measured, simulated, scenarios.masked, scenarios.after.noise.sigma_mm);
+  const Resimulation again = resimulated(scenarios, measured);
+  expect_read_as_then(options, measured, again.readings, scenarios);
 
   if (!options.output.empty()) {
     lathe::Scenario scenario = options.before ? scenarios.before : scenarios.after;
@@ -70,9 +65,9 @@ int simulate_from(const SimulateFromOptions& options) {
     if (!options.truth.empty()) write_file(options.truth, truth_json(simulation.truth));
   }
   if (!options.json.empty())
-    write_file(options.json, comparison_json(comparison, options.diagnosis, measured));
+    write_file(options.json, comparison_json(again.comparison, options.diagnosis, measured));
   if (options.output != "-" && options.json != "-") {
-    std::cout << comparison_text(comparison);
+    std::cout << comparison_text(again.comparison);
     if (!options.output.empty())
       std::cout << options.output << ": " << measured.size() << " readings\n";
   }

@@ -13,6 +13,17 @@ std::string row(const char* name, const Discrepancy& d) {
 
 }  // namespace
 
+std::string resimulation_line(const Resimulation& again) {
+  if (!again.why_not.empty()) return layout::wrapped("simulated   ", "not again: " + again.why_not);
+  const Comparison& c = again.comparison;
+  return layout::wrapped(
+      "simulated   ",
+      layout::format("measured − simulated %.3g → %.3g µm RMS; of the variance %.3g %% is left, "
+                     "noise alone leaves %.3g %%",
+                     c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um, 100.0 * c.after.share,
+                     100.0 * c.noise.share));
+}
+
 std::string comparison_text(const Comparison& comparison) {
   std::string text =
       layout::format("measured against simulated, %zu readings", comparison.readings);
@@ -23,7 +34,7 @@ std::string comparison_text(const Comparison& comparison) {
   text += row("noise alone", comparison.noise);
   if (comparison.lines.empty()) return text;
   text += "  largest lines, order          before           after\n";
-  for (const ComparedLine& line : comparison.lines) {
+  for (const SpectrumBin& line : comparison.lines) {
     text += layout::format("  %-27.3f %12.3f µm %12.3f µm\n", line.order,
                            line.before_mm / mm_per_um, line.after_mm / mm_per_um);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
@@ -40,11 +41,9 @@ double variance(const std::vector<double>& values) {
   return squares / count;
 }
 
-/// Orders up to half the sampling, at most 15, in half resolution cells; none for less than half a
-/// turn.
-std::vector<ComparedLine> largest_lines(const std::vector<double>& c_rad,
-                                        const std::vector<double>& before_mm,
-                                        const std::vector<double>& after_mm) {
+std::vector<SpectrumBin> spectrum_of(const std::vector<double>& c_rad,
+                                     const std::vector<double>& before_mm,
+                                     const std::vector<double>& after_mm) {
   constexpr double highest_order = 15.0, most_bins = 4000.0;
   double travel_rad = 0.0;
   for (std::size_t i = 1; i < c_rad.size(); ++i) travel_rad += std::abs(c_rad[i] - c_rad[i - 1]);
@@ -56,24 +55,27 @@ std::vector<ComparedLine> largest_lines(const std::vector<double>& c_rad,
   const auto bins = static_cast<std::size_t>(highest * per_order) + 1;
   const FourierSums sums(c_rad, 0.0, 1.0 / per_order, bins);
   const auto before = sums.of(before_mm), after = sums.of(after_mm);
-  std::vector<double> height(bins);
-  for (std::size_t k = 0; k < bins; ++k)
-    height[k] = std::max(std::abs(before[k]), std::abs(after[k]));
-  std::vector<ComparedLine> lines;
+  std::vector<SpectrumBin> out;
   for (std::size_t k = 0; k < bins; ++k) {
-    // A line's own side lobes reach about three half cells to either side.
-    const std::size_t low = k > 3 ? k - 3 : 0, high = std::min(bins - 1, k + 3);
-    const auto top = std::max_element(height.begin() + static_cast<std::ptrdiff_t>(low),
-                                      height.begin() + static_cast<std::ptrdiff_t>(high) + 1);
-    if (static_cast<std::size_t>(top - height.begin()) != k) continue;
     const double factor = (k == 0 ? 1.0 : 2.0) / count;
-    lines.push_back({static_cast<double>(k) / per_order, factor * std::abs(before[k]),
-                     factor * std::abs(after[k])});
+    out.push_back({static_cast<double>(k) / per_order, factor * std::abs(before[k]),
+                   factor * std::abs(after[k])});
   }
-  const auto size = [](const ComparedLine& line) {
-    return -std::max(line.before_mm, line.after_mm);
-  };
-  std::ranges::stable_sort(lines, {}, size);
+  return out;
+}
+
+double height(const SpectrumBin& bin) { return std::max(bin.before_mm, bin.after_mm); }
+
+/// The highest bins, each the top of what it can leak into.
+std::vector<SpectrumBin> largest_lines(const std::vector<SpectrumBin>& spectrum) {
+  constexpr std::ptrdiff_t side_lobes = 3;  // half cells to either side
+  std::vector<SpectrumBin> lines;
+  for (auto bin = spectrum.begin(); bin != spectrum.end(); ++bin) {
+    const auto low = bin - std::min(side_lobes, bin - spectrum.begin());
+    const auto high = bin + std::min(side_lobes, spectrum.end() - bin - 1);
+    if (std::ranges::max_element(low, high + 1, {}, height) == bin) lines.push_back(*bin);
+  }
+  std::ranges::stable_sort(lines, std::greater{}, height);
   if (lines.size() > most_lines) lines.resize(most_lines);
   return lines;
 }
@@ -97,7 +99,8 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (!masked[i]) c_rad.push_back(measured.c_rad[i]);
   }
-  out.lines = largest_lines(c_rad, before, after);
+  out.spectrum = spectrum_of(c_rad, before, after);
+  out.lines = largest_lines(out.spectrum);
   return out;
 }
 

@@ -105,6 +105,7 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   height.separate_with = Separating{"RE", "probed from the rear side", 0.0, 1.0, 15.0, ""};
   d.not_observable = {height};
   d.noise = noise_report();
+  d.noise.masked = fit.rejected;
   d.checks = {{"probe.saturation", true, "4 readings at 50.1 mm: clipped, left out"},
               {"probe.quantisation", false, ""}};
   d.gain = {std::hypot(noise_mm, lobes_mm / std::sqrt(2.0)),

@@ -63,13 +63,14 @@ TEST(ReportPageText, LoadsNothingFromElsewhere) {
 /// noise, 4/(18 + 0.72 + 4) of the variance; the sample's own share is within 5/√1500 of that.
 TEST(ReportData, ShareOfTheVarianceThatIsLeft) {
   const json data = report_data(example::diagnosed_job(1500));
-  const json& gain = data["references"][0]["diagnosis"]["gain"];
-  EXPECT_NEAR(gain["left_share"], 4.0 / 22.72, 4.0 / 22.72 * 5.0 / std::sqrt(1500.0));
-  EXPECT_EQ(gain["noise_share"].is_number(), true);
+  const json& simulation = data["references"][0]["diagnosis"]["simulation"];
+  EXPECT_NEAR(simulation["left_share"], 4.0 / 22.72, 4.0 / 22.72 * 5.0 / std::sqrt(1500.0));
+  EXPECT_EQ(simulation["noise_share"].is_number(), true);
 }
 
 TEST(ReportData, MapsLeaveMaskedReadingsOut) {
-  const json maps = report_data(example::diagnosed_job(1500))["references"][0]["diagnosis"]["maps"];
+  const json maps =
+      report_data(example::diagnosed_job(1500))["references"][0]["diagnosis"]["simulation"]["maps"];
   EXPECT_EQ(maps["before_um"].size(), 1500u);
   const json& rejected = maps["rejected"];
   EXPECT_NE(std::find(rejected.begin(), rejected.end(), 200), rejected.end()) << "row 201";

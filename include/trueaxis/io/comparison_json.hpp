@@ -12,6 +12,9 @@ namespace trueaxis {
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,
                             const ProbeStream& stream);
 
+/// In a line: what is left of the discrepancy, or why it was not simulated again.
+std::string resimulation_line(const Resimulation& again);
+
 /// The same as a table.
 std::string comparison_text(const Comparison& comparison);
 

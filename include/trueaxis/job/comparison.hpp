@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "trueaxis/diagnose/diagnosis.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 
 namespace trueaxis {
@@ -11,12 +13,6 @@ namespace trueaxis {
 /// (after) at the arguments of a measured stream, one a reading, mm.
 struct SimulatedReadings {
   std::vector<double> before_mm, after_mm;
-};
-
-/// An order of the spectrum of measured − simulated: amplitudes, mm.
-struct ComparedLine {
-  double order = 0.0;  ///< undulations per revolution
-  double before_mm = 0.0, after_mm = 0.0;
 };
 
 /// How far a simulation is from what was measured.
@@ -29,8 +25,18 @@ struct Discrepancy {
 struct Comparison {
   std::size_t readings = 0, masked = 0;
   Discrepancy before, after;
-  Discrepancy noise;                ///< what noise alone would leave
-  std::vector<ComparedLine> lines;  ///< the largest of both spectra, largest first
+  Discrepancy noise;  ///< what noise alone would leave
+  /// Amplitudes of measured − simulated over the order, in half resolution cells up to order 15 or
+  /// half the sampling; none for less than half a turn.
+  std::vector<SpectrumBin> spectrum;
+  std::vector<SpectrumBin> lines;  ///< its largest, largest first
+};
+
+/// A diagnosed measurement taken again by the virtual lathe.
+struct Resimulation {
+  SimulatedReadings readings;
+  Comparison comparison;
+  std::string why_not;  ///< not empty: there is none, for this reason
 };
 
 /// @param sigma_mm standard deviation of a reading
