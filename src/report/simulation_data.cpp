@@ -110,9 +110,8 @@ json simulation_data(const ProbeStream& stream, const Diagnosis& d, const Resimu
   const bool by_lathe = again != nullptr && again->why_not.empty();
   const Resimulation shown = by_lathe ? *again : by_model(stream, d, masked);
   ChartReadings all = chart_readings(stream, d.baseline, CoaxialNominal(stream, d.baseline));
-  for (std::size_t i = 0; i < masked.size(); ++i) {
-    if (masked[i]) all.kept[i] = false;
-  }
+  // What the ideal surface's robust loss rejected may be what was found: it counts.
+  for (std::size_t i = 0; i < masked.size(); ++i) all.kept[i] = !masked[i];
   const Comparison& c = shown.comparison;
   return {{"by_lathe", by_lathe},
           {"why_not", again != nullptr ? again->why_not : ""},

@@ -31,7 +31,7 @@ void enter_motion_cell(const Values& of, Chain& chain) {
 
 constexpr EffectParameter time_cell_parameters[] = {{"order", 0.0},     {"amplitude_mm", {}},
                                                     {"phase_rad", 0.0}, {"degree", 1.0},
-                                                    {"start_s", {}},    {"end_s", {}}};
+                                                    {"start_s", 0.0},   {"end_s", {}}};
 
 void enter_time_cell(const Values& of, Chain& chain) {
   const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");

@@ -106,9 +106,10 @@ TEST_F(RunCommand, TheSameBytesEveryTime) {
     EXPECT_EQ(read_text(folder_ / "first" / name), read_text(folder_ / "second" / name)) << name;
   }
   EXPECT_EQ(files_in(folder_ / "second"), names);
-  EXPECT_EQ(names, (std::vector<std::string>{"diagnosis_1_cone_seat.json",
-                                             "diagnosis_2_cylinder_seat.json", "report.html",
-                                             "result.json", "table.csv"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "diagnosis_1_cone_seat.json", "diagnosis_2_cylinder_seat.json",
+                       "readings_1_cone_seat.csv", "readings_2_cylinder_seat.csv", "report.html",
+                       "result.json", "table.csv"}));
 }
 
 TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {
