@@ -15,8 +15,8 @@ constexpr double worth_taking = 0.02;
 
 double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
 
-/// What a set of readings would tell: for every question the least Φ(d/2) over its rivals, for every
-/// hidden effect the power of finding it.
+/// What a set of readings would tell: for every question the least Φ(d/2) over its rivals, for
+/// every hidden effect the power of finding it.
 struct Outlook {
   std::vector<double> told;
   std::vector<double> found;
@@ -26,16 +26,22 @@ class Predictor {
  public:
   Predictor(const Problem& problem, const Model& model, const std::vector<Question>& questions,
             const std::vector<Hidden>& hidden, double sigma_mm)
-      : problem_(problem), model_(model), questions_(questions), hidden_(hidden), sigma_mm_(sigma_mm) {
+      : problem_(problem),
+        model_(model),
+        questions_(questions),
+        hidden_(hidden),
+        sigma_mm_(sigma_mm) {
     list_ = model.terms;
     for (const Question& q : questions)
-      for (std::size_t r = 1; r < q.found.members.size(); ++r) list_.push_back(q.found.members[r].hypothesis);
+      for (std::size_t r = 1; r < q.found.members.size(); ++r)
+        list_.push_back(q.found.members[r].hypothesis);
     for (const Hidden& h : hidden) list_.push_back(h.typical.hypothesis);
     const Joint joint(problem, model.phi, model.terms, model.terms.size());
     for (std::size_t t = 0; t < model.terms.size(); ++t) sizes_.push_back(joint.of(t));
   }
 
-  Outlook of(const ProbeStream& stream, const std::vector<Clamping>& clampings, double weight) const {
+  Outlook of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+             double weight) const {
     BaseKind base = problem_.scene.base;
     base.axes = clampings.back().axis + 1;
     const Scene scene = make_scene(stream, clampings, base, problem_.scene.bore);
@@ -58,7 +64,8 @@ class Predictor {
         double d2 = 0.0;
         for (std::size_t a = 0; a < places[q.term].size(); ++a) {
           for (std::size_t b = 0; b < places[q.term].size(); ++b)
-            d2 += sizes_[q.term](static_cast<Eigen::Index>(a)) * sizes_[q.term](static_cast<Eigen::Index>(b)) *
+            d2 += sizes_[q.term](static_cast<Eigen::Index>(a)) *
+                  sizes_[q.term](static_cast<Eigen::Index>(b)) *
                   p.gram(static_cast<Eigen::Index>(places[q.term][a]),
                          static_cast<Eigen::Index>(places[q.term][b]));
         }
@@ -106,12 +113,15 @@ std::optional<Separating> choose(const std::vector<Plan>& plans, double before,
   return Separating{best->code, best->what, before, power, best->minutes, ""};
 }
 
-Separating nothing_helps(double before, const char* why) { return {"", "", before, before, 0.0, why}; }
+Separating nothing_helps(double before, const char* why) {
+  return {"", "", before, before, 0.0, why};
+}
 
 double longest_wave(const std::vector<Question>& questions) {
   for (const Question& q : questions)
     for (const Candidate& c : q.found.members)
-      if (c.hypothesis.effect && c.hypothesis.effect->id == "part.waviness") return c.hypothesis.shape.period_mm;
+      if (c.hypothesis.effect && c.hypothesis.effect->id == "part.waviness")
+        return c.hypothesis.shape.period_mm;
   return 0.0;
 }
 
@@ -152,7 +162,8 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     const std::vector<double> values = column(&Outlook::told, k);
     out.questions.push_back(choose(plans, before, values));
     if (!out.questions.back())
-      out.questions.back() = nothing_helps(before, "no single measurement of this part tells them apart");
+      out.questions.back() =
+          nothing_helps(before, "no single measurement of this part tells them apart");
     else
       open = true, count(before, values, 1.0);
   }
@@ -174,12 +185,14 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
   double most = 0.0;
   for (const double g : gains) most = std::max(most, g);
   const auto rank = [&](std::size_t p) {
-    return std::pair(gains[p] < share_of_best * most, gains[p] < share_of_best * most ? -gains[p] : plans[p].minutes);
+    return std::pair(gains[p] < share_of_best * most,
+                     gains[p] < share_of_best * most ? -gains[p] : plans[p].minutes);
   };
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   for (const std::size_t p : order) {
-    out.plans.push_back({plans[p].code, plans[p].what, weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
-                         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0, plans[p].minutes, ""});
+    out.plans.push_back(
+        {plans[p].code, plans[p].what, weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
+         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0, plans[p].minutes, ""});
   }
   if (!(most > 0.0) || order.empty()) {
     out.next.why_not = questions.empty() && hidden.empty()
@@ -192,7 +205,8 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
   for (std::size_t k = 0; k < questions.size(); ++k) {
     if (questions[k].found.rivals.empty()) continue;
     if (after[order[0]].told[k] - out.questions[k]->power_before < worth_taking) continue;
-    for (const Candidate& c : questions[k].found.members) out.next.separates.push_back(c.hypothesis.id());
+    for (const Candidate& c : questions[k].found.members)
+      out.next.separates.push_back(c.hypothesis.id());
   }
   if (!open) {
     for (std::size_t k = 0; k < hidden.size(); ++k)

@@ -26,7 +26,8 @@ Resolution resolution_of(const Scene& scene, const Rows& rows) {
   for (const Pass& pass : scene.passes) {
     if (pass.c_sign == 0 || pass.readings_per_revolution <= 0.0) continue;
     out.turns += static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
-    if (pass.end - pass.begin > 8) out.per_turn = std::min(out.per_turn, pass.readings_per_revolution);
+    if (pass.end - pass.begin > 8)
+      out.per_turn = std::min(out.per_turn, pass.readings_per_revolution);
   }
   if (out.per_turn == 1e9) out.per_turn = static_cast<double>(scene.size());
   out.sections = rows.block == "a section";

@@ -12,7 +12,8 @@ namespace {
 using Keep = std::vector<std::size_t>;
 
 constexpr double decay_lengths[] = {10.0, 20.0, 40.0, 80.0, 160.0};
-constexpr double bearings[] = {-500.0, -250.0, -100.0, -50.0, -20.0, 0.0};  // effects.md: far to near
+constexpr double bearings[] = {-500.0, -250.0, -100.0,
+                               -50.0,  -20.0,  0.0};  // effects.md: far to near
 constexpr double no_motion = 1e-9;
 
 struct Span {
@@ -30,16 +31,19 @@ TermShape with_order(double order) {
   return shape;
 }
 
-void add_harmonics(const Scene& scene, const Resolution& resolution, std::vector<Hypothesis>& list) {
+void add_harmonics(const Scene& scene, const Resolution& resolution,
+                   std::vector<Hypothesis>& list) {
   const double tests = resolution.harmonics;
   for (int n = 2; n <= resolution.harmonics; ++n) {
     list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
-    if (resolution.degrees > 0) list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
+    if (resolution.degrees > 0)
+      list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
     if (!scene.reindexed && !scene.two_sided) continue;
     list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
     TermShape tilt = with_order(n);
     tilt.lever_from_mm = bearings[2];
-    if (resolution.degrees > 0) list.push_back(of_effect("spindle.tilt_synchronous", tilt, {}, tests));
+    if (resolution.degrees > 0)
+      list.push_back(of_effect("spindle.tilt_synchronous", tilt, {}, tests));
   }
 }
 
@@ -152,7 +156,8 @@ std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& re
         shape.decay_length_mm = decay;
         const double all = 5.0 * std::size(decay_lengths);
         if (j == order) list.push_back(of_effect("part.chuck_lobing", shape, {0, 1}, all));
-        if (2 * j <= resolution.harmonics) list.push_back(of_effect("part.chuck_lobing", shape, {}, all));
+        if (2 * j <= resolution.harmonics)
+          list.push_back(of_effect("part.chuck_lobing", shape, {}, all));
       }
     }
   }
@@ -183,7 +188,8 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const Scene& scene, doub
     // The envelope 1 + u κ, κ = half length / (middle − bearing): κ is what the data show.
     vary([&](Hypothesis& o, double d) {
       const double kappa = scene.z_half_mm / (scene.z_mid_mm - o.shape.lever_from_mm) + d;
-      if (kappa > 0.01 && kappa < 1.2) o.shape.lever_from_mm = scene.z_mid_mm - scene.z_half_mm / kappa;
+      if (kappa > 0.01 && kappa < 1.2)
+        o.shape.lever_from_mm = scene.z_mid_mm - scene.z_half_mm / kappa;
     });
   } else if (id == "part.chuck_lobing") {
     vary([](Hypothesis& o, double d) { o.shape.decay_length_mm *= std::exp(3.0 * d); });

@@ -14,7 +14,8 @@ namespace trueaxis::diagnose_detail {
 std::vector<Hypothesis> preset_causes(const Scene& scene, const Resolution& resolution);
 
 /// Causes that show as the harmonic of an order: of part, chuck, spindle and encoder.
-std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& resolution, int order);
+std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& resolution,
+                                        int order);
 
 /// A slip at every one of some instants.
 std::vector<Hypothesis> slips(const Scene& scene, std::size_t instants);

@@ -32,7 +32,8 @@ void add_shape(const Hypothesis& h, std::vector<NamedValue>& out) {
     if (name == "order") out.push_back({"order", "1", s.order});
     if (name == "degree") out.push_back({"degree", "1", static_cast<double>(s.degree)});
     if (name == "lever_from_mm")
-      out.push_back({id == "part.chuck_lobing" ? "jaw_position" : "bearing", "mm", s.lever_from_mm});
+      out.push_back(
+          {id == "part.chuck_lobing" ? "jaw_position" : "bearing", "mm", s.lever_from_mm});
     if (name == "decay_length_mm") out.push_back({"decay_length", "mm", s.decay_length_mm});
     if (name == "period_mm") out.push_back({period_name(id), "mm", s.period_mm});
     if (name == "frequency_hz") out.push_back({"frequency", "Hz", s.frequency_hz});
@@ -143,14 +144,16 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     const double x0 = scanned_value(h), x1 = scanned_value(sides[0]), x2 = scanned_value(sides[1]);
     const double d1 = x1 - x0, d2 = x2 - x0;
     // RSS = RSS₀ + ½ c (x − x₀)² near the minimum: u² = 2 σ²/c.
-    const double curvature =
-        d1 != 0.0 && d2 != 0.0 && d1 != d2
-            ? 2.0 * ((high.solution.rss - joint.solution.rss) / d2 -
-                     (low.solution.rss - joint.solution.rss) / d1) / (d2 - d1)
-            : 0.0;
+    const double curvature = d1 != 0.0 && d2 != 0.0 && d1 != d2
+                                 ? 2.0 *
+                                       ((high.solution.rss - joint.solution.rss) / d2 -
+                                        (low.solution.rss - joint.solution.rss) / d1) /
+                                       (d2 - d1)
+                                 : 0.0;
     if (curvature > 0.0) {
       const double u = joint.sigma_mm * std::sqrt(2.0 / curvature);
-      const auto below = values_of(sides[0], low.of(term)), above = values_of(sides[1], high.of(term));
+      const auto below = values_of(sides[0], low.of(term)),
+                 above = values_of(sides[1], high.of(term));
       for (std::size_t v = 0; v < values.size(); ++v) {
         const double g = difference(above[v], below[v]) / (x2 - x1);
         variance[v] += g * g * u * u;
@@ -164,8 +167,10 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     FitParameter p{values[v].name,
                    {values[v].value * factor, std::sqrt(variance[v]) * factor,
                     angle ? "deg" : values[v].unit, ""}};
-    if (p.name == "onset") p.estimate.u = 1.0 / std::sqrt(12.0) *
-        (problem.scene.time.back() - problem.scene.time.front()) / static_cast<double>(problem.scene.size());
+    if (p.name == "onset")
+      p.estimate.u = 1.0 / std::sqrt(12.0) *
+                     (problem.scene.time.back() - problem.scene.time.front()) /
+                     static_cast<double>(problem.scene.size());
     out.push_back(std::move(p));
   }
   return out;
@@ -189,26 +194,30 @@ Unexplained unexplained_of(const Joint& joint, std::size_t term) {
   const char* along = p.in_time ? "time" : "Z";
   if (p.kind == Pattern::Kind::bump) {
     out.harmonic = "local form";
-    std::snprintf(text, sizeof text, "at %.1f° (± %.1f°)", p.angle_rad / rad_per_deg, p.width_rad / rad_per_deg);
+    std::snprintf(text, sizeof text, "at %.1f° (± %.1f°)", p.angle_rad / rad_per_deg,
+                  p.width_rad / rad_per_deg);
     out.dependence = text;
     if (p.length_mm > 0.0) {
       std::snprintf(text, sizeof text, ", Z %.2f mm (± %.2f mm)", p.position_mm, p.length_mm);
       out.dependence += text;
     }
   } else if (p.kind == Pattern::Kind::line) {
-    std::snprintf(text, sizeof text, p.in_time ? "turning with %.4g Hz" : "turning along Z, %.4g per mm",
-                  p.frequency);
+    std::snprintf(text, sizeof text,
+                  p.in_time ? "turning with %.4g Hz" : "turning along Z, %.4g per mm", p.frequency);
     out.dependence = text;
   } else if (p.degree == 0) {
     out.dependence = std::string("constant along ") + along;
   } else {
-    if (p.degree == 1) std::snprintf(text, sizeof text, "linear in %s", along);
-    else std::snprintf(text, sizeof text, "P%d in %s", p.degree, along);
+    if (p.degree == 1)
+      std::snprintf(text, sizeof text, "linear in %s", along);
+    else
+      std::snprintf(text, sizeof text, "P%d in %s", p.degree, along);
     out.dependence = text;
   }
   const double amplitude = c.norm();
   const Eigen::MatrixXd inverse = joint.solution.inverse.block(at, at, c.size(), c.size());
-  const double u = amplitude > 0.0 ? joint.sigma_mm * std::sqrt(c.dot(inverse * c)) / amplitude : 0.0;
+  const double u =
+      amplitude > 0.0 ? joint.sigma_mm * std::sqrt(c.dot(inverse * c)) / amplitude : 0.0;
   out.amplitude = {c.size() == 1 ? c(0) : amplitude, u, "mm", ""};
   return out;
 }

@@ -16,7 +16,8 @@ struct NamedValue {
 };
 
 /// The catalogue's parameters of a hypothesis of an effect at its linear coefficients.
-std::vector<NamedValue> values_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
+std::vector<NamedValue> values_of(const Hypothesis& hypothesis,
+                                  const Eigen::VectorXd& coefficients);
 
 /// Parameters of a term with their uncertainties: those of the joint fit, and of the shape that the
 /// search has refined (curvature of the profile likelihood), by the law of propagation.

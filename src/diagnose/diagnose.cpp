@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/diagnose/diagnosis.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -11,9 +9,11 @@
 #include "diagnose/extended.hpp"
 #include "diagnose/gain.hpp"
 #include "diagnose/noise.hpp"
+#include "diagnose/sought.hpp"
 #include "diagnose/sources.hpp"
 #include "diagnose/spectrum.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/diagnose/diagnosis.hpp"
 
 namespace trueaxis {
 
@@ -90,8 +90,9 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     out.next.why_not = out.noise.note;
     return out;
   }
-  const int threads = options.threads > 0 ? options.threads
-                                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = options.threads > 0
+                          ? options.threads
+                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const double ball_mm = ball_of(stream, options.fit);
   const std::vector<Clamping> clampings = clampings_of(out.baseline, ball_mm);
   const BaseKind base = base_of(stream, out.baseline, clampings);
@@ -99,23 +100,25 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   Rows rows = make_rows(first);
   const Resolution resolution = resolution_of(first, rows);
   const std::vector<double> deviation = deviation_from(stream, first);
-  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows);
-  const Problem search_problem{first, rows, resolution, deviation, options.false_alarm, threads,
-                               static_cast<std::size_t>(options.max_findings)};
-  const Model model = search(search_problem);
+  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows, threads);
+  const auto most = static_cast<std::size_t>(options.max_findings);
+  const Problem whole{first, rows, resolution, deviation, options.false_alarm, threads, most};
+  const Sought sought(whole);
+  const Model& model = sought.model;
 
   // Once more about the extended model: its columns are then those of the part without the effects.
-  const Joint near(search_problem, model.phi, model.terms, model.terms.size());
+  const Joint near(whole, model.phi, model.terms, model.terms.size());
   const Eigen::VectorXd near_terms =
       near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
   std::vector<double> effect_mm = contribution(first, model.terms, near_terms);
   out.extended = extended_fit(stream, options.fit, near, effect_mm, masked);
   const bool again = usable(out.extended) && !model.terms.empty();
   const Scene second =
-      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore) : first;
+      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore)
+            : first;
   const std::vector<double> second_deviation = deviation_from(stream, second);
-  const Problem problem{second, rows, resolution, second_deviation, options.false_alarm, threads,
-                        static_cast<std::size_t>(options.max_findings)};
+  const Problem problem{second,  rows, resolution, second_deviation, options.false_alarm,
+                        threads, most};
   const Joint joint(problem, model.phi, model.terms, model.terms.size());
   const Eigen::VectorXd terms =
       joint.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
@@ -135,7 +138,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       out.unexplained.push_back(std::move(left));
       continue;
     }
-    questions.push_back({t, distinguish(problem, model, t)});
+    questions.push_back({t, sought.distinguish(t)});
     Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
     add_harm(joint, t, finding.axis_shift, finding.cosmetic);
     finding.rms_mm = rms_of(contribution(second, {model.terms[t]}, joint.of(t)));
@@ -158,7 +161,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
                 : !out.findings.empty()  ? DiagnosisVerdict::effects
                                          : DiagnosisVerdict::ideal;
-  out.noise = report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
+  out.noise =
+      report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
   out.checks = check_quality(stream, joint, out.residual_after_mm, out.noise);
   out.gain = measure_gain(problem, joint, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);

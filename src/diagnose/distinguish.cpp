@@ -9,7 +9,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double told_apart = 3.2897;   // d with Φ(d/2) = 0.95
+constexpr double told_apart = 3.2897;     // d with Φ(d/2) = 0.95
 constexpr double likelihood_tells = 7.0;  // a true cause is farther behind in 0.4 % of cases
 constexpr double structural = 0.999;
 constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
@@ -25,7 +25,8 @@ Distance distance(const Evidence& evidence, const Columns& others, const Columns
     double sum = 0.0;
     for (std::size_t a = 0; a < named.size(); ++a) {
       for (std::size_t b = 0; b < named.size(); ++b)
-        sum += coefficients(static_cast<Eigen::Index>(a)) * coefficients(static_cast<Eigen::Index>(b)) *
+        sum += coefficients(static_cast<Eigen::Index>(a)) *
+               coefficients(static_cast<Eigen::Index>(b)) *
                p.gram(static_cast<Eigen::Index>(named[a]), static_cast<Eigen::Index>(named[b]));
     }
     return std::max(sum, 0.0);
@@ -44,9 +45,8 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
   Proposal proposal = propose(problem, model.phi, others, &named);
   std::erase_if(proposal.causes, [](const Candidate& c) { return c.rank == 0; });
   // The search has weighed the named one against all others jointly; its own refined form leads.
-  const auto own = std::ranges::find_if(proposal.causes, [&](const Candidate& c) {
-    return c.hypothesis.effect == named.effect;
-  });
+  const auto own = std::ranges::find_if(
+      proposal.causes, [&](const Candidate& c) { return c.hypothesis.effect == named.effect; });
   if (own != proposal.causes.end()) std::rotate(proposal.causes.begin(), own, own + 1);
 
   std::vector<Hypothesis> list = others;
@@ -70,7 +70,8 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
       continue;
     }
     const Columns& columns = joint.places[others.size() + 1 + k];
-    const Distance d = distance(joint.evidence, base, joint.places[others.size()], coefficients, columns);
+    const Distance d =
+        distance(joint.evidence, base, joint.places[others.size()], coefficients, columns);
     Rival rival;
     rival.effect = c.hypothesis.id();
     rival.distance = std::sqrt(d.left2 / variance);
@@ -89,7 +90,8 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
   if (out.members.empty()) out.members.push_back({named, best.gain, best.rank, 0.0, 0.0});
   double sum = 0.0;
   const double lead = out.members.front().criterion;
-  for (const Candidate& c : out.members) sum += std::exp(-0.5 * std::min(c.criterion - lead, 1400.0));
+  for (const Candidate& c : out.members)
+    sum += std::exp(-0.5 * std::min(c.criterion - lead, 1400.0));
   out.probability = 1.0 / sum;
   for (std::size_t r = 0; r < out.rivals.size(); ++r)
     out.rivals[r].probability = std::exp(-0.5 * (out.members[r + 1].criterion - lead)) / sum;
@@ -101,7 +103,8 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
   });
   Class sorted{{out.members.front()}, {}, out.probability};
   for (const std::size_t r : order) {
-    if (out.rivals[r].probability < implausible && !out.members[r + 1].hypothesis.with_radial) continue;
+    if (out.rivals[r].probability < implausible && !out.members[r + 1].hypothesis.with_radial)
+      continue;
     sorted.members.push_back(out.members[r + 1]);
     sorted.rivals.push_back(out.rivals[r]);
   }

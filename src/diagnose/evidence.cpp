@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t chunk_rows = 512;
 constexpr double least_floor_mm = 1e-6;  // readings are written to a nanometre
 constexpr double second_order = 5e-4;    // of what the terms take, their next order is left
-constexpr double undetermined = 1e-11;  // of a column's square: rounding of the Gram matrix and of
-                                        // the linearisation leave nothing to trust below
+constexpr double undetermined = 1e-11;   // of a column's square: rounding of the Gram matrix and of
+                                         // the linearisation leave nothing to trust below
 
 using Matrix = Eigen::MatrixXd;
 
@@ -46,7 +46,8 @@ class Chunk {
       std::copy(from, from + rows, to);
       for (std::size_t lag = 1; lag <= phi.size(); ++lag) {
         const std::size_t skip = lag > lead ? lag - lead : 0;
-        for (std::size_t i = skip; i < rows; ++i) to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
+        for (std::size_t i = skip; i < rows; ++i)
+          to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
       }
     }
   }
@@ -94,7 +95,8 @@ Evidence::Evidence(const Scene& scene, const Rows& rows, std::span<const double>
   for (std::size_t i = 0; i < scene.size(); ++i)
     count_ += rows.used[i] && rows.run[i] >= autoregression_.size();
   double sum = 0.0;
-  for (std::size_t i = 0; i < scene.size(); ++i) sum += rows.used[i] ? deviation_[i] * deviation_[i] : 0.0;
+  for (std::size_t i = 0; i < scene.size(); ++i)
+    sum += rows.used[i] ? deviation_[i] * deviation_[i] : 0.0;
   floor2_ = std::max(least_floor_mm * least_floor_mm,
                      second_order * second_order * sum / static_cast<double>(scene.size()));
   base_.resize(scene.base.columns());
@@ -133,9 +135,21 @@ void Evidence::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, st
   scene_->fill_base(begin, end, columns.subspan(1, base_.size()));
   std::size_t next = 1 + base_.size();
   for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
+    const Hypothesis* constant = nullptr;  // the cell of degree 0 whose order the next ones share
+    std::vector<const double*> constant_columns;
     for (const Hypothesis& h : some) {
-      fill(h, *scene_, begin, end, columns.subspan(next, h.columns()));
-      next += h.columns();
+      const std::span<double* const> own = columns.subspan(next, h.columns());
+      next += own.size();
+      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::cell && !h.pattern.in_time;
+      if (cell && h.pattern.degree > 0 && constant != nullptr &&
+          constant->pattern.order == h.pattern.order &&
+          constant->pattern.spindle == h.pattern.spindle) {
+        raise_degree(h, *scene_, begin, end, constant_columns, own);
+        continue;
+      }
+      fill(h, *scene_, begin, end, own);
+      constant = cell && h.pattern.degree == 0 ? &h : nullptr;
+      if (constant != nullptr) constant_columns.assign(own.begin(), own.end());
     }
   }
 }
@@ -166,7 +180,8 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!rows_->used[i] || rows_->run[i] < history) chunk.drop(i - begin);
       }
-      for (std::size_t i = begin; i < end; ++i) counted += rows_->used[i] && rows_->run[i] >= history;
+      for (std::size_t i = begin; i < end; ++i)
+        counted += rows_->used[i] && rows_->run[i] >= history;
       const std::span<const double* const> columns = chunk.white(end - begin);
       const WideBlock left{columns.subspan(before), end - begin};
       add_wide_products(left, own);
@@ -179,8 +194,8 @@ void Evidence::pass(std::span<const Hypothesis> fresh) {
     for (std::size_t i = before; i < after; ++i) {
       const auto row = static_cast<Eigen::Index>(i);
       for (std::size_t j = 0; j <= i; ++j) {
-        const double value = j < before ? cross[(i - before) * before + j]
-                                        : own[gram_index(i - before, j - before)];
+        const double value =
+            j < before ? cross[(i - before) * before + j] : own[gram_index(i - before, j - before)];
         gram(row, static_cast<Eigen::Index>(j)) = gram(static_cast<Eigen::Index>(j), row) = value;
       }
     }

@@ -13,8 +13,8 @@ namespace trueaxis::diagnose_detail {
 
 using Columns = std::vector<std::size_t>;
 
-/// The Gram matrix of [readings | base | hypotheses], whitened, also block by block of readings: all
-/// that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
+/// The Gram matrix of [readings | base | hypotheses], whitened, also block by block of readings:
+/// all that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
 /// the readings from the scene's surface (mm); then the base; then what was appended.
 class Evidence {
  public:

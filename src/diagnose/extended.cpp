@@ -45,7 +45,8 @@ Eigen::RowVectorXd reported_slope(const std::string& name, const Revolved& shape
   if (name == "tilt") {
     const double slope = std::hypot(shape.axis.slope_x, shape.axis.slope_y);
     if (slope > 0.0)
-      g(2) = shape.axis.slope_x / slope / rad_per_deg, g(3) = shape.axis.slope_y / slope / rad_per_deg;
+      g(2) = shape.axis.slope_x / slope / rad_per_deg,
+      g(3) = shape.axis.slope_y / slope / rad_per_deg;
   }
   (void)x, (void)y;
   return g;
@@ -134,7 +135,8 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
   for (Eigen::Index i = 0; i < 6; ++i) {
     for (Eigen::Index j = 0; j < 6; ++j) {
-      const Eigen::Index a = place[static_cast<std::size_t>(i)], b = place[static_cast<std::size_t>(j)];
+      const Eigen::Index a = place[static_cast<std::size_t>(i)],
+                         b = place[static_cast<std::size_t>(j)];
       if (a >= 0 && b >= 0) covariance(i, j) = base(a, b);
     }
   }
@@ -142,7 +144,8 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
   const std::size_t n = result.parameters.size();
   Eigen::MatrixXd slope(static_cast<Eigen::Index>(n), 6);
   for (std::size_t p = 0; p < n; ++p)
-    slope.row(static_cast<Eigen::Index>(p)) = reported_slope(result.parameters[p].name, result.shape, z_mid);
+    slope.row(static_cast<Eigen::Index>(p)) =
+        reported_slope(result.parameters[p].name, result.shape, z_mid);
   const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
   for (std::size_t p = 0; p < n; ++p) {
     for (std::size_t q = 0; q < n; ++q) {
@@ -168,9 +171,10 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
   for (FitParameter& d : result.derived) {
     if (d.name.starts_with("offset") || d.name.ends_with("offset") ||
         d.name.find("offset") != std::string::npos) {
-      const double z = d.name.find("start") != std::string::npos || d.name.find("min") != std::string::npos
-                           ? result.position_min_mm
-                           : result.position_max_mm;
+      const double z =
+          d.name.find("start") != std::string::npos || d.name.find("min") != std::string::npos
+              ? result.position_min_mm
+              : result.position_max_mm;
       d.estimate.u = std::max(d.estimate.u, result.axis.u_at(z));
       continue;
     }

@@ -19,8 +19,9 @@ BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
 std::vector<double> contribution(const Scene& scene, const std::vector<Hypothesis>& terms,
                                  const Eigen::VectorXd& coefficients);
 
-/// The surface fitted to the readings less what the terms contribute, masked readings left out; u of
-/// axis and parameters from the joint covariance, so that what a term takes from the axis widens it.
+/// The surface fitted to the readings less what the terms contribute, masked readings left out; u
+/// of axis and parameters from the joint covariance, so that what a term takes from the axis widens
+/// it.
 FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
                        const std::vector<double>& effect_mm, const std::vector<Rejected>& masked);
 

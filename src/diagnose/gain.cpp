@@ -73,12 +73,15 @@ Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor
       b.rows += problem.rows.used[i] != 0;
     if (b.rows == 0.0) continue;
     b.before = std::max(0.0, held_out(evidence.total(), evidence.folds()[f], before));
-    b.after = joint.terms.empty() ? b.before
-                                  : std::max(0.0, held_out(evidence.total(), evidence.folds()[f], after));
+    b.after = joint.terms.empty()
+                  ? b.before
+                  : std::max(0.0, held_out(evidence.total(), evidence.folds()[f], after));
     blocks.push_back(b);
   }
-  out.held_out_before_mm = interval(blocks, [](const Block& b) { return root_mean(b.before, b.rows); });
-  out.held_out_after_mm = interval(blocks, [](const Block& b) { return root_mean(b.after, b.rows); });
+  out.held_out_before_mm =
+      interval(blocks, [](const Block& b) { return root_mean(b.before, b.rows); });
+  out.held_out_after_mm =
+      interval(blocks, [](const Block& b) { return root_mean(b.after, b.rows); });
   out.held_out_ratio = interval(
       blocks, [](const Block& b) { return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0; });
   out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.rows.block;
@@ -86,8 +89,7 @@ Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor
   const Solution bare = solve(joint.evidence.total(), before);
   const Eigen::MatrixXd extended = joint.base_covariance();
   // Of nested least squares Cov(difference) = Cov(larger) − Cov(smaller), at the same σ.
-  const Eigen::MatrixXd difference =
-      extended - joint.sigma_mm * joint.sigma_mm * bare.inverse;
+  const Eigen::MatrixXd difference = extended - joint.sigma_mm * joint.sigma_mm * bare.inverse;
   const AxisShift shift = axis_shift(problem.scene, joint.base() - bare.coefficients, difference);
   out.axis_shift = {shift.value_mm, shift.u_mm, "mm", ""};
   const AxisUncertainty u = axis_uncertainty(problem.scene, extended);

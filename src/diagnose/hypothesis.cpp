@@ -23,12 +23,6 @@ double legendre(int degree, double u) {
   return now;
 }
 
-double normal_slope(const Scene& scene, std::size_t i) {
-  const double dx_dy = scene.dx_dc[i] / scene.x[i];
-  const double secant = std::sqrt(1.0 + dx_dy * dx_dy + scene.dx_dz[i] * scene.dx_dz[i]);
-  return scene.rear[i] ? -secant : secant;
-}
-
 void fill_pattern(const Pattern& of, const Scene& scene, std::size_t begin, std::size_t end,
                   std::span<double* const> columns) {
   const double first = scene.time.front(), lasted = scene.time.back() - first;
@@ -40,10 +34,10 @@ void fill_pattern(const Pattern& of, const Scene& scene, std::size_t begin, std:
     if (of.kind == Pattern::Kind::line)
       angle[k] -= two_pi * of.frequency * (of.in_time ? scene.time[i] : scene.s[i]);
   }
-  sincos(angle, sine, cosine);
+  if (of.kind != Pattern::Kind::bump) sincos(angle, sine, cosine);
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = begin + k;
-    double size = of.spindle ? 1.0 : normal_slope(scene, i);
+    double size = of.spindle ? 1.0 : scene.dx_dnormal[i];
     if (of.kind == Pattern::Kind::bump) {
       const double v = std::remainder(scene.theta[i] - of.angle_rad, two_pi) / of.width_rad;
       const double w = scene.has_position && of.length_mm > 0.0
@@ -53,8 +47,9 @@ void fill_pattern(const Pattern& of, const Scene& scene, std::size_t begin, std:
       continue;
     }
     if (of.kind == Pattern::Kind::cell) {
-      const double u = of.in_time ? (lasted > 0.0 ? 2.0 * (scene.time[i] - first) / lasted - 1.0 : 0.0)
-                                  : (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
+      const double u = of.in_time
+                           ? (lasted > 0.0 ? 2.0 * (scene.time[i] - first) / lasted - 1.0 : 0.0)
+                           : (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
       size *= legendre(of.degree, u);
     }
     columns[0][k] = size * cosine[k];
@@ -64,12 +59,23 @@ void fill_pattern(const Pattern& of, const Scene& scene, std::size_t begin, std:
 
 }  // namespace
 
+void raise_degree(const Hypothesis& cell, const Scene& scene, std::size_t begin, std::size_t end,
+                  std::span<const double* const> constant, std::span<double* const> columns) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const double u = (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm;
+    const double size = legendre(cell.pattern.degree, u);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      columns[j][i - begin] = size * constant[j][i - begin];
+  }
+}
+
 std::size_t Hypothesis::columns() const {
   if (!effect) {
     const bool line = pattern.kind == Pattern::Kind::line;
     return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
   }
-  const std::size_t own = keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
+  const std::size_t own =
+      keep.empty() ? linear_parameters(effect->term, shape).size() : keep.size();
   return own + (with_radial ? 2 : 0);
 }
 

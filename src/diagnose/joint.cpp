@@ -29,7 +29,8 @@ Joint::Joint(const Problem& problem, const std::vector<double>& phi,
       terms(std::move(hypotheses)),
       fitted(fitted_terms) {
   Columns all = evidence.base();
-  for (std::size_t t = 0; t < fitted; ++t) all.insert(all.end(), places[t].begin(), places[t].end());
+  for (std::size_t t = 0; t < fitted; ++t)
+    all.insert(all.end(), places[t].begin(), places[t].end());
   solution = solve(evidence.total(), all);
   const auto freedom = static_cast<double>(evidence.count()) - static_cast<double>(solution.rank);
   sigma_mm = freedom > 0.0 ? std::sqrt(std::max(solution.rss, 0.0) / freedom) : 0.0;
@@ -67,9 +68,9 @@ AxisShift axis_shift(const Scene& scene, const Eigen::VectorXd& change,
     const Eigen::VectorXd d = at * change.segment(from, per);
     const Eigen::MatrixXd c = at * covariance.block(from, from, per, per) * at.transpose();
     const double length = d.norm();
-    const Eigen::VectorXd along = length > 0.0 ? Eigen::VectorXd(d / length) : Eigen::VectorXd::Unit(2, 0);
-    if (length >= worst.value_mm)
-      worst = {length, std::sqrt(std::max(0.0, along.dot(c * along)))};
+    const Eigen::VectorXd along =
+        length > 0.0 ? Eigen::VectorXd(d / length) : Eigen::VectorXd::Unit(2, 0);
+    if (length >= worst.value_mm) worst = {length, std::sqrt(std::max(0.0, along.dot(c * along)))};
   }
   return worst;
 }

@@ -15,8 +15,8 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-constexpr double far_out = 8.0;       // MAD σ; a real local form peaks at 4.5 σ
-constexpr double clings = 3.0;        // beside a reading far out
+constexpr double far_out = 8.0;  // MAD σ; a real local form peaks at 4.5 σ
+constexpr double clings = 3.0;   // beside a reading far out
 constexpr std::size_t chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
@@ -77,8 +77,8 @@ Matrix columns_of_rows(const Scene& scene, std::span<const double> deviation,
   std::vector<double*> column(count);
   for (std::size_t j = 0; j < count; ++j)
     column[j] = out.data() + static_cast<Eigen::Index>(j) * out.rows();
-  std::copy(deviation.begin() + static_cast<long>(begin), deviation.begin() + static_cast<long>(end),
-            column[0]);
+  std::copy(deviation.begin() + static_cast<long>(begin),
+            deviation.begin() + static_cast<long>(end), column[0]);
   for (std::size_t from = begin; from < end;) {
     std::size_t to = from + 1;
     while (to < end && scene.rear[to] == scene.rear[from]) ++to;
@@ -124,7 +124,7 @@ std::vector<double> remainder(const Scene& scene, std::span<const double> deviat
 }
 
 std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolution,
-                                    std::span<const double> deviation_mm, Rows& rows) {
+                                    std::span<const double> deviation_mm, Rows& rows, int threads) {
   const std::vector<Hypothesis> cells = small_atlas(scene, resolution);
   std::vector<double> left(deviation_mm.begin(), deviation_mm.end());
   double sigma = 0.0;
@@ -132,7 +132,9 @@ std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolu
   for (int round = 0; round < 6; ++round) {
     sigma = mad_sigma(left);
     std::vector<char> used(scene.size(), 1);
-    const auto outside = [&](std::size_t i, double times) { return std::abs(left[i]) > times * sigma; };
+    const auto outside = [&](std::size_t i, double times) {
+      return std::abs(left[i]) > times * sigma;
+    };
     for (std::size_t i = 0; i < scene.size(); ++i) used[i] = !outside(i, far_out);
     for (std::size_t i = 1; i < scene.size(); ++i)
       if (!used[i - 1] && outside(i, clings)) used[i] = 0;
@@ -145,7 +147,7 @@ std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolu
     masked = count;
     if (same || (round == 0 && masked == 0 && scene.size() < least_rows)) break;
     rows.find_runs(scene);
-    Evidence evidence(scene, rows, deviation_mm, {}, 1);
+    Evidence evidence(scene, rows, deviation_mm, {}, threads);
     Columns all = evidence.base();
     for (const Columns& own : evidence.append(cells)) all.insert(all.end(), own.begin(), own.end());
     left = remainder(scene, deviation_mm, cells, solve(evidence.total(), all).coefficients);
@@ -155,7 +157,8 @@ std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolu
   for (std::size_t i = 0; i < scene.size() && masked > 0; ++i) {
     if (rows.used[i]) continue;
     char why[64];
-    std::snprintf(why, sizeof why, "%.3g µm off, %.1f σ", left[i] / mm_per_um, std::abs(left[i]) / sigma);
+    std::snprintf(why, sizeof why, "%.3g µm off, %.1f σ", left[i] / mm_per_um,
+                  std::abs(left[i]) / sigma);
     list.push_back({i + 1, why});
   }
   return list;
@@ -167,7 +170,10 @@ std::vector<double> autoregression(const Scene& scene, const Rows& rows,
   Lagged lagged;
   const auto columns = static_cast<Eigen::Index>(1 + scene.base.columns() + columns_of(terms));
   for (auto& line : lagged.gram) line.fill(Matrix::Zero(columns, columns));
-  const std::size_t stride = 1 + scene.size() / (2 * enough_rows);
+  std::size_t available = 0;
+  for (std::size_t f = 0; f < rows.folds(); ++f)
+    available += std::min(rows.fold_begin[f + 1] - rows.fold_begin[f], enough_rows / 4);
+  const std::size_t stride = 1 + available / (2 * enough_rows);
   for (std::size_t f = 0; f < rows.folds(); f += stride) {
     // A block of a long stream is cut: whole blocks would be more than enough.
     const std::size_t begin = rows.fold_begin[f];
@@ -200,8 +206,10 @@ std::vector<double> autoregression(const Scene& scene, const Rows& rows,
         for (Eigen::Index j = 0; j < kept.cols(); ++j)
           kept(i, j) = gram(keep[static_cast<std::size_t>(i)], keep[static_cast<std::size_t>(j)]);
       }
-      if (a != 0 || b != 0) gram = std::move(kept);
-      else lagged.gram[2][1] = std::move(kept);  // kept aside until all have used its diagonal
+      if (a != 0 || b != 0)
+        gram = std::move(kept);
+      else
+        lagged.gram[2][1] = std::move(kept);  // kept aside until all have used its diagonal
     }
   }
   lagged.gram[0][0] = lagged.gram[2][1];

@@ -18,7 +18,8 @@ std::vector<double> remainder(const Scene& scene, std::span<const double> deviat
 /// Masks readings farther than 8 robust σ from the surface with the small atlas, and what clings to
 /// them, until nothing changes. @returns why, a line a reading.
 std::vector<Rejected> mask_outliers(const Scene& scene, const Resolution& resolution,
-                                    std::span<const double> deviation_mm, Rows& rows);
+                                    std::span<const double> deviation_mm, Rows& rows,
+                                    int threads = 1);
 
 /// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
 /// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,

@@ -12,8 +12,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double seen = 0.5;            // power below which an effect counts as not observable
-constexpr double no_prior_rad = 1e-2;   // a size for those whose catalogue entry names none
+constexpr double seen = 0.5;           // power below which an effect counts as not observable
+constexpr double no_prior_rad = 1e-2;  // a size for those whose catalogue entry names none
 constexpr double nearly_absorbed = 0.05;
 
 bool possible(const Effect& effect, const Scene& scene, std::string& why) {
@@ -23,12 +23,11 @@ bool possible(const Effect& effect, const Scene& scene, std::string& why) {
     why = "the stream has no t: give a time for every reading";
     return false;
   }
-  const bool along = id == "part.barrel" || id == "part.taper" || id == "part.bow" ||
-                     id == "part.waviness" || id == "part.feed_marks" ||
-                     id == "part.chuck_lobing" || id == "slide.z_straightness" ||
-                     id == "slide.xz_parallelism" || id == "slide.leadscrew_periodic" ||
-                     id == "slide.backlash" || id == "spindle.tilt_synchronous" ||
-                     id == "probe.tilt";
+  const bool along =
+      id == "part.barrel" || id == "part.taper" || id == "part.bow" || id == "part.waviness" ||
+      id == "part.feed_marks" || id == "part.chuck_lobing" || id == "slide.z_straightness" ||
+      id == "slide.xz_parallelism" || id == "slide.leadscrew_periodic" || id == "slide.backlash" ||
+      id == "spindle.tilt_synchronous" || id == "probe.tilt";
   if (!scene.has_position && along) {
     why = "one section shows nothing along Z";
     return false;
@@ -81,8 +80,8 @@ std::vector<Typical> typical_effects(const Scene& scene) {
     if (effect.id == "part.taper" && scene.base.tapers) continue;
     const TermShape shape = typical_shape(effect, scene);
     const auto linear = linear_parameters(effect.term, shape);
-    Typical t{of_effect(effect.id.data(), shape, typical_keep(effect.id)), size_of(effect, linear[0]),
-              linear[0].unit == "rad" ? "deg" : linear[0].unit,
+    Typical t{of_effect(effect.id.data(), shape, typical_keep(effect.id)),
+              size_of(effect, linear[0]), linear[0].unit == "rad" ? "deg" : linear[0].unit,
               linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0};
     list.push_back(std::move(t));
   }
@@ -124,8 +123,8 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Typical& t = all[k];
     const Effect& effect = *t.hypothesis.effect;
-    const bool named = std::ranges::any_of(
-        model.terms, [&](const Hypothesis& h) { return h.effect == &effect; });
+    const bool named =
+        std::ranges::any_of(model.terms, [&](const Hypothesis& h) { return h.effect == &effect; });
     if (named) continue;
     const Columns& own = joint.places[model.terms.size() + k];
     Hidden h{t, {}, 0.0, 0.0};
@@ -144,7 +143,8 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
       kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
       Eigen::VectorXd right(static_cast<Eigen::Index>(taken.size()));
       for (Eigen::Index i = 0; i < right.size(); ++i)
-        right(i) = joint.evidence.total()(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]), c);
+        right(i) = joint.evidence.total()(
+            static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]), c);
       const Eigen::VectorXd change = (joint.solution.inverse * right).head(n);
       worst = std::max(worst, axis_shift(scene, change, Eigen::MatrixXd::Zero(n, n)).value_mm);
     }
@@ -163,7 +163,8 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
     } else if (share < nearly_absorbed) {
       const std::string by(effect.absorbed_by.empty() ? "the surface's own parameters"
                                                       : effect.absorbed_by);
-      std::snprintf(text, sizeof text, "absorbed by %s: %.2g %% of it is left", by.c_str(), 100.0 * share);
+      std::snprintf(text, sizeof text, "absorbed by %s: %.2g %% of it is left", by.c_str(),
+                    100.0 * share);
       h.entry.why = text;
     } else {
       std::snprintf(text, sizeof text,
@@ -173,7 +174,8 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
     }
     out.push_back(std::move(h));
   }
-  std::ranges::stable_sort(out, [](const Hidden& a, const Hidden& b) { return a.harm_mm > b.harm_mm; });
+  std::ranges::stable_sort(out,
+                           [](const Hidden& a, const Hidden& b) { return a.harm_mm > b.harm_mm; });
   return out;
 }
 

@@ -11,7 +11,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t thinned_to = 600;      // readings of what was measured, and of a plan
+constexpr std::size_t thinned_to = 600;  // readings of what was measured, and of a plan
 constexpr double golden = 0.6180339887498949;
 constexpr double second_speed = 151.0 / 60.0;  // no simple ratio: no order meets a line
 constexpr double jog_mm = 0.1, reindex_rad = 70.0 * rad_per_deg, less_force = 0.5;
@@ -107,8 +107,8 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
   std::vector<Plan> list;
   char text[200];
 
-  const auto add = [&](const char* code, const std::string& what, double minutes, const Motion& motion,
-                       const std::function<void(Clamping&)>& change) {
+  const auto add = [&](const char* code, const std::string& what, double minutes,
+                       const Motion& motion, const std::function<void(Clamping&)>& change) {
     Plan p{code, what, minutes + minutes_between, before, clampings, weight};
     int number = now.number;
     if (change) {
@@ -125,19 +125,24 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
   const bool timed = scene.has_time;
   const bool along = scene.has_position && m.z_start != m.z_end;
   if (along) {
-    std::snprintf(text, sizeof text, "probe back from Z %.4g to %.4g mm at %.4g rpm", m.z_end, m.z_start, rpm);
+    std::snprintf(text, sizeof text, "probe back from Z %.4g to %.4g mm at %.4g rpm", m.z_end,
+                  m.z_start, rpm);
     add("RZ", text, pass_minutes, {m.z_end, m.z_start, turns, m.seconds}, nullptr);
   }
   if (timed) {
-    std::snprintf(text, sizeof text, "probe back at %.4g rpm, the same feed a turn", rpm * second_speed);
+    std::snprintf(text, sizeof text, "probe back at %.4g rpm, the same feed a turn",
+                  rpm * second_speed);
     add("2W", text, pass_minutes / second_speed,
         {m.z_end, m.z_start, turns, m.seconds / second_speed}, nullptr);
-    std::snprintf(text, sizeof text, "probe again with the spindle reversed, %.4g rpm", -rpm * m.sign);
+    std::snprintf(text, sizeof text, "probe again with the spindle reversed, %.4g rpm",
+                  -rpm * m.sign);
     add("RV", text, pass_minutes, {m.z_start, m.z_end, -turns, m.seconds}, nullptr);
   }
-  const double middle = 0.5 * (m.z_start + m.z_end), dwell = std::max(10.0, std::min(60.0, m.seconds));
+  const double middle = 0.5 * (m.z_start + m.z_end),
+               dwell = std::max(10.0, std::min(60.0, m.seconds));
   std::snprintf(text, sizeof text, "dwell %.3g s at Z %.4g mm, %.4g rpm", dwell, middle, rpm);
-  add("DW", text, dwell / 60.0, {middle, middle, m.sign * dwell * m.speed / two_pi, dwell}, nullptr);
+  add("DW", text, dwell / 60.0, {middle, middle, m.sign * dwell * m.speed / two_pi, dwell},
+      nullptr);
   if (timed) {
     std::snprintf(text, sizeof text, "10 s at Z %.4g mm with the spindle standing still", middle);
     add("ST", text, 10.0 / 60.0, {middle, middle, 0.0, 10.0}, nullptr);
@@ -152,9 +157,12 @@ std::vector<Plan> candidate_plans(const ProbeStream& stream, const Scene& scene,
       [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
   if (along) {
     const double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * scene.z_half_mm;
-    std::snprintf(text, sizeof text, "shift the part by %.3g mm along Z, clamp it again and probe it again", shift);
-    add("OZ", text, pass_minutes + minutes_to_clamp, same,
-        [&](Clamping& c) { c.z_shift_mm += shift, c.axis += 1; c.shape.axis.z_ref_mm += shift; });
+    std::snprintf(text, sizeof text,
+                  "shift the part by %.3g mm along Z, clamp it again and probe it again", shift);
+    add("OZ", text, pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
+      c.z_shift_mm += shift, c.axis += 1;
+      c.shape.axis.z_ref_mm += shift;
+    });
   }
   add("RM", "clamp the part again with half the force and probe it again",
       pass_minutes + minutes_to_clamp, same,

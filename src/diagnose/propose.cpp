@@ -10,7 +10,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t slip_instants = 24;
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
 constexpr std::size_t most_rivals = 16;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
@@ -32,7 +31,8 @@ std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vect
 std::vector<Candidate> judge(const Evidence& evidence, const std::vector<Columns>& places,
                              const std::vector<Hypothesis>& list, std::size_t terms) {
   Columns taken = evidence.base();
-  for (std::size_t t = 0; t < terms; ++t) taken.insert(taken.end(), places[t].begin(), places[t].end());
+  for (std::size_t t = 0; t < terms; ++t)
+    taken.insert(taken.end(), places[t].begin(), places[t].end());
   const Projection projection = project(evidence.total(), taken);
   const auto freedom = static_cast<double>(evidence.count() - projection.rank);
   std::vector<Candidate> out;
@@ -133,19 +133,22 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   const Resolution& resolution = problem.resolution;
   Proposal out;
 
-  std::vector<Hypothesis> presets = preset_causes(scene, resolution);
-  for (Hypothesis& h : slips(scene, slip_instants)) presets.push_back(std::move(h));
-  std::vector<Hypothesis> cells = atlas(scene, resolution);
-  for (Hypothesis& h : cells) h.tests = static_cast<double>(cells.size());
-  Evidence evidence(scene, problem.rows, problem.deviation_mm, phi, problem.threads);
-  const std::vector<Hypothesis> fixed = joined(presets, cells);
-  const auto places = evidence.append(joined(terms, fixed));
-  std::vector<Candidate> judged = judge(evidence, places, fixed, terms.size());
-  for (const Candidate& c : judged) out.family.single += c.rank > 0;
-
+  std::unique_ptr<Dictionary>& kept = *problem.dictionary;
+  if (!kept || kept->phi != phi)
+    kept = make_dictionary(scene, problem.rows, resolution, problem.deviation_mm, phi,
+                           problem.threads);
+  Evidence& evidence = kept->evidence;
+  const std::vector<Hypothesis>& presets = kept->presets;
+  const std::vector<Hypothesis> fixed = joined(presets, kept->cells);
+  std::vector<Columns> places = evidence.append(terms);
   Columns taken = evidence.base();
-  append_columns(taken, {places.begin(), places.begin() + static_cast<long>(terms.size())});
+  append_columns(taken, places);
+  places.insert(places.end(), kept->preset_places.begin(), kept->preset_places.end());
+  places.insert(places.end(), kept->cell_places.begin(), kept->cell_places.end());
+  const std::vector<Candidate> judged = judge(evidence, places, fixed, terms.size());
+  for (const Candidate& c : judged) out.family.single += c.rank > 0;
   const Eigen::VectorXd solution = solve(evidence.total(), taken).coefficients;
+  evidence.shrink(kept->columns);
   const std::vector<double> left = remainder(scene, problem.deviation_mm, terms, solution);
   Scans scans = scan_lines(evidence, resolution, left);
   double bumps_tested = 0.0;
@@ -192,7 +195,8 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
   std::vector<Hypothesis> odd;
   for (std::size_t i = 0; i < std::min(best_patterns, patterns.size()); ++i)
     odd.push_back(patterns[i].hypothesis);
-  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list, std::size_t most) {
+  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list,
+                              std::size_t most) {
     std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
     for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i) {
       if (peaks[i].gain < 0.3 * peaks[0].gain) break;
@@ -218,7 +222,8 @@ Proposal propose(const Problem& problem, const std::vector<double>& phi,
         const auto same = [&](const Candidate& e) {
           return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
         };
-        if (c.gain > far_behind * most && std::ranges::none_of(each, same)) each.push_back(std::move(c));
+        if (c.gain > far_behind * most && std::ranges::none_of(each, same))
+          each.push_back(std::move(c));
       }
       first = std::move(each);
     }

@@ -31,7 +31,8 @@ QualityCheck saturation(const ProbeStream& stream) {
                 static_cast<long>(top), static_cast<long>(bottom));
 }
 
-/// The step of a rounded indication: the smallest distance of values, when nearly all are multiples.
+/// The step of a rounded indication: the smallest distance of values, when nearly all are
+/// multiples.
 QualityCheck quantisation(const ProbeStream& stream, double sigma) {
   std::vector<double> sorted(stream.reading_mm);
   std::ranges::sort(sorted);
@@ -56,10 +57,10 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   const Scene& scene = joint.evidence.scene();
   const Rows& rows = joint.evidence.rows();
   std::vector<QualityCheck> list{saturation(stream), quantisation(stream, noise.sigma_mm)};
-  list.push_back(result("probe.outliers", !noise.masked.empty() && noise.interruptions.empty(),
-                        "%zu of %zu readings masked (%.2g %%)", noise.masked.size(), stream.size(),
-                        100.0 * static_cast<double>(noise.masked.size()) /
-                            static_cast<double>(stream.size())));
+  list.push_back(result(
+      "probe.outliers", !noise.masked.empty() && noise.interruptions.empty(),
+      "%zu of %zu readings masked (%.2g %%)", noise.masked.size(), stream.size(),
+      100.0 * static_cast<double>(noise.masked.size()) / static_cast<double>(stream.size())));
   list.push_back(result("part.interruption", !noise.interruptions.empty(),
                         "%zu sectors are far off on every turn", noise.interruptions.size()));
   // Variance against tan² of the angle between probe and normal, in units of the mean variance.
@@ -73,12 +74,14 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   const double mean = sum_v / n, spread = sum_tt - sum_t * sum_t / n;
   const double slope = spread > 0.0 ? (sum_tv - sum_t * sum_v / n) / spread / mean : 0.0;
   const double u = spread > 0.0 ? std::sqrt(2.0 / spread) : 0.0;  // Gaussian: var(v) = 2 mean²
-  list.push_back(result("probe.incidence_noise", u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
+  list.push_back(result("probe.incidence_noise",
+                        u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
                         "variance grows by %.3g ± %.2g per tan² of the incidence", slope, 2.0 * u));
   const auto& phi = noise.autoregression;
   list.push_back(result("probe.correlated_noise", !phi.empty(),
-                        phi.empty() ? "neighbouring readings do not correlate"
-                                    : "autoregression of order %zu, φ1 = %.3f: readings are whitened",
+                        phi.empty()
+                            ? "neighbouring readings do not correlate"
+                            : "autoregression of order %zu, φ1 = %.3f: readings are whitened",
                         phi.size(), phi.empty() ? 0.0 : phi[0]));
   return list;
 }

@@ -10,7 +10,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t blocks_wanted = 30;  // effects.md: 30, not 5
-constexpr double few_turns = 6.0;            // fewer revolutions than this are no blocks to hold out
+constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
 constexpr unsigned char longest_run = 8;
 
 double median(std::vector<double> values) {
@@ -75,17 +75,20 @@ Rows make_rows(const Scene& scene) {
   const double per_block = std::max(1.0, std::floor(turns / static_cast<double>(blocks_wanted)));
   for (const Pass& pass : scene.passes) {
     const double own = std::abs(scene.c[pass.end - 1] - scene.c[pass.begin]) / two_pi;
-    const double share = static_cast<double>(pass.end - pass.begin) / static_cast<double>(scene.size());
+    const double share =
+        static_cast<double>(pass.end - pass.begin) / static_cast<double>(scene.size());
     const double blocks = own > 0.5 ? std::max(1.0, std::round(own / per_block))
                                     : std::max(1.0, std::round(share * blocks_wanted));
     for (double b = 0.0; b < blocks; ++b) {
       const auto begin = pass.begin + static_cast<std::size_t>(
-                             b / blocks * static_cast<double>(pass.end - pass.begin));
-      if (rows.fold_begin.empty() || begin > rows.fold_begin.back()) rows.fold_begin.push_back(begin);
+                                          b / blocks * static_cast<double>(pass.end - pass.begin));
+      if (rows.fold_begin.empty() || begin > rows.fold_begin.back())
+        rows.fold_begin.push_back(begin);
     }
   }
   rows.fold_begin.push_back(scene.size());
-  rows.block = per_block == 1.0 ? "a revolution" : std::to_string(static_cast<int>(per_block)) + " revolutions";
+  rows.block = per_block == 1.0 ? "a revolution"
+                                : std::to_string(static_cast<int>(per_block)) + " revolutions";
   return rows;
 }
 

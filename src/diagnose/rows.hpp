@@ -12,10 +12,10 @@ namespace trueaxis::diagnose_detail {
 
 /// Which readings count, and in which blocks they are held out.
 struct Rows {
-  std::vector<char> used;            ///< 0: masked
-  std::vector<unsigned char> run;    ///< used readings just before, in unbroken sampling; at most 8
+  std::vector<char> used;          ///< 0: masked
+  std::vector<unsigned char> run;  ///< used readings just before, in unbroken sampling; at most 8
   std::vector<std::size_t> fold_begin;  ///< of contiguous blocks; one more than there are
-  std::string block;                 ///< what a block is
+  std::string block;                    ///< what a block is
 
   std::size_t folds() const { return fold_begin.size() - 1; }
   void mask(std::size_t reading) { used[reading] = 0; }

@@ -8,6 +8,7 @@
 
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/math/fourier_sums.hpp"
+#include "trueaxis/math/sincos.hpp"
 #include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -17,8 +18,9 @@ using Column = std::vector<double>;
 
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2;
-constexpr double slowest_hz = 0.2;          // slower is no vibration: drift, or the form of a pass
-constexpr double longest_wave_mm = 30.0;    // of a waviness, a screw's pitch
+constexpr double slowest_hz = 0.2;        // slower is no vibration: drift, or the form of a pass
+constexpr double tenth_lost = 0.25;       // cycles a mean: sinc(0.25) = 0.90
+constexpr double longest_wave_mm = 30.0;  // of a waviness, a screw's pitch
 
 /// One scan: cos, sin (2π f x − turns θ).
 struct Scan {
@@ -28,8 +30,9 @@ struct Scan {
   double low = 0.0, high = 0.0;
   std::function<Hypothesis(double)> make;
   bool pattern = false;
-  bool form = false;     ///< along the surface's normal: of the other sign at the rear
-  bool counts = true;  ///< false: the same lines as another scan
+  bool form = false;    ///< along the surface's normal: of the other sign at the rear
+  bool counts = true;   ///< false: the same lines as another scan
+  double fast = 1e300;  ///< times the readings of a mean: lines above are weakened by 10 %
 };
 
 double variance(const Column& x) {
@@ -59,7 +62,8 @@ double sampling(const Scene& scene, const Column& x) {
   double finest = 0.0;
   for (const Pass& pass : scene.passes) {
     if (pass.end - pass.begin < 8) continue;
-    const double step = std::abs(x[pass.end - 1] - x[pass.begin]) / static_cast<double>(pass.end - pass.begin - 1);
+    const double step =
+        std::abs(x[pass.end - 1] - x[pass.begin]) / static_cast<double>(pass.end - pass.begin - 1);
     if (step > 0.0 && (finest == 0.0 || step < finest)) finest = step;
   }
   return finest;
@@ -85,6 +89,7 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
                     std::min(0.5 / time_step, 500.0),
                     [](double f) { return line_of("environment.vibration", f); }});
     list.back().counts = !single;
+    list.back().fast = tenth_lost / time_step;
   }
   const double length = scene.has_position ? span(scene.s) : 0.0;
   if (length > 1.0 && !resolution.sections) {
@@ -100,26 +105,31 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
       list.back().counts = scene.shifted;
       list.back().form = true;  // ∂X/∂Z too is of the other sign
     }
-    list.push_back({&scene.s, 1.0, false, 0.7, 20.0,
-                    [](double f) { return line_of("part.feed_marks", f); }});
+    list.push_back(
+        {&scene.s, 1.0, false, 0.7, 20.0, [](double f) { return line_of("part.feed_marks", f); }});
     list.back().counts = !single;
     list.back().form = true;
-    for (int k = 1; k <= resolution.harmonics; ++k) {
+    // Of one variable, the lines of C are these too.
+    for (int k = 1;
+         k <= (single && !list.empty() && list[0].x == &scene.c ? 0 : resolution.harmonics); ++k) {
       for (const double sign : {1.0, -1.0}) {
-        Scan scan{&scene.s, sign * k, false, 0.75 / length, 20.0 / length,
-                  [=](double f) { return pattern_line(k, false, sign * f); }};
+        Scan scan{&scene.s,      sign * k,
+                  false,         0.75 / length,
+                  20.0 / length, [=](double f) { return pattern_line(k, false, sign * f); }};
         scan.pattern = scan.form = true;
         scan.counts = !single;
         list.push_back(scan);
       }
     }
   }
-  double swing = 0.0;  // of one side: from side to side nothing is read
+  double swing = 0.0, fastest = 1e-9;  // of one side: from side to side nothing is read
   for (const char side : {0, 1}) {
     double low = 1e300, high = -1e300;
     for (std::size_t i = 0; i < scene.size(); ++i) {
       if (scene.rear[i] != side) continue;
       low = std::min(low, scene.sensed[i]), high = std::max(high, scene.sensed[i]);
+      if (i > 0 && scene.rear[i - 1] == side)
+        fastest = std::max(fastest, std::abs(scene.sensed[i] - scene.sensed[i - 1]));
     }
     swing = std::max(swing, high - low);
   }
@@ -127,13 +137,15 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
     list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 0.7 / swing),
                     std::min(500.0, static_cast<double>(scene.size()) / (3.0 * swing)),
                     [](double f) { return line_of("probe.cyclic", f); }});
+    list.back().fast = tenth_lost / fastest;
   }
   if (time_step > 0.0 && !single && !resolution.sections) {
     const double lasted = span(scene.time);
     for (int k = 1; k <= resolution.harmonics; ++k) {
       for (const double sign : {1.0, -1.0}) {
-        Scan scan{&scene.time, sign * k, true, 0.75 / lasted, 30.0 / lasted,
-                  [=](double f) { return pattern_line(k, true, sign * f); }};
+        Scan scan{&scene.time,   sign * k,
+                  true,          0.75 / lasted,
+                  30.0 / lasted, [=](double f) { return pattern_line(k, true, sign * f); }};
         scan.pattern = true;
         list.push_back(scan);
       }
@@ -160,6 +172,38 @@ double line_norm2(const Evidence& evidence, const std::vector<double>& used_of_p
   return sum;
 }
 
+/// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
+struct TurnedSums {
+  double order = 0.0;
+  FourierSums::Sums cosine, sine;
+};
+
+TurnedSums turned_sums(const FourierSums& plan, double order, const Column& angle,
+                       const Column& g) {
+  Column phase(g.size()), sine(g.size()), cosine(g.size());
+  for (std::size_t i = 0; i < g.size(); ++i) phase[i] = order * angle[i];
+  sincos(phase, sine, cosine);
+  for (std::size_t i = 0; i < g.size(); ++i) cosine[i] *= g[i], sine[i] *= g[i];
+  const std::span<const double> both[] = {cosine, sine};
+  std::vector<FourierSums::Sums> sums = plan.of(both);
+  return {order, std::move(sums[0]), std::move(sums[1])};
+}
+
+/// Of a single pass at constant feed a line of C is also one of an order along Z.
+void pattern_of_line(const Scene& scene, const Resolution& resolution, const Peak& line,
+                     Scans& out) {
+  const Pass& pass =
+      *std::ranges::max_element(scene.passes, {}, [](const Pass& p) { return p.end - p.begin; });
+  const double turns = (scene.c[pass.end - 1] - scene.c[pass.begin]) / two_pi;
+  const double lead = (scene.s[pass.end - 1] - scene.s[pass.begin]) / turns;  // a turn of +C
+  const double order = std::round(line.frequency * two_pi);
+  const double frequency = (order - line.frequency * two_pi) / lead;
+  if (order < 1.0 || order > resolution.harmonics || !(std::abs(frequency * lead * turns) > 0.75))
+    return;
+  out.patterns.push_back({pattern_line(order, false, frequency), line.gain,
+                          line.step * two_pi / std::abs(lead), std::abs(frequency)});
+}
+
 }  // namespace
 
 std::vector<double> weighted(const Evidence& evidence, std::span<const double> remainder_mm) {
@@ -181,7 +225,7 @@ std::vector<double> weighted(const Evidence& evidence, std::span<const double> r
 }
 
 Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
-                 std::span<const double> remainder_mm) {
+                 std::span<const double> remainder_mm, std::size_t means) {
   const Scene& scene = evidence.scene();
   const Rows& rows = evidence.rows();
   const std::vector<double> plain = weighted(evidence, remainder_mm);
@@ -209,16 +253,22 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
   const Column* planned = nullptr;
   double planned_low = 0.0, planned_high = 0.0;
   std::unique_ptr<FourierSums> plan;
-  Column cosine(plain.size()), sine(plain.size());
+  TurnedSums turned;
   std::size_t bins = 0;
   double df = 0.0;
-  for (const Scan& scan : scans_of(scene, resolution)) {
+  std::vector<Scan> list = scans_of(scene, resolution);
+  if (means > 1) {
+    for (Scan& scan : list) scan.low = std::max(scan.low, scan.fast / static_cast<double>(means));
+    std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
+  }
+  for (const Scan& scan : list) {
     const auto [x_low, x_high] = range_of(*scan.x);
     if (!plan || planned != scan.x || planned_low != scan.low || planned_high != scan.high) {
       df = 1.0 / (oversampling * (x_high - x_low));
       bins = static_cast<std::size_t>((scan.high - scan.low) / df) + 1;
       plan = std::make_unique<FourierSums>(*scan.x, two_pi * scan.low, two_pi * df, bins);
       planned = scan.x, planned_low = scan.low, planned_high = scan.high;
+      turned = {};
     }
     const std::vector<double>& g = scan.form ? outward : plain;
     const std::vector<double> x_step = steps(*scan.x);
@@ -227,15 +277,12 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
       sums = plan->of(g);
     } else {
       const double n = std::abs(scan.turns);
-      for (std::size_t i = 0; i < g.size(); ++i) {
-        const double angle = n * (scan.spindle ? scene.c[i] : scene.theta[i]);
-        cosine[i] = g[i] * std::cos(angle), sine[i] = g[i] * std::sin(angle);
-      }
+      if (turned.order != n)
+        turned = turned_sums(*plan, n, scan.spindle ? scene.c : scene.theta, g);
       // Σ g exp(−i(2πfx − turns θ))
-      sums = plan->of(cosine);
-      const auto other = plan->of(sine);
+      sums = turned.cosine;
       const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
-      for (std::size_t k = 0; k < bins; ++k) sums[k] += turn * other[k];
+      for (std::size_t k = 0; k < bins; ++k) sums[k] += turn * turned.sine[k];
     }
     std::vector<double> gain(bins);
     const bool white = evidence.autoregression().empty();
@@ -252,6 +299,8 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
       const auto k = static_cast<std::size_t>(top - gain.begin());
       const double f = scan.low + df * static_cast<double>(k);
       Peak peak{scan.make(f), *top, df, f};
+      if (resolution.one_variable && scan.x == &scene.c)
+        pattern_of_line(scene, resolution, peak, out);
       (scan.pattern ? out.patterns : out.causes).push_back(std::move(peak));
       const std::size_t near = static_cast<std::size_t>(2.0 * oversampling);
       std::fill(gain.begin() + static_cast<long>(k - std::min(k, near)),
@@ -309,9 +358,12 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
       const auto place = [&](std::size_t i) {
         double turn = scene.theta[i] / two_pi;
         turn -= std::floor(turn);
-        const double u = std::clamp(0.5 + 0.5 * (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm, 0.0, 0.999999);
-        const auto a = std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
-        return a * lengths + (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
+        const double u =
+            std::clamp(0.5 + 0.5 * (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm, 0.0, 0.999999);
+        const auto a =
+            std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
+        return a * lengths +
+               (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
       };
       std::vector<double> largest(sum.size(), 0.0);
       for (std::size_t i = 0; i < scene.size(); ++i) {
@@ -339,8 +391,8 @@ std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const dou
       h.pattern.kind = Pattern::Kind::bump;
       h.pattern.angle_rad = (static_cast<double>(where / lengths) + 0.5) * width;
       h.pattern.width_rad = 0.5 * width;
-      h.pattern.position_mm = scene.z_mid_mm - scene.z_half_mm +
-                              (static_cast<double>(where % lengths) + 0.5) * length;
+      h.pattern.position_mm =
+          scene.z_mid_mm - scene.z_half_mm + (static_cast<double>(where % lengths) + 0.5) * length;
       h.pattern.length_mm = lengths > 1 ? 0.5 * length : 0.0;
       best.push_back(h);
     }

@@ -26,8 +26,9 @@ struct Scans {
 };
 
 /// @param remainder_mm deviation minus base and terms, not whitened
+/// @param means 1: all lines; more: only those that means of so many readings weaken by 10 %
 Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
-                 std::span<const double> remainder_mm);
+                 std::span<const double> remainder_mm, std::size_t means = 1);
 
 /// The same hypothesis at another frequency of its scan.
 Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency);

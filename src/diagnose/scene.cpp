@@ -6,6 +6,7 @@
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/math/sincos.hpp"
 #include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -39,7 +40,8 @@ void fill_motion(Scene& scene) {
   scene.velocity.resize(scene.size());
   for (const Pass& pass : scene.passes) {
     double velocity = pass.feed_mm_per_rev * std::abs(pass.speed_rad_per_s) / two_pi;
-    const double lasted = pass.end > pass.begin + 1 ? scene.time[pass.end - 1] - scene.time[pass.begin] : 0.0;
+    const double lasted =
+        pass.end > pass.begin + 1 ? scene.time[pass.end - 1] - scene.time[pass.begin] : 0.0;
     if (pass.c_sign == 0 && lasted > 0.0)
       velocity = (scene.z[pass.end - 1] - scene.z[pass.begin]) / lasted;
     std::fill(scene.speed.begin() + static_cast<long>(pass.begin),
@@ -55,7 +57,8 @@ struct PartFrame {
   double x0, y0, kx, ky, n, sine;
 
   explicit PartFrame(const Axis& axis) {
-    const double secant = std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
+    const double secant =
+        std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
     const double l = axis.slope_x / secant, m = axis.slope_y / secant;
     const auto origin = axis.at(0.0);
     x0 = origin[0], y0 = origin[1], n = 1.0 / secant, sine = std::hypot(l, m);
@@ -74,6 +77,9 @@ struct PartFrame {
 
 void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                    Scene& scene) {
+  for (auto* column : {&scene.x, &scene.sensed, &scene.dx_dc, &scene.dx_dz, &scene.d2x_dc2,
+                       &scene.chuck, &scene.theta, &scene.s, &scene.clamp, &scene.dx_dnormal})
+    column->reserve(scene.size());
   const Clamping* last = nullptr;
   PartFrame frame(clampings.front().shape.axis);
   for (std::size_t i = 0; i < scene.size(); ++i) {
@@ -95,6 +101,9 @@ void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clamp
     scene.clamp.push_back(now.clamp_force_ratio);
     scene.axis.push_back(now.axis);
     scene.rear.push_back(now.root == Root::rear);
+    const double dx_dy = at.dx_dc / at.x_mm;
+    const double secant = std::sqrt(1.0 + dx_dy * dx_dy + at.dx_dz * at.dx_dz);
+    scene.dx_dnormal.push_back(scene.rear.back() ? -secant : secant);
   }
 }
 
@@ -153,11 +162,14 @@ void Scene::fill_base(std::size_t begin, std::size_t end, std::span<double* cons
   const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
   const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
   for (std::size_t j = 0; j < columns.size(); ++j) std::fill_n(columns[j], end - begin, 0.0);
+  std::vector<double> turn[2] = {std::vector<double>(end - begin),
+                                 std::vector<double>(end - begin)};
+  sincos(std::span(c).subspan(begin, end - begin), turn[0], turn[1]);
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t k = i - begin, own = axis[i] * per_axis;
-    const double cosine = std::cos(c[i]), sine = std::sin(c[i]), dx_dy = dx_dc[i] / x[i];
+    const double cosine = turn[1][k], sine = turn[0][k], dx_dy = dx_dc[i] / x[i];
     const double along_x = cosine + sine * dx_dy, along_y = sine - cosine * dx_dy;
-    const double normal = (rear[i] ? -1.0 : 1.0) * std::sqrt(1.0 + dx_dy * dx_dy + dx_dz[i] * dx_dz[i]);
+    const double normal = dx_dnormal[i];
     columns[own][k] = along_x;
     columns[own + 1][k] = along_y;
     if (base.tilts) {

@@ -32,19 +32,25 @@ struct BaseKind {
   std::size_t columns() const { return axes * per_axis() + 1 + (tapers ? 1 : 0); }
 };
 
-/// The geometry of every reading about the fitted surface: what terms and base columns are made of.
-/// Columns of one entry a reading; mm, rad, s.
-struct Scene {
-  std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
-      s, clamp;
-  std::vector<std::size_t> axis;      ///< of every reading
-  std::vector<Pass> passes;
+/// What a scene is as a whole; mm.
+struct SceneFacts {
   BaseKind base;
   double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
   double tan_half_angle = 0.0, reference_x_mm = 0.0;
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
+};
+
+/// The geometry of every reading about the fitted surface: what terms and base columns are made of.
+/// Columns of one entry a reading; mm, rad, s.
+struct Scene : SceneFacts {
+  std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
+      s, clamp;
+  std::vector<double> dx_dnormal;  ///< of form along the normal
+  std::vector<std::size_t> axis;   ///< of every reading
+  std::vector<char> rear;          ///< of every reading
+  std::vector<Pass> passes;
 
   std::size_t size() const { return c.size(); }
   /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
@@ -52,8 +58,6 @@ struct Scene {
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
   /// half angle. Rigid motions of the part: exact to first order.
   void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
-
-  std::vector<char> rear;  ///< of every reading
 };
 
 /// @param stream columns C, Z, t, set-up; its readings are not used.

@@ -15,7 +15,8 @@ constexpr double correlation_moved = 0.02;
 
 Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
   Columns out;
-  for (std::size_t t = begin; t < end; ++t) out.insert(out.end(), places[t].begin(), places[t].end());
+  for (std::size_t t = begin; t < end; ++t)
+    out.insert(out.end(), places[t].begin(), places[t].end());
   return out;
 }
 
@@ -234,6 +235,24 @@ Model search(const Problem& problem) {
     return mixed.terms.size() <= causes.terms.size() ? mixed : causes;
   }
   return mixed.criterion < causes.criterion ? mixed : causes;
+}
+
+bool fast_line_left(const Problem& problem, const Model& model, std::size_t means) {
+  Evidence evidence(problem.scene, problem.rows, problem.deviation_mm, model.phi, problem.threads);
+  Columns all = evidence.base();
+  for (const Columns& own : evidence.append(model.terms))
+    all.insert(all.end(), own.begin(), own.end());
+  const Solution fitted = solve(evidence.total(), all);
+  const std::vector<double> left =
+      remainder(problem.scene, problem.deviation_mm, model.terms, fitted.coefficients);
+  const Scans scans = scan_lines(evidence, problem.resolution, left, means);
+  Family family = model.family;
+  family.bandwidth += scans.bandwidth;
+  const auto freedom = static_cast<double>(evidence.count() - fitted.rank);
+  return std::ranges::any_of(scans.causes, [&](const Peak& peak) {
+    return family.p_value(std::exp(log_p_value(peak.gain, 2.0, fitted.rss, freedom))) <
+           problem.false_alarm;
+  });
 }
 
 }  // namespace trueaxis::diagnose_detail

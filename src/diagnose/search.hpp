@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "diagnose/dictionary.hpp"
 #include "diagnose/evidence.hpp"
 #include "diagnose/scan.hpp"
 
@@ -18,6 +20,9 @@ struct Problem {
   double false_alarm = 0.01;
   int threads = 1;
   std::size_t most_terms = 8;
+  /// The last dictionary made; a step of the same noise uses it again.
+  std::shared_ptr<std::unique_ptr<Dictionary>> dictionary =
+      std::make_shared<std::unique_ptr<Dictionary>>();
 };
 
 /// How many tests a verdict is the best of: those one by one, and those of the periodograms, whose
@@ -35,7 +40,7 @@ struct Family {
 /// A hypothesis beside the terms of a model.
 struct Candidate {
   Hypothesis hypothesis;
-  double gain = 0.0;       ///< decrease of the residual sum of squares
+  double gain = 0.0;  ///< decrease of the residual sum of squares
   std::size_t rank = 0;
   double log_p = 0.0;      ///< ln of its own p-value
   double criterion = 0.0;  ///< change of the extended BIC; negative is better
@@ -68,6 +73,9 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
 /// catalogued causes first and, where a pattern did better on the way, once with patterns allowed:
 /// the better of the two.
 Model search(const Problem& problem);
+
+/// Whether a line is left that means of so many readings would weaken: search all readings then.
+bool fast_line_left(const Problem& problem, const Model& model, std::size_t means);
 
 /// ln n per column, twice the log of the choice among its kind (Chen and Chen 2008), and what an
 /// implausible size costs.

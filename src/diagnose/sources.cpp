@@ -77,12 +77,14 @@ std::optional<double> repeated_sigma(const Scene& scene, const Rows& rows,
   for (std::size_t a = 0; a < scene.passes.size(); ++a) {
     for (std::size_t b = a + 1; b < scene.passes.size(); ++b) {
       const Pass &p = scene.passes[a], &q = scene.passes[b];
-      if (p.end - p.begin != q.end - q.begin || p.c_sign != q.c_sign || p.setup != q.setup || p.c_sign == 0)
+      if (p.end - p.begin != q.end - q.begin || p.c_sign != q.c_sign || p.setup != q.setup ||
+          p.c_sign == 0)
         continue;
       bool same = true;
       for (std::size_t k = 0; k < p.end - p.begin && same; ++k) {
-        same = std::abs(std::remainder(scene.c[p.begin + k] - scene.c[q.begin + k], two_pi)) < 0.01 &&
-               std::abs(scene.z[p.begin + k] - scene.z[q.begin + k]) < 0.01;
+        same =
+            std::abs(std::remainder(scene.c[p.begin + k] - scene.c[q.begin + k], two_pi)) < 0.01 &&
+            std::abs(scene.z[p.begin + k] - scene.z[q.begin + k]) < 0.01;
       }
       if (!same) continue;
       for (std::size_t k = 0; k < p.end - p.begin; ++k) {
@@ -131,7 +133,8 @@ void find_gaps(const Scene& scene, const Rows& rows, NoiseReport& out) {
          });
   run_of([&](std::size_t k) { return all[k] > 3 && used[k] * 2 < all[k]; },
          [&](std::size_t from, std::size_t count) {
-           out.interruptions.push_back({first[from] + 1, "most readings from " + describe(from, count) +
+           out.interruptions.push_back({first[from] + 1, "most readings from " +
+                                                             describe(from, count) +
                                                              " are far off on every turn: masked"});
          });
 }
@@ -150,7 +153,8 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
   out.stationary_mm = stationary_sigma(scene, rows, left_mm);
   out.revolutions_mm = revolution_sigma(scene, rows, left_mm);
   out.repeated_mm = repeated_sigma(scene, rows, left_mm);
-  const double freedom = std::max(1.0, static_cast<double>(joint.evidence.count() - joint.solution.rank));
+  const double freedom =
+      std::max(1.0, static_cast<double>(joint.evidence.count() - joint.solution.rank));
   const double residual = joint.sigma_mm * std::sqrt(gain_of(out.autoregression));
   out.sigma_mm = residual;
   out.source = "residuals of the extended model";
@@ -159,7 +163,8 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
     out.sigma_mm = *out.stationary_mm, out.source = "stationary capture";
     independent = 0.0;
     for (const Pass& pass : scene.passes)
-      if (pass.c_sign == 0 && pass.feed_sign == 0) independent += static_cast<double>(pass.end - pass.begin);
+      if (pass.c_sign == 0 && pass.feed_sign == 0)
+        independent += static_cast<double>(pass.end - pass.begin);
   } else if (out.repeated_mm) {
     out.sigma_mm = *out.repeated_mm, out.source = "repeated passes";
     independent *= 0.5;
@@ -167,9 +172,10 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
     out.sigma_mm = *out.revolutions_mm, out.source = "revolution differences";
     independent *= 0.5;
   } else {
-    out.note = "the data have no source of their own for the noise (no repeats, no stationary "
-               "capture, no second turn at one place): it is what the model leaves, and holds as "
-               "far as the model does";
+    out.note =
+        "the data have no source of their own for the noise (no repeats, no stationary "
+        "capture, no second turn at one place): it is what the model leaves, and holds as "
+        "far as the model does";
   }
   out.u_sigma_mm = out.sigma_mm / std::sqrt(2.0 * std::max(independent, 1.0));
   if (out.source != "residuals of the extended model" && residual > 1.25 * out.sigma_mm) {

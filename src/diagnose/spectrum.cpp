@@ -21,8 +21,8 @@ std::vector<SpectrumBin> spectrum_of(const Scene& scene, const Resolution& resol
   std::vector<SpectrumBin> out;
   for (std::size_t k = 0; k < bins; ++k) {
     const double factor = (k == 0 ? 1.0 : 2.0) / static_cast<double>(scene.size());
-    out.push_back({step * static_cast<double>(k), factor * std::abs(before[k]),
-                   factor * std::abs(after[k])});
+    out.push_back(
+        {step * static_cast<double>(k), factor * std::abs(before[k]), factor * std::abs(after[k])});
   }
   return out;
 }

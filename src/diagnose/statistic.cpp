@@ -9,9 +9,9 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double generous = 3.0;  // times the largest typical size: no surprise yet
+constexpr double generous = 3.0;     // times the largest typical size: no surprise yet
 constexpr double most_second = 0.3;  // of a jaw's second harmonic; ring theory says 0.05 for three
-constexpr double surprise = 2.0;  // of ln(size/(generous × typical))², in units of 2 ln L
+constexpr double surprise = 2.0;     // of ln(size/(generous × typical))², in units of 2 ln L
 
 /// Largest typical size of the catalogue's parameter that a linear one is the factor of; 0: none.
 double typical_high(const Effect& effect, std::string_view linear) {
@@ -30,7 +30,8 @@ double log_p_value(double gain, double rank, double rss, double freedom) {
   if (!(gain > 0.0) || rank < 1.0 || left < 1.0) return 0.0;
   const double rest = std::max(rss - gain, 1e-12 * rss);
   const double f = gain / rank / (rest / left);
-  // Far out the tail of the F distribution is (1 + q F/ν)^(−ν/2) up to a factor that changes slowly.
+  // Far out the tail of the F distribution is (1 + q F/ν)^(−ν/2) up to a factor that changes
+  // slowly.
   if (f * rank > 600.0 && left > 60.0) return -0.5 * left * std::log1p(rank * f / left);
   const boost::math::fisher_f distribution(rank, left);
   const double p = cdf(complement(distribution, f));
@@ -61,18 +62,21 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
   double worst = 0.0, pair = 0.0;
   for (Eigen::Index j = 0; j < coefficients.size(); ++j) {
     if (hypothesis.with_radial && j >= coefficients.size() - 2) break;
-    const std::size_t place = hypothesis.keep.empty() ? static_cast<std::size_t>(j)
-                                                      : hypothesis.keep[static_cast<std::size_t>(j)];
+    const std::size_t place = hypothesis.keep.empty()
+                                  ? static_cast<std::size_t>(j)
+                                  : hypothesis.keep[static_cast<std::size_t>(j)];
     const double high = typical_high(*hypothesis.effect, names[place].name);
     const bool second = names[place].name.ends_with("_sin");
     pair = second ? std::hypot(pair, coefficients(j)) : std::abs(coefficients(j));
-    if (high > 0.0 && pair > generous * high) worst = std::max(worst, std::log(pair / (generous * high)));
+    if (high > 0.0 && pair > generous * high)
+      worst = std::max(worst, std::log(pair / (generous * high)));
   }
   if (hypothesis.effect->id == "part.chuck_lobing" && coefficients.size() == 4) {
     const double first = std::hypot(coefficients(0), coefficients(1));
     const double second = std::hypot(coefficients(2), coefficients(3));
     if (second > most_second * first)
-      sum += 4.0 * surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
+      sum +=
+          4.0 * surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
   }
   return sum + surprise * worst * worst;
 }

@@ -24,8 +24,8 @@ struct Separating {
 
 /// A cause that explains a finding as well, or nearly.
 struct Rival {
-  std::string effect;             ///< id
-  double distance = 0.0;          ///< d of the finding's prediction from the rival's best fit, in σ
+  std::string effect;     ///< id
+  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
   double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
   double probability = 0.0;       ///< of the rival, among the class
   bool structural = false;        ///< canonical correlation above 0.999: no amount of data helps
@@ -33,17 +33,17 @@ struct Rival {
 
 /// A cause found in the data, refitted jointly with the surface and the other findings.
 struct Finding {
-  std::string effect;                    ///< id of the best explanation
-  std::vector<std::string> members;      ///< the class: every id that explains it as well, best first
-  std::vector<Rival> rivals;             ///< the other members and how far they are
+  std::string effect;                ///< id of the best explanation
+  std::vector<std::string> members;  ///< the class: every id that explains it as well, best first
+  std::vector<Rival> rivals;         ///< the other members and how far they are
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
   std::string alias;                     ///< another order that the sampling cannot tell from it
   std::string frame;                     ///< what the named cause is fixed to
-  double p_value = 1.0;                  ///< family-wise: all hypotheses that were tried are counted
-  double probability = 0.0;              ///< of the named effect among its class
-  double rms_mm = 0.0;                   ///< of its contribution to the readings
-  Estimate axis_shift;                   ///< mm; largest over Z, of leaving it out
-  bool cosmetic = false;                 ///< improves the RMS, not the axis
+  double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
+  double probability = 0.0;  ///< of the named effect among its class
+  double rms_mm = 0.0;       ///< of its contribution to the readings
+  Estimate axis_shift;       ///< mm; largest over Z, of leaving it out
+  bool cosmetic = false;     ///< improves the RMS, not the axis
   std::optional<Separating> separate_with;  ///< for a class of more than one
 
   /// For the model: the term as data.
@@ -57,19 +57,19 @@ struct Unexplained {
   std::string dependence;  ///< "constant along Z", "P2 along Z", "1/λ = 0.14 per mm" …
   Estimate amplitude;      ///< mm
   double p_value = 1.0;
-  double order = 0.0;           ///< undulations per revolution, signed against the Z frequency
-  double z_frequency = 0.0;     ///< cycles per mm; with `degree` -1
-  int degree = 0;               ///< Legendre degree along Z; -1: a line
-  bool in_time = false;         ///< the Legendre degree is along time
-  bool part_frame = false;      ///< the angle is that of the part, not of the spindle
-  std::vector<double> linear;   ///< factors of cos and sin (order 0: of 1), mm
+  double order = 0.0;          ///< undulations per revolution, signed against the Z frequency
+  double z_frequency = 0.0;    ///< cycles per mm; with `degree` -1
+  int degree = 0;              ///< Legendre degree along Z; -1: a line
+  bool in_time = false;        ///< the Legendre degree is along time
+  bool part_frame = false;     ///< the angle is that of the part, not of the spindle
+  std::vector<double> linear;  ///< factors of cos and sin (order 0: of 1), mm
 };
 
 /// An effect that this plan cannot see at its typical size.
 struct NotObservable {
   std::string effect;
-  std::string why;         ///< "absorbed by x0, y0 …", "needs a time column" …
-  Estimate harm_per_unit;  ///< shift of the axis per unit of the effect's parameter
+  std::string why;          ///< "absorbed by x0, y0 …", "needs a time column" …
+  Estimate harm_per_unit;   ///< shift of the axis per unit of the effect's parameter
   double detectable = 0.0;  ///< size of the parameter that would be found with power ½; inf: none
   std::string detectable_unit;
   std::optional<Separating> separate_with;
@@ -82,14 +82,14 @@ struct NoiseReport {
   std::string source;  ///< "stationary capture", "repeated passes", "revolution differences",
                        ///< "residuals of the extended model"
   std::string note;    ///< what speaks against it ("no source of its own: …")
-  std::vector<double> autoregression;     ///< φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white
-  std::optional<double> stationary_mm;    ///< σ of each source that the data have
+  std::vector<double> autoregression;   ///< φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white
+  std::optional<double> stationary_mm;  ///< σ of each source that the data have
   std::optional<double> repeated_mm;
   std::optional<double> revolutions_mm;
-  std::optional<double> stated_mm;        ///< sensor_noise of the stream or job
-  std::vector<Rejected> masked;           ///< readings that were left out, and why
-  std::vector<std::string> gaps;          ///< missing sectors or lengths: where
-  std::vector<Rejected> interruptions;    ///< keyways, holes: first row of each and its sector
+  std::optional<double> stated_mm;      ///< sensor_noise of the stream or job
+  std::vector<Rejected> masked;         ///< readings that were left out, and why
+  std::vector<std::string> gaps;        ///< missing sectors or lengths: where
+  std::vector<Rejected> interruptions;  ///< keyways, holes: first row of each and its sector
 };
 
 /// A check of the data's quality (probe.saturation …): estimated, handled, never a name for a form.
@@ -150,8 +150,8 @@ struct Diagnosis {
   double effective_hypotheses = 0.0;  ///< independent tests they are worth at this level
   double threshold = 0.0;             ///< of a statistic with two degrees of freedom
 
-  double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
-  std::vector<double> effect_mm;           ///< of all terms, one per reading
+  double z_mid_mm = 0.0, z_half_mm = 1.0;                     ///< u = (z − z_mid)/z_half
+  std::vector<double> effect_mm;                              ///< of all terms, one per reading
   std::vector<double> residual_before_mm, residual_after_mm;  ///< one per reading
   std::vector<SpectrumBin> spectrum;
 };
