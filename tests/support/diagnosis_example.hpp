@@ -148,6 +148,25 @@ inline JobResult diagnosed_job(std::size_t readings = 1500) {
   return result;
 }
 
+/// The same, simulated again: the ideal simulation misses lobes and wander, the extended one the
+/// noise alone.
+inline JobResult resimulated_job(std::size_t readings = 1500) {
+  JobResult result = diagnosed_job(readings);
+  const ProbeStream& stream = result.streams.front();
+  const Diagnosis& d = *result.diagnoses.front();
+  Resimulation again;
+  std::vector<bool> masked(stream.size(), false);
+  for (const Rejected& r : d.noise.masked) masked[r.row - 1] = true;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const double clean = stream.reading_mm[i] - d.residual_after_mm[i];
+    again.readings.after_mm.push_back(clean);
+    again.readings.before_mm.push_back(clean - d.effect_mm[i]);
+  }
+  again.comparison = compare(stream, again.readings, masked, noise_mm);
+  result.resimulations = {again};
+  return result;
+}
+
 inline Diagnosis cone_diagnosis(std::size_t readings = 1500) {
   return *diagnosed_job(readings).diagnoses.front();
 }

@@ -79,6 +79,37 @@ TEST(ReportData, MapsLeaveMaskedReadingsOut) {
   EXPECT_EQ(lines[1]["order"], 7.41);
 }
 
+TEST(ReportData, MapsAreOfTheLathesReadings) {
+  JobResult result = example::resimulated_job(1500);
+  SimulatedReadings& simulated = result.resimulations.front()->readings;
+  simulated.before_mm[7] -= 0.25;
+  simulated.after_mm[7] += 0.125;
+  const json reference = report_data(result)["references"][0];
+  const json& simulation = reference["diagnosis"]["simulation"];
+  EXPECT_EQ(simulation["by_lathe"], true);
+  const json& maps = simulation["maps"];
+  const Diagnosis& d = *result.diagnoses.front();
+  // Columns are rounded to 1 nm.
+  EXPECT_NEAR(maps["before_um"][7], 1000.0 * d.residual_before_mm[7] + 250.0, 1e-3);
+  EXPECT_NEAR(maps["after_um"][7], 1000.0 * d.residual_after_mm[7] - 125.0, 1e-3);
+  EXPECT_EQ(maps["measured_um"], reference["readings"]["points"]["deviation_um"]);
+  EXPECT_EQ(simulation["left_share"], result.resimulations.front()->comparison.after.share);
+}
+
+TEST(ReportData, SaysWhyTheLatheDidNotSimulate) {
+  JobResult result = example::diagnosed_job(300);
+  const auto simulation = [&] {
+    return report_data(result)["references"][0]["diagnosis"]["simulation"];
+  };
+  const json model = simulation();
+  EXPECT_EQ(model["by_lathe"], false);
+  result.resimulations = {Resimulation{{}, {}, "it has no place"}};
+  EXPECT_EQ(simulation()["why_not"], "it has no place");
+  EXPECT_EQ(simulation()["maps"], model["maps"]);
+  result.diagnoses.front()->residual_after_mm.pop_back();
+  EXPECT_TRUE(simulation().is_null());
+}
+
 TEST(ReportData, AxisShownIsThatOfTheCorrection) {
   JobResult result = example::diagnosed_job(200);
   result.diagnoses.front()->extended.axis.axis.x_mm += 0.5;
