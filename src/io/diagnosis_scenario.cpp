@@ -80,6 +80,11 @@ void place_part(const Json& fit, const ProbeStream& stream, Scenario& scenario) 
     scenario.plan.setups.push_back(chucking_of(stream, set_ups[i], axis));
   }
   virtual_lathe::Part& part = scenario.part;
+  const Chucking& now = scenario.plan.setups.back();
+  part.x0_mm = *now.x0_mm;
+  part.y0_mm = *now.y0_mm;
+  part.l = *now.l;
+  part.m = *now.m;
   part.bore = fit.at("feature") == "bore";
   part.radius_mm = inside_value(fit.at("shape").at("radius"));
   if (fit.at("surface") != "cone") return;

@@ -15,23 +15,27 @@ const simulatedWords = {
   simulated_before_um: 'Simulated before: the ideal surface.',
   simulated_after_um: 'Simulated after: the extended model.',
 };
+const idealWords = {
+  measured_um: simulatedWords.measured_um,
+  simulated_before_um: 'Simulated: the ideal surface.',
+  before_um: 'Measured minus simulated.',
+};
 const differenceWords = {
   before_um: 'Measured minus simulated before.',
   after_um: 'Measured minus simulated after.',
   gained_um: 'Simulated after minus before: what the model gained.',
 };
 
-/** Rows of maps side by side, a colour scale each: what was read, and the differences. */
+/** Rows of maps side by side: readings share a colour scale, and differences another. */
 function simulationMaps(reference, extended) {
   const readings = diagnosisReadings(reference);
   if (!readings.has_position) return [element('div', {class: 'pair'}, sectionOverlay(readings, extended), sectionDifferences(readings, extended))];
   const values = (key) => readings.thinned ? readings.cells[key] : split(readings.points).kept.map((i) => readings.points[key][i]);
-  const row = (words, keys) => {
-    const limit = roundUpFinely(Math.max(...keys.map((key) => largest(values(key)))));
-    return element('div', {class: 'triple maps'}, keys.map((key) => readingMap(readings, key, words[key], limit, '')));
-  };
-  if (!extended) return [row({...simulatedWords, ...differenceWords}, ['measured_um', 'simulated_before_um', 'before_um'])];
-  return [row(simulatedWords, Object.keys(simulatedWords)), row(differenceWords, Object.keys(differenceWords))];
+  const scale = (keys) => roundUpFinely(Math.max(...keys.map((key) => largest(values(key)))));
+  const read = scale(Object.keys(simulatedWords)), differs = scale(Object.keys(differenceWords));
+  const row = (words) => element('div', {class: 'triple'}, Object.entries(words).map(([key, said]) =>
+    readingMap(readings, key, said, key in simulatedWords ? read : differs, '')));
+  return extended ? [row(simulatedWords), row(differenceWords)] : [row(idealWords)];
 }
 
 /** One section without Z: columns over C. */
@@ -47,10 +51,10 @@ function sectionChart(readings, columns, words) {
 }
 
 const sectionOverlay = (readings, extended) => sectionChart(readings, [['measured_um', 'measured', colours.grey],
-  ['simulated_before_um', 'simulated before', colours.measured], ...(extended ? [['simulated_after_um', 'simulated after', colours.model]] : [])],
+  ['simulated_before_um', extended ? 'simulated before' : 'simulated', colours.measured], ...(extended ? [['simulated_after_um', 'simulated after', colours.model]] : [])],
 'Deviation from a true-running surface over the spindle angle: measured and simulated.');
 
-const sectionDifferences = (readings, extended) => sectionChart(readings, [['before_um', 'measured − before', colours.measured],
+const sectionDifferences = (readings, extended) => sectionChart(readings, [['before_um', extended ? 'measured − before' : 'measured − simulated', colours.measured],
   ...(extended ? [['after_um', 'measured − after', colours.model]] : [])],
 'Measured minus simulated over the spindle angle.');
 
@@ -67,7 +71,7 @@ function spectrumChart({simulation: {spectrum}, lines}, extended) {
   const labelled = [...marks].map(([i, names]) => ({value: [order[i], before[i]], label: {formatter: names.join('\n')}}));
   const curve = (name, values, colour, width) => ({name, type: 'line', symbol: 'none', emphasis: {disabled: true},
     itemStyle: {color: colour}, lineStyle: {color: colour, width}, data: order.map((o, i) => [o, values[i]])});
-  const series = [curve('before', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
+  const series = [curve(extended ? 'before' : 'measured − simulated', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
   if (labelled.length) {
     series.push({name: 'found', type: 'scatter', symbol: 'triangle', symbolSize: 9, symbolOffset: [0, -8], z: 5, emphasis: {disabled: true},
       itemStyle: {color: colours.series[2]}, labelLayout: {moveOverlap: 'shiftY'},
@@ -77,7 +81,7 @@ function spectrumChart({simulation: {spectrum}, lines}, extended) {
     grid: grid({top: 64}),
     legend: legendOf(series, {left: 0, right: 0}),
     xAxis: axis('order: undulations per revolution', {min: 0, max: tidy(Math.ceil(largest(order)))}),
-    yAxis: uprightAxis('amplitude in µm', {min: 0, max: roundUpFinely(most * 1.25)}),
+    yAxis: uprightAxis('amplitude in µm', {nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -18]}, min: 0, max: roundUpFinely(most * 1.25)}),
     series,
   });
   return figure({caption: `Spectrum of measured minus simulated${extended ? ', before and after the model was extended. Marks are the lines that were found.' : '.'}` +

@@ -87,7 +87,14 @@ TEST_F(SimulateFrom, TheMeasuredPartComesBackAsAStream) {
     for (std::size_t i = 0; i < was.size(); ++i) ASSERT_NEAR(is[i], was[i], 1e-9) << name;
   }
   EXPECT_NE(column(read_text(folder_ / "other.csv"), "X_M[mm]"), column(again, "X_M[mm]"));
-  EXPECT_EQ(result("truth.json").at("effects").at(0).at("id"), "part.roundness");
+  const json truth = result("truth.json");
+  EXPECT_EQ(truth.at("effects").at(0).at("effect"), "part.roundness");
+  const json extended = result("d.json").at("extended").at("parameters");
+  for (const char* name : {"x0", "y0", "l", "m"}) {
+    EXPECT_NEAR(truth.at("parameters").at(name).at("value").get<double>(),
+                extended.at(name).at("value").get<double>(), 1e-12)
+        << name;
+  }
   // Diagnosed as the first was; without the effect there is nothing to find (chance 1 %, seeded).
   const auto diagnosed = [&](const std::string& stream) {
     const CommandStreams done = command("diagnose " + stream + " --surface cylinder --json -");
