@@ -14,7 +14,9 @@ using Keep = std::vector<std::size_t>;
 constexpr double decay_lengths[] = {10.0, 20.0, 40.0, 80.0, 160.0};
 constexpr double bearings[] = {-500.0, -250.0, -100.0,
                                -50.0,  -20.0,  0.0};  // effects.md: far to near
+constexpr double not_a_cylinder = 1e-3;               // tan of the half angle
 constexpr double no_motion = 1e-9;
+constexpr double few_cycles[] = {0.5, 0.7, 0.9, 1.15, 1.5, 1.9, 2.4, 3.0};
 
 struct Span {
   double low, high;
@@ -40,6 +42,8 @@ void add_harmonics(const Scene& scene, const Resolution& resolution,
       list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
     if (!scene.reindexed && !scene.two_sided) continue;
     list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
+    if (std::abs(scene.tan_half_angle) > not_a_cylinder)
+      list.push_back(of_effect("spindle.axial_synchronous", with_order(n), {}, tests));
     TermShape tilt = with_order(n);
     tilt.lever_from_mm = bearings[2];
     if (resolution.degrees > 0)
@@ -82,10 +86,19 @@ void add_probe(const Scene& scene, const Resolution& resolution, std::vector<Hyp
   }
   TermShape response;
   response.reference_x_mm = scene.reference_x_mm;
+  response.range_mm = scene.range_x_mm;
   response.order = 3.0;
   list.push_back(of_effect("probe.gain", response));
   for (const Keep& keep : {Keep{0}, Keep{1}, Keep{}})
     list.push_back(of_effect("probe.nonlinearity", response, keep, 3));
+  // Of few cycles over the swing, a periodogram that forgets the surface's columns misses it.
+  const double swing = sensed_swing(scene);
+  for (const double cycles : few_cycles) {
+    TermShape shape;
+    shape.period_mm = swing / cycles;
+    if (swing > least_swing_mm && !resolution.sections)
+      list.push_back(of_effect("probe.cyclic", shape, {}, 4.0 * std::size(few_cycles)));
+  }
   list.push_back(of_effect("probe.ball_radius", {}));
   list.push_back(of_effect("probe.pretravel", response, {0}));
   if (!scene.has_time) return;
@@ -109,6 +122,19 @@ void add_time(const Scene& scene, std::vector<Hypothesis>& list) {
 }
 
 }  // namespace
+
+double sensed_swing(const Scene& scene) {
+  double swing = 0.0;
+  for (const char side : {0, 1}) {
+    double low = 1e300, high = -1e300;
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      if (scene.rear[i] != side) continue;
+      low = std::min(low, scene.sensed[i]), high = std::max(high, scene.sensed[i]);
+    }
+    swing = std::max(swing, high - low);
+  }
+  return swing;
+}
 
 std::vector<Hypothesis> slips(const Scene& scene, std::size_t instants) {
   std::vector<Hypothesis> list;
@@ -145,7 +171,7 @@ std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& re
       shape.lever_from_mm = bearing;
       list.push_back(of_effect("spindle.tilt_synchronous", shape, {}, tests * std::size(bearings)));
     }
-    if (std::abs(scene.tan_half_angle) > 1e-3)
+    if (std::abs(scene.tan_half_angle) > not_a_cylinder)
       list.push_back(of_effect("spindle.axial_synchronous", with_order(n), {}, tests));
     const double jaws = scene.z_mid_mm - scene.z_half_mm;
     for (const int j : {order, order / 2}) {
@@ -192,7 +218,10 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const Scene& scene, doub
         o.shape.lever_from_mm = scene.z_mid_mm - scene.z_half_mm / kappa;
     });
   } else if (id == "part.chuck_lobing") {
-    vary([](Hypothesis& o, double d) { o.shape.decay_length_mm *= std::exp(3.0 * d); });
+    vary([](Hypothesis& o, double d) {
+      o.shape.decay_length_mm =
+          std::clamp(o.shape.decay_length_mm * std::exp(3.0 * d), 10.0, 200.0);
+    });
   } else if (id == "part.slip") {
     const auto [first, last] = range_of(scene.time);
     vary([&](Hypothesis& o, double d) {

@@ -17,6 +17,11 @@ std::vector<Hypothesis> preset_causes(const Scene& scene, const Resolution& reso
 std::vector<Hypothesis> causes_of_order(const Scene& scene, const Resolution& resolution,
                                         int order);
 
+/// The range of what the probe has sensed, on the side where it is larger: from side to side
+/// nothing is read.
+double sensed_swing(const Scene& scene);
+constexpr double least_swing_mm = 0.02;  ///< below it no period of the scale is seen
+
 /// A slip at every one of some instants.
 std::vector<Hypothesis> slips(const Scene& scene, std::size_t instants);
 

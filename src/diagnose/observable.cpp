@@ -48,6 +48,7 @@ double size_of(const Effect& effect, const LinearParameter& linear) {
 TermShape typical_shape(const Effect& effect, const Scene& scene) {
   TermShape s;
   s.reference_x_mm = scene.reference_x_mm;
+  s.range_mm = scene.range_x_mm;
   s.lever_from_mm = effect.id == "part.chuck_lobing" ? scene.z_mid_mm - scene.z_half_mm : -250.0;
   s.decay_length_mm = 40.0;
   s.time_constant_s = 0.0;
@@ -84,6 +85,12 @@ std::vector<Typical> typical_effects(const Scene& scene) {
               size_of(effect, linear[0]), linear[0].unit == "rad" ? "deg" : linear[0].unit,
               linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0};
     list.push_back(std::move(t));
+    if (effect.id != "part.slip") continue;
+    Typical turned = list.back();  // about its own axis
+    turned.hypothesis.keep = {2};
+    turned.size = size_of(effect, linear[2]);
+    turned.unit = "deg", turned.edge = 1.0 / rad_per_deg;
+    list.push_back(std::move(turned));
   }
   return list;
 }
@@ -125,7 +132,9 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
     const Effect& effect = *t.hypothesis.effect;
     const bool named =
         std::ranges::any_of(model.terms, [&](const Hypothesis& h) { return h.effect == &effect; });
-    if (named) continue;
+    const bool listed = std::ranges::any_of(
+        out, [&](const Hidden& h) { return h.typical.hypothesis.effect == &effect; });
+    if (named || listed) continue;
     const Columns& own = joint.places[model.terms.size() + k];
     Hidden h{t, {}, 0.0, 0.0};
     h.entry.effect = effect.id;

@@ -17,7 +17,7 @@ struct Typical {
   double edge = 1.0;  ///< edge value of one inside unit
 };
 
-/// Every effect of the catalogue that is a form and not a check, once.
+/// Every effect of the catalogue that is a form and not a check, once; a slip also as a turn.
 std::vector<Typical> typical_effects(const Scene& scene);
 
 /// Probability that a statistic with `columns` degrees of freedom and noncentrality λ passes the

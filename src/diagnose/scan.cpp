@@ -6,6 +6,7 @@
 #include <complex>
 #include <functional>
 
+#include "diagnose/causes.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/math/fourier_sums.hpp"
 #include "trueaxis/math/sincos.hpp"
@@ -122,18 +123,13 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
       }
     }
   }
-  double swing = 0.0, fastest = 1e-9;  // of one side: from side to side nothing is read
-  for (const char side : {0, 1}) {
-    double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < scene.size(); ++i) {
-      if (scene.rear[i] != side) continue;
-      low = std::min(low, scene.sensed[i]), high = std::max(high, scene.sensed[i]);
-      if (i > 0 && scene.rear[i - 1] == side)
-        fastest = std::max(fastest, std::abs(scene.sensed[i] - scene.sensed[i - 1]));
-    }
-    swing = std::max(swing, high - low);
+  const double swing = sensed_swing(scene);
+  double fastest = 1e-9;
+  for (std::size_t i = 1; i < scene.size(); ++i) {
+    if (scene.rear[i] == scene.rear[i - 1])
+      fastest = std::max(fastest, std::abs(scene.sensed[i] - scene.sensed[i - 1]));
   }
-  if (swing > 0.02 && !resolution.sections) {
+  if (swing > least_swing_mm && !resolution.sections) {
     list.push_back({&scene.sensed, 0.0, false, std::max(0.5, 0.7 / swing),
                     std::min(500.0, static_cast<double>(scene.size()) / (3.0 * swing)),
                     [](double f) { return line_of("probe.cyclic", f); }});
@@ -338,66 +334,6 @@ double frequency_of(const Hypothesis& h) {
   if (h.effect->id == "spindle.asynchronous") return h.shape.order / two_pi;
   if (h.effect->id == "environment.vibration") return h.shape.frequency_hz;
   return 1.0 / h.shape.period_mm;
-}
-
-std::vector<Hypothesis> scan_bumps(const Evidence& evidence, std::span<const double> remainder_mm,
-                                   double& tests) {
-  const Scene& scene = evidence.scene();
-  const Rows& rows = evidence.rows();
-  const std::vector<double> g = weighted(evidence, remainder_mm);
-  std::vector<Hypothesis> best;
-  tests = 0.0;
-  constexpr std::size_t least_readings = 8;
-  constexpr double not_one_reading = 0.7;
-  for (const std::size_t sectors : {12U, 24U, 48U}) {
-    for (const std::size_t lengths : {1U, 6U, 12U, 24U}) {
-      if (lengths > 1 && !scene.has_position) continue;
-      if (rows.folds() < 12 && lengths > 6) continue;
-      std::vector<double> sum(sectors * lengths, 0.0);
-      std::vector<std::size_t> count(sectors * lengths, 0);
-      const auto place = [&](std::size_t i) {
-        double turn = scene.theta[i] / two_pi;
-        turn -= std::floor(turn);
-        const double u =
-            std::clamp(0.5 + 0.5 * (scene.s[i] - scene.z_mid_mm) / scene.z_half_mm, 0.0, 0.999999);
-        const auto a =
-            std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
-        return a * lengths +
-               (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
-      };
-      std::vector<double> largest(sum.size(), 0.0);
-      for (std::size_t i = 0; i < scene.size(); ++i) {
-        if (!rows.used[i]) continue;
-        const std::size_t at = place(i);
-        const double value = scene.rear[i] ? -g[i] : g[i];
-        sum[at] += value;
-        ++count[at];
-        if (std::abs(value) > std::abs(largest[at])) largest[at] = value;
-      }
-      double top = 0.0;
-      std::size_t where = 0;
-      for (std::size_t b = 0; b < sum.size(); ++b) {
-        if (count[b] < least_readings) continue;
-        tests += 1.0;
-        const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
-        const double rest = sum[b] - largest[b];  // a form is not made by one reading
-        if (rest * rest / static_cast<double>(count[b] - 1) < not_one_reading * value) continue;
-        if (value > top) top = value, where = b;
-      }
-      if (!(top > 0.0)) continue;
-      Hypothesis h;
-      const double width = two_pi / static_cast<double>(sectors);
-      const double length = 2.0 * scene.z_half_mm / static_cast<double>(lengths);
-      h.pattern.kind = Pattern::Kind::bump;
-      h.pattern.angle_rad = (static_cast<double>(where / lengths) + 0.5) * width;
-      h.pattern.width_rad = 0.5 * width;
-      h.pattern.position_mm =
-          scene.z_mid_mm - scene.z_half_mm + (static_cast<double>(where % lengths) + 0.5) * length;
-      h.pattern.length_mm = lengths > 1 ? 0.5 * length : 0.0;
-      best.push_back(h);
-    }
-  }
-  return best;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -12,6 +12,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr double least_range_mm = 1e-3;
+
 const Clamping& clamping_of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                             std::size_t i) {
   if (stream.setup.empty()) return clampings.front();
@@ -131,6 +133,9 @@ Scene make_scene(const ProbeStream& stream, const std::vector<Clamping>& clampin
   double sum = 0.0;
   for (const double x : scene.sensed) sum += x;
   scene.reference_x_mm = sum / static_cast<double>(scene.size());
+  const auto [least, most] = range_of(scene.sensed);
+  scene.range_x_mm =
+      std::max({most - scene.reference_x_mm, scene.reference_x_mm - least, least_range_mm});
   for (const Clamping& c : clampings) {
     scene.reindexed |= c.reindex_rad != clampings.front().reindex_rad;
     scene.jogged |= c.x_jog_mm != clampings.front().x_jog_mm;

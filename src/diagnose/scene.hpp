@@ -36,7 +36,8 @@ struct BaseKind {
 struct SceneFacts {
   BaseKind base;
   double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
-  double tan_half_angle = 0.0, reference_x_mm = 0.0;
+  double tan_half_angle = 0.0;
+  double reference_x_mm = 0.0, range_x_mm = 1.0;  ///< middle of what is sensed, and how far it goes
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;

@@ -45,7 +45,8 @@ class Search {
     forward(model, patterns, pattern_was_better);
     for (int round = 0; round < 3; ++round) {
       bool changed = backward(model);
-      if (model.terms.size() > 1) changed |= swap(model, patterns);
+      if (model.terms.size() > 1 || std::ranges::any_of(model.terms, splits))
+        changed |= swap(model, patterns);
       if (!changed) break;
       forward(model, patterns, pattern_was_better);
     }
@@ -174,6 +175,8 @@ class Search {
       other.terms = without(model.terms, i);
       changed |= replace(model, std::move(other), patterns);
     }
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      if (splits(model.terms[i])) changed |= split(model, i);
     for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
       for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
         if (angular_order(model.terms[i]) != angular_order(model.terms[j])) continue;
@@ -185,6 +188,26 @@ class Search {
       }
     }
     return changed;
+  }
+
+  /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so
+  /// too.
+  static bool splits(const Hypothesis& h) {
+    return h.effect && h.effect->id == "part.chuck_lobing" && h.columns() == 4;
+  }
+  bool split(Model& model, std::size_t term) {
+    Model other = model;
+    other.terms = without(model.terms, term);
+    for (int half = 0; half < 2; ++half) {
+      const Proposal p = propose(problem_, model.phi, other.terms);
+      const auto next = std::ranges::find_if(
+          p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
+      if (next == p.causes.end()) return false;
+      other.terms.push_back(next->hypothesis);
+    }
+    if (criterion(other) > criterion(model)) return false;
+    model.terms = std::move(other.terms);
+    return true;
   }
 
   bool replace(Model& model, Model reduced, bool patterns) {

@@ -76,7 +76,7 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
     const double second = std::hypot(coefficients(2), coefficients(3));
     if (second > most_second * first)
       sum +=
-          4.0 * surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
+          16.0 * surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
   }
   return sum + surprise * worst * worst;
 }
