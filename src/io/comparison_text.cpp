@@ -16,12 +16,15 @@ std::string row(const char* name, const Discrepancy& d) {
 std::string resimulation_line(const Resimulation& again) {
   if (!again.why_not.empty()) return layout::wrapped("simulated   ", "not again: " + again.why_not);
   const Comparison& c = again.comparison;
+  const std::string alone =
+      c.noise.share < 1.0 ? layout::format("noise alone leaves %.3g %%", 100.0 * c.noise.share)
+                          : "noise alone could make all of it";
   return layout::wrapped(
       "simulated   ",
-      layout::format("measured − simulated %.3g → %.3g µm RMS; of the variance %.3g %% is left, "
-                     "noise alone leaves %.3g %%",
-                     c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um, 100.0 * c.after.share,
-                     100.0 * c.noise.share));
+      layout::format("measured − simulated %.3g → %.3g µm RMS; of the variance %.3g %% is left, ",
+                     c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um,
+                     100.0 * c.after.share) +
+          alone);
 }
 
 std::string comparison_text(const Comparison& comparison) {

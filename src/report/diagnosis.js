@@ -77,7 +77,7 @@ function discrepancyWords({simulation}, extended) {
   const explained = left <= 1
     ? `The extended model explains ${percent(1 - left)} of the variance of this discrepancy and leaves ${percent(left)}`
     : `The extended model explains nothing of this discrepancy: its variance grows to ${percent(left)}`;
-  const alone = left <= 1.1 * noiseShare ? `, about what noise alone would leave (${percent(noiseShare)})` : `; noise alone would leave ${percent(noiseShare)}`;
+  const alone = noiseShare >= 1 ? '; noise alone could make a discrepancy as large as the first' : left <= 1.1 * noiseShare ? `, about what noise alone would leave (${percent(noiseShare)})` : `; noise alone would leave ${percent(noiseShare)}`;
   return `${missed}, that of the extended model by ${micrometres(after)}. ${explained}${alone}.`;
 }
 

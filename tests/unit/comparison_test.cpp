@@ -8,6 +8,7 @@
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/io/comparison_json.hpp"
 
 namespace trueaxis {
 namespace {
@@ -112,6 +113,35 @@ TEST(Comparison, NeedsAValueForEveryReading) {
   e = example();
   e.masked.pop_back();
   EXPECT_THROW(compare(e.measured, e.simulated, e.masked, sigma_mm), ContractViolation);
+}
+
+/// A text on one line: it is wrapped at blanks.
+std::string unwrapped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    const bool blank = c == ' ' || c == '\n';
+    if (!blank)
+      out += c;
+    else if (!out.empty() && out.back() != ' ')
+      out += ' ';
+  }
+  return out;
+}
+
+TEST(ComparisonText, OneLineSaysWhatIsLeft) {
+  Resimulation again;
+  again.comparison.before = {0.004, 1.0};
+  again.comparison.after = {0.002, 0.25};
+  again.comparison.noise = {0.0019, 0.225};
+  EXPECT_EQ(
+      unwrapped(resimulation_line(again)),
+      "simulated measured − simulated 4 → 2 µm RMS; of the variance 25 % is left, noise alone "
+      "leaves 22.5 % ");
+  again.comparison.noise = {0.03, 56.25};
+  EXPECT_NE(unwrapped(resimulation_line(again)).find("noise alone could make all of it"),
+            std::string::npos);
+  again.why_not = "it has no place";
+  EXPECT_EQ(unwrapped(resimulation_line(again)), "simulated not again: it has no place ");
 }
 
 }  // namespace
