@@ -110,11 +110,17 @@ std::optional<Separating> choose(const std::vector<Plan>& plans, double before,
     if (best && plans[p].minutes >= best->minutes) continue;
     best = &plans[p], power = after[p];
   }
-  return Separating{best->code, best->what, before, power, best->minutes, ""};
+  Separating out{best->code, best->what, before, power, best->minutes, "", {}};
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    if (&plans[p] == best || after[p] - before < share_of_best * most) continue;
+    out.others.push_back({plans[p].code, plans[p].what, after[p], plans[p].minutes});
+  }
+  std::ranges::stable_sort(out.others, {}, &Separating::Other::minutes);
+  return out;
 }
 
 Separating nothing_helps(double before, const char* why) {
-  return {"", "", before, before, 0.0, why};
+  return {"", "", before, before, 0.0, why, {}};
 }
 
 double longest_wave(const std::vector<Question>& questions) {
@@ -190,9 +196,13 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
   };
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
   for (const std::size_t p : order) {
-    out.plans.push_back(
-        {plans[p].code, plans[p].what, weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
-         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0, plans[p].minutes, ""});
+    out.plans.push_back({plans[p].code,
+                         plans[p].what,
+                         weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
+                         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0,
+                         plans[p].minutes,
+                         "",
+                         {}});
   }
   if (!(most > 0.0) || order.empty()) {
     out.next.why_not = questions.empty() && hidden.empty()
@@ -206,7 +216,8 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     if (questions[k].found.rivals.empty()) continue;
     if (after[order[0]].told[k] - out.questions[k]->power_before < worth_taking) continue;
     for (const Candidate& c : questions[k].found.members)
-      out.next.separates.push_back(c.hypothesis.id());
+      if (std::ranges::find(out.next.separates, c.hypothesis.id()) == out.next.separates.end())
+        out.next.separates.push_back(c.hypothesis.id());
   }
   if (!open) {
     for (std::size_t k = 0; k < hidden.size(); ++k)

@@ -12,6 +12,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr double highest_alias = 60.0;  // no cause makes so many undulations
+
 /// Phases of these are written cos(k z + φ), those of harmonics cos(n θ − φ).
 bool phase_is_added(std::string_view id) {
   return id == "spindle.asynchronous" || id == "environment.vibration" || id == "part.waviness" ||
@@ -228,7 +230,7 @@ std::string alias_of(const Hypothesis& h, const Resolution& resolution) {
   if (!harmonic) return "";
   const double order = harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
   const double m = std::round(resolution.per_turn), other = m - order;
-  if (other <= 0.0 || other == order) return "";
+  if (other <= 0.0 || other == order || other > highest_alias) return "";
   char text[160];
   std::snprintf(text, sizeof text,
                 "%g: with %g readings a revolution orders n and %g - n are one column; take an "

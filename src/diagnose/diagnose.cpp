@@ -14,6 +14,7 @@
 #include "diagnose/spectrum.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/diagnose/diagnosis.hpp"
+#include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis {
 
@@ -32,10 +33,13 @@ bool usable(const FitResult& fit) {
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
 }
 
-/// Readings minus the scene's surface; a gauge's zero stays in it and the base takes it out.
+/// Readings minus the scene's surface, of a gauge less its zero, which the base takes out anyway.
 std::vector<double> deviation_from(const ProbeStream& stream, const Scene& scene) {
   std::vector<double> out(scene.size());
   for (std::size_t i = 0; i < scene.size(); ++i) out[i] = stream.reading_mm[i] - scene.x[i];
+  if (!scene.base.offset) return out;
+  const double zero = median(out);
+  for (double& d : out) d -= zero;
   return out;
 }
 
@@ -164,6 +168,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.noise =
       report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
   out.checks = check_quality(stream, joint, out.residual_after_mm, out.noise);
+  out.remarks = off_centre_remark(problem, model);
   out.gain = measure_gain(problem, joint, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
   out.threshold = model.family.threshold(options.false_alarm);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "diagnose/causes.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/math/statistics.hpp"
 
@@ -15,6 +16,7 @@ namespace {
 constexpr double seen = 0.5;           // power below which an effect counts as not observable
 constexpr double no_prior_rad = 1e-2;  // a size for those whose catalogue entry names none
 constexpr double nearly_absorbed = 0.05;
+constexpr double typical_range_mm = 0.5;  // of a gauge, what its nonlinearity is a share of
 
 bool possible(const Effect& effect, const Scene& scene, std::string& why) {
   const auto id = effect.id;
@@ -48,7 +50,7 @@ double size_of(const Effect& effect, const LinearParameter& linear) {
 TermShape typical_shape(const Effect& effect, const Scene& scene) {
   TermShape s;
   s.reference_x_mm = scene.reference_x_mm;
-  s.range_mm = scene.range_x_mm;
+  s.range_mm = std::max(typical_range_mm, scene.range_x_mm);
   s.lever_from_mm = effect.id == "part.chuck_lobing" ? scene.z_mid_mm - scene.z_half_mm : -250.0;
   s.decay_length_mm = 40.0;
   s.time_constant_s = 0.0;
@@ -83,14 +85,19 @@ std::vector<Typical> typical_effects(const Scene& scene) {
     const auto linear = linear_parameters(effect.term, shape);
     Typical t{of_effect(effect.id.data(), shape, typical_keep(effect.id)),
               size_of(effect, linear[0]), linear[0].unit == "rad" ? "deg" : linear[0].unit,
-              linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0};
+              linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0, ""};
     list.push_back(std::move(t));
-    if (effect.id != "part.slip") continue;
-    Typical turned = list.back();  // about its own axis
-    turned.hypothesis.keep = {2};
-    turned.size = size_of(effect, linear[2]);
-    turned.unit = "deg", turned.edge = 1.0 / rad_per_deg;
-    list.push_back(std::move(turned));
+    Typical other = list.back();
+    if (effect.id == "probe.nonlinearity") {
+      other.form = "of the third degree: ";
+      other.hypothesis.keep = {1};
+    } else if (effect.id == "probe.cyclic") {
+      other.form = "of a period twice what is sensed: ";
+      other.hypothesis.shape.period_mm = 2.0 * std::max(sensed_swing(scene), least_swing_mm);
+    } else {
+      continue;
+    }
+    list.push_back(std::move(other));
   }
   return list;
 }
@@ -159,6 +166,7 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
     }
     h.harm_mm = worst * t.size;
     h.entry.harm_per_unit = {worst / t.edge, 0.0, "mm/(" + t.unit + ")", ""};
+    h.entry.harm_typical = {h.harm_mm, 0.0, "mm", ""};
     h.entry.detectable_unit = t.unit;
     const double at_threshold = model.family.threshold(problem.false_alarm);
     h.entry.detectable = lambda > 0.0 ? t.size * t.edge * std::sqrt(at_threshold / lambda)
@@ -181,6 +189,7 @@ std::vector<Hidden> hidden_effects(const Problem& problem, const Model& model, d
                     h.entry.detectable, t.unit.c_str());
       h.entry.why = text;
     }
+    h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));
   }
   std::ranges::stable_sort(out,

@@ -15,9 +15,10 @@ struct Typical {
   double size = 0.0;  ///< of its first linear parameter, inside units
   std::string unit;   ///< of that parameter at the edge
   double edge = 1.0;  ///< edge value of one inside unit
+  std::string form;   ///< which of its forms, where it has several
 };
 
-/// Every effect of the catalogue that is a form and not a check, once; a slip also as a turn.
+/// Every effect of the catalogue that is a form and not a check, once; a few in two forms.
 std::vector<Typical> typical_effects(const Scene& scene);
 
 /// Probability that a statistic with `columns` degrees of freedom and noncentrality λ passes the

@@ -86,4 +86,40 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   return list;
 }
 
+std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model) {
+  const Scene& scene = problem.scene;
+  double e2 = 0.0, radius = 0.0;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    e2 += 2.0 * scene.d2x_dc2[i] * scene.d2x_dc2[i];
+    radius += std::abs(scene.x[i]);
+  }
+  const double second = e2 / (4.0 * radius);
+  for (const Hypothesis& h : model.terms) {
+    const auto* harmonic = h.effect ? std::get_if<Harmonic>(&h.effect->term) : nullptr;
+    const double order = !h.effect  ? h.pattern.order
+                         : harmonic ? std::max(harmonic->fixed_order, h.shape.order)
+                                    : 0.0;
+    if (order == 2.0) return {};
+  }
+  std::vector<Hypothesis> terms = model.terms;
+  TermShape shape;
+  shape.order = 2.0;
+  terms.push_back(of_effect("part.roundness", shape, {0, 1}));
+  const Joint joint(problem, model.phi, terms, terms.size());
+  const Eigen::Index at = joint.solution.coefficients.size() - 2;
+  const double left = joint.solution.coefficients.tail(2).norm();
+  const double u =
+      joint.sigma_mm *
+      std::sqrt(0.5 * joint.solution.inverse.block(at, at, 2, 2).trace());  // of either component
+  if (!(second > 3.0 * u)) return {};
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "X has a second harmonic of %.2g µm because the circle is off centre (e²/4R, in the "
+      "geometry of the surface); beside it %.2g ± %.2g µm (U, k = 2) of two undulations "
+      "are left: no ovality is found",
+      second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um);
+  return {text};
+}
+
 }  // namespace trueaxis::diagnose_detail

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -12,12 +13,6 @@ namespace {
 constexpr std::size_t blocks_wanted = 30;  // effects.md: 30, not 5
 constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
 constexpr unsigned char longest_run = 8;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Where Z stands still for a section and then steps: the first reading of every section.
 std::vector<std::size_t> section_starts(const Scene& scene) {

@@ -17,7 +17,14 @@ Json interval(const Interval& i, const char* unit) {
 }
 
 Json separating_object(const Separating& s) {
+  Json others = Json::array();
+  for (const Separating::Other& o : s.others)
+    others.push_back({{"plan", o.plan},
+                      {"what", o.what},
+                      {"power", number(o.power)},
+                      {"minutes", number(o.minutes)}});
   return {{"plan", s.plan},
+          {"others", others},
           {"what", s.what},
           {"power", number(s.power)},
           {"power_before", number(s.power_before)},
@@ -68,6 +75,7 @@ Json not_observable_object(const NotObservable& n) {
   return {{"effect", n.effect},
           {"why", n.why},
           {"harm_per_unit", estimate_object(n.harm_per_unit)},
+          {"harm_typical", estimate_object(n.harm_typical)},
           {"detectable", quantity_object(n.detectable, n.detectable_unit.c_str(),
                                          "no size of it would be found")},
           {"separate_with", maybe(n.separate_with)}};
@@ -165,6 +173,7 @@ Json diagnosis_object(const Diagnosis& d) {
   json["findings"] = list_of(d.findings, finding_object);
   json["unexplained"] = list_of(d.unexplained, unexplained_object);
   json["not_observable"] = list_of(d.not_observable, not_observable_object);
+  json["remarks"] = d.remarks;
   json["noise"] = noise_object(d.noise);
   json["checks"] = list_of(d.checks, check_object);
   json["gain"] = gain_object(d.gain);

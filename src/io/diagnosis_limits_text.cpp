@@ -47,8 +47,18 @@ std::string rejected_lines(const char* head, const std::vector<Rejected>& reject
 
 std::string not_observable_text(const Diagnosis& d) {
   if (d.not_observable.empty()) return "";
-  std::size_t id = 6, harm = 11, found = 10;
+  constexpr double harmless_mm = 1e-5;
+  std::vector<NotObservable> listed;
+  std::string harmless;
   for (const NotObservable& n : d.not_observable) {
+    const bool harms = !n.harm_typical.determined() || n.harm_typical.value >= harmless_mm;
+    if (harms)
+      listed.push_back(n);
+    else
+      harmless += (harmless.empty() ? "" : ", ") + n.effect;
+  }
+  std::size_t id = 6, harm = 11, found = 10;
+  for (const NotObservable& n : listed) {
     id = std::max(id, width(n.effect));
     harm = std::max(harm, width(harm_per_unit_text(n.harm_per_unit)));
     found = std::max(found, width(detectable_text(n)));
@@ -61,10 +71,12 @@ std::string not_observable_text(const Diagnosis& d) {
   };
   std::string text = "\nCannot be seen with these readings at its typical size\n";
   text += row("effect", "axis shift", "seen from", "shown by", "why");
-  for (const NotObservable& n : d.not_observable) {
+  for (const NotObservable& n : listed) {
     text +=
         row(n.effect, harm_per_unit_text(n.harm_per_unit), detectable_text(n), shown_by(n), n.why);
   }
+  if (!harmless.empty())
+    text += wrapped("  ", "Unseen too, but shifting the axis by less than 0.01 µm: " + harmless);
   return text;
 }
 
@@ -87,6 +99,12 @@ std::string noise_text(const NoiseReport& noise) {
   text += rejected_lines("  masked      ", noise.masked);
   for (const std::string& gap : noise.gaps) text += wrapped("  gap         ", gap);
   return text + rejected_lines("  interrupted ", noise.interruptions);
+}
+
+std::string remarks_text(const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const std::string& remark : remarks) text += wrapped("  ", remark);
+  return text.empty() ? "" : "\nNot an effect\n" + text;
 }
 
 std::string checks_text(const std::vector<QualityCheck>& checks) {

@@ -12,6 +12,7 @@ namespace trueaxis {
 /// quality, what to measure next. Each starts with an empty line; empty where there is nothing.
 std::string not_observable_text(const Diagnosis& diagnosis);
 std::string noise_text(const NoiseReport& noise);
+std::string remarks_text(const std::vector<std::string>& remarks);
 std::string checks_text(const std::vector<QualityCheck>& checks);
 std::string next_text(const NextMeasurement& next);
 

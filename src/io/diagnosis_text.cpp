@@ -130,7 +130,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (!d.unexplained.empty()) text += "\nUnexplained\n";
   for (const Unexplained& u : d.unexplained) text += unexplained_block(u, k);
   return text + gain_block(d) + not_observable_text(d) + noise_text(d.noise) +
-         checks_text(d.checks) + next_text(d.next);
+         checks_text(d.checks) + remarks_text(d.remarks) + next_text(d.next);
 }
 
 }  // namespace trueaxis

@@ -73,7 +73,12 @@ std::string finding_class(const Finding& finding) {
 }
 
 std::string finding_harm(const Finding& finding, double coverage_factor) {
-  const std::string shift = plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
+  constexpr double nothing_mm = 1e-6;
+  const bool nothing =
+      finding.axis_shift.value + coverage_factor * finding.axis_shift.u < nothing_mm;
+  const std::string shift =
+      nothing ? "less than 0.001 µm"
+              : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
   return "left out it moves the axis by " + shift +
          (finding.cosmetic ? ": cosmetic for coaxiality" : "");
 }
@@ -82,7 +87,10 @@ std::string separating_text(const Separating& s) {
   if (s.plan.empty()) return "none of the plans: " + s.why_not;
   std::string text = s.plan + (s.what.empty() ? "" : ", " + s.what);
   text += ": right name " + probability(s.power_before) + " → " + probability(s.power);
-  return text + format(", %.3g min", s.minutes);
+  text += format(", %.3g min", s.minutes);
+  for (const Separating::Other& o : s.others)
+    text += "; or " + o.plan + " (→ " + probability(o.power) + format(", %.3g min)", o.minutes);
+  return text;
 }
 
 std::string harm_per_unit_text(const Estimate& harm) {

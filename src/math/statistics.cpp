@@ -33,4 +33,10 @@ Extent range_of(std::span<const double> values) {
   return {all.minCoeff(), all.maxCoeff()};
 }
 
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace trueaxis

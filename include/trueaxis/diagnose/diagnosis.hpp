@@ -14,12 +14,18 @@ namespace trueaxis {
 
 /// What a measurement is to be taken for, and what it would do.
 struct Separating {
+  /// Another measurement that does it nearly as well.
+  struct Other {
+    std::string plan, what;
+    double power = 0.0, minutes = 0.0;
+  };
   std::string plan;           ///< code of a separator: "RC", "2W" …; empty: see why_not
   std::string what;           ///< in words, with its numbers
   double power_before = 0.0;  ///< probability of the right name with the data at hand
   double power = 0.0;         ///< with the measurement added
   double minutes = 0.0;       ///< it takes, setting up included
   std::string why_not;        ///< why none of the plans does it
+  std::vector<Other> others;  ///< fastest first
 };
 
 /// A cause that explains a finding as well, or nearly.
@@ -70,6 +76,7 @@ struct NotObservable {
   std::string effect;
   std::string why;          ///< "absorbed by x0, y0 …", "needs a time column" …
   Estimate harm_per_unit;   ///< shift of the axis per unit of the effect's parameter
+  Estimate harm_typical;    ///< shift at the largest typical size
   double detectable = 0.0;  ///< size of the parameter that would be found with power ½; inf: none
   std::string detectable_unit;
   std::optional<Separating> separate_with;
@@ -139,6 +146,7 @@ struct Diagnosis {
   std::vector<Finding> findings;  ///< by harm, the largest first
   std::vector<Unexplained> unexplained;
   std::vector<NotObservable> not_observable;
+  std::vector<std::string> remarks;  ///< what might be taken for an effect and is none
   NoiseReport noise;
   std::vector<QualityCheck> checks;
   Gain gain;

@@ -13,6 +13,9 @@ double mad_sigma(std::span<const double> residuals);
 /// vary.
 double neighbour_correlation(std::span<const double> residuals, double clip);
 
+/// The upper of the two middle values of a column that is not empty.
+double median(std::vector<double> values);
+
 /// Smallest and largest of a column that is not empty.
 struct Extent {
   double low, high;
