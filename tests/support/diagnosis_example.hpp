@@ -29,7 +29,8 @@ inline Finding lobes() {
   finding.rms_mm = lobes_mm / std::sqrt(2.0);
   finding.axis_shift = {5e-5, 2e-5, "mm", ""};
   finding.cosmetic = true;
-  finding.separate_with = Separating{"RC", "the part re-indexed by 70 deg", 0.5, 0.993, 12.0, ""};
+  finding.separate_with =
+      Separating{"RC", "the part re-indexed by 70 deg", 0.5, 0.993, 12.0, "", {}};
   finding.shape.order = 3.0;
   const double phase = lobes_phase_deg * rad_per_deg;
   finding.linear = {lobes_mm * std::cos(phase), lobes_mm * std::sin(phase), 0.0, 0.0};
@@ -102,7 +103,7 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   height.harm_per_unit = {0.005, 0.0, "mm/mm", ""};
   height.detectable = std::numeric_limits<double>::infinity();
   height.detectable_unit = "mm";
-  height.separate_with = Separating{"RE", "probed from the rear side", 0.0, 1.0, 15.0, ""};
+  height.separate_with = Separating{"RE", "probed from the rear side", 0.0, 1.0, 15.0, "", {}};
   d.not_observable = {height};
   d.noise = noise_report();
   d.noise.masked = fit.rejected;
@@ -126,8 +127,8 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
             12.0,
             ""};
   d.plans = {*d.findings.front().separate_with,
-             {"2W", "a second speed", 0.5, 0.5, 3.0, ""},
-             {"ST", "", 0.5, 0.5, 0.0, "the stream has no time column"}};
+             {"2W", "a second speed", 0.5, 0.5, 3.0, "", {}},
+             {"ST", "", 0.5, 0.5, 0.0, "the stream has no time column", {}}};
   d.hypotheses = 812;
   d.effective_hypotheses = 640.0;
   d.threshold = 26.3;
