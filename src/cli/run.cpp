@@ -7,13 +7,16 @@
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
 #include "cli/job_streams.hpp"
+#include "cli/resimulation.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/io/comparison_json.hpp"
 #include "trueaxis/io/diagnosis_json.hpp"
 #include "trueaxis/io/diagnosis_text.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/io/fit_text.hpp"
 #include "trueaxis/io/job_json.hpp"
 #include "trueaxis/io/job_toml.hpp"
+#include "trueaxis/io/residuals_csv.hpp"
 #include "trueaxis/io/table_csv.hpp"
 #include "trueaxis/job/job.hpp"
 #include "trueaxis/report/report.hpp"
@@ -25,10 +28,13 @@ void print(const JobResult& result) {
   std::cout << result.verdict.line << "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     std::cout << fit_text(result.fits[i]);
-    if (result.diagnoses[i])
-      std::cout << findings_text(*result.diagnoses[i]);
+    const auto& diagnosis = result.diagnoses[i];
+    if (diagnosis)
+      std::cout << findings_text(*diagnosis);
     else if (result.streams[i].kind == StreamKind::face)
       std::cout << "diagnosis   none: a face is not diagnosed\n";
+    if (diagnosis && diagnosis->verdict != DiagnosisVerdict::ideal && result.resimulations[i])
+      std::cout << resimulation_line(*result.resimulations[i]);
     std::cout << '\n';
   }
   for (const Inclusion& i : result.inclusions) {
@@ -39,19 +45,33 @@ void print(const JobResult& result) {
   if (result.correction) std::cout << correction_preview(*result.correction) << '\n';
 }
 
+/// Each diagnosed reference's diagnosis and readings, in turn.
+std::vector<std::string> reference_files(JobResult& result) {
+  std::vector<std::string> diagnoses, texts;
+  for (const auto& diagnosis : result.diagnoses)
+    diagnoses.push_back(diagnosis ? diagnosis_json(*diagnosis) : "");
+  result.resimulations = resimulate_job(result, diagnoses);
+  for (std::size_t i = 0; i < diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    texts.push_back(std::move(diagnoses[i]));
+    texts.push_back(
+        residuals_csv(result.streams[i], *result.diagnoses[i], &result.resimulations[i]->readings));
+  }
+  return texts;
+}
+
 /// The table only when it may be run.
-void write(const JobResult& result, const std::filesystem::path& folder) {
+void write(JobResult& result, const std::filesystem::path& folder) {
+  const std::vector<std::string> texts = reference_files(result);
   const bool tabled = result.correction && result.verdict.go;
   const std::string json = job_json(result), report = render_report(result),
                     table = tabled ? correction_csv(*result.correction) : "";
   std::vector<FileContent> files{{(folder / "result.json").string(), json},
                                  {(folder / "report.html").string(), report}};
-  std::vector<std::string> diagnoses;
-  for (const auto& diagnosis : result.diagnoses)
-    diagnoses.push_back(diagnosis ? diagnosis_json(*diagnosis) : "");
-  for (std::size_t i = 0; i < diagnoses.size(); ++i) {
-    if (result.diagnoses[i])
-      files.push_back({(folder / diagnosis_file(result, i)).string(), diagnoses[i]});
+  for (std::size_t i = 0, next = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    files.push_back({(folder / diagnosis_file(result, i)).string(), texts[next++]});
+    files.push_back({(folder / readings_file(result, i)).string(), texts[next++]});
   }
   if (tabled) files.push_back({(folder / "table.csv").string(), table});
   write_files(files);
@@ -69,7 +89,7 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
     throw InputError(folder.string(), "is no folder: name one for the results");
   remove_earlier_table((folder / "table.csv").string());
   const Job job = read_job_toml(path);
-  const JobResult result = run_job(job, read_streams(job));
+  JobResult result = run_job(job, read_streams(job));
   for (const FitResult& fit : result.fits) {
     if (fit.status == FitStatus::too_few)
       throw InputError(fit.source, fit.message + ": probe more");

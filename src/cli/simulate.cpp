@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/simulate_from.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/cut_table_csv.hpp"
 #include "trueaxis/io/file.hpp"
@@ -67,13 +68,55 @@ int execute(const Options& options) {
 void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("simulate", "probe a part in the virtual lathe");
   auto options = std::make_shared<Options>();
-  command->add_option("scenario", options->scenario, "scenario (TOML)")->required();
-  command->add_option("-o,--output", options->stream, "the stream (CSV), '-' prints it")
-      ->required();
-  command->add_option("--truth", options->truth, "what the virtual lathe knows (JSON)");
-  command->add_option("--table", options->table, "correction table of the scenario's [cut]");
+  auto from = std::make_shared<SimulateFromOptions>();
+  auto* scenario = command->add_option("scenario", options->scenario, "scenario (TOML)");
+  auto* diagnosis =
+      command->add_option("--from", from->diagnosis,
+                          "diagnosis (JSON) instead of a scenario: measure its part again, with "
+                          "what was found, and compare");
+  diagnosis->excludes(scenario);
+  auto* output =
+      command->add_option("-o,--output", options->stream, "the stream (CSV), '-' prints it");
+  command->add_option("--truth", options->truth, "what the virtual lathe knows (JSON)")
+      ->needs(output);
+  command->add_option("--table", options->table, "correction table of the scenario's [cut]")
+      ->excludes(diagnosis);
   command->add_option("--seed", options->seed, "instead of the scenario's");
-  command->callback([options, &exit_code] { exit_code = execute(*options); });
+  command->add_option("--stream", from->stream.path, "where the diagnosed stream is now")
+      ->needs(diagnosis);
+  command->add_flag("--before", from->before, "the ideal surface, without what was found")
+      ->needs(diagnosis);
+  command->add_flag("--noise-free", from->noise_free, "without noise")->needs(diagnosis);
+  command->add_flag("--compare", from->compare, "print the comparison, write no stream")
+      ->needs(diagnosis)
+      ->excludes(output);
+  command->add_option("--json", from->json, "write the comparison here (JSON), '-' prints it")
+      ->needs(diagnosis);
+  from->stream.add_meaning_to(*command);
+  command
+      ->add_option("--ball-radius", from->ball_radius_mm,
+                   "of the probe's ball, mm, as given to the diagnosis")
+      ->check(a_length())
+      ->needs(diagnosis);
+  command->callback([options, from, &exit_code] {
+    if (from->diagnosis.empty()) {
+      if (options->scenario.empty()) throw CLI::RequiredError("scenario");
+      if (options->stream.empty()) throw CLI::RequiredError("--output");
+      if (from->stream.says_anything())
+        throw CLI::ValidationError("--diameter, --radius, --relative, --nominal-radius",
+                                   "need --from");
+      exit_code = execute(*options);
+      return;
+    }
+    from->output = options->stream;
+    from->truth = options->truth;
+    from->seed = options->seed;
+    if (from->output.empty() && from->json.empty() && !from->compare)
+      throw CLI::RequiredError("--output, --compare or --json");
+    if (!from->json.empty() && from->json == from->output)
+      throw CLI::ValidationError("--json", "cannot go where --output goes");
+    exit_code = simulate_from(*from);
+  });
 }
 
 }  // namespace trueaxis::cli

@@ -19,12 +19,19 @@ struct StreamOptions {
   void add_to(CLI::App& command,
               const std::string& what = "probe stream (CSV), '-' for standard input") {
     command.add_option("stream", path, what)->required();
+    add_meaning_to(command);
+  }
+
+  /// The options that say what the readings are.
+  void add_meaning_to(CLI::App& command) {
     auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
     command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")
         ->check(positive_length());
   }
+
+  bool says_anything() const { return diameter || radius || relative || nominal_radius_mm > 0.0; }
 
   ProbeStream read() const {
     StreamReadOptions options;

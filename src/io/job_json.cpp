@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/io/job_json.hpp"
 
+#include "io/comparison_object.hpp"
 #include "io/diagnosis_json.hpp"
 #include "trueaxis/base/units.hpp"
 
@@ -65,6 +66,11 @@ Json correction_object(const Correction& correction) {
             {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
 }
 
+Json resimulation_object(const Resimulation& again) {
+  if (!again.why_not.empty()) return {{"why", again.why_not}};
+  return comparison_object(again.comparison);
+}
+
 Json diagnosis_of(const JobResult& result, std::size_t i) {
   if (!result.diagnoses[i]) {
     const bool face = result.streams[i].kind == StreamKind::face;
@@ -73,6 +79,9 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   }
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result, i);
+  summary["readings"] = readings_file(result, i);
+  if (i < result.resimulations.size() && result.resimulations[i])
+    summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] =
       &fit_used(result, i) == &result.fits[i] ? "ideal surface" : "extended model";
   return summary;
@@ -90,15 +99,24 @@ Json inclusions_array(const std::vector<Inclusion>& inclusions) {
   return list;
 }
 
-}  // namespace
-
-std::string diagnosis_file(const JobResult& result, std::size_t reference) {
+/// Number and name of a reference, as far as any file system takes it.
+std::string file_stem(const JobResult& result, std::size_t reference) {
   std::string name;
   for (const char c : result.job.references[reference].name) {
     const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     name += kept ? c : '_';
   }
-  return "diagnosis_" + std::to_string(reference + 1) + "_" + name.substr(0, 40) + ".json";
+  return std::to_string(reference + 1) + "_" + name.substr(0, 40);
+}
+
+}  // namespace
+
+std::string diagnosis_file(const JobResult& result, std::size_t reference) {
+  return "diagnosis_" + file_stem(result, reference) + ".json";
+}
+
+std::string readings_file(const JobResult& result, std::size_t reference) {
+  return "readings_" + file_stem(result, reference) + ".csv";
 }
 
 std::string job_json(const JobResult& result) {

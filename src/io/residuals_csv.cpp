@@ -10,12 +10,17 @@
 namespace trueaxis {
 namespace {
 
-/// ",12.3456", or "," where the value is not there.
-void append_um(std::string& text, const std::vector<double>& values_mm, std::size_t i) {
-  const double value = i < values_mm.size() ? values_mm[i] : std::nan("");
+/// A cell; "," where the value is not there.
+void append(std::string& text, const std::vector<double>& values, std::size_t i, int decimals,
+            double unit = 1.0) {
+  const double value = i < values.size() ? values[i] : std::nan("");
   char cell[48] = ",";
-  if (std::isfinite(value)) std::snprintf(cell, sizeof cell, ",%.4f", value / mm_per_um);
+  if (std::isfinite(value)) std::snprintf(cell, sizeof cell, ",%.*f", decimals, value / unit);
   text += cell;
+}
+
+void append_um(std::string& text, const std::vector<double>& values_mm, std::size_t i) {
+  append(text, values_mm, i, 4, mm_per_um);
 }
 
 }  // namespace
@@ -39,7 +44,8 @@ std::string residuals_csv(const ProbeStream& stream, const FitResult& result) {
   return text;
 }
 
-std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis) {
+std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
+                          const SimulatedReadings* simulated) {
   std::vector<bool> masked(stream.size(), false);
   for (const Rejected& r : diagnosis.noise.masked) {
     if (r.row >= 1 && r.row <= masked.size()) masked[r.row - 1] = true;
@@ -48,7 +54,8 @@ std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis)
                                           ? diagnosis.baseline.residual_mm
                                           : diagnosis.residual_before_mm;
   std::string text =
-      "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked\n";
+      "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked";
+  text += simulated ? ",simulated_before[mm],simulated_after[mm]\n" : "\n";
   for (std::size_t i = 0; i < stream.size(); ++i) {
     char row[120];
     text.append(row,
@@ -58,7 +65,12 @@ std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis)
     append_um(text, before, i);
     append_um(text, diagnosis.effect_mm, i);
     append_um(text, diagnosis.residual_after_mm, i);
-    text += masked[i] ? ",1\n" : ",0\n";
+    text += masked[i] ? ",1" : ",0";
+    if (simulated) {
+      append(text, simulated->before_mm, i, 7);
+      append(text, simulated->after_mm, i, 7);
+    }
+    text += '\n';
   }
   return text;
 }

@@ -68,16 +68,34 @@ function gainFacts({gain, k}) {
   ]);
 }
 
+/** How far the simulation is from the measurement, before and after, in words. */
+function discrepancyWords({simulation}, extended) {
+  const {rms_before_mm: before, rms_after_mm: after, noise_mm: noise, left_share: left, noise_share: noiseShare} = simulation;
+  const missed = `The simulation of the ideal surface misses the measured readings by ${micrometres(before)} (RMS)`;
+  if (!extended) return `${missed}; noise alone would by ${micrometres(noise)}. Nothing was found that a better simulation would need.`;
+  if (!isNumber(left)) return `${missed}, that of the extended model by ${micrometres(after)}.`;
+  const explained = left <= 1
+    ? `The extended model explains ${percent(1 - left)} of the variance of this discrepancy and leaves ${percent(left)}`
+    : `The extended model explains nothing of this discrepancy: its variance grows to ${percent(left)}`;
+  const alone = noiseShare >= 1 ? '; noise alone could make a discrepancy as large as the first' : left <= 1.1 * noiseShare ? `, about what noise alone would leave (${percent(noiseShare)})` : `; noise alone would leave ${percent(noiseShare)}`;
+  return `${missed}, that of the extended model by ${micrometres(after)}. ${explained}${alone}.`;
+}
+
+function simulatedBy({by_lathe: lathe, why_not: why}) {
+  if (lathe) return 'Simulated by the virtual lathe without noise, at the angle, place and time of every reading; it shares no formula with the model that was fitted.';
+  return `Simulated by the fitted model itself${why ? `, for the virtual lathe could not: ${why}` : ''}.`;
+}
+
 function simulationBlock(reference) {
   const {diagnosis} = reference;
-  if (!diagnosis.maps) return paragraph('There are no differences to draw: the model was not evaluated at every reading.', 'quiet');
-  const {gain} = diagnosis;
-  const left = isNumber(gain.left_share)
-    ? paragraph(`Of the variance by which the simulation of the ideal surface misses the measured readings, the extended model takes away ${percent(Math.max(0, 1 - gain.left_share))} and leaves ${percent(gain.left_share)}; noise alone would leave ${percent(gain.noise_share)}.`)
-    : null;
-  const maps = diagnosisMaps(reference);
-  return block('Measured against simulated, before and after', left, paragraph('The maps share one colour scale.', 'quiet'),
-    element('div', {class: maps.length > 1 ? 'pair' : ''}, maps, diagnosis.spectrum.order.length ? spectrumChart(diagnosis) : null));
+  const {simulation} = diagnosis;
+  if (!simulation) return paragraph('There are no differences to draw: the model was not evaluated at every reading.', 'quiet');
+  const extended = diagnosis.findings.length > 0 || diagnosis.unexplained.length > 0;
+  const [first, second] = simulationMaps(reference, extended);
+  const parts = [paragraph(discrepancyWords(diagnosis, extended)),
+    paragraph(`${simulatedBy(simulation)} ${mapNote(diagnosisReadings(reference))}`, 'quiet'), first, second,
+    simulation.spectrum.order.length ? spectrumChart(diagnosis, extended) : null];
+  return block('Measured against simulated, before and after', ...parts);
 }
 
 const harmUnit = ({value, unit, why_not: why}) => {

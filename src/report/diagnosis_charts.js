@@ -1,44 +1,64 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts of a diagnosis: measured against both simulations, spectrum, plans.
 
-/** The readings of the reference with the columns of its diagnosis. */
+/** The readings of the reference with what was simulated: measured less the difference. */
 function diagnosisReadings({readings, diagnosis}) {
-  const merged = {...readings};
-  if (readings.thinned) merged.cells = {...readings.cells, ...diagnosis.maps};
-  else merged.points = {...readings.points, ...diagnosis.maps};
-  return merged;
+  const {maps} = diagnosis.simulation;
+  const less = (a, b) => a?.map((value, i) => isNumber(value) && isNumber(b[i]) ? value - b[i] : null);
+  const columns = {...maps, simulated_before_um: less(maps.measured_um, maps.before_um),
+    simulated_after_um: less(maps.measured_um, maps.after_um), gained_um: less(maps.before_um, maps.after_um)};
+  return readings.thinned ? {...readings, cells: {...readings.cells, ...columns}} : {...readings, points: {...readings.points, ...columns}};
 }
 
-const mapWords = {
-  before_um: 'Measured minus the simulation of the ideal surface.',
-  after_um: 'Measured minus the simulation of the extended model.',
-  effect_um: 'What the extended model adds to the ideal one.',
+const simulatedWords = {
+  measured_um: 'Measured: deviation from a true-running surface.',
+  simulated_before_um: 'Simulated before: the ideal surface.',
+  simulated_after_um: 'Simulated after: the extended model.',
+};
+const idealWords = {
+  measured_um: simulatedWords.measured_um,
+  simulated_before_um: 'Simulated: the ideal surface.',
+  before_um: 'Measured minus simulated.',
+};
+const differenceWords = {
+  before_um: 'Measured minus simulated before.',
+  after_um: 'Measured minus simulated after.',
+  gained_um: 'Simulated after minus before: what the model gained.',
 };
 
-/** Three maps on one colour scale: what was wrong, what is left, what was added. */
-function diagnosisMaps(reference) {
+/** Rows of maps side by side: readings share a colour scale, and differences another. */
+function simulationMaps(reference, extended) {
   const readings = diagnosisReadings(reference);
+  if (!readings.has_position) return [element('div', {class: 'pair'}, sectionOverlay(readings, extended), sectionDifferences(readings, extended))];
   const values = (key) => readings.thinned ? readings.cells[key] : split(readings.points).kept.map((i) => readings.points[key][i]);
-  const keys = Object.keys(mapWords);
-  const limit = roundUpFinely(Math.max(...keys.map((key) => largest(values(key)))));
-  if (!readings.has_position) return [sectionDifferences(readings)];
-  return keys.map((key) => readingMap(readings, key, mapWords[key], limit));
+  const scale = (keys) => roundUpFinely(Math.max(...keys.map((key) => largest(values(key)))));
+  const read = scale(Object.keys(simulatedWords)), differs = scale(Object.keys(differenceWords));
+  const row = (words) => element('div', {class: 'triple'}, Object.entries(words).map(([key, said]) =>
+    readingMap(readings, key, said, key in simulatedWords ? read : differs, '')));
+  return extended ? [row(simulatedWords), row(differenceWords)] : [row(idealWords)];
 }
 
-/** One section without Z: both differences over C. */
-function sectionDifferences(readings) {
+/** One section without Z: columns over C. */
+function sectionChart(readings, columns, words) {
   if (readings.thinned) return paragraph('Too many readings of one section to draw one by one.', 'quiet');
   const {points} = readings;
   const {kept} = split(points);
-  const series = [['before_um', 'ideal', colours.measured], ['after_um', 'extended', colours.model]].map(([key, name, colour]) => ({
-    name: `measured − ${name}`, type: 'scatter', symbolSize: 4, progressive: 0, emphasis: {disabled: true}, itemStyle: {color: colour, opacity: 0.7},
+  const series = columns.map(([key, name, colour]) => ({
+    name, type: 'scatter', symbolSize: 4, progressive: 0, emphasis: {disabled: true}, itemStyle: {color: colour, opacity: 0.7},
     data: pairs(points.c_deg, points[key], kept)}));
-  return figure({caption: 'Measured minus the simulations of the ideal and of the extended model over the spindle angle.',
-    description: 'Differences of measured and simulated readings over C.',
+  return figure({caption: words, description: words,
     build: (width) => ({grid: grid({top: 60}), legend: legend({left: 0, right: 0}), xAxis: angleAxis(width), yAxis: uprightAxis('µm'), series})});
 }
 
-function spectrumChart({spectrum, lines}) {
+const sectionOverlay = (readings, extended) => sectionChart(readings, [['measured_um', 'measured', colours.grey],
+  ['simulated_before_um', extended ? 'simulated before' : 'simulated', colours.measured], ...(extended ? [['simulated_after_um', 'simulated after', colours.model]] : [])],
+'Deviation from a true-running surface over the spindle angle: measured and simulated.');
+
+const sectionDifferences = (readings, extended) => sectionChart(readings, [['before_um', extended ? 'measured − before' : 'measured − simulated', colours.measured],
+  ...(extended ? [['after_um', 'measured − after', colours.model]] : [])],
+'Measured minus simulated over the spindle angle.');
+
+function spectrumChart({simulation: {spectrum}, lines}, extended) {
   const {order, before_um: before, after_um: after} = spectrum;
   const most = Math.max(largest(before), largest(after));
   const nearest = (line) => order.reduce((best, o, i) => Math.abs(o - line.order) < Math.abs(order[best] - line.order) ? i : best, 0);
@@ -51,7 +71,7 @@ function spectrumChart({spectrum, lines}) {
   const labelled = [...marks].map(([i, names]) => ({value: [order[i], before[i]], label: {formatter: names.join('\n')}}));
   const curve = (name, values, colour, width) => ({name, type: 'line', symbol: 'none', emphasis: {disabled: true},
     itemStyle: {color: colour}, lineStyle: {color: colour, width}, data: order.map((o, i) => [o, values[i]])});
-  const series = [curve('before', before, colours.measured, 1.6), curve('after', after, colours.model, 1.6)];
+  const series = [curve(extended ? 'before' : 'measured − simulated', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
   if (labelled.length) {
     series.push({name: 'found', type: 'scatter', symbol: 'triangle', symbolSize: 9, symbolOffset: [0, -8], z: 5, emphasis: {disabled: true},
       itemStyle: {color: colours.series[2]}, labelLayout: {moveOverlap: 'shiftY'},
@@ -61,10 +81,10 @@ function spectrumChart({spectrum, lines}) {
     grid: grid({top: 64}),
     legend: legendOf(series, {left: 0, right: 0}),
     xAxis: axis('order: undulations per revolution', {min: 0, max: tidy(Math.ceil(largest(order)))}),
-    yAxis: uprightAxis('amplitude in µm', {min: 0, max: roundUp(most * 1.25)}),
+    yAxis: uprightAxis('amplitude in µm', {nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -18]}, min: 0, max: roundUpFinely(most * 1.25)}),
     series,
   });
-  return figure({caption: 'Spectrum of what the simulation leaves, before and after the model was extended. Marks are the lines that were found.' +
+  return figure({caption: `Spectrum of measured minus simulated${extended ? ', before and after the model was extended. Marks are the lines that were found.' : '.'}` +
     (spectrum.grouped ? ' Each point is the highest of its neighbours.' : ''),
     description: 'Amplitude over the order before and after, with the found lines.', size: 'map', renderer: 'svg', build});
 }

@@ -17,18 +17,23 @@ const rejectedSeries = (data) => ({
 
 const positionName = (readings) => readings.face ? 'X in mm' : 'Z in mm';
 
+/** What a mark of an unrolled map is. */
+function mapNote(readings) {
+  if (readings.thinned && !readings.cells) return '';
+  return readings.thinned
+    ? `${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
+    : `Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;
+}
+
 /** Unrolled map of `key` (deviation_um or residual_um): cells for long streams, else every reading. */
-function readingMap(readings, key, words, sameLimit = null) {
+function readingMap(readings, key, words, sameLimit = null, note = ` ${mapNote(readings)}`) {
   const values = readings.thinned ? readings.cells[key] : readings.points[key];
   const shown = readings.thinned ? values : split(readings.points).kept.map((i) => values[i]);
   const limit = sameLimit ?? roundUpFinely(largest(shown));
-  const long = readings.thinned
-    ? ` ${readings.count} readings as means of ${readings.cells.columns} × ${readings.cells.rows} cells; cells without a reading are blank, rejected readings are left out.`
-    : ` Each mark is one of ${readings.count} readings${readings.points.rejected.length ? '; triangles are rejected readings' : ''}.`;
   const build = (width) => readings.thinned
     ? cellMap(readings.cells, values, {limit, positionName: positionName(readings), width})
     : pointMap(readings, values, {limit, width});
-  return figure({caption: words + long, description: words, size: 'map', build});
+  return figure({caption: words + note, description: words, size: 'map', build});
 }
 
 function pointMap(readings, values, {limit, width}) {

@@ -40,8 +40,11 @@ nlohmann::json reference_data(const JobResult& result, std::size_t i) {
   data["input_hash"] = result.fits[i].input_hash;
   if (i < result.streams.size()) {
     data["readings"] = readings_data(result.streams[i], result.fits[i]);
-    if (i < result.diagnoses.size() && result.diagnoses[i])
-      data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i]);
+    if (i < result.diagnoses.size() && result.diagnoses[i]) {
+      const bool again = i < result.resimulations.size() && result.resimulations[i];
+      data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i],
+                                         again ? &*result.resimulations[i] : nullptr);
+    }
     data["extended"] = &fit_used(result, i) != &result.fits[i];
     data["relative"] = result.streams[i].indication == Indication::relative;
   }

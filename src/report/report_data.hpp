@@ -25,9 +25,15 @@ nlohmann::json fit_data(const FitResult& fit);
 /// `max_points` readings.
 nlohmann::json readings_data(const ProbeStream& stream, const FitResult& fit);
 
-/// What the model gets wrong: findings, gain, spectrum and, where there is a value for each
-/// reading, maps of what is left before and after.
-nlohmann::json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis);
+/// What the model gets wrong: findings, gain, simulation.
+nlohmann::json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
+                              const Resimulation* again);
+
+/// Measured against simulated, before and after: discrepancy, spectrum, maps; null where the model
+/// was not evaluated at every reading.
+/// @param again by the virtual lathe; none: the model stands for it
+nlohmann::json simulation_data(const ProbeStream& stream, const Diagnosis& diagnosis,
+                               const Resimulation* again);
 
 /// Coaxiality of each reference before and after, the axes over the length to be cut.
 nlohmann::json target_data(const JobResult& result);

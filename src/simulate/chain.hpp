@@ -24,6 +24,7 @@ struct TrueState {
   Moment at;
   bool face = false;
   double u = 0.0;            ///< recorded position on [−1, 1]
+  double u_part = 0.0;       ///< the same, less by how far the part was moved along Z
   double c_rad = 0.0;        ///< true spindle angle
   double position_mm = 0.0;  ///< true position of the probe line: Z, or X for a face
   double across_mm = 0.0;    ///< error of slide and frame in the direction that is read
@@ -95,6 +96,7 @@ std::span<const EffectEntry> part_effects();
 std::span<const EffectEntry> machine_effects();
 std::span<const EffectEntry> probe_effects();
 std::span<const EffectEntry> extra_effects();
+std::span<const EffectEntry> pattern_effects();
 
 /// The chain of the effects, in the order of the catalogue whatever their order in the scenario.
 /// @throws InputError.

@@ -5,6 +5,7 @@
 #include <boost/random/student_t_distribution.hpp>
 #include <cstdint>
 #include <random>
+#include <vector>
 
 #include "trueaxis/simulate/scenario.hpp"
 
@@ -35,6 +36,7 @@ class NoiseSource {
 
  private:
   double unit_variate();
+  double correlated_variate();
 
   Noise noise_;
   std::mt19937_64 gaussian_, uniform_, outliers_;
@@ -42,6 +44,7 @@ class NoiseSource {
   boost::random::student_t_distribution<double> student_;
   double student_scale_ = 1.0, innovation_ = 1.0, state_ = 0.0;
   bool started_ = false;
+  std::vector<double> recent_;  ///< of an autoregression, the newest first
 };
 
 }  // namespace trueaxis::virtual_lathe

@@ -53,6 +53,7 @@ TrueState Prober::state_at(const Moment& moment) const {
   state.position_mm = moment.position_mm;
   if (!chain_.machine.empty()) {
     state.u = span_.u(moment.position_mm);
+    state.u_part = span_.u(moment.position_mm - (state.face ? 0.0 : setup_.z_shift_mm));
     for (const auto& term : chain_.machine) term(state);
   }
   return state;

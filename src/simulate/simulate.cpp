@@ -12,25 +12,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-void validate(const Part& part) {
-  std::vector<Diagnostic> wrong;
-  const auto need = [&](bool condition, const char* message) {
-    if (!condition) wrong.push_back({"scenario", 0, 0, std::string("part: ") + message});
-  };
-  constexpr double right_angle = 90.0 * rad_per_deg;
-  need(part.l * part.l + part.m * part.m < 1.0, "l^2 + m^2 must be less than 1");
-  if (part.kind == PartKind::cylinder || (part.kind == PartKind::cone && !part.apex_mm)) {
-    need(part.radius_mm > 0.0, "the radius must be more than 0");
-  }
-  if (part.kind == PartKind::cone) {
-    need(std::abs(part.half_angle_rad) < right_angle, "the half angle must be less than 90 deg");
-    need(!part.apex_mm || part.half_angle_rad > 0.0,
-         "with an apex the half angle must be more than 0; the side of the apex says how it opens");
-  }
-  need(part.kind != PartKind::face || !part.bore, "a face is no bore");
-  if (!wrong.empty()) throw InputError(std::move(wrong));
-}
-
 SetUp stated(const Chucking& setup) {
   return {setup.number, setup.reindex_rad, setup.z_shift_mm,
           setup.rear,   setup.x_jog_mm,    setup.clamp_force_ratio};
@@ -52,6 +33,37 @@ void describe_setup(const SetUp& setup, std::map<std::string, std::string>& meta
 }
 
 }  // namespace
+
+void validate(const Part& part) {
+  std::vector<Diagnostic> wrong;
+  const auto need = [&](bool condition, const char* message) {
+    if (!condition) wrong.push_back({"scenario", 0, 0, std::string("part: ") + message});
+  };
+  constexpr double right_angle = 90.0 * rad_per_deg;
+  need(part.l * part.l + part.m * part.m < 1.0, "l^2 + m^2 must be less than 1");
+  if (part.kind == PartKind::cylinder || (part.kind == PartKind::cone && !part.apex_mm)) {
+    need(part.radius_mm > 0.0, "the radius must be more than 0");
+  }
+  if (part.kind == PartKind::cone) {
+    need(std::abs(part.half_angle_rad) < right_angle, "the half angle must be less than 90 deg");
+    need(!part.apex_mm || part.half_angle_rad > 0.0,
+         "with an apex the half angle must be more than 0; the side of the apex says how it opens");
+  }
+  need(part.kind != PartKind::face || !part.bore, "a face is no bore");
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+Recording recording_of(const Scenario& scenario, const Chain& chain) {
+  Recording how{scenario.noise,
+                scenario.probe,
+                scenario.seed,
+                chain.lag_s,
+                chain.low_mm,
+                chain.high_mm,
+                scenario.noise.quantisation_mm};
+  if (chain.quantisation_mm > 0.0) how.quantisation_mm = chain.quantisation_mm;
+  return how;
+}
 
 void describe(const Scenario& scenario, ProbeStream& stream) {
   stream.kind = scenario.part.kind == PartKind::face ? StreamKind::face : StreamKind::lateral;
@@ -79,16 +91,9 @@ Simulation simulate_with_truth(const Scenario& scenario) {
   const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
   const Chain chain = make_chain(scenario.effects);
   const Body body(scenario, chain);
-  Recording how{scenario.noise,
-                scenario.probe,
-                scenario.seed,
-                chain.lag_s,
-                chain.low_mm,
-                chain.high_mm,
-                scenario.noise.quantisation_mm};
-  if (chain.quantisation_mm > 0.0) how.quantisation_mm = chain.quantisation_mm;
-  Simulation out = record(
-      timeline, how, [&](const Chucking& setup) { return Prober(scenario, chain, body, setup); });
+  Simulation out = record(timeline, recording_of(scenario, chain), [&](const Chucking& setup) {
+    return Prober(scenario, chain, body, setup);
+  });
   describe(scenario, out.stream);
   out.truth.scenario = scenario;
   return out;

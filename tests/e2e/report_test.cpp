@@ -70,10 +70,19 @@ TEST_F(ReportPage, DiagnosisOfALongStreamIsThinned) {
   expect_sound(example::diagnosed_job(60000), "diagnosis_long");
 }
 
+TEST_F(ReportPage, SimulatedByTheLathe) {
+  expect_sound(example::resimulated_job(), "simulated");
+  expect_sound(example::resimulated_job(60000), "simulated_long");
+}
+
 TEST_F(ReportPage, DiagnosisThatFoundNothing) {
   JobResult result = example::cone_job(300);
   Diagnosis nothing;
   nothing.baseline = nothing.extended = result.fits.front();
+  result.diagnoses = {nothing};
+  expect_sound(result, "diagnosis_without_readings");
+  nothing.residual_before_mm = nothing.residual_after_mm = result.fits.front().residual_mm;
+  nothing.noise.sigma_mm = example::noise_mm;
   result.diagnoses = {nothing};
   expect_sound(result, "diagnosis_ideal");
 }
@@ -93,6 +102,7 @@ TEST_F(ReportPage, HostileNamesOfADiagnosisStayText) {
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
   d.findings.front().alias = d.unexplained.front().harmonic = d.noise.note = d.next.what = hostile;
   d.not_observable.front().why = d.checks.front().text = hostile;
+  result.resimulations = {Resimulation{{}, {}, hostile}};
   expect_sound(result, "diagnosis_hostile");
 }
 

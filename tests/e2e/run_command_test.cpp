@@ -19,8 +19,8 @@ class RunCommand : public CommandTest {
   }
 };
 
-const std::vector<std::string> all_results{"diagnosis_1_cylinder.json", "report.html",
-                                           "result.json", "table.csv"};
+const std::vector<std::string> all_results{"diagnosis_1_cylinder.json", "readings_1_cylinder.csv",
+                                           "report.html", "result.json", "table.csv"};
 
 /// Rows of a table without its header, whose numbers may be rounded otherwise.
 std::string rows_of(const std::string& table) { return table.substr(table.find("\nrev,")); }
@@ -54,7 +54,8 @@ TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
   EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
   EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1")) << first_line(done.out);
   EXPECT_EQ(files_in(folder_ / "out"),
-            (std::vector<std::string>{"diagnosis_1_cylinder.json", "report.html", "result.json"}));
+            (std::vector<std::string>{"diagnosis_1_cylinder.json", "readings_1_cylinder.csv",
+                                      "report.html", "result.json"}));
 }
 
 TEST_F(RunCommand, ActuatorThatCannotFollow) {
@@ -105,9 +106,10 @@ TEST_F(RunCommand, TheSameBytesEveryTime) {
     EXPECT_EQ(read_text(folder_ / "first" / name), read_text(folder_ / "second" / name)) << name;
   }
   EXPECT_EQ(files_in(folder_ / "second"), names);
-  EXPECT_EQ(names, (std::vector<std::string>{"diagnosis_1_cone_seat.json",
-                                             "diagnosis_2_cylinder_seat.json", "report.html",
-                                             "result.json", "table.csv"}));
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "diagnosis_1_cone_seat.json", "diagnosis_2_cylinder_seat.json",
+                       "readings_1_cone_seat.csv", "readings_2_cylinder_seat.csv", "report.html",
+                       "result.json", "table.csv"}));
 }
 
 TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {

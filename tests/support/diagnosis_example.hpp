@@ -106,6 +106,7 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   height.separate_with = Separating{"RE", "probed from the rear side", 0.0, 1.0, 15.0, "", {}};
   d.not_observable = {height};
   d.noise = noise_report();
+  d.noise.masked = fit.rejected;
   d.checks = {{"probe.saturation", true, "4 readings at 50.1 mm: clipped, left out"},
               {"probe.quantisation", false, ""}};
   d.gain = {std::hypot(noise_mm, lobes_mm / std::sqrt(2.0)),
@@ -145,6 +146,25 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
 inline JobResult diagnosed_job(std::size_t readings = 1500) {
   JobResult result = cone_job(readings);
   result.diagnoses = {diagnosed(result.streams.front(), result.fits.front())};
+  return result;
+}
+
+/// The same, simulated again: the ideal simulation misses lobes and wander, the extended one the
+/// noise alone.
+inline JobResult resimulated_job(std::size_t readings = 1500) {
+  JobResult result = diagnosed_job(readings);
+  const ProbeStream& stream = result.streams.front();
+  const Diagnosis& d = *result.diagnoses.front();
+  Resimulation again;
+  std::vector<bool> masked(stream.size(), false);
+  for (const Rejected& r : d.noise.masked) masked[r.row - 1] = true;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const double clean = stream.reading_mm[i] - d.residual_after_mm[i];
+    again.readings.after_mm.push_back(clean);
+    again.readings.before_mm.push_back(clean - d.effect_mm[i]);
+  }
+  again.comparison = compare(stream, again.readings, masked, noise_mm);
+  result.resimulations = {again};
   return result;
 }
 

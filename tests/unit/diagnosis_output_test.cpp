@@ -186,5 +186,20 @@ TEST(DiagnosisResiduals, OneRowAReading) {
   EXPECT_EQ(rows, 50u);
 }
 
+TEST(DiagnosisResiduals, SimulatedColumnsWhereThereIsASimulation) {
+  const JobResult job = example::resimulated_job(50);
+  SimulatedReadings simulated = job.resimulations.front()->readings;
+  simulated.before_mm[0] = 50.1234567;
+  simulated.after_mm.resize(49);
+  std::istringstream lines(residuals_csv(job.streams.front(), *job.diagnoses.front(), &simulated));
+  std::string line, last;
+  std::getline(lines, line);
+  EXPECT_EQ(line.substr(line.find(",masked")), ",masked,simulated_before[mm],simulated_after[mm]");
+  std::getline(lines, line);
+  EXPECT_NE(line.find(",0,50.1234567,"), std::string::npos) << line;
+  while (std::getline(lines, line)) last = line;
+  EXPECT_EQ(last.back(), ',') << last;  // not there: an empty cell
+}
+
 }  // namespace
 }  // namespace trueaxis

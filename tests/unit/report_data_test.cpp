@@ -63,19 +63,51 @@ TEST(ReportPageText, LoadsNothingFromElsewhere) {
 /// noise, 4/(18 + 0.72 + 4) of the variance; the sample's own share is within 5/√1500 of that.
 TEST(ReportData, ShareOfTheVarianceThatIsLeft) {
   const json data = report_data(example::diagnosed_job(1500));
-  const json& gain = data["references"][0]["diagnosis"]["gain"];
-  EXPECT_NEAR(gain["left_share"], 4.0 / 22.72, 4.0 / 22.72 * 5.0 / std::sqrt(1500.0));
-  EXPECT_EQ(gain["noise_share"].is_number(), true);
+  const json& simulation = data["references"][0]["diagnosis"]["simulation"];
+  EXPECT_NEAR(simulation["left_share"], 4.0 / 22.72, 4.0 / 22.72 * 5.0 / std::sqrt(1500.0));
+  EXPECT_EQ(simulation["noise_share"].is_number(), true);
 }
 
 TEST(ReportData, MapsLeaveMaskedReadingsOut) {
-  const json maps = report_data(example::diagnosed_job(1500))["references"][0]["diagnosis"]["maps"];
+  const json maps =
+      report_data(example::diagnosed_job(1500))["references"][0]["diagnosis"]["simulation"]["maps"];
   EXPECT_EQ(maps["before_um"].size(), 1500u);
   const json& rejected = maps["rejected"];
   EXPECT_NE(std::find(rejected.begin(), rejected.end(), 200), rejected.end()) << "row 201";
   const json lines = report_data(example::diagnosed_job())["references"][0]["diagnosis"]["lines"];
   EXPECT_EQ(lines[0]["order"], 3.0);
   EXPECT_EQ(lines[1]["order"], 7.41);
+}
+
+TEST(ReportData, MapsAreOfTheLathesReadings) {
+  JobResult result = example::resimulated_job(1500);
+  SimulatedReadings& simulated = result.resimulations.front()->readings;
+  simulated.before_mm[7] -= 0.25;
+  simulated.after_mm[7] += 0.125;
+  const json reference = report_data(result)["references"][0];
+  const json& simulation = reference["diagnosis"]["simulation"];
+  EXPECT_EQ(simulation["by_lathe"], true);
+  const json& maps = simulation["maps"];
+  const Diagnosis& d = *result.diagnoses.front();
+  // Columns are rounded to 1 nm.
+  EXPECT_NEAR(maps["before_um"][7], 1000.0 * d.residual_before_mm[7] + 250.0, 1e-3);
+  EXPECT_NEAR(maps["after_um"][7], 1000.0 * d.residual_after_mm[7] - 125.0, 1e-3);
+  EXPECT_EQ(maps["measured_um"], reference["readings"]["points"]["deviation_um"]);
+  EXPECT_EQ(simulation["left_share"], result.resimulations.front()->comparison.after.share);
+}
+
+TEST(ReportData, SaysWhyTheLatheDidNotSimulate) {
+  JobResult result = example::diagnosed_job(300);
+  const auto simulation = [&] {
+    return report_data(result)["references"][0]["diagnosis"]["simulation"];
+  };
+  const json model = simulation();
+  EXPECT_EQ(model["by_lathe"], false);
+  result.resimulations = {Resimulation{{}, {}, "it has no place"}};
+  EXPECT_EQ(simulation()["why_not"], "it has no place");
+  EXPECT_EQ(simulation()["maps"], model["maps"]);
+  result.diagnoses.front()->residual_after_mm.pop_back();
+  EXPECT_TRUE(simulation().is_null());
 }
 
 TEST(ReportData, AxisShownIsThatOfTheCorrection) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "trueaxis/base/error.hpp"
 #include "trueaxis/simulate/simulate.hpp"
 
 namespace trueaxis::virtual_lathe {
@@ -79,6 +80,31 @@ TEST(SimulateNoise, CorrelatedHeavyAndUniformNoiseKeepTheirVariance) {
   scenario.noise.uniform_mm = 0.01;
   const Moments uniform = moments_of(simulate_with_truth(scenario));
   EXPECT_NEAR(uniform.variance, 1e-4 / 3.0, 1e-4 / 3.0 * std::sqrt(0.8) * root);
+}
+
+// The correlations follow from Yule and Walker, ρ1 = φ1/(1 − φ2), ρ_k = φ1 ρ_{k−1} + φ2 ρ_{k−2};
+// the sample's variance and lag one err as Bartlett says.
+TEST(SimulateNoise, AnAutoregressionKeepsItsVarianceAndCorrelation) {
+  Scenario scenario = noisy();
+  scenario.noise.sigma_mm = 0.01;
+  scenario.noise.autoregression = {0.5, 0.3};
+  const Moments m = moments_of(simulate_with_truth(scenario));
+  std::vector<double> rho{1.0, 0.5 / 0.7};
+  for (std::size_t k = 2; k < 400; ++k) rho.push_back(0.5 * rho[k - 1] + 0.3 * rho[k - 2]);
+  double squares = 1.0, bartlett = 0.0;
+  for (std::size_t k = 1; k + 1 < rho.size(); ++k) {
+    squares += 2.0 * rho[k] * rho[k];
+    bartlett += std::pow(rho[k + 1] + rho[k - 1] - 2.0 * rho[1] * rho[k], 2);
+  }
+  const double root = 5.0 / std::sqrt(readings);
+  EXPECT_NEAR(m.variance, 1e-4, 1e-4 * std::sqrt(2.0 * squares) * root);
+  EXPECT_NEAR(m.lag_one, rho[1], std::sqrt(bartlett) * root);
+
+  scenario.noise.autoregression = {0.8, 0.2};  // a random walk is in it
+  EXPECT_THROW(simulate(scenario), InputError);
+  scenario.noise.autoregression = {0.5};
+  scenario.noise.rho = 0.5;
+  EXPECT_THROW(simulate(scenario), InputError);
 }
 
 TEST(SimulateNoise, OutliersAreCountedAndOneSided) {

@@ -11,6 +11,7 @@
 #include "trueaxis/correct/target_axis.hpp"
 #include "trueaxis/diagnose/diagnosis.hpp"
 #include "trueaxis/fit/fit.hpp"
+#include "trueaxis/job/comparison.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 
 namespace trueaxis {
@@ -77,6 +78,9 @@ struct JobResult {
   std::vector<FitResult> fits;       ///< one per reference: the ideal surface
   /// One per reference; none for a face, which is not diagnosed, and where a fit failed.
   std::vector<std::optional<Diagnosis>> diagnoses;
+  /// One per reference when the diagnosed ones were simulated again after the job was run; else
+  /// empty.
+  std::vector<std::optional<Resimulation>> resimulations;
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;

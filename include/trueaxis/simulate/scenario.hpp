@@ -71,8 +71,10 @@ struct Plan {
 /// outliers switched on leave the Gaussian noise as it was.
 struct Noise {
   double sigma_mm = 0.0;
-  double uniform_mm = 0.0;   ///< half width of a uniform part
-  double rho = 0.0;          ///< AR(1) of the sigma part, its standard deviation staying sigma
+  double uniform_mm = 0.0;  ///< half width of a uniform part
+  double rho = 0.0;         ///< AR(1) of the sigma part, its standard deviation staying sigma
+  /// φ of ε_i = Σ φ_j ε_{i−j} + e_i of the sigma part, any order, instead of rho.
+  std::vector<double> autoregression;
   double student_dof = 0.0;  ///< > 2: heavy tails of the sigma part, same standard deviation
   double incidence = 0.0;    ///< b of sigma² (1 + b tan² i), i: angle of normal and probe
   double outlier_fraction = 0.0;

@@ -28,4 +28,11 @@ struct Simulation {
 ProbeStream simulate(const Scenario& scenario);
 Simulation simulate_with_truth(const Scenario& scenario);
 
+/// Probes the part of a scenario at the arguments (C, Z, t, set-up) of a recorded stream instead of
+/// a plan's: that stream with other readings, its `clean_mm` without noise. Speeds and feeds are
+/// those of its passes; a stream without t and speed has neither. The scenario's plan only says how
+/// the part stands in each set-up; u needs the scenario's u_start_mm and u_end_mm.
+/// @throws InputError as simulate().
+Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded);
+
 }  // namespace trueaxis::virtual_lathe

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The virtual lathe hides one effect of the catalogue; the diagnosis that names it at its size, as
+// written to a file, plays back the very readings. Nothing of the engine's terms is evaluated: the
+// numbers go from effects.md through the file to the lathe.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "laws/lathe_bench.hpp"
+#include "laws/lathe_cases.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/io/diagnosis_json.hpp"
+#include "trueaxis/io/diagnosis_scenario.hpp"
+#include "trueaxis/job/comparison.hpp"
+#include "trueaxis/simulate/resimulate.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+namespace lathe = virtual_lathe;
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double size = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) size = std::max(size, std::abs(a[i] - b[i]));
+  return size;
+}
+
+class ResimulationLaw : public ::testing::TestWithParam<LatheBench> {
+ protected:
+  void SetUp() override {
+    ideal_ = lathe::simulate(GetParam().scenario());
+    FitOptions options;
+    options.surface = GetParam().tangent == 0.0 ? "cylinder" : "cone";
+    options.bore = GetParam().bore;
+    diagnosis_.baseline = diagnosis_.extended = fit(ideal_, options);
+    ASSERT_EQ(diagnosis_.baseline.status, FitStatus::converged);
+    diagnosis_.z_mid_mm = 0.5 * (LatheBench::start_mm + LatheBench::end_mm);
+    diagnosis_.z_half_mm = 0.5 * (LatheBench::end_mm - LatheBench::start_mm);
+  }
+
+  ProbeStream measured(std::vector<lathe::Effect> effects) const {
+    lathe::Scenario scenario = GetParam().scenario();
+    scenario.effects = std::move(effects);
+    return lathe::simulate(scenario);
+  }
+
+  SimulatedReadings again(const ProbeStream& stream, const Diagnosis& diagnosis) const {
+    DiagnosedScenarios scenarios =
+        diagnosed_scenarios(diagnosis_json(diagnosis), "diagnosis.json", stream);
+    return {lathe::resimulate(scenarios.before, stream, scenarios.masked),
+            lathe::resimulate(scenarios.after, stream, scenarios.masked)};
+  }
+
+  Diagnosis found(const LatheCase& one) const {
+    Finding finding;
+    finding.effect = one.id;
+    finding.shape = one.shape;
+    for (const double linear : one.linear) finding.linear.push_back(one.size * linear);
+    Diagnosis diagnosis = diagnosis_;
+    diagnosis.findings = {finding};
+    return diagnosis;
+  }
+
+  ProbeStream ideal_;
+  Diagnosis diagnosis_;  ///< of the ideal part: nothing found
+};
+
+TEST_P(ResimulationLaw, TheIdealPartComesBack) {
+  const SimulatedReadings simulated = again(ideal_, diagnosis_);
+  // The fit of noise-free readings is exact to its step's end, 1e-9 mm at the axis.
+  EXPECT_LT(largest_difference(simulated.before_mm, ideal_.reading_mm), 1e-8);
+  EXPECT_EQ(simulated.before_mm, simulated.after_mm);
+}
+
+TEST_P(ResimulationLaw, EveryEffectOfTheCatalogueComesBack) {
+  const double fit_mm = largest_difference(again(ideal_, diagnosis_).before_mm, ideal_.reading_mm);
+  for (const LatheCase& one : lathe_cases()) {
+    SCOPED_TRACE(one.id);
+    const ProbeStream stream = measured({{one.id, one.lathe(one.size)}});
+    const SimulatedReadings simulated = again(stream, found(one));
+    const double hidden = largest_difference(stream.reading_mm, ideal_.reading_mm);
+    const double before = largest_difference(stream.reading_mm, simulated.before_mm);
+    const double after = largest_difference(stream.reading_mm, simulated.after_mm);
+    EXPECT_NEAR(before, hidden, fit_mm + 1e-12);
+    // Phases and times pass through text and back: 1e-6 of the effect is far below any wrong sign,
+    // phase, frame or factor.
+    EXPECT_LT(after, fit_mm + 1e-6 * hidden + 1e-10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, ResimulationLaw,
+                         ::testing::Values(LatheBench{"Cone", 0.1}, LatheBench{"Cylinder"},
+                                           LatheBench{"ConeFromTheRear", -0.2, false, true},
+                                           LatheBench{"ConicalBore", 0.1, true}),
+                         [](const auto& bench) { return bench.param.name; });
+
+}  // namespace
+}  // namespace trueaxis::testing
