@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
   add_advise(app, code);
   add_correct(app, code);
   add_simulate(app, code);
+  add_sweep(app, code);
   add_effects(app, code);
   try {
     app.parse(argc, argv);

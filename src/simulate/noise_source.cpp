@@ -46,12 +46,7 @@ std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose) {
   return std::mt19937_64(sequence);
 }
 
-NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
-    : noise_(noise),
-      gaussian_(engine_for(seed, 1)),
-      uniform_(engine_for(seed, 2)),
-      outliers_(engine_for(seed, 3)),
-      student_(noise.student_dof > 2.0 ? noise.student_dof : 3.0) {
+void validate(const Noise& noise) {
   const auto need = [](bool condition, const char* message) {
     if (!condition) throw InputError("scenario", std::string("noise: ") + message);
   };
@@ -61,6 +56,15 @@ NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
   need(noise.outlier_fraction >= 0.0 && noise.outlier_fraction <= 1.0,
        "outlier_fraction must be in [0, 1]");
   need(noise.quantisation_mm >= 0.0, "quantisation must be at least 0");
+}
+
+NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
+    : noise_(noise),
+      gaussian_(engine_for(seed, 1)),
+      uniform_(engine_for(seed, 2)),
+      outliers_(engine_for(seed, 3)),
+      student_(noise.student_dof > 2.0 ? noise.student_dof : 3.0) {
+  validate(noise);
   if (noise.student_dof > 2.0) {
     student_scale_ = std::sqrt((noise.student_dof - 2.0) / noise.student_dof);
   }
