@@ -110,9 +110,8 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
   return facts;
 }
 
-}  // namespace
-
-struct CellRunner::Impl {
+/// Runs the repeats of one cell.
+struct CellRunner {
   const Sweep& sweep;
   std::size_t cell;
   Method method;
@@ -158,33 +157,40 @@ struct CellRunner::Impl {
   }
 };
 
-CellRunner::CellRunner(const Sweep& sweep, std::size_t cell)
-    : impl_(std::make_unique<Impl>(Impl{sweep,
-                                        cell,
-                                        cell_at(sweep, cell).method,
-                                        quantities(sweep.base.part.kind).size(),
-                                        {},
-                                        {}})) {}
-CellRunner::~CellRunner() = default;
-CellRunner::CellRunner(CellRunner&&) noexcept = default;
-CellRunner& CellRunner::operator=(CellRunner&&) noexcept = default;
+}  // namespace
 
-BlockResult CellRunner::run(const Block& block) {
-  expects(block.cell == impl_->cell && block.first_repeat + block.count <= impl_->sweep.repeats,
-          "repeats of this cell");
+struct Worker::Impl {
+  const Sweep& sweep;
+  std::optional<CellRunner> runner;
+};
+
+Worker::Worker(const Sweep& sweep) : impl_(std::make_unique<Impl>(Impl{sweep, {}})) {}
+Worker::~Worker() = default;
+
+BlockResult Worker::run(const Block& block) {
+  const Sweep& sweep = impl_->sweep;
+  expects(block.first_repeat + block.count <= sweep.repeats, "repeats of the sweep");
   const auto begun = std::chrono::steady_clock::now();
+  if (!impl_->runner || impl_->runner->cell != block.cell)
+    impl_->runner.emplace(CellRunner{sweep,
+                                     block.cell,
+                                     cell_at(sweep, block.cell).method,
+                                     quantities(sweep.base.part.kind).size(),
+                                     {},
+                                     {}});
+  CellRunner& runner = *impl_->runner;
   BlockResult out;
   out.block = block;
-  out.quantities = impl_->quantity_count;
-  if (block.first_repeat == 0) out.facts.push_back(facts_of(impl_->sweep, block.cell));
+  out.quantities = runner.quantity_count;
+  if (block.first_repeat == 0) out.facts.push_back(facts_of(sweep, block.cell));
   for (std::size_t i = 0; i < block.count; ++i) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     out.error.insert(out.error.end(), out.quantities, none);
     out.u.insert(out.u.end(), out.quantities, none);
     out.outcome.push_back(Outcome::no_stream);
-    if (impl_->method == Method::diagnosis) out.found.push_back(0);
+    if (runner.method == Method::diagnosis) out.found.push_back(0);
     try {
-      impl_->run_repeat(block.first_repeat + i, out);
+      runner.run_repeat(block.first_repeat + i, out);
     } catch (const InputError& error) {
       if (out.why.empty()) out.why = error.what();
     }
@@ -193,9 +199,7 @@ BlockResult CellRunner::run(const Block& block) {
   return out;
 }
 
-BlockResult run_block(const Sweep& sweep, const Block& block) {
-  return CellRunner(sweep, block.cell).run(block);
-}
+BlockResult run_block(const Sweep& sweep, const Block& block) { return Worker(sweep).run(block); }
 
 std::vector<Block> blocks_of(const Sweep& sweep) {
   std::vector<Block> blocks;

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -18,13 +17,10 @@ void run_blocks(const Sweep& sweep, std::span<const Block> blocks, int threads,
   std::mutex one_at_a_time;
   std::exception_ptr failure;
   const auto work = [&] {
-    std::optional<CellRunner> runner;
-    std::size_t of_cell = 0;
+    Worker worker(sweep);
     try {
       for (std::size_t i = next++; i < blocks.size(); i = next++) {
-        if (!runner || of_cell != blocks[i].cell) runner.emplace(sweep, blocks[i].cell);
-        of_cell = blocks[i].cell;
-        BlockResult result = runner->run(blocks[i]);
+        BlockResult result = worker.run(blocks[i]);
         const std::lock_guard lock(one_at_a_time);
         finished(std::move(result));
       }

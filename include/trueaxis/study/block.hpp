@@ -39,18 +39,19 @@ struct BlockResult {
   std::vector<Outcome> outcome;  ///< of every repeat
   std::vector<std::uint8_t> found;  ///< diagnosis: 1 something was found, 2 all that was hidden is
                                     ///< in the class of a finding, 3 both; else empty
-  std::vector<CellFacts> facts;  ///< one in the block of repeat 0, else none
-  std::string why;               ///< of the first repeat that failed
-  double seconds = 0.0;          ///< of one thread; no part of the result
+  std::vector<CellFacts> facts;     ///< one in the block of repeat 0, else none
+  std::string why;                  ///< of the first repeat that failed
+  double seconds = 0.0;             ///< of one thread; no part of the result
 };
 
-/// Runs the repeats of one cell; what they share is prepared once.
-class CellRunner {
+/// Runs blocks one after the other; what the repeats of a cell share is prepared once for all
+/// blocks of it that follow each other. The sweep must outlive it.
+class Worker {
  public:
-  CellRunner(const Sweep& sweep, std::size_t cell);
-  ~CellRunner();
-  CellRunner(CellRunner&&) noexcept;
-  CellRunner& operator=(CellRunner&&) noexcept;
+  explicit Worker(const Sweep& sweep);
+  ~Worker();
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
   BlockResult run(const Block& block);
 
  private:
