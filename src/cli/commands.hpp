@@ -15,6 +15,7 @@ void add_diagnose(CLI::App& app, int& exit_code);
 void add_advise(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
+void add_sweep(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli

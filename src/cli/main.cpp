@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
 
-#include <exception>
 #include <iostream>
-#include <new>
 
 #include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "trueaxis/base/error.hpp"
 
 namespace {
@@ -26,6 +25,7 @@ int run(int argc, char** argv) {
   add_advise(app, code);
   add_correct(app, code);
   add_simulate(app, code);
+  add_sweep(app, code);
   add_effects(app, code);
   try {
     app.parse(argc, argv);
@@ -43,22 +43,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace trueaxis;
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    std::cerr << error.what() << '\n';
-    return cli::input;
-  } catch (const Refusal& refusal) {
-    std::cerr << "refused: " << refusal.what() << '\n';
-    return cli::refused;
-  } catch (const std::bad_alloc&) {
-    std::cerr << "not enough memory for this input\n";
-    return cli::input;
-  } catch (const std::exception& error) {
-    std::cerr << "trueaxis: a bug, please report it: " << error.what() << '\n';
-    return cli::bug;
-  }
+  return trueaxis::cli::guarded([&] { return run(argc, argv); });
 }

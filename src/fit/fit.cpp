@@ -2,11 +2,14 @@
 #include "trueaxis/fit/fit.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "fit/describe.hpp"
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/fit/repeated_fit.hpp"
 #include "trueaxis/surface/surface.hpp"
 
 namespace trueaxis {
@@ -81,16 +84,15 @@ FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
   return result;
 }
 
-}  // namespace
-
-FitResult fit(const ProbeStream& stream, const FitOptions& options) {
+/// What may be fitted at all: @throws InputError if not.
+void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
   validate(options);
   expects(stream.size() > 0, "readings");
-  const SurfaceInfo& info = surface_info(options.surface);
-  expect_kind(stream, info);
-  const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
-  const SurfaceFrame frame = frame_of(stream, options);
-  const JointModel model(stream, set_ups, options.surface, frame);
+  expect_kind(stream, surface_info(options.surface));
+}
+
+FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
+                    const JointModel& model, const FitOptions& options) {
   FitResult result = empty_result(stream, options, model.last_frame());
   if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
@@ -117,6 +119,47 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options) {
   }
   describe(model, set_ups, association, noise, known, result);
   return result;
+}
+
+}  // namespace
+
+FitResult fit(const ProbeStream& stream, const FitOptions& options) {
+  expect_fittable(stream, options);
+  const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
+  const JointModel model(stream, set_ups, options.surface, frame_of(stream, options));
+  return fit_model(stream, set_ups, model, options);
+}
+
+struct RepeatedFit::Impl {
+  ProbeStream stream;
+  FitOptions options;
+  std::vector<PlacedSetUp> set_ups;
+  std::unique_ptr<JointModel> model;
+};
+
+RepeatedFit::RepeatedFit(ProbeStream stream, FitOptions options)
+    : impl_(std::make_unique<Impl>(Impl{std::move(stream), std::move(options), {}, {}})) {
+  expect_fittable(impl_->stream, impl_->options);
+}
+
+RepeatedFit::~RepeatedFit() = default;
+RepeatedFit::RepeatedFit(RepeatedFit&&) noexcept = default;
+RepeatedFit& RepeatedFit::operator=(RepeatedFit&&) noexcept = default;
+
+// The sign of the readings may tell the side they were taken from, so the set-ups are placed anew.
+FitResult RepeatedFit::operator()(std::span<const double> reading_mm) {
+  Impl& of = *impl_;
+  expects(reading_mm.size() == of.stream.size(), "a reading for every C");
+  std::copy(reading_mm.begin(), reading_mm.end(), of.stream.reading_mm.begin());
+  std::vector<PlacedSetUp> set_ups = place_set_ups(of.stream);
+  if (of.model && set_ups == of.set_ups) {
+    of.model->reload_readings(of.stream);
+  } else {
+    of.set_ups = std::move(set_ups);
+    of.model = std::make_unique<JointModel>(of.stream, of.set_ups, of.options.surface,
+                                            frame_of(of.stream, of.options));
+  }
+  return fit_model(of.stream, of.set_ups, *of.model, of.options);
 }
 
 const char* to_string(FitStatus status) {

@@ -80,6 +80,14 @@ JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>
                 working_names_.end());
 }
 
+void JointModel::reload_readings(const ProbeStream& stream) {
+  for (JointPart& part : parts_) {
+    for (std::size_t i = 0; i < part.rows.size(); ++i)
+      part.readings->reading_mm[i] = stream.reading_mm[part.rows[i]];
+    part.prepared->reload_readings();
+  }
+}
+
 void JointModel::place_frames(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
                               const SurfaceFrame& frame) {
   const std::size_t count = set_ups.back().clamping + 1;

@@ -21,6 +21,8 @@ struct PlacedSetUp {
   Root root = Root::front;
   double z_shift_mm =
       0.0;  ///< of the part; 0 for a face, whose position is X, and for one clamping
+
+  bool operator==(const PlacedSetUp&) const = default;
 };
 
 /// "set-up 2".
@@ -56,6 +58,9 @@ class JointModel {
   /// the model.
   JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
              std::string_view surface, const SurfaceFrame& frame);
+
+  /// The stream's readings are other numbers now; C, positions and set-ups are as they were.
+  void reload_readings(const ProbeStream& stream);
 
   std::size_t parameter_count() const { return names_.size(); }
   std::size_t size() const { return size_; }

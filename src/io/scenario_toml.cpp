@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "io/scenario_cut.hpp"
+#include "io/scenario_tables.hpp"
 #include "io/toml_reader.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/simulate/effects.hpp"
@@ -157,13 +158,7 @@ std::optional<Effect> read_effect(TomlTable table) {
 
 }  // namespace
 
-virtual_lathe::Scenario parse_scenario_toml(std::string_view content, const std::string& path) {
-  TomlDocument document(content, path);
-  TomlTable root = document.root();
-  Scenario scenario;
-  scenario.name = root.text("name");
-  scenario.seed =
-      static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
+void read_scenario_tables(TomlTable root, virtual_lathe::Scenario& scenario) {
   read_part(root.required_table("part"), scenario);
   if (const auto probe = root.maybe_table("probe")) scenario.probe = read_probe(*probe);
   if (const auto noise = root.maybe_table("noise")) scenario.noise = read_noise(*noise);
@@ -179,6 +174,16 @@ virtual_lathe::Scenario parse_scenario_toml(std::string_view content, const std:
     if (auto effect = read_effect(table)) scenario.effects.push_back(std::move(*effect));
   }
   if (const auto cut = root.maybe_table("cut")) scenario.cut = read_cut_program(*cut);
+}
+
+virtual_lathe::Scenario parse_scenario_toml(std::string_view content, const std::string& path) {
+  TomlDocument document(content, path);
+  TomlTable root = document.root();
+  Scenario scenario;
+  scenario.name = root.text("name");
+  scenario.seed =
+      static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
+  read_scenario_tables(root, scenario);
   document.finish();
   return scenario;
 }

@@ -266,6 +266,13 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   return views;
 }
 
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  if (state_->table == nullptr) return keys;
+  for (const auto& [key, node] : *state_->table) keys.emplace_back(key.str());
+  return keys;
+}
+
 bool TomlTable::has(std::string_view key) { return state_->find(key).node != nullptr; }
 
 void TomlTable::complain(std::string_view key, std::string message) {

@@ -95,6 +95,8 @@ class TomlTable {
   /// [[key]]: an array of tables; empty when the key is not there.
   std::vector<TomlTable> tables(std::string_view key);
 
+  /// Its keys as they are written, in alphabetical order.
+  std::vector<std::string> keys() const;
   /// Whether the file has `key` in any unit of its kind. Makes the key known.
   bool has(std::string_view key);
   /// Notes a diagnostic at `key` if the file has it, else at the table. Say what to do.

@@ -32,11 +32,19 @@ PreparedStream::PreparedStream(const ProbeStream& stream)
   tail_.resize(4 * block_size);
   for (std::size_t i = 0; i < block_size; ++i) {
     const std::size_t j = std::min(begin + i, size() - 1);
-    tail_[i] = reading_[j];
     tail_[block_size + i] = angles_->cosine.data()[j];
     tail_[2 * block_size + i] = angles_->sine.data()[j];
     tail_[3 * block_size + i] = position_.empty() ? 0.0 : position_[j];
   }
+  reload_readings();
+}
+
+void PreparedStream::reload_readings() {
+  expects(source_.size() == size(), "as many readings as before");
+  reading_ = source_.reading_mm;
+  if (tail_.empty()) return;
+  const std::size_t begin = (blocks() - 1) * block_size;
+  for (std::size_t i = 0; i < block_size; ++i) tail_[i] = reading_[std::min(begin + i, size() - 1)];
 }
 
 std::size_t PreparedStream::filled(std::size_t index) const {

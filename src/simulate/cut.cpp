@@ -184,7 +184,7 @@ ProbeStream probe_cut(const CutPart& part, const Plan& plan, const Noise& noise,
   Recording how;
   how.noise = noise;
   how.seed = seed;
-  how.quantisation_mm = noise.quantisation_mm;
+  how.sensor.quantisation_mm = noise.quantisation_mm;
   Simulation out =
       record(make_timeline(plan), how, [&](const Chucking&) { return CutReader(part); });
   describe(scenario, out.stream);

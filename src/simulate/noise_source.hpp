@@ -19,6 +19,9 @@ inline double uniform_01(std::mt19937_64& engine) {
 /// An engine for one purpose of a scenario; purposes do not disturb each other.
 std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose);
 
+/// @throws InputError where a number is outside its range.
+void validate(const Noise& noise);
+
 /// What noise adds to one reading.
 struct NoiseDraw {
   double error_mm = 0.0;

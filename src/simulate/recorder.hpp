@@ -4,14 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "simulate/lag_filter.hpp"
 #include "simulate/noise_source.hpp"
 #include "simulate/prober.hpp"
 #include "simulate/timeline.hpp"
+#include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/simulate/simulate.hpp"
 
 namespace trueaxis::virtual_lathe {
@@ -19,21 +20,30 @@ namespace trueaxis::virtual_lathe {
 /// What happens to a reading between the sensor's head and the file.
 struct Recording {
   Noise noise;
-  Probe probe;
   std::uint64_t seed = 1;
   double lag_s = 0.0;
-  double low_mm = -std::numeric_limits<double>::infinity();
-  double high_mm = std::numeric_limits<double>::infinity();
-  double quantisation_mm = 0.0;
+  SensorLimits sensor;
 };
+
+/// A sensor's indication: clipped to its limits, a gauge's zero taken off, rounded.
+struct Shown {
+  double value_mm = 0.0;
+  bool clipped = false;
+};
+inline Shown shown(const SensorLimits& sensor, double value_mm) {
+  Shown out{value_mm, value_mm < sensor.low_mm || value_mm > sensor.high_mm};
+  if (out.clipped) out.value_mm = value_mm < sensor.low_mm ? sensor.low_mm : sensor.high_mm;
+  out.value_mm -= sensor.zero_mm;
+  if (sensor.quantisation_mm > 0.0) {
+    out.value_mm = std::round(out.value_mm / sensor.quantisation_mm) * sensor.quantisation_mm;
+  }
+  return out;
+}
 
 /// Turns clean readings into recorded ones, in their order.
 class Recorder {
  public:
-  explicit Recorder(const Recording& how)
-      : how_(how),
-        noise_(how.noise, how.seed),
-        zero_mm_(how.probe.relative_zero_mm.value_or(0.0)) {}
+  explicit Recorder(const Recording& how) : how_(how), noise_(how.noise, how.seed) {}
 
   bool wants_incidence() const { return noise_.wants_incidence(); }
 
@@ -41,23 +51,15 @@ class Recorder {
     const std::size_t row = out.stream.reading_mm.size();
     const NoiseDraw draw = noise_.draw(reading.tan_incidence, away);
     if (draw.outlier) out.truth.outlier_rows.push_back(row);
-    double value = reading.value_mm + draw.error_mm;
-    if (value < how_.low_mm || value > how_.high_mm) {
-      value = value < how_.low_mm ? how_.low_mm : how_.high_mm;
-      out.truth.clipped_rows.push_back(row);
-    }
-    value -= zero_mm_;
-    if (how_.quantisation_mm > 0.0) {
-      value = std::round(value / how_.quantisation_mm) * how_.quantisation_mm;
-    }
-    out.stream.reading_mm.push_back(value);
-    out.truth.clean_mm.push_back(reading.value_mm - zero_mm_);
+    const Shown recorded = shown(how_.sensor, reading.value_mm + draw.error_mm);
+    if (recorded.clipped) out.truth.clipped_rows.push_back(row);
+    out.stream.reading_mm.push_back(recorded.value_mm);
+    out.truth.clean_mm.push_back(reading.value_mm - how_.sensor.zero_mm);
   }
 
  private:
   Recording how_;
   NoiseSource noise_;
-  double zero_mm_;
 };
 
 /// What a scenario's chain and noise do between the sensor's head and the file.
@@ -68,16 +70,16 @@ void validate(const Part& part);
 
 /// Runs the timeline; `make_reader(setup)` gives an object with read(Moment, bool) and away().
 template <class MakeReader>
-Simulation record(const std::vector<TimedPass>& timeline, const Recording& how,
-                  const MakeReader& make_reader) {
-  Simulation out;
+CleanStream record_clean(const std::vector<TimedPass>& timeline, const Recording& how,
+                         const MakeReader& make_reader) {
+  CleanStream out;
+  out.sensor = how.sensor;
   ProbeStream& stream = out.stream;
-  Recorder recorder(how);
   std::mt19937_64 jitter = engine_for(how.seed, 4);
+  const bool with_incidence = how.noise.incidence > 0.0;
   std::size_t total = 0;
   for (const TimedPass& pass : timeline) total += pass.count;
-  for (auto* column : {&stream.reading_mm, &stream.c_rad, &stream.position_mm, &stream.time_s,
-                       &out.truth.clean_mm}) {
+  for (auto* column : {&out.value_mm, &stream.c_rad, &stream.position_mm, &stream.time_s}) {
     column->reserve(total);
   }
   for (std::size_t p = 0; p < timeline.size(); ++p) {
@@ -88,18 +90,34 @@ Simulation record(const std::vector<TimedPass>& timeline, const Recording& how,
       double t = pass.t_s + static_cast<double>(i) * pass.interval_s;
       if (pass.jitter > 0.0) t += pass.jitter * pass.interval_s * (uniform_01(jitter) - 0.5);
       const Moment moment = pass.at(t);
-      CleanReading reading = reader.read(moment, recorder.wants_incidence());
+      CleanReading reading = reader.read(moment, with_incidence);
       if (how.lag_s > 0.0) {
         reading.value_mm =
             lag.at(t, [&](double time) { return reader.read(pass.at(time), false).value_mm; });
       }
-      recorder.add(reading, reader.away(), out);
+      out.value_mm.push_back(reading.value_mm);
+      if (with_incidence) out.tan_incidence.push_back(reading.tan_incidence);
       stream.c_rad.push_back(moment.c_rad);
       stream.position_mm.push_back(moment.position_mm);
       stream.time_s.push_back(moment.t_s);
     }
+    out.away.insert(out.away.end(), pass.count, static_cast<signed char>(reader.away()));
     stream.pass.insert(stream.pass.end(), pass.count, static_cast<int>(p) + 1);
     stream.setup.insert(stream.setup.end(), pass.count, pass.setup.number);
+  }
+  return out;
+}
+
+/// The stream of a timeline with the noise of a scenario.
+template <class MakeReader>
+Simulation record(const std::vector<TimedPass>& timeline, const Recording& how,
+                  const MakeReader& make_reader) {
+  Recorder recorder(how);
+  CleanStream clean = record_clean(timeline, how, make_reader);
+  Simulation out{std::move(clean.stream), {}};
+  for (std::size_t row = 0; row < clean.value_mm.size(); ++row) {
+    const double tangent = clean.tan_incidence.empty() ? 0.0 : clean.tan_incidence[row];
+    recorder.add({clean.value_mm[row], tangent}, clean.away[row], out);
   }
   return out;
 }

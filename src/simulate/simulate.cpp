@@ -54,15 +54,12 @@ void validate(const Part& part) {
 }
 
 Recording recording_of(const Scenario& scenario, const Chain& chain) {
-  Recording how{scenario.noise,
-                scenario.probe,
-                scenario.seed,
-                chain.lag_s,
-                chain.low_mm,
-                chain.high_mm,
-                scenario.noise.quantisation_mm};
-  if (chain.quantisation_mm > 0.0) how.quantisation_mm = chain.quantisation_mm;
-  return how;
+  const double rounding =
+      chain.quantisation_mm > 0.0 ? chain.quantisation_mm : scenario.noise.quantisation_mm;
+  return {scenario.noise,
+          scenario.seed,
+          chain.lag_s,
+          {scenario.probe.relative_zero_mm.value_or(0.0), chain.low_mm, chain.high_mm, rounding}};
 }
 
 void describe(const Scenario& scenario, ProbeStream& stream) {
@@ -84,6 +81,21 @@ void describe(const Scenario& scenario, ProbeStream& stream) {
   stream.setups = list_set_ups(stream);
   for (const SetUp& setup : stream.setups) describe_setup(setup, stream.metadata);
   if (scenario.probe.ball_radius_mm > 0.0) stream.ball_radius_mm = scenario.probe.ball_radius_mm;
+}
+
+CleanStream simulate_clean(const Scenario& scenario) {
+  validate(scenario.part);
+  validate(scenario.noise);
+  const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
+  const Chain chain = make_chain(scenario.effects);
+  const Body body(scenario, chain);
+  CleanStream out =
+      record_clean(timeline, recording_of(scenario, chain),
+                   [&](const Chucking& setup) { return Prober(scenario, chain, body, setup); });
+  for (const double value_mm : out.value_mm)
+    out.stream.reading_mm.push_back(shown(out.sensor, value_mm).value_mm);
+  describe(scenario, out.stream);
+  return out;
 }
 
 Simulation simulate_with_truth(const Scenario& scenario) {

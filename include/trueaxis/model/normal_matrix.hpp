@@ -20,6 +20,9 @@ class PreparedStream {
   PreparedStream(const PreparedStream&) = delete;
   PreparedStream& operator=(const PreparedStream&) = delete;
 
+  /// Takes the readings of the source anew: they may be other numbers, at the same C and position.
+  void reload_readings();
+
   const ProbeStream& source() const { return source_; }
   std::size_t size() const { return reading_.size(); }
   std::size_t blocks() const { return (size() + block_size - 1) / block_size; }

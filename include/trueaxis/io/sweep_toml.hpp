@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "trueaxis/study/sweep.hpp"
+
+namespace trueaxis {
+
+/// Reads a sweep:
+///
+///     name = "…"   seed = 1   repeats = 2000
+///     methods = ["fit", "huber", "tukey", "diagnosis"]      (["fit"])
+///     scenario = "cone_shaft.toml"       or the scenario's own tables here: [part], [[pass]] …
+///     [[axis]]     key = "noise.sigma_um"   values = [2, 5, 10]
+///     [[axis]]     key = "pass.length_mm"   from = 10  to = 50  count = 5   spacing = "log"
+///     [[axis]]     key = "effect.0.phase_deg"  distribution = "uniform"  low = 0  high = 360
+///                  distribution = "log-uniform" low high | "normal" mean sd
+///     [[axis]]     name = "noise"
+///     [[axis.case]]  label = "uniform"   set = { "noise.sigma_um" = 0, "noise.uniform_um" = 5 }
+///
+/// A key is a scenario's table, its place in the list where there are several ("pass.1.",
+/// "effect.0."; "pass." is every pass), and its key there in any unit; "pass.length_mm" moves the
+/// end.
+///
+/// @throws InputError with every diagnostic: file, line, column, what to do.
+study::Sweep read_sweep_toml(const std::string& path);
+
+/// The same from text; `path` names it in diagnostics and places the scenario's file.
+study::Sweep parse_sweep_toml(std::string_view content, const std::string& path);
+
+}  // namespace trueaxis

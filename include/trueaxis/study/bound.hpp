@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "trueaxis/simulate/scenario.hpp"
+
+namespace trueaxis::study {
+
+/// The least standard deviation that unbiased estimates of the quantities can have on a plan.
+struct Bound {
+  enum class Kind {
+    cramer_rao,    ///< of the noise as it is: Gaussian, AR(1), wider where oblique, Student's t
+    gauss_markov,  ///< of estimates linear in the readings: noise with a uniform part or rounding
+  } kind = Kind::cramer_rao;
+  std::vector<double> sd;          ///< in the order of quantities(); NaN: none (see bound_of)
+  std::vector<double> covariance;  ///< of all quantities, row-major
+};
+
+/// σ²(JᵀJ)⁻¹ with J the derivatives of the virtual lathe's clean readings with respect to the
+/// surface's parameters, by Richardson's central differences, the noise whitened along the stream
+/// (Kalman's innovations, so AR(1) and a white part are exact): nothing of the model that is fitted
+/// enters. Effects are taken as known, outliers as recognised and free. NaN everywhere where the
+/// readings do not determine the parameters, for several clampings, a relative gauge and an
+/// autoregression of higher order.
+Bound bound_of(const virtual_lathe::Scenario& scenario);
+
+/// "cramer_rao" or "gauss_markov".
+const char* to_string(Bound::Kind kind);
+
+}  // namespace trueaxis::study

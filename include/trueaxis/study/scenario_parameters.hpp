@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueaxis/simulate/scenario.hpp"
+
+namespace trueaxis::study {
+
+/// A number of a scenario, by the path of its key in the scenario's file with the unit inside:
+/// "noise.sigma_mm", "pass.z_end_mm" (of every pass), "pass.0.z_end_mm" (of the first),
+/// "effect.1.amplitude_mm", "setup.0.reindex_rad". "pass.length_mm" is the travel: the start stays,
+/// the end moves the way it lies.
+struct ScenarioParameter {
+  std::string path;
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool open = false;  ///< low and high themselves are not allowed
+};
+
+/// Every number that this scenario has, in the order of its file.
+std::vector<ScenarioParameter> scenario_parameters(const virtual_lathe::Scenario& scenario);
+
+/// @throws ContractViolation for a path that the scenario does not have; so does set_parameter.
+double parameter(const virtual_lathe::Scenario& scenario, std::string_view path);
+void set_parameter(virtual_lathe::Scenario& scenario, std::string_view path, double value);
+
+}  // namespace trueaxis::study

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueaxis/study/block.hpp"
+
+namespace trueaxis::study {
+
+/// Ends of an interval.
+struct Ends {
+  double low = 0.0, high = 0.0;
+};
+
+/// One quantity in one cell; errors are estimate − truth, in the quantity's edge unit. Numbers that
+/// do not exist are NaN.
+struct Row {
+  std::size_t cell = 0;
+  std::string quantity, unit;
+  double truth = 0.0;
+  std::size_t estimates = 0;  ///< repeats that gave the number; the others are failures
+  double bias = 0.0, u_bias = 0.0;
+  double sd = 0.0, rmse = 0.0;
+  double q05 = 0.0, q50 = 0.0, q95 = 0.0;
+  double bound = 0.0;
+  double ratio = 0.0;  ///< RMSE / bound
+  Ends ratio_95;  ///< of the ratio of infinitely many repeats (χ²); none where numbers are drawn
+  /// Whether a ratio of 1 is within what chance leaves, at 1 % over all rows (Bonferroni); as
+  /// above.
+  std::optional<bool> at_bound;
+  double coverage = 0.0;  ///< share of |error| ≤ U, k = 2
+  Ends coverage_95;       ///< Clopper-Pearson
+  double mean_u = 0.0;
+};
+
+struct CellSummary {
+  std::size_t readings = 0;
+  std::size_t failures = 0;
+  std::string why;  ///< of the first failure
+  Bound bound;
+  double found = 0.0, named = 0.0;  ///< diagnosis: share of repeats; else NaN
+  double seconds = 0.0;             ///< of one thread
+};
+
+struct Summary {
+  std::vector<CellSummary> cells;
+  std::vector<Row> rows;  ///< cell by cell, in the order of quantities()
+};
+
+/// Chance that some row of efficient fits is said not to be at its bound.
+inline constexpr double bonferroni_level = 0.01;
+
+/// From the results of all blocks, in any order. Does not depend on who ran them.
+/// @throws ContractViolation when a block is missing or there twice.
+Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results);
+
+}  // namespace trueaxis::study

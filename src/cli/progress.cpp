@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/progress.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace trueaxis::cli {
+namespace {
+
+std::string duration_text(double seconds) {
+  char text[48];
+  if (seconds < 100.0) {
+    std::snprintf(text, sizeof text, "%.0f s", std::ceil(seconds));
+  } else if (seconds < 6000.0) {
+    std::snprintf(text, sizeof text, "%.0f min", std::ceil(seconds / 60.0));
+  } else {
+    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
+  }
+  return text;
+}
+
+}  // namespace
+
+Progress::Progress(std::size_t before, std::size_t to_do, std::string unit)
+    : before_(before),
+      to_do_(to_do),
+      unit_(std::move(unit)),
+      on_terminal_(::isatty(STDERR_FILENO) == 1),
+      begun_(Clock::now()),
+      shown_(begun_) {}
+
+void Progress::add(std::size_t count) {
+  done_ += count;
+  const auto now = Clock::now();
+  if (!on_terminal_ || now - shown_ < std::chrono::milliseconds(200)) return;
+  shown_ = now;
+  show();
+}
+
+void Progress::show() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+  const double rate = static_cast<double>(done_) / seconds;
+  const double share = static_cast<double>(before_ + done_) / static_cast<double>(before_ + to_do_);
+  std::fprintf(stderr, "\r\033[K%3.0f %%  %zu of %zu %s, %.0f/s, %s left", 100.0 * share,
+               before_ + done_, before_ + to_do_, unit_.c_str(), rate,
+               duration_text(static_cast<double>(to_do_ - done_) / rate).c_str());
+  std::fflush(stderr);
+}
+
+void Progress::end() {
+  if (on_terminal_ && to_do_ > 0) std::fprintf(stderr, "\r\033[K");
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/sweep_run.hpp"
+#include "trueaxis/io/sweep_toml.hpp"
+#include "trueaxis/study/run.hpp"
+
+namespace trueaxis::cli {
+
+void add_sweep(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string sweep, folder;
+    int threads = 0;
+  };
+  CLI::App* command =
+      app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
+  auto options = std::make_shared<Options>();
+  command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
+  command->add_option("-o,--output", options->folder, "folder of the results and the journal")
+      ->required();
+  command->add_option("--threads", options->threads, "default: as many as there are")
+      ->check(CLI::Range(0, 4096));
+  command->callback([options, &exit_code] {
+    const study::Sweep sweep = read_sweep_toml(options->sweep);
+    run_sweep(sweep, options->folder, [&](const auto& blocks, const auto& finished) {
+      study::run_blocks(sweep, blocks, options->threads, finished);
+    });
+    exit_code = done;
+  });
+}
+
+}  // namespace trueaxis::cli

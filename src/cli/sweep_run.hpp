@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "trueaxis/study/block.hpp"
+
+namespace trueaxis::cli {
+
+/// Runs the blocks it is given, in any order, and hands over each when it is done.
+using BlockRunner = std::function<void(const std::vector<study::Block>&,
+                                       const std::function<void(study::BlockResult&&)>&)>;
+
+/// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json and
+/// timing.csv there, and the table on standard output. Progress on a terminal.
+void run_sweep(const study::Sweep& sweep, const std::string& folder, const BlockRunner& runner);
+
+}  // namespace trueaxis::cli

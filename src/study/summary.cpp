@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/study/summary.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/study/quantities.hpp"
+
+namespace trueaxis::study {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+constexpr double coverage_factor = 2.0;
+
+/// Linear between order statistics (Hyndman and Fan's type 7).
+double quantile(const std::vector<double>& sorted, double share) {
+  const double at = share * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// n (RMSE / bound)² of an efficient fit is χ² with n degrees of freedom.
+Ends ratio_ends(double ratio, double n, double level) {
+  const boost::math::chi_squared square(n);
+  return {ratio * std::sqrt(n / boost::math::quantile(complement(square, 0.5 * level))),
+          ratio * std::sqrt(n / boost::math::quantile(square, 0.5 * level))};
+}
+
+Ends clopper_pearson(double hits, double n, double level) {
+  const auto beta = [](double a, double b, double p) {
+    return boost::math::quantile(boost::math::beta_distribution<>(a, b), p);
+  };
+  return {hits == 0.0 ? 0.0 : beta(hits, n - hits + 1.0, 0.5 * level),
+          hits == n ? 1.0 : beta(hits + 1.0, n - hits, 1.0 - 0.5 * level)};
+}
+
+/// The errors of one quantity and their u, in order of repeat, without those that failed.
+struct Sample {
+  std::vector<double> error, u;
+};
+
+Sample sample_of(const std::vector<const BlockResult*>& blocks, std::size_t quantity) {
+  Sample sample;
+  for (const BlockResult* block : blocks) {
+    for (std::size_t i = quantity; i < block->error.size(); i += block->quantities) {
+      if (!std::isfinite(block->error[i])) continue;
+      sample.error.push_back(block->error[i]);
+      sample.u.push_back(block->u[i]);
+    }
+  }
+  return sample;
+}
+
+void fill(Row& row, Sample sample) {
+  const auto n = static_cast<double>(sample.error.size());
+  row.estimates = sample.error.size();
+  row.bias = row.u_bias = row.sd = row.rmse = row.q05 = row.q50 = row.q95 = none;
+  row.ratio = row.coverage = row.mean_u = none;
+  row.ratio_95 = row.coverage_95 = {none, none};
+  if (sample.error.empty()) return;
+  double sum = 0.0, squares = 0.0, hits = 0.0, u = 0.0;
+  for (std::size_t i = 0; i < sample.error.size(); ++i) {
+    sum += sample.error[i];
+    squares += sample.error[i] * sample.error[i];
+    hits += std::abs(sample.error[i]) <= coverage_factor * sample.u[i] ? 1.0 : 0.0;
+    u += sample.u[i];
+  }
+  row.bias = sum / n;
+  row.rmse = std::sqrt(squares / n);
+  double spread = 0.0;
+  for (const double error : sample.error) spread += (error - row.bias) * (error - row.bias);
+  if (n > 1.0) row.sd = std::sqrt(spread / (n - 1.0));
+  row.u_bias = row.sd / std::sqrt(n);
+  row.mean_u = u / n;
+  row.coverage = hits / n;
+  row.coverage_95 = clopper_pearson(hits, n, 0.05);
+  std::ranges::sort(sample.error);
+  row.q05 = quantile(sample.error, 0.05);
+  row.q50 = quantile(sample.error, 0.50);
+  row.q95 = quantile(sample.error, 0.95);
+  if (!(row.bound > 0.0)) return;
+  row.ratio = row.rmse / row.bound;
+  row.ratio_95 = ratio_ends(row.ratio, n, 0.05);
+}
+
+CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
+  CellSummary cell;
+  double found = 0.0, named = 0.0, looked = 0.0;
+  for (const BlockResult* block : blocks) {
+    cell.failures += static_cast<std::size_t>(
+        std::ranges::count_if(block->outcome, [](Outcome o) { return o != Outcome::converged; }));
+    if (cell.why.empty()) cell.why = block->why;
+    cell.seconds += block->seconds;
+    looked += static_cast<double>(block->found.size());
+    for (const std::uint8_t bits : block->found) {
+      found += (bits & 1U) != 0 ? 1.0 : 0.0;
+      named += (bits & 2U) != 0 ? 1.0 : 0.0;
+    }
+  }
+  cell.found = looked > 0.0 ? found / looked : none;
+  cell.named = looked > 0.0 ? named / looked : none;
+  const CellFacts& facts = blocks.front()->facts.at(0);
+  cell.readings = facts.readings;
+  cell.bound = facts.bound;
+  return cell;
+}
+
+/// The blocks of every cell in order of repeat.
+std::vector<std::vector<const BlockResult*>> sorted(const Sweep& sweep,
+                                                    const std::vector<BlockResult>& results) {
+  std::map<std::pair<std::size_t, std::size_t>, const BlockResult*> by_place;
+  for (const BlockResult& result : results) {
+    const bool first =
+        by_place.emplace(std::pair(result.block.cell, result.block.first_repeat), &result).second;
+    expects(first, "every block once");
+  }
+  std::vector<std::vector<const BlockResult*>> out(cell_count(sweep));
+  for (const Block& block : blocks_of(sweep)) {
+    const auto at = by_place.find({block.cell, block.first_repeat});
+    expects(at != by_place.end() && at->second->block == block, "all blocks of the sweep");
+    out[block.cell].push_back(at->second);
+  }
+  return out;
+}
+
+}  // namespace
+
+Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
+  Summary summary;
+  const std::vector<Quantity> names = quantities(sweep.base.part.kind);
+  const auto cells = sorted(sweep, results);
+  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+    summary.cells.push_back(cell_of(cells[cell]));
+    const CellFacts& facts = cells[cell].front()->facts.at(0);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      Row row;
+      row.cell = cell;
+      row.quantity = names[i].name;
+      row.unit = names[i].unit;
+      row.truth = facts.truth[i];
+      row.bound = facts.bound.sd[i];
+      fill(row, sample_of(cells[cell], i));
+      summary.rows.push_back(std::move(row));
+    }
+  }
+  if (!sweep.drawn.empty()) {  // errors of different spread in one cell: no χ²
+    for (Row& row : summary.rows) row.ratio_95 = {none, none};
+    return summary;
+  }
+  const auto tested = static_cast<double>(
+      std::ranges::count_if(summary.rows, [](const Row& row) { return std::isfinite(row.ratio); }));
+  for (Row& row : summary.rows) {
+    if (!std::isfinite(row.ratio)) continue;
+    const Ends ends =
+        ratio_ends(row.ratio, static_cast<double>(row.estimates), bonferroni_level / tested);
+    row.at_bound = ends.low <= 1.0 && 1.0 <= ends.high;
+  }
+  return summary;
+}
+
+}  // namespace trueaxis::study

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/study/sweep.hpp"
+
+#include <cmath>
+
+#include "simulate/random.hpp"
+#include "simulate/variates.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/study/scenario_parameters.hpp"
+
+namespace trueaxis::study {
+namespace {
+
+using virtual_lathe::Scenario;
+
+constexpr std::uint32_t for_drawn_numbers = 16;  // the noise's own purposes are 1 to 4
+
+double middle(const Drawn& drawn) {
+  if (drawn.kind == Drawn::Kind::normal) return drawn.first;
+  return drawn.kind == Drawn::Kind::log_uniform ? std::sqrt(drawn.first * drawn.second)
+                                                : 0.5 * (drawn.first + drawn.second);
+}
+
+double draw(const Drawn& drawn, virtual_lathe::Xoshiro& bits) {
+  if (drawn.kind == Drawn::Kind::normal)
+    return drawn.first + drawn.second * virtual_lathe::normal_variate(bits);
+  const double share = bits.uniform();
+  return drawn.kind == Drawn::Kind::log_uniform
+             ? drawn.first * std::pow(drawn.second / drawn.first, share)
+             : drawn.first + share * (drawn.second - drawn.first);
+}
+
+Scenario on_grid(const Sweep& sweep, std::size_t cell) {
+  const Cell at = cell_at(sweep, cell);
+  Scenario scenario = sweep.base;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
+    for (const Setting& setting : sweep.axes[a].points[at.point[a]].settings)
+      set_parameter(scenario, setting.path, setting.value);
+  }
+  return scenario;
+}
+
+}  // namespace
+
+std::size_t cell_count(const Sweep& sweep) {
+  std::size_t count = sweep.methods.size();
+  for (const GridAxis& axis : sweep.axes) count *= axis.points.size();
+  return count;
+}
+
+Cell cell_at(const Sweep& sweep, std::size_t cell) {
+  expects(cell < cell_count(sweep), "a cell of the sweep");
+  Cell out;
+  out.method = sweep.methods[cell % sweep.methods.size()];
+  out.grid = cell / sweep.methods.size();
+  out.point.resize(sweep.axes.size());
+  std::size_t rest = out.grid;
+  for (std::size_t a = sweep.axes.size(); a-- > 0; rest /= sweep.axes[a].points.size())
+    out.point[a] = rest % sweep.axes[a].points.size();
+  return out;
+}
+
+Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
+  Scenario scenario = on_grid(sweep, cell);
+  for (const Drawn& drawn : sweep.drawn) set_parameter(scenario, drawn.path, middle(drawn));
+  scenario.seed = seed_of(sweep, cell, 0);
+  return scenario;
+}
+
+// Where nothing is drawn the instants of a jittered pass are those of repeat 0: the clean stream is
+// then one for the whole cell, and only the noise differs.
+Scenario scenario_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
+  if (sweep.drawn.empty()) return scenario_of(sweep, cell);
+  Scenario scenario = on_grid(sweep, cell);
+  scenario.seed = seed_of(sweep, cell, repeat);
+  virtual_lathe::Xoshiro bits(scenario.seed, for_drawn_numbers);
+  for (const Drawn& drawn : sweep.drawn) set_parameter(scenario, drawn.path, draw(drawn, bits));
+  return scenario;
+}
+
+std::uint64_t seed_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
+  return virtual_lathe::hashed(sweep.seed, cell / sweep.methods.size(), repeat);
+}
+
+const char* to_string(Method method) {
+  switch (method) {
+    case Method::fit:
+      return "fit";
+    case Method::huber:
+      return "huber";
+    case Method::tukey:
+      return "tukey";
+    case Method::diagnosis:
+      return "diagnosis";
+  }
+  return "";
+}
+
+}  // namespace trueaxis::study
