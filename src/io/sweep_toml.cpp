@@ -221,15 +221,15 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path)
   TomlDocument document(content, path);
   TomlTable root = document.root();
   Sweep sweep;
+  const std::string scenario = read_base(document, root, sweep.base);
+  const bool whole = document.ok();
   sweep.name = root.text("name");
   sweep.seed =
       static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
   sweep.repeats = static_cast<std::size_t>(root.integer("repeats", 2000, 1, most_repeats));
   sweep.methods = read_methods(root);
-  const std::string scenario = read_base(document, root, sweep.base);
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
-  const bool whole = document.ok();
-  if (whole && sweep.base.cut)
+  if (sweep.base.cut)
     document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
   const Keys keys(sweep.base, whole);
   for (const TomlTable& axis : root.tables("axis")) read_axis(axis, keys, sweep);
