@@ -12,9 +12,9 @@ using namespace study;
 using layout::format;
 using layout::padded;
 
-std::string number_text(double value) {
-  return std::isfinite(value) ? format("%.3g", value) : "-";
-}
+std::string probability(double p) { return p > 0.995 ? "> 0.995" : format("%.2g", p); }
+
+std::string number_text(double value) { return std::isfinite(value) ? format("%.3g", value) : "-"; }
 
 const Row& row_of(const Summary& summary, std::size_t cell, const std::string& quantity) {
   return *std::ranges::find_if(
@@ -24,12 +24,13 @@ const Row& row_of(const Summary& summary, std::size_t cell, const std::string& q
 std::string beside_text(const Published& published, const Summary& summary, const PlacedRow& placed,
                         const AmongRepeats& among) {
   const PublishedRow& printed = published.rows[placed.row];
-  std::string text = '\n' + printed.name +
-                     format(": χ²(%zu) = %.3g, p = %.2g; %.3g %% of the repeats are as far out\n",
-                            placed.error.size(), placed.chi_squared, placed.p_value,
-                            100.0 * among.share_as_far) +
-                     "  parameter   printed   error      in SD   below  | bias       SD        RMSE "
-                     "     5 %        50 %       95 %       bound     RMSE / bound\n";
+  std::string text =
+      '\n' + printed.name +
+      format(": χ²(%zu) = %.3g, p = %s; %.3g %% of the repeats are as far out\n",
+             placed.error.size(), placed.chi_squared, probability(placed.p_value).c_str(),
+             100.0 * among.share_as_far) +
+      "  parameter   printed   error      in SD   below  | bias       SD        RMSE "
+      "     5 %        50 %       95 %       bound     RMSE / bound\n";
   for (std::size_t i = 0; i < published.parameters.size(); ++i) {
     const Row& row = row_of(summary, among.cell, published.parameters[i]);
     text += "  " + padded(row.quantity, 12) + padded(printed.values[i].text, 10) +
@@ -44,7 +45,6 @@ std::string beside_text(const Published& published, const Summary& summary, cons
   return text;
 }
 
-/// "sigma" of the factor where one number says it.
 std::string factor_text(const PlacedReading& placed, bool fitted) {
   std::string text = format("noise × %.3g", placed.noise_factor);
   if (fitted)
@@ -56,13 +56,14 @@ std::string factor_text(const PlacedReading& placed, bool fitted) {
 std::string reading_text(const Published& published, const PlacedReading& placed,
                          std::size_t index) {
   const PublishedReading& reading = published.readings[index];
-  std::string text = format("  %zu  ", index + 1) + reading.name + format(
-      "\n     log-likelihood %.1f (%+.1f), χ²(%zu) = %.3g, p = %.2g, ", placed.log_likelihood,
-      placed.gain, placed.rows.size() * published.parameters.size(), placed.chi_squared,
-      placed.p_value);
+  std::string text =
+      format("  %zu  ", index + 1) + reading.name +
+      format("\n     log-likelihood %.1f (%+.1f), χ²(%zu) = %.3g, p = %s, ", placed.log_likelihood,
+             placed.gain, placed.rows.size() * published.parameters.size(), placed.chi_squared,
+             probability(placed.p_value).c_str());
   text += factor_text(placed, reading.fit_noise) + "\n     each run's χ², p:";
   for (const PlacedRow& row : placed.rows)
-    text += format("  %.3g, %.2g", row.chi_squared, row.p_value);
+    text += format("  %.3g, ", row.chi_squared) + probability(row.p_value);
   return text + '\n';
 }
 
@@ -70,11 +71,12 @@ std::string unknown_text(const Sweep& sweep, const UnknownLevel& unknown) {
   const PublishedRow& row = sweep.published->rows[unknown.row];
   const GridAxis& axis = sweep.axes[*row.unknown_axis];
   // The labels are in the unit of the key, the levels in the one inside.
-  const double unit = axis.points.front().settings.front().value / std::stod(axis.points.front().label);
+  const double unit =
+      axis.points.front().settings.front().value / std::stod(axis.points.front().label);
   const auto level = [&](double value) { return number_text(value / unit); };
-  std::string text = format("  %zu  ", unknown.reading + 1) + level(unknown.best) + " (95 %: " +
-                     level(unknown.interval_95.low) + " to " + level(unknown.interval_95.high) +
-                     "); log-likelihood lost:";
+  std::string text = format("  %zu  ", unknown.reading + 1) + level(unknown.best) +
+                     " (95 %: " + level(unknown.interval_95.low) + " to " +
+                     level(unknown.interval_95.high) + "); log-likelihood lost:";
   for (std::size_t i = 0; i < unknown.points.size(); ++i)
     text += format("  %s: %.1f", axis.points[i].label.c_str(), unknown.points[i].below_best);
   return text + '\n';
@@ -89,12 +91,13 @@ std::string published_text(const Sweep& sweep, const Summary& summary, const Pla
                      "repeats, rounded as printed, with a smaller number\n";
   for (std::size_t i = 0; i < placement.among.size(); ++i)
     text += beside_text(published, summary, placement.readings.front().rows[i], placement.among[i]);
-  text += "\nReadings of the printed numbers (χ²: Mahalanobis distance squared, rounding included)\n";
+  text +=
+      "\nReadings of the printed numbers (χ²: Mahalanobis distance squared, rounding included)\n";
   for (std::size_t i = 0; i < placement.readings.size(); ++i)
     text += reading_text(published, placement.readings[i], i);
   for (std::size_t i = 0; i < published.rows.size(); ++i) {
     if (!published.rows[i].unknown_axis) continue;
-    text += '\n' + published.rows[i].name + ": the level by reading, from its run\n";
+    text += '\n' + published.rows[i].name + ": the level under each reading\n";
     for (const UnknownLevel& unknown : placement.unknown) {
       if (unknown.row == i) text += unknown_text(sweep, unknown);
     }

@@ -68,7 +68,8 @@ void read_place(TomlTable& table, const Sweep& sweep, PublishedRow& row) {
     row.name += (a > 0 ? ", " : "") + axis.name + " = " + at[a];
     if (at[a] == "?") {
       if (row.unknown_axis || !is_noise_level(axis))
-        table.complain("at", "has \"?\" for " + axis.name + ": only one noise level can be unknown");
+        table.complain("at",
+                       "has \"?\" for " + axis.name + ": only one noise level can be unknown");
       row.unknown_axis = a;
       continue;
     }
@@ -136,12 +137,8 @@ Published read_published(TomlTable paper, const Sweep& sweep, const ReadSetting&
     published.readings.push_back(read_reading(reading, published.parameters, setting));
   if (published.readings.empty()) {
     const std::size_t count = published.parameters.size();
-    published.readings.push_back({"as stated",
-                                  {},
-                                  std::vector<double>(count, 1.0),
-                                  1.0,
-                                  false,
-                                  std::vector<int>(count, 0)});
+    published.readings.push_back(
+        {"as stated", {}, std::vector<double>(count, 1.0), 1.0, false, std::vector<int>(count, 0)});
   }
   return published;
 }

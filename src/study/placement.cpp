@@ -79,8 +79,8 @@ PlacedReading placed(const Table& table, const Understood& one) {
     if (rows[i].unknown_axis) continue;
     const auto parameters = static_cast<double>(one.runs[i].error.size());
     const PrintedRun::Likelihood at = one.runs[i].at(out.noise_factor);
-    PlacedRow row{i, one.runs[i].error, one.runs[i].in_sd(out.noise_factor), at.chi_squared, 0.0,
-                  at.log_likelihood};
+    PlacedRow row{i,   one.runs[i].error, one.runs[i].in_sd(out.noise_factor), at.chi_squared,
+                  0.0, at.log_likelihood};
     row.p_value = p_of(at.chi_squared, parameters);
     out.chi_squared += at.chi_squared;
     out.log_likelihood += at.log_likelihood;
@@ -109,7 +109,8 @@ UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row
     if (!reading.fit_noise) return run.at(reading.noise_factor * over_first).log_likelihood;
     return Profile(
                [&](double factor) {
-                 return one.log_likelihood(rows, factor) + run.at(factor * over_first).log_likelihood;
+                 return one.log_likelihood(rows, factor) +
+                        run.at(factor * over_first).log_likelihood;
                },
                least_factor, most_factor)
         .highest();

@@ -23,8 +23,7 @@ PrintedRun::Likelihood PrintedRun::of(std::span<const double> errors, double fac
   const Eigen::VectorXd scaled =
       Eigen::Map<const Eigen::VectorXd>(errors.data(), count).cwiseQuotient(sd);
   const Eigen::MatrixXd lower = factored.matrixL();
-  const double chi_squared =
-      lower.triangularView<Eigen::Lower>().solve(scaled).squaredNorm();
+  const double chi_squared = lower.triangularView<Eigen::Lower>().solve(scaled).squaredNorm();
   const double log_root = sd.array().log().sum() + lower.diagonal().array().log().sum();
   return {chi_squared, -0.5 * chi_squared - log_root -
                            0.5 * static_cast<double>(count) * std::log(2.0 * std::numbers::pi) -

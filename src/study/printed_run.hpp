@@ -12,10 +12,10 @@ namespace trueaxis::study {
 
 /// One printed run as a reading understands it: errors of the parameters and their covariance.
 struct PrintedRun {
-  std::vector<double> error;        ///< edge unit
-  std::vector<double> step;         ///< to which the error was rounded
+  std::vector<double> error;  ///< edge unit
+  std::vector<double> step;   ///< to which the error was rounded
   std::vector<double> truth;
-  Eigen::MatrixXd covariance;       ///< of the noise as stated
+  Eigen::MatrixXd covariance;          ///< of the noise as stated
   double log_printed_per_error = 0.0;  ///< Σ ln of the parameters' factors
 
   struct Likelihood {

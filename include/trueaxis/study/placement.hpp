@@ -10,12 +10,12 @@ namespace trueaxis::study {
 
 /// A published run in the distribution that one reading gives it.
 struct PlacedRow {
-  std::size_t row = 0;           ///< of Published::rows
-  std::vector<double> error;     ///< of each parameter as the reading understands it, edge unit
-  std::vector<double> in_sd;     ///< over the bound's standard deviation
-  double chi_squared = 0.0;      ///< Mahalanobis distance squared, rounding in print included
-  double p_value = 0.0;          ///< of a χ² with as many degrees of freedom as parameters
-  double log_likelihood = 0.0;   ///< of the printed numbers
+  std::size_t row = 0;          ///< of Published::rows
+  std::vector<double> error;    ///< of each parameter as the reading understands it, edge unit
+  std::vector<double> in_sd;    ///< over the bound's standard deviation
+  double chi_squared = 0.0;     ///< Mahalanobis distance squared, rounding in print included
+  double p_value = 0.0;         ///< of a χ² with as many degrees of freedom as parameters
+  double log_likelihood = 0.0;  ///< of the printed numbers
 };
 
 /// The published runs under one reading; rows whose noise is not known are left out.

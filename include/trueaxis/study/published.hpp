@@ -33,8 +33,8 @@ struct PublishedReading {
   std::vector<Setting> settings;  ///< of the scenario, before the axes of the grid
   /// Printed error over the error of the sweep's quantity, one for each parameter.
   std::vector<double> printed_per_error;
-  double noise_factor = 1.0;  ///< true noise over the one that the table states
-  bool fit_noise = false;     ///< the factor is estimated by likelihood instead
+  double noise_factor = 1.0;        ///< true noise over the one that the table states
+  bool fit_noise = false;           ///< the factor is estimated by likelihood instead
   std::vector<int> least_decimals;  ///< of each parameter: shorter numbers lost zeros at their end
 };
 
