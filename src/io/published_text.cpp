@@ -12,7 +12,7 @@ using namespace study;
 using layout::format;
 using layout::padded;
 
-std::string probability(double p) { return p > 0.995 ? "> 0.995" : format("%.2g", p); }
+std::string probability(double p) { return p > 0.995 ? "p > 0.995" : format("p = %.2g", p); }
 
 std::string number_text(double value) { return std::isfinite(value) ? format("%.3g", value) : "-"; }
 
@@ -26,7 +26,7 @@ std::string beside_text(const Published& published, const Summary& summary, cons
   const PublishedRow& printed = published.rows[placed.row];
   std::string text =
       '\n' + printed.name +
-      format(": χ²(%zu) = %.3g, p = %s; %.3g %% of the repeats are as far out\n",
+      format(": χ²(%zu) = %.3g, %s; %.1f %% of the repeats are as far out\n",
              placed.error.size(), placed.chi_squared, probability(placed.p_value).c_str(),
              100.0 * among.share_as_far) +
       "  parameter   printed   error      in SD   below  | bias       SD        RMSE "
@@ -58,10 +58,10 @@ std::string reading_text(const Published& published, const PlacedReading& placed
   const PublishedReading& reading = published.readings[index];
   std::string text =
       format("  %zu  ", index + 1) + reading.name +
-      format("\n     log-likelihood %.1f (%+.1f), χ²(%zu) = %.3g, p = %s, ", placed.log_likelihood,
+      format("\n     log-likelihood %.1f (%+.1f), χ²(%zu) = %.3g, %s, ", placed.log_likelihood,
              placed.gain, placed.rows.size() * published.parameters.size(), placed.chi_squared,
              probability(placed.p_value).c_str());
-  text += factor_text(placed, reading.fit_noise) + "\n     each run's χ², p:";
+  text += factor_text(placed, reading.fit_noise) + "\n     each run: χ²";
   for (const PlacedRow& row : placed.rows)
     text += format("  %.3g, ", row.chi_squared) + probability(row.p_value);
   return text + '\n';

@@ -4,12 +4,14 @@
 const data = JSON.parse(document.getElementById('data').textContent);
 const mostRows = 400;
 
-/** A small amount of an edge unit: µm, µm/mm or °. */
-function amount(value, unit) {
-  if (!isNumber(value)) return '–';
-  const [factor, name] = shown(unit);
-  return `${significant(value * factor)}${nbsp}${name}`;
+/** Small amounts of an edge unit in that of shown(), with the decimals that three digits of `size` have. */
+function amounts(values, unit, size) {
+  const [factor] = shown(unit);
+  const decimals = size > 0 ? 2 - Math.floor(Math.log10(size * factor)) : 3;
+  return values.map((value) => isNumber(value) ? fixed(value * factor, decimals) : '–');
 }
+
+const unitOf = (name, unit) => `${name}${nbsp}in${nbsp}${shown(unit)[1].replace(' ', nbsp)}`;
 
 /** A true value in its edge unit. */
 const trueText = (value, unit) => isNumber(value) ? `${tick(Number(value.toPrecision(7)))}${unit === '1' ? '' : nbsp + (unit === 'deg' ? '°' : unit)}` : '–';
@@ -51,15 +53,15 @@ function tableSection() {
   const many = data.methods.length > 1;
   const rows = data.cells.flatMap((cell) => cell.rows.map((row, q) => {
     const {name, unit} = data.quantities[q];
-    return [name, ...data.axes.map((a, i) => a.labels[cell.at[i]]), ...(many ? [cell.method] : []), String(cell.readings), trueText(row.truth, unit), amount(row.bias, unit), amount(row.sd, unit),
-      amount(row.rmse, unit), amount(row.q05, unit), amount(row.q50, unit), amount(row.q95, unit), amount(row.bound, unit),
+    return [unitOf(name, unit), ...data.axes.map((a, i) => a.labels[cell.at[i]]), ...(many ? [cell.method] : []), String(cell.readings), trueText(row.truth, unit),
+      ...amounts(['bias', 'sd', 'rmse', 'q05', 'q50', 'q95', 'bound'].map((key) => row[key]), unit, row.bound ?? row.rmse),
       isNumber(row.ratio) ? `${fixed(row.ratio, 3)}${range(row.ratio_low, row.ratio_high, 3)}${row.at_bound === false ? ' !' : ''}` : '–',
       isNumber(row.coverage) ? `${fixed(100 * row.coverage, 1)}${range(row.coverage_low, row.coverage_high, 1, 100)}${nbsp}%` : '–', String(data.repeats - row.estimates)];
   }));
   const failed = data.cells.filter((cell) => cell.why).map((cell) => paragraph(`${cell.failures} failed: ${cell.why}`, 'quiet')).slice(0, 12);
   return section('table', 'Table', rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
     table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
-      ['Parameter', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed'],
+      ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed'],
       rows.slice(0, mostRows)), ...failed);
 }
 

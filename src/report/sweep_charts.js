@@ -10,7 +10,11 @@ function axisWords(name) {
 }
 
 /** Factor and unit in which a chart shows small amounts of an edge unit. */
-const shown = (unit) => unit === 'mm' ? [1000, 'µm'] : unit === '1' ? [1000, 'µm/mm'] : [1, unit === 'deg' ? '°' : unit];
+const shown = (unit) => ({mm: [1000, 'µm'], 1: [1000, 'µm/mm'], deg: [1000, '10⁻³ °']})[unit] ?? [1, unit];
+
+/** "pass.length_mm = 10, kind = slow" with the axes in words. */
+const placeWords = (name) => name.split(', ').map((part) => part.includes(' = ')
+  ? `${axisWords(part.slice(0, part.indexOf(' = ')))}: ${part.slice(part.indexOf(' = ') + 3)}` : part).join(', ');
 
 /** The grid as the charts see it: the longest axis lies across, what is left makes curves. */
 function gridView(sweep) {
@@ -72,8 +76,7 @@ function errorChart(sweep, view, quantity, q) {
   const [factor, unit] = shown(quantity.unit);
   const positive = (cells, key) => cells.filter((c) => c.rows[q][key] > 0).map((c) => [view.place(c.point), factor * c.rows[q][key]]);
   const series = view.curves.flatMap((curve, i) => [
-    {name: view.curves.length > 1 ? `RMSE, ${curve.name}` : 'RMSE', type: 'line', symbol: 'circle', symbolSize: 7, data: positive(curve.cells, 'rmse'),
-      itemStyle: {color: colourOf(i === 1 ? 2 : i)}, lineStyle: {width: 1.6}},
+    {name: view.curves.length > 1 ? `RMSE, ${curve.name}` : 'RMSE', type: 'scatter', symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: colourOf(i === 1 ? 2 : i)}},
     {name: 'bound', type: 'line', symbol: 'none', data: positive(curve.cells, 'bound'), itemStyle: {color: colours.grey}, lineStyle: {color: colours.grey, type: 'dashed', width: 1.4}},
   ]).filter((s) => s.data.length);
   const printed = publishedPoints(sweep, view, quantity, (run, p) => factor * Math.abs(run.error[p])).filter(([, v]) => v > 1e-9);
@@ -81,8 +84,8 @@ function errorChart(sweep, view, quantity, q) {
   if (!series.length) return null;
   const names = [...new Set(series.map((s) => s.name))].map((name) => series.find((s) => s.name === name));
   return figure({caption: `${quantity.name}: root mean square error and the least that is possible.`, description: `RMSE of ${quantity.name} over ${view.name}`,
-    build: () => ({grid: grid({top: 30 + 18 * Math.ceil(names.length / 2)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view),
-      yAxis: uprightAxis(unit, {type: 'log', nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -8]}, nameGap: 8, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
+    build: () => ({grid: grid({top: 36 + 18 * Math.ceil(names.length / 3)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view),
+      yAxis: uprightAxis(unit, {type: 'log', nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
 }
 
 /** Bars from low to high with a mark between, `data` of [x, low, mark, high]; side by side by `shift` px. */
@@ -115,8 +118,8 @@ function spreadChart(sweep, view, quantity, q) {
   const limit = roundUpFinely(1.15 * largest(series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))));
   return figure({caption: `${quantity.name}: ${known ? 'errors over the bound’s standard deviation' : 'errors'}, the line is the median.`,
     description: `Spread of the errors of ${quantity.name} over ${view.name}`,
-    build: () => ({grid: grid({top: 30 + 18 * Math.ceil(series.length / 2)}), legend: legend({left: 0, right: 0}), xAxis: acrossAxis(view),
-      yAxis: uprightAxis(known ? 'standard deviations' : unit, {min: -limit, max: limit, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -8]}, nameGap: 8}), series})});
+    build: () => ({grid: grid({top: 36 + 18 * Math.ceil(series.length / 2)}), legend: legend({left: 0, right: 0}), xAxis: acrossAxis(view),
+      yAxis: uprightAxis(known ? 'standard deviations' : unit, {min: -limit, max: limit, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
 }
 
 /** A share with its interval for every quantity, one mark a point of the grid; of one curve. */
@@ -147,5 +150,5 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
       xAxis: axis('', {min: -0.5, max: names.length - 0.5, axisTick: {show: false}, splitLine: {show: false},
         axisLabel: {color: colours.ink, rotate: width < 900 ? 60 : 0, customValues: names.map((_, i) => i), formatter: (v) => names[Math.round(v)], hideOverlap: false}}),
       yAxis: uprightAxis(name, {min: step * Math.floor((Math.min(...values) - margin) / step), max: step * Math.ceil((Math.max(...values) + margin) / step), interval: step,
-        nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -8]}}), series})});
+        nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -30]}}), series})});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Published single runs in the distribution of the sweep, and what their numbers may mean.
 
+const pEquals = (p) => pText(p).startsWith('>') ? `p ${pText(p)}` : `p = ${pText(p)}`;
 const pText = (p) => !isNumber(p) ? '–' : p > 0.995 ? '> 0.995' : p < 1e-3 ? scientific(p, 1) : significant(p, 2);
 
 /** One run beside the distribution of its cell. */
@@ -13,12 +14,12 @@ function runTable(sweep, row) {
   const rows = published.parameters.map((name, p) => {
     const q = sweep.quantities.findIndex((one) => one.name === name);
     const of = cell.rows[q], unit = sweep.quantities[q].unit;
-    return [name, run.printed[p], amount(placed.error[p], unit), fixed(placed.in_sd[p], 2), percent(run.share_below[p]),
-      amount(of.bias, unit), amount(of.sd, unit), amount(of.rmse, unit), `${amount(of.q05, unit)} … ${amount(of.q95, unit)}`, amount(of.bound, unit), fixed(of.ratio, 3)];
+    const [error, ...spread] = amounts([placed.error[p], of.bias, of.sd, of.rmse, of.q05, of.q50, of.q95, of.bound], unit, of.bound);
+    return [unitOf(name, unit), run.printed[p], error, fixed(placed.in_sd[p], 2), `${fixed(100 * run.share_below[p], 1)}${nbsp}%`, ...spread, fixed(of.ratio, 3)];
   });
   const degrees = published.parameters.length;
-  return table(`${axisWords(run.name)}: χ²(${degrees}) = ${significant(placed.chi_squared)}, p = ${pText(placed.p_value)}; ${percent(run.share_as_far)} of the repeats are as far out.`,
-    ['Parameter', 'Printed', 'Error', 'In SD', 'Repeats below', 'Bias', 'SD', 'RMSE', '5 % … 95 %', 'Bound', 'RMSE / bound'], rows);
+  return table(`${placeWords(run.name)}; χ²(${degrees}) = ${significant(placed.chi_squared)}, ${pEquals(placed.p_value)}; ${fixed(100 * run.share_as_far, 1)}${nbsp}% of the repeats are as far out.`,
+    ['Error of', 'Printed', 'Error', 'In SD', 'Repeats below', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound'], rows);
 }
 
 const factorText = (reading) => `× ${significant(reading.factor)}` + (!reading.fitted ? ''
@@ -26,7 +27,7 @@ const factorText = (reading) => `× ${significant(reading.factor)}` + (!reading.
 
 function readingsTable(published) {
   const degrees = published.parameters.length * published.readings[0].runs.length;
-  const runs = published.readings[0].runs.map((r) => axisWords(published.runs[r.row].name));
+  const runs = published.readings[0].runs.map((r) => placeWords(published.runs[r.row].name));
   return table(`Gain: log-likelihood over the first reading. χ²(${degrees}): all runs; noise: true over stated, 95 % interval where it is fitted; then χ²(${published.parameters.length}) of each run and its p.`,
     ['Reading', 'Gain', `χ²(${degrees})`, 'p', 'Noise', ...runs],
     published.readings.map((reading, i) => [`${i + 1}. ${reading.name}`, fixed(reading.gain, 1), significant(reading.chi_squared), pText(reading.p_value), factorText(reading),
@@ -64,7 +65,7 @@ function unknownBlock(published, row) {
           {type: 'line', shape: {x1: a[0], x2: c[0], y1: a[1], y2: a[1]}, style: {stroke: colours.measured, lineWidth: 3}},
           {type: 'circle', shape: {cx: b[0], cy: b[1], r: 5}, style: {fill: colours.model}}]};
       }}]})});
-  return block(`Lost in print: ${axisWords(published.runs[row].name)}`, chart,
+  return block(`Lost in print: ${placeWords(published.runs[row].name)}`, chart,
     table('Log-likelihood lost at the points of the axis.', ['Reading', 'Best', '95 % interval', ...found[0].labels],
       found.map((u) => [`${u.reading + 1}. ${published.readings[u.reading].name}`, significant(u.best), `${end(u.low)} to ${end(u.high)}`, ...u.lost.map((l) => fixed(l, 1))])));
 }
