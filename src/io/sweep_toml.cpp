@@ -82,6 +82,18 @@ void check_range(TomlTable& table, std::string_view at, const Known& known, doub
   table.complain(at, "gives " + label_of(value) + " but must give " + allowed);
 }
 
+/// A number is varied by one axis only.
+void check_free(TomlTable& table, std::string_view at, const std::string& path,
+                const Sweep& sweep) {
+  bool taken = std::ranges::find(sweep.drawn, path, &Drawn::path) != sweep.drawn.end();
+  for (const GridAxis& axis : sweep.axes) {
+    for (const AxisPoint& point : axis.points)
+      taken =
+          taken || std::ranges::find(point.settings, path, &Setting::path) != point.settings.end();
+  }
+  if (taken) table.complain(at, "is set by an axis before: vary a number once");
+}
+
 std::vector<double> spaced(TomlTable& table) {
   const double from = table.required_number("from"), to = table.required_number("to");
   const auto count = table.integer("count", 2, 2, most_points);
@@ -109,6 +121,7 @@ void read_grid(TomlTable table, const std::string& key, const std::optional<Know
   const std::vector<double> values = listed ? table.numbers("values") : spaced(table);
   if (listed && values.empty()) table.complain("values", "is empty: give at least one number");
   if (!known) return;
+  check_free(table, "key", known->parameter.path, sweep);
   GridAxis axis{key, {}};
   for (const double value : values) {
     check_range(table, listed ? "values" : "from", *known, value);
@@ -134,6 +147,7 @@ void read_distribution(TomlTable table, const std::string& key, const std::optio
   if (drawn.kind == Drawn::Kind::log_uniform && !(first > 0.0) && std::isfinite(first))
     table.complain("low", "must be more than 0 for a log-uniform distribution");
   if (!known) return;
+  check_free(table, "key", known->parameter.path, sweep);
   check_range(table, normal ? "mean" : "low", *known, first);
   if (!normal) check_range(table, "high", *known, second);
   drawn.path = known->parameter.path;
@@ -157,7 +171,10 @@ void read_cases(TomlTable table, const std::vector<TomlTable>& cases, const Keys
     AxisPoint point{one.required_text("label"), {}};
     TomlTable set = one.required_table("set");
     for (const std::string& key : set.keys()) {
-      if (const auto setting = read_setting(set, key, keys)) point.settings.push_back(*setting);
+      const std::optional<Setting> setting = read_setting(set, key, keys);
+      if (!setting) continue;
+      check_free(set, key, setting->path, sweep);
+      point.settings.push_back(*setting);
     }
     axis.points.push_back(std::move(point));
   }

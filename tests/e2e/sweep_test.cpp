@@ -90,7 +90,7 @@ TEST_F(SweepCommand, IsQuietInAPipe) {
 
 // Killed again and again at other sizes of the journal, it ends with the bytes of one run.
 TEST_F(SweepCommand, ContinuesWhereItWasKilled) {
-  file("long.toml", sweep_text(4000));
+  file("long.toml", sweep_text(1500));
   ASSERT_EQ(command("sweep long.toml -o whole").exit_code, 0);
   const std::uintmax_t all = fs::file_size(folder_ / "whole/journal.bin");
   for (const std::uintmax_t tenth : {1U, 4U, 7U}) kill_at("long.toml", "killed", tenth * all / 10);

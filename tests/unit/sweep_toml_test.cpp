@@ -68,7 +68,7 @@ high = 360
 name = "noise kind"
 [[axis.case]]
 label = "uniform"
-set = { "noise.sigma_mm" = 0, "noise.uniform_um" = 5 }
+set = { "noise.rho" = 0.1, "noise.uniform_um" = 5 }
 )");
   EXPECT_EQ(sweep.seed, 7U);
   EXPECT_EQ(sweep.repeats, 50U);
@@ -119,6 +119,11 @@ TEST(SweepToml, RefusesWhatIsNoSweep) {
   expect_complaint(part + "[[axis]]\nkey = \"part.half_angle_deg\"\nvalues = [3]\n",
                    "does not have");
   expect_complaint(part + "[[axis]]\nkey = \"noise.rho\"\nvalues = []\n", "is empty");
+  expect_complaint(
+      part +
+          "[[axis]]\nkey = \"noise.rho\"\nvalues = [0]\n[[axis]]\nkey = \"noise.rho\"\n"
+          "distribution = \"uniform\"\nlow = 0\nhigh = 0.5\n",
+      "vary a number once");
   expect_complaint(
       part + "[[axis]]\nname = \"n\"\n[[axis.case]]\nlabel = \"a\"\nset = { \"noise.x\" = 1 }\n",
       "noise.x");
