@@ -26,9 +26,8 @@ std::string beside_text(const Published& published, const Summary& summary, cons
   const PublishedRow& printed = published.rows[placed.row];
   std::string text =
       '\n' + printed.name +
-      format(": χ²(%zu) = %.3g, %s; %.1f %% of the repeats are as far out\n",
-             placed.error.size(), placed.chi_squared, probability(placed.p_value).c_str(),
-             100.0 * among.share_as_far) +
+      format(": χ²(%zu) = %.3g, %s; %.1f %% of the repeats are as far out\n", placed.error.size(),
+             placed.chi_squared, probability(placed.p_value).c_str(), 100.0 * among.share_as_far) +
       "  parameter   printed   error      in SD   below  | bias       SD        RMSE "
       "     5 %        50 %       95 %       bound     RMSE / bound\n";
   for (std::size_t i = 0; i < published.parameters.size(); ++i) {

@@ -11,7 +11,8 @@
 namespace trueaxis::example {
 
 inline bool can_open_pages() {
-  const bool chromium = std::getenv("TRUEAXIS_CHROMIUM") || std::filesystem::exists("/usr/bin/chromium");
+  const bool chromium =
+      std::getenv("TRUEAXIS_CHROMIUM") || std::filesystem::exists("/usr/bin/chromium");
   return chromium && std::system("node --version >/dev/null 2>&1") == 0;
 }
 
