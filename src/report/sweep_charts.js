@@ -32,22 +32,39 @@ function gridView(sweep) {
   const numeric = values.every(isNumber);
   const log = numeric && Math.min(...values) > 0 && Math.max(...values) >= 4 * Math.min(...values);
   const place = (point) => !numeric ? point : log ? Math.log10(values[point]) : values[point];
-  return {name: axisWords(across.name), labels: across.labels, log, place, all: [...curves.values()], curves: [...curves.values()].slice(0, 6)};
+  return {name: axisWords(across.name), labels: across.labels, values, log, place, all: [...curves.values()], curves: [...curves.values()].slice(0, 6)};
 }
 
 /** The axis across, labelled at the points of the grid. */
-function acrossAxis(view) {
+function acrossAxis(view, width) {
   const places = view.labels.map((_, i) => view.place(i));
   const span = Math.max(...places) - Math.min(...places) || 1;
   const label = (value) => view.labels[places.reduce((best, p, i) => Math.abs(p - value) < Math.abs(places[best] - value) ? i : best, 0)];
+  const words = !view.values.every(isNumber);
+  const margin = words ? 0.5 : 0.07 * span;
   return axis(view.log ? `${view.name} (log)` : view.name, {
-    min: Math.min(...places) - 0.07 * span, max: Math.max(...places) + 0.07 * span,
-    axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: label},
+    nameGap: words ? 44 : 30, min: Math.min(...places) - margin, max: Math.max(...places) + margin,
+    axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: label,
+      ...(words ? {width: (width - 60) / view.labels.length, overflow: 'break', lineHeight: 14} : {})},
     splitLine: {show: false},
   });
 }
 
 const colourOf = (i) => colours.series[i % colours.series.length];
+
+/** The same without that of published runs. */
+const curveColour = (i) => colours.series[[0, 2, 3, 4, 5, 1][i % 6]];
+
+/** Height that a legend of these names takes: about 7 px a letter. */
+function legendHeight(names, width) {
+  let rows = 1, used = 0;
+  for (const name of names) {
+    const needs = 36 + 7 * name.length;
+    if (used > 0 && used + needs > width) { rows += 1; used = 0; }
+    used += needs;
+  }
+  return 18 * rows;
+}
 
 /** Runs that were published, by the cell they belong to. */
 function runsByCell(sweep) {
@@ -76,15 +93,15 @@ function errorChart(sweep, view, quantity, q) {
   const [factor, unit] = shown(quantity.unit);
   const positive = (cells, key) => cells.filter((c) => c.rows[q][key] > 0).map((c) => [view.place(c.point), factor * c.rows[q][key]]);
   const series = view.curves.flatMap((curve, i) => [
-    {name: view.curves.length > 1 ? `RMSE, ${curve.name}` : 'RMSE', type: 'scatter', symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: colourOf(i === 1 ? 2 : i)}},
+    {name: view.curves.length > 1 ? curve.name : 'RMSE', type: 'scatter', symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: curveColour(i)}},
     {name: 'bound', type: 'line', symbol: 'none', data: positive(curve.cells, 'bound'), itemStyle: {color: colours.grey}, lineStyle: {color: colours.grey, type: 'dashed', width: 1.4}},
   ]).filter((s) => s.data.length);
   const printed = publishedPoints(sweep, view, quantity, (run, p) => factor * Math.abs(run.error[p])).filter(([, v]) => v > 1e-9);
   series.push(...publishedSeries('published |error|', printed));
   if (!series.length) return null;
   const names = [...new Set(series.map((s) => s.name))].map((name) => series.find((s) => s.name === name));
-  return figure({caption: `${quantity.name}: root mean square error and the least that is possible.`, description: `RMSE of ${quantity.name} over ${view.name}`,
-    build: () => ({grid: grid({top: 36 + 18 * Math.ceil(names.length / 3)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view),
+  return figure({caption: `${quantity.name}: root mean square error and the least that is possible.`, description: `RMSE of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',
+    build: (width) => ({grid: grid({top: 38 + legendHeight(names.map((s) => s.name), width)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view, width),
       yAxis: uprightAxis(unit, {type: 'log', nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
 }
 
@@ -111,15 +128,15 @@ function spreadChart(sweep, view, quantity, q) {
   const half = Math.max(2, 9 - view.curves.length);
   const series = view.curves.map((curve, i) => spans(view.curves.length > 1 ? curve.name : '5 % to 95 % of the repeats',
     curve.cells.filter((c) => isNumber(c.rows[q].q50)).map((c) => [view.place(c.point), ...['q05', 'q50', 'q95'].map((key) => c.rows[q][key] * scale(c))]),
-    {colour: colourOf(i === 1 ? 2 : i), half, shift: (i - (view.curves.length - 1) / 2) * 2 * half})).filter((s) => s.data.length);
+    {colour: curveColour(i), half, shift: (i - (view.curves.length - 1) / 2) * 2 * half})).filter((s) => s.data.length);
   if (!series.length) return null;
   if (known) series[0].markLine = guide([-1.645, 0, 1.645]);
   if (known) series.push(...publishedSeries('published', publishedPoints(sweep, view, quantity, (run, p) => run.in_sd[p])));
-  const limit = roundUpFinely(1.15 * largest(series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))));
+  const limit = roundUp(1.05 * largest(series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))));
   return figure({caption: `${quantity.name}: ${known ? 'errors over the bound’s standard deviation' : 'errors'}, the line is the median.`,
-    description: `Spread of the errors of ${quantity.name} over ${view.name}`,
-    build: () => ({grid: grid({top: 36 + 18 * Math.ceil(series.length / 2)}), legend: legend({left: 0, right: 0}), xAxis: acrossAxis(view),
-      yAxis: uprightAxis(known ? 'standard deviations' : unit, {min: -limit, max: limit, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
+    description: `Spread of the errors of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',
+    build: (width) => ({grid: grid({top: 38 + legendHeight(series.map((s) => s.name), width)}), legend: legend({left: 0, right: 0}), xAxis: acrossAxis(view, width),
+      yAxis: uprightAxis(known ? 'standard deviations' : unit, {min: -limit, max: limit, interval: limit / 2, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
 }
 
 /** A share with its interval for every quantity, one mark a point of the grid; of one curve. */
@@ -149,6 +166,6 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
     build: (width) => ({grid: grid({top: many ? 44 : 62, bottom: width < 700 ? 8 : 20}), ...(many ? {} : {legend: legend({left: 0, right: 0})}),
       xAxis: axis('', {min: -0.5, max: names.length - 0.5, axisTick: {show: false}, splitLine: {show: false},
         axisLabel: {color: colours.ink, rotate: width < 900 ? 60 : 0, customValues: names.map((_, i) => i), formatter: (v) => names[Math.round(v)], hideOverlap: false}}),
-      yAxis: uprightAxis(name, {min: step * Math.floor((Math.min(...values) - margin) / step), max: step * Math.ceil((Math.max(...values) + margin) / step), interval: step,
+      yAxis: uprightAxis(name, {min: Math.max(0, step * Math.floor((Math.min(...values) - margin) / step)), max: step * Math.ceil((Math.max(...values) + margin) / step), interval: step,
         nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -30]}}), series})});
 }
