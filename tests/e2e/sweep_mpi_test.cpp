@@ -123,6 +123,9 @@ TEST_F(SweepMpi, EndsWhenARankDiesAndGoesOnFromThere) {
     const int code = wait_for(mpirun);
     EXPECT_GT(code, 0) << "rank " << rank << '\n' << text("said.txt");
     EXPECT_TRUE(contains(text("said.txt"), "Killed")) << text("said.txt");
+    if (rank != 0) {
+      EXPECT_TRUE(contains(text("said.txt"), "the same command continues")) << text("said.txt");
+    }
     EXPECT_FALSE(there("ranks/sweep.csv"));
     wanted = fs::file_size(journal) + all / 10;
   }
