@@ -71,6 +71,10 @@ std::string published_json(const Sweep& sweep, const Placement& placement) {
             {"input_hash", sweep.input_hash},
             {"source", published.source},
             {"rows", rows_json(published)}};
+  if (!placement.why_not.empty()) {
+    json["why"] = placement.why_not;
+    return json_text(json);
+  }
   Json readings = Json::array(), unknown = Json::array(), among = Json::array();
   for (std::size_t i = 0; i < placement.readings.size(); ++i)
     readings.push_back(reading_json(published, published.readings[i], placement.readings[i]));

@@ -37,7 +37,10 @@ std::string beside_text(const Published& published, const Summary& summary, cons
             padded(format("%.0f %%", 100.0 * among.share_below[i]), 7) + "| ";
     for (const double value : {row.bias, row.sd, row.rmse, row.q05, row.q50, row.q95, row.bound})
       text += padded(number_text(value), 11);
-    text += format("%.3f ± %.3f", row.ratio, 0.5 * (row.ratio_95.high - row.ratio_95.low)) +
+    text += format("%.3f", row.ratio) +
+            (std::isfinite(row.ratio_95.low)
+                 ? format(" ± %.3f", 0.5 * (row.ratio_95.high - row.ratio_95.low))
+                 : "") +
             (row.at_bound.value_or(true) ? "" : " !") + (row.unit == "1" ? "" : "  " + row.unit) +
             '\n';
   }
@@ -69,10 +72,7 @@ std::string reading_text(const Published& published, const PlacedReading& placed
 std::string unknown_text(const Sweep& sweep, const UnknownLevel& unknown) {
   const PublishedRow& row = sweep.published->rows[unknown.row];
   const GridAxis& axis = sweep.axes[*row.unknown_axis];
-  // The labels are in the unit of the key, the levels in the one inside.
-  const double unit =
-      axis.points.front().settings.front().value / std::stod(axis.points.front().label);
-  const auto level = [&](double value) { return number_text(value / unit); };
+  const auto level = [&](double value) { return number_text(value / unknown.unit); };
   std::string text = format("  %zu  ", unknown.reading + 1) + level(unknown.best) +
                      " (95 %: " + level(unknown.interval_95.low) + " to " +
                      level(unknown.interval_95.high) + "); log-likelihood lost:";
@@ -85,6 +85,7 @@ std::string unknown_text(const Sweep& sweep, const UnknownLevel& unknown) {
 
 std::string published_text(const Sweep& sweep, const Summary& summary, const Placement& placement) {
   const Published& published = *sweep.published;
+  if (!placement.why_not.empty()) return published.source + '\n' + placement.why_not + '\n';
   std::string text = published.source +
                      "\nin SD: error over the bound's standard deviation; below: share of the "
                      "repeats, rounded as printed, with a smaller number\n";

@@ -50,8 +50,7 @@ json reading_data(const PublishedReading& reading, const PlacedReading& placed) 
 /// Levels in the unit of the axis' labels.
 json unknown_data(const Sweep& sweep, const UnknownLevel& unknown) {
   const GridAxis& axis = sweep.axes[*sweep.published->rows[unknown.row].unknown_axis];
-  const double unit =
-      axis.points.front().settings.front().value / std::stod(axis.points.front().label);
+  const double unit = unknown.unit;
   json labels = json::array(), lost = json::array();
   for (std::size_t i = 0; i < unknown.points.size(); ++i) {
     labels.push_back(axis.points[i].label);

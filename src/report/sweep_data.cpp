@@ -116,7 +116,8 @@ json sweep_data(const Sweep& sweep, const Summary& summary, const Placement* pla
             {"methods", methods},
             {"quantities", quantity_list},
             {"cells", cells_data(sweep, summary)}};
-  if (placement) data["published"] = published_data(sweep, *placement);
+  if (placement && placement->why_not.empty())
+    data["published"] = published_data(sweep, *placement);
   return data;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -99,6 +100,16 @@ std::vector<double> levels(const Sweep& sweep, std::size_t axis) {
   return out;
 }
 
+/// What a label of 1 is in the path's unit; 1 where the labels are words.
+double unit_of(const GridAxis& axis) {
+  const AxisPoint& first = axis.points.front();
+  const char* end = first.label.data() + first.label.size();
+  double label = 0.0;
+  const auto [stop, error] = std::from_chars(first.label.data(), end, label);
+  return error == std::errc{} && stop == end && label > 0.0 ? first.settings.front().value / label
+                                                            : 1.0;
+}
+
 UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row) {
   const std::vector<PublishedRow>& rows = table.published.rows;
   const PublishedReading& reading = table.published.readings[one.reading];
@@ -116,7 +127,12 @@ UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row
         .highest();
   };
   const Profile profile(of_level, 0.01 * known.front(), 1e3 * known.front());
-  UnknownLevel out{row, one.reading, profile.best(), profile.interval_95(), {}};
+  UnknownLevel out{row,
+                   one.reading,
+                   unit_of(table.sweep.axes[*rows[row].unknown_axis]),
+                   profile.best(),
+                   profile.interval_95(),
+                   {}};
   for (const double level : known)
     out.points.push_back({level, profile.highest() - of_level(level)});
   return out;
@@ -166,6 +182,12 @@ Table table_of(const Sweep& sweep, const std::vector<BlockResult>& results) {
   return table;
 }
 
+Placement nothing(const std::string& why) {
+  Placement out;
+  out.why_not = why;
+  return out;
+}
+
 }  // namespace
 
 Placement place_published(const Sweep& sweep, const std::vector<BlockResult>& results) {
@@ -175,6 +197,11 @@ Placement place_published(const Sweep& sweep, const std::vector<BlockResult>& re
   Placement out;
   for (std::size_t i = 0; i < table.published.readings.size(); ++i) {
     const Understood one = understood(table, i);
+    if (!std::ranges::all_of(one.runs, [](const PrintedRun& run) {
+          return run.covariance.allFinite() && run.covariance.diagonal().minCoeff() > 0.0;
+        }))
+      return nothing("\"" + table.published.readings[i].name +
+                     "\" has no bound: the published runs cannot be placed");
     out.readings.push_back(placed(table, one));
     out.readings.back().gain =
         out.readings.back().log_likelihood - out.readings.front().log_likelihood;

@@ -183,5 +183,12 @@ TEST_F(OwnRun, ALostLevelIsFoundAgain) {
   EXPECT_NEAR(placement.unknown[2].best, 10.0 * level.best, 1e-3 * 10.0 * level.best);
 }
 
+TEST_F(OwnRun, WithoutABoundNothingIsPlaced) {
+  sweep_.published->readings[2].settings = {{"pass.length_mm", 1e-3}};  // one reading
+  const Placement placement = place_published(sweep_, results_);
+  EXPECT_NE(placement.why_not.find("\"a tenth\" has no bound"), std::string::npos);
+  EXPECT_TRUE(placement.readings.empty());
+}
+
 }  // namespace
 }  // namespace trueaxis::study

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "trueaxis/study/block.hpp"
@@ -32,6 +33,7 @@ struct PlacedReading {
 /// reading, together with the rows that are whole where the noise factor is estimated.
 struct UnknownLevel {
   std::size_t row = 0, reading = 0;
+  double unit = 1.0;  ///< of the axis' labels, where these are numbers
   double best = 0.0;
   Ends interval_95;  ///< NaN where the likelihood stays above on that side
   struct AtPoint {
@@ -51,12 +53,13 @@ struct Placement {
   std::vector<PlacedReading> readings;
   std::vector<UnknownLevel> unknown;
   std::vector<AmongRepeats> among;  ///< of the cells of the first method
+  std::string why_not;              ///< nothing can be placed: the rest is empty
 };
 
 /// Where the published runs of a sweep fall. The covariance of a run is the bound's, noise at the
 /// reading's factor, plus d²/12 for a number printed to steps of d; an error printed as c times the
 /// quantity's is divided by c. χ² = eᵀV⁻¹e. Log-likelihoods are of the printed numbers (densities
-/// per mm, 1 and degree), so that readings compare.
+/// per mm, 1 and degree), so that readings compare. Nothing is placed where there is no bound.
 Placement place_published(const Sweep& sweep, const std::vector<BlockResult>& results);
 
 }  // namespace trueaxis::study
