@@ -18,8 +18,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
   auto options = std::make_shared<Options>();
   command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
-  command->add_option("-o,--output", options->folder, "folder of the results and the journal")
-      ->required();
+  command->add_option(
+      "-o,--output", options->folder,
+      "folder of the results, the report and the journal; without it nothing is kept");
   command->add_option("--threads", options->threads, "default: as many as there are")
       ->check(CLI::Range(0, 4096));
   command->callback([options, &exit_code] {

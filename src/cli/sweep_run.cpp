@@ -2,37 +2,60 @@
 #include "cli/sweep_run.hpp"
 
 #include <iostream>
+#include <optional>
 
 #include "cli/progress.hpp"
 #include "trueaxis/io/file.hpp"
+#include "trueaxis/io/published_results.hpp"
 #include "trueaxis/io/sweep_journal.hpp"
 #include "trueaxis/io/sweep_results.hpp"
+#include "trueaxis/report/sweep_report.hpp"
+#include "trueaxis/study/placement.hpp"
 #include "trueaxis/study/summary.hpp"
 
 namespace trueaxis::cli {
 
+namespace {
+
+void write_results(const study::Sweep& sweep, const std::string& folder,
+                   const study::Summary& summary, const study::Placement* placement) {
+  const std::string csv = sweep_csv(sweep, summary), json = sweep_json(sweep, summary);
+  const std::string timing = sweep_timing_csv(sweep, summary);
+  const std::string report = render_sweep_report(sweep, summary, placement);
+  const std::string published = placement ? published_json(sweep, *placement) : "";
+  std::vector<FileContent> files{{folder + "/sweep.csv", csv},
+                                 {folder + "/sweep.json", json},
+                                 {folder + "/timing.csv", timing},
+                                 {folder + "/report.html", report}};
+  if (placement) files.push_back({folder + "/published.json", published});
+  write_files(files);
+}
+
+}  // namespace
+
 void run_sweep(const study::Sweep& sweep, const std::string& folder, const BlockRunner& runner) {
-  SweepJournal journal(folder, sweep);
-  std::vector<study::BlockResult> results = journal.take_finished();
+  std::optional<SweepJournal> journal;
+  if (!folder.empty()) journal.emplace(folder, sweep);
+  std::vector<study::BlockResult> results;
+  if (journal) results = journal->take_finished();
   const std::vector<study::Block> to_do = blocks_to_do(sweep, results);
   std::size_t repeats_to_do = 0;
   for (const study::Block& block : to_do) repeats_to_do += block.count;
   const std::size_t before = study::cell_count(sweep) * sweep.repeats - repeats_to_do;
   Progress progress(before, repeats_to_do, "repeats");
   runner(to_do, [&](study::BlockResult&& result) {
-    journal.append(result);
+    if (journal) journal->append(result);
     progress.add(result.block.count);
     results.push_back(std::move(result));
   });
   progress.end();
   const study::Summary summary = study::summarise(sweep, results);
-  const std::string csv = sweep_csv(sweep, summary), json = sweep_json(sweep, summary);
-  const std::string timing = sweep_timing_csv(sweep, summary);
-  const FileContent files[] = {{folder + "/sweep.csv", csv},
-                               {folder + "/sweep.json", json},
-                               {folder + "/timing.csv", timing}};
-  write_files(files);
-  std::cout << sweep_text(sweep, summary) << folder << "/sweep.csv\n";
+  std::optional<study::Placement> placement;
+  if (sweep.published) placement = study::place_published(sweep, results);
+  if (!folder.empty()) write_results(sweep, folder, summary, placement ? &*placement : nullptr);
+  std::cout << sweep_text(sweep, summary);
+  if (placement) std::cout << '\n' << published_text(sweep, summary, *placement);
+  if (!folder.empty()) std::cout << folder << "/report.html\n";
 }
 
 }  // namespace trueaxis::cli

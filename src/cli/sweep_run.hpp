@@ -13,8 +13,9 @@ namespace trueaxis::cli {
 using BlockRunner = std::function<void(const std::vector<study::Block>&,
                                        const std::function<void(study::BlockResult&&)>&)>;
 
-/// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json and
-/// timing.csv there, and the table on standard output. Progress on a terminal.
+/// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json,
+/// timing.csv, report.html and, beside published runs, published.json there, and the table on
+/// standard output. Progress on a terminal. Without a folder no file is read or written.
 void run_sweep(const study::Sweep& sweep, const std::string& folder, const BlockRunner& runner);
 
 }  // namespace trueaxis::cli

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "io/published_toml.hpp"
 #include "io/scenario_tables.hpp"
 #include "io/toml_units.hpp"
 #include "trueaxis/base/error.hpp"
@@ -155,6 +156,14 @@ void read_distribution(TomlTable table, const std::string& key, const std::optio
   sweep.drawn.push_back(std::move(drawn));
 }
 
+std::optional<Setting> read_setting(TomlTable& set, const std::string& key, const Keys& keys) {
+  const double value = set.required_number(key);
+  const std::optional<Known> known = keys.find(set, key, key);
+  if (!known) return std::nullopt;
+  check_range(set, key, *known, value);
+  return Setting{known->parameter.path, value * known->factor};
+}
+
 void read_cases(TomlTable table, const std::vector<TomlTable>& cases, const Keys& keys,
                 Sweep& sweep) {
   GridAxis axis{table.required_text("name"), {}};
@@ -162,12 +171,10 @@ void read_cases(TomlTable table, const std::vector<TomlTable>& cases, const Keys
     AxisPoint point{one.required_text("label"), {}};
     TomlTable set = one.required_table("set");
     for (const std::string& key : set.keys()) {
-      const double value = set.required_number(key);
-      const std::optional<Known> known = keys.find(set, key, key);
-      if (!known) continue;
-      check_free(set, key, known->parameter.path, sweep);
-      check_range(set, key, *known, value);
-      point.settings.push_back({known->parameter.path, value * known->factor});
+      const std::optional<Setting> setting = read_setting(set, key, keys);
+      if (!setting) continue;
+      check_free(set, key, setting->path, sweep);
+      point.settings.push_back(*setting);
     }
     axis.points.push_back(std::move(point));
   }
@@ -243,6 +250,15 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path)
     document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
   const Keys keys(sweep.base, whole);
   for (const TomlTable& axis : root.tables("axis")) read_axis(axis, keys, sweep);
+  if (std::optional<TomlTable> paper = root.maybe_table("paper")) {
+    if (document.ok()) {
+      sweep.published = read_published(*paper, sweep, [&](TomlTable& set, const std::string& key) {
+        return read_setting(set, key, keys);
+      });
+    } else {
+      paper->ignore_rest();
+    }
+  }
   document.finish();
   return sweep;
 }

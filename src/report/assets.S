@@ -32,4 +32,14 @@ trueaxis_report_js_begin:
     .incbin "report/report.js"
 trueaxis_report_js_end:
 
+    .global trueaxis_sweep_js_begin, trueaxis_sweep_js_end
+trueaxis_sweep_js_begin:
+    .incbin "report/format.js"
+    .incbin "report/page.js"
+    .incbin "report/charts.js"
+    .incbin "report/sweep_charts.js"
+    .incbin "report/sweep_published.js"
+    .incbin "report/sweep.js"
+trueaxis_sweep_js_end:
+
     .section .note.GNU-stack, "", @progbits

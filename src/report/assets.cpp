@@ -6,6 +6,7 @@ extern const char trueaxis_report_html_begin[], trueaxis_report_html_end[];
 extern const char trueaxis_report_css_begin[], trueaxis_report_css_end[];
 extern const char trueaxis_echarts_begin[], trueaxis_echarts_end[];
 extern const char trueaxis_report_js_begin[], trueaxis_report_js_end[];
+extern const char trueaxis_sweep_js_begin[], trueaxis_sweep_js_end[];
 }
 
 namespace trueaxis {
@@ -21,7 +22,8 @@ ReportAssets report_assets() {
   return {between(trueaxis_report_html_begin, trueaxis_report_html_end),
           between(trueaxis_report_css_begin, trueaxis_report_css_end),
           between(trueaxis_echarts_begin, trueaxis_echarts_end),
-          between(trueaxis_report_js_begin, trueaxis_report_js_end)};
+          between(trueaxis_report_js_begin, trueaxis_report_js_end),
+          between(trueaxis_sweep_js_begin, trueaxis_sweep_js_end)};
 }
 
 }  // namespace trueaxis

@@ -135,3 +135,12 @@ function cellMap(cells, values, {limit, positionName, width, cName}) {
     series: [{type: 'heatmap', data, progressive: 0, emphasis: {disabled: true}}],
   };
 }
+
+/** Charts keep their size in px: before printing the page takes the width of the paper. */
+function follow(figures) {
+  const redraw = () => figures.forEach((f) => f.redraw());
+  window.addEventListener('resize', redraw);
+  const printing = (on) => { document.body.classList.toggle('printing', on); redraw(); };
+  window.addEventListener('beforeprint', () => printing(true));
+  window.addEventListener('afterprint', () => printing(false));
+}

@@ -49,15 +49,6 @@ function build() {
     element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
 }
 
-/** Charts keep their size in px: before printing the page takes the width of the paper. */
-function follow(figures) {
-  const redraw = () => figures.forEach((f) => f.redraw());
-  window.addEventListener('resize', redraw);
-  const printing = (on) => { document.body.classList.toggle('printing', on); redraw(); };
-  window.addEventListener('beforeprint', () => printing(true));
-  window.addEventListener('afterprint', () => printing(false));
-}
-
 build();
 const figures = [...document.querySelectorAll('figure')];
 figures.forEach((f) => f.start());

@@ -3,46 +3,19 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "support/diagnosis_example.hpp"
+#include "support/open_page.hpp"
 
 namespace trueaxis {
 namespace {
 
+using example::can_open_pages;
+using example::open_page;
+using example::Opinion;
+
 namespace fs = std::filesystem;
-
-bool can_open_pages() {
-  const bool chromium = std::getenv("TRUEAXIS_CHROMIUM") || fs::exists("/usr/bin/chromium");
-  return chromium && std::system("node --version >/dev/null 2>&1") == 0;
-}
-
-std::string read(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-/// What report_page.mjs says of a page, and whether it finds it sound.
-struct Opinion {
-  bool sound = false;
-  std::string log;
-};
-
-Opinion open_page(const std::string& html, const std::string& name) {
-  const fs::path folder = fs::path(TRUEAXIS_SCRATCH) / "report" / name;
-  fs::create_directories(folder);
-  const fs::path page = folder / "report.html", log = folder / "log.txt";
-  std::ofstream(page, std::ios::binary) << html;
-  const std::string command = "node '" TRUEAXIS_SOURCE "/tests/e2e/report_page.mjs' '" +
-                              page.string() + "' '" + folder.string() + "' >'" + log.string() +
-                              "' 2>&1";
-  const bool sound = std::system(command.c_str()) == 0;
-  return {sound, read(log)};
-}
 
 void expect_sound(const JobResult& result, const std::string& name) {
   const Opinion opinion = open_page(render_report(result), name);

@@ -19,6 +19,11 @@ namespace trueaxis {
 ///                  distribution = "log-uniform" low high | "normal" mean sd
 ///     [[axis]]     name = "noise"
 ///     [[axis.case]]  label = "uniform"   set = { "noise.sigma_um" = 0, "noise.uniform_um" = 5 }
+///     [paper]      source = "…"   parameters = ["x0", "k"]
+///     [[paper.row]]  at = ["10"]   values = ["0.0507", "402.036"]     ("?": a noise level lost)
+///     [[paper.reading]]  name = "…"   set = { "pass.z_end_mm" = -10 }
+///                  printed_per_error = { half_angle = 2 }   noise_factor = 1   fit_noise = false
+///                  least_decimals = { y0 = 4 }
 ///
 /// A key is a scenario's table, its place in the list where there are several ("pass.1.",
 /// "effect.0."; "pass." is every pass), and its key there in any unit; "pass.length_mm" moves the

@@ -3,20 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/study/published.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
 /// what the fit or the diagnosis makes of it, beside the Cramér-Rao bound.
 namespace trueaxis::study {
-
-/// A number of the scenario and what it is set to, in the unit inside (see ScenarioParameter).
-struct Setting {
-  std::string path;
-  double value = 0.0;
-};
 
 /// A point of an axis of the grid: one number or, for a case with a name, several.
 struct AxisPoint {
@@ -49,7 +45,8 @@ struct Sweep {
   std::vector<Method> methods{Method::fit};  ///< each on the same readings
   std::size_t repeats = 2000;
   std::uint64_t seed = 1;
-  std::string input_hash;  ///< of all bytes that the sweep was read from
+  std::optional<Published> published;  ///< single runs that someone printed
+  std::string input_hash;              ///< of all bytes that the sweep was read from
 };
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.

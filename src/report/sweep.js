@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the data of a sweep in the page, builds it top to bottom, then draws the charts.
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const mostRows = 400;
+
+/** Small amounts of an edge unit in that of shown(), with the decimals that three digits of `size` have. */
+function amounts(values, unit, size) {
+  const [factor] = shown(unit);
+  const decimals = size > 0 ? 2 - Math.floor(Math.log10(size * factor)) : 3;
+  return values.map((value) => isNumber(value) ? fixed(value * factor, decimals) : '–');
+}
+
+const unitOf = (name, unit) => `${name}${nbsp}in${nbsp}${shown(unit)[1].replace(' ', nbsp)}`;
+
+/** A true value in its edge unit. */
+const trueText = (value, unit) => isNumber(value) ? `${tick(Number(value.toPrecision(7)))}${unit === '1' ? '' : nbsp + (unit === 'deg' ? '°' : unit)}` : '–';
+
+const range = (low, high, digits, factor = 1) => isNumber(low) ? ` (${fixed(low * factor, digits)} … ${fixed(high * factor, digits)})` : '';
+
+function summary() {
+  const rows = data.cells.flatMap((cell) => cell.rows);
+  const tested = rows.filter((row) => row.at_bound !== null);
+  const good = tested.filter((row) => row.at_bound).length;
+  const ratios = rows.map((row) => row.ratio).filter(isNumber);
+  const covers = rows.map((row) => row.coverage).filter(isNumber);
+  const failures = data.cells.reduce((sum, cell) => sum + cell.failures, 0);
+  const all = tested.length > 0 && good === tested.length;
+  const word = tested.length ? `${good} of ${tested.length} ratios at the bound` : 'No bound';
+  const ends = (list, show) => list.length ? `${show(list.reduce((a, b) => Math.min(a, b)))} to ${show(list.reduce((a, b) => Math.max(a, b)))}` : 'none';
+  return element('div', {class: `banner ${all ? 'good' : 'neutral'}`, role: 'status'}, element('div', {class: 'word'}, word),
+    paragraph(tested.length ? 'RMSE over the Cramér-Rao bound is 1 within what the number of repeats leaves (1 % over all ratios together).'
+      : 'The readings do not determine the parameters, or no bound is known for this noise.', 'line'),
+    facts([['RMSE / bound', ends(ratios, (r) => fixed(r, 3))], ['U (k = 2) covers', ends(covers, (c) => `${fixed(100 * c, 1)}${nbsp}%`)],
+      ['Repeats that failed', `${failures} of ${data.cells.length * data.repeats}`]], 'numbers'));
+}
+
+const drawnText = () => data.drawn.length ? data.drawn.map(axisWords).join(', ') : 'nothing but the noise';
+
+function chartSections(view) {
+  const note = view.all.length > view.curves.length ? paragraph(`${view.curves.length} of ${view.all.length} curves are drawn; the table and sweep.csv have all.`, 'quiet') : null;
+  const each = (make) => element('div', {class: 'triple'}, data.quantities.map((quantity, q) => make(data, view, quantity, q)).filter(Boolean));
+  const shares = (options) => view.curves.map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
+  const efficiency = shares({keys: ['ratio_low', 'ratio', 'ratio_high'], factor: 1, reference: 1, name: 'RMSE / bound', words: 'RMSE over the bound with its 95 % interval.'});
+  const coverage = shares({keys: ['coverage_low', 'coverage', 'coverage_high'], factor: 100, reference: 95.45, name: '%', words: 'Share of the repeats with |error| ≤ U (k = 2), 95 % interval; dashed: 95.45 %.'});
+  return [section('error', 'Error and bound', note, each(errorChart)),
+    efficiency.length ? section('efficiency', 'Efficiency', ...efficiency) : null,
+    coverage.length ? section('coverage', 'Does U cover?', ...coverage) : null,
+    section('spread', 'Spread', paragraph('Dashed where there is a bound: where 5 % and 95 % of a normal distribution at the bound lie.', 'quiet'), each(spreadChart))];
+}
+
+function tableSection() {
+  const many = data.methods.length > 1;
+  const rows = data.cells.flatMap((cell) => cell.rows.map((row, q) => {
+    const {name, unit} = data.quantities[q];
+    return [unitOf(name, unit), ...data.axes.map((a, i) => a.labels[cell.at[i]]), ...(many ? [cell.method] : []), String(cell.readings), trueText(row.truth, unit),
+      ...amounts(['bias', 'sd', 'rmse', 'q05', 'q50', 'q95', 'bound'].map((key) => row[key]), unit, row.bound ?? row.rmse),
+      isNumber(row.ratio) ? `${fixed(row.ratio, 3)}${range(row.ratio_low, row.ratio_high, 3)}${row.at_bound === false ? ' !' : ''}` : '–',
+      isNumber(row.coverage) ? `${fixed(100 * row.coverage, 1)}${range(row.coverage_low, row.coverage_high, 1, 100)}${nbsp}%` : '–', String(data.repeats - row.estimates)];
+  }));
+  const failed = data.cells.filter((cell) => cell.why).map((cell) => paragraph(`${cell.failures} failed: ${cell.why}`, 'quiet')).slice(0, 12);
+  return section('table', 'Table', rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
+    table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
+      ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed'],
+      rows.slice(0, mostRows)), ...failed);
+}
+
+function build() {
+  const view = gridView(data);
+  const sections = [...chartSections(view), publishedSection(data), tableSection()].filter(Boolean);
+  document.getElementById('page').replaceChildren(
+    element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} sweep`), element('h1', {}, data.title),
+      facts([['Grid', `${data.cells.length} cells of ${data.repeats} repeats`], ['Surface', data.surface], ['Drawn', drawnText()], ['Seed', data.seed], ['Input', data.input_hash || 'no hash']], 'facts origin')),
+    summary(), element('nav', {'aria-label': 'Contents'}, sections.map((s) => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent))),
+    ...sections, element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
+}
+
+build();
+const figures = [...document.querySelectorAll('figure')];
+figures.forEach((f) => f.start());
+follow(figures);
+window.trueaxisReport = {charts, ready: false};
+requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "report/sweep_data.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+
+#include "trueaxis/study/quantities.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace study;
+using nlohmann::json;
+
+/// The number that a label is, NaN for a word.
+double number_of(const std::string& label) {
+  double value = 0.0;
+  const char* end = label.data() + label.size();
+  const auto [stop, error] = std::from_chars(label.data(), end, value);
+  return error == std::errc{} && stop == end ? value : std::numeric_limits<double>::quiet_NaN();
+}
+
+json axes_data(const Sweep& sweep) {
+  json axes = json::array();
+  for (const GridAxis& axis : sweep.axes) {
+    json labels = json::array(), values = json::array();
+    for (const AxisPoint& point : axis.points) {
+      labels.push_back(point.label);
+      values.push_back(number_of(point.label));
+    }
+    axes.push_back({{"name", axis.name}, {"labels", labels}, {"values", values}});
+  }
+  return axes;
+}
+
+json drawn_data(const Sweep& sweep) {
+  json list = json::array();
+  for (const Drawn& drawn : sweep.drawn) list.push_back(drawn.name);
+  return list;
+}
+
+json row_data(const Row& row) {
+  json data;
+  const std::pair<const char*, double> numbers[] = {{"truth", row.truth},
+                                                    {"bias", row.bias},
+                                                    {"u_bias", row.u_bias},
+                                                    {"sd", row.sd},
+                                                    {"rmse", row.rmse},
+                                                    {"q05", row.q05},
+                                                    {"q50", row.q50},
+                                                    {"q95", row.q95},
+                                                    {"bound", row.bound},
+                                                    {"ratio", row.ratio},
+                                                    {"ratio_low", row.ratio_95.low},
+                                                    {"ratio_high", row.ratio_95.high},
+                                                    {"coverage", row.coverage},
+                                                    {"coverage_low", row.coverage_95.low},
+                                                    {"coverage_high", row.coverage_95.high}};
+  for (const auto& [name, value] : numbers) data[name] = to_six_digits(value);
+  data["estimates"] = row.estimates;
+  data["at_bound"] = row.at_bound ? json(*row.at_bound) : json(nullptr);
+  return data;
+}
+
+json cells_data(const Sweep& sweep, const Summary& summary) {
+  json cells = json::array();
+  std::size_t next = 0;
+  for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
+    const Cell at = cell_at(sweep, cell);
+    const CellSummary& of = summary.cells[cell];
+    json rows = json::array();
+    for (; next < summary.rows.size() && summary.rows[next].cell == cell; ++next)
+      rows.push_back(row_data(summary.rows[next]));
+    cells.push_back({{"at", at.point},
+                     {"method", to_string(at.method)},
+                     {"readings", of.readings},
+                     {"failures", of.failures},
+                     {"why", of.why},
+                     {"linear", of.bound.kind == Bound::Kind::gauss_markov},
+                     {"found", to_six_digits(of.found)},
+                     {"named", to_six_digits(of.named)},
+                     {"rows", std::move(rows)}});
+  }
+  return cells;
+}
+
+}  // namespace
+
+double to_six_digits(double value) {
+  if (!std::isfinite(value)) return value;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return std::strtod(text, nullptr);
+}
+
+std::string sweep_title(const Sweep& sweep) { return sweep.name.empty() ? "Sweep" : sweep.name; }
+
+json sweep_data(const Sweep& sweep, const Summary& summary, const Placement* placement) {
+  json quantity_list = json::array(), methods = json::array();
+  for (const Quantity& quantity : quantities(sweep.base.part.kind))
+    quantity_list.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
+  for (const Method method : sweep.methods) methods.push_back(to_string(method));
+  json data{{"schema", "trueaxis.sweep_report/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"title", sweep_title(sweep)},
+            {"input_hash", sweep.input_hash},
+            {"seed", std::to_string(sweep.seed)},
+            {"repeats", sweep.repeats},
+            {"surface", surface_of(sweep.base.part.kind)},
+            {"axes", axes_data(sweep)},
+            {"drawn", drawn_data(sweep)},
+            {"methods", methods},
+            {"quantities", quantity_list},
+            {"cells", cells_data(sweep, summary)}};
+  if (placement && placement->why_not.empty())
+    data["published"] = published_data(sweep, *placement);
+  return data;
+}
+
+}  // namespace trueaxis

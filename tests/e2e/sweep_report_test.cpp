@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/report/sweep_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/open_page.hpp"
+#include "support/sweep_examples.hpp"
+#include "trueaxis/io/sweep_toml.hpp"
+
+namespace trueaxis {
+namespace {
+
+using example::open_page;
+using example::Opinion;
+
+std::string page_of(const study::Sweep& sweep) {
+  const std::vector<study::BlockResult> results = testing::run_all(sweep, 1);
+  const study::Summary summary = study::summarise(sweep, results);
+  if (!sweep.published) return render_sweep_report(sweep, summary, nullptr);
+  const study::Placement placement = study::place_published(sweep, results);
+  return render_sweep_report(sweep, summary, &placement);
+}
+
+study::Sweep shipped(const std::string& name, std::size_t repeats) {
+  study::Sweep sweep = read_sweep_toml(TRUEAXIS_SOURCE "/data/sweeps/" + name + ".toml");
+  sweep.repeats = repeats;
+  return sweep;
+}
+
+class SweepReport : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
+  }
+
+  static void expect_sound(const study::Sweep& sweep, const std::string& name) {
+    const Opinion opinion = open_page(page_of(sweep), "sweep_" + name);
+    EXPECT_TRUE(opinion.sound) << opinion.log;
+  }
+};
+
+TEST_F(SweepReport, Table1) { expect_sound(shipped("table1", 50), "table1"); }
+
+TEST_F(SweepReport, Table2WithALostLevel) { expect_sound(shipped("table2", 50), "table2"); }
+
+TEST_F(SweepReport, PlaneHasNoAxis) { expect_sound(shipped("table1_plane", 50), "plane"); }
+
+TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "noise"); }
+
+TEST_F(SweepReport, OneCellWithoutAxes) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.repeats = 10;
+  expect_sound(sweep, "one_cell");
+  sweep.drawn = {{"part.x0_um", "part.x0_mm", study::Drawn::Kind::uniform, -0.1, 0.1}};
+  expect_sound(sweep, "drawn");
+}
+
+TEST_F(SweepReport, WithoutABoundAndWithFailures) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
+  sweep.repeats = 10;
+  sweep.base.probe.relative_zero_mm = 30.0;  // a gauge: no bound
+  sweep.base.probe.nominal_radius_mm = 35.0;
+  expect_sound(sweep, "no_bound");
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
+  sweep.axes = {testing::over("pass.length_mm", {0.1, 30.0})};  // some readings, then enough
+  expect_sound(sweep, "failures");
+}
+
+TEST_F(SweepReport, ManyCells) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.repeats = 3;
+  sweep.axes = {testing::over("noise.sigma_mm", {0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007}),
+                testing::over("part.x0_mm", {-3, -2, -1, 0, 1, 2, 3, 4})};
+  expect_sound(sweep, "many");
+}
+
+TEST_F(SweepReport, HostileNamesStayText) {
+  study::Sweep sweep = shipped("table1", 3);
+  const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
+  sweep.name = sweep.axes[0].name = sweep.axes[0].points[0].label = hostile;
+  sweep.published->source = sweep.published->rows[0].name = hostile;
+  sweep.published->rows[0].values[0].text = sweep.published->readings[0].name = hostile;
+  expect_sound(sweep, "hostile");
+}
+
+}  // namespace
+}  // namespace trueaxis

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+/// A page of a report opened in headless Chromium, wide and on a phone.
+namespace trueaxis::example {
+
+inline bool can_open_pages() {
+  const bool chromium =
+      std::getenv("TRUEAXIS_CHROMIUM") || std::filesystem::exists("/usr/bin/chromium");
+  return chromium && std::system("node --version >/dev/null 2>&1") == 0;
+}
+
+inline std::string read_page(const std::filesystem::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// What report_page.mjs says of a page, and whether it finds it sound.
+struct Opinion {
+  bool sound = false;
+  std::string log;
+};
+
+inline Opinion open_page(const std::string& html, const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "report" / name;
+  std::filesystem::create_directories(folder);
+  const std::filesystem::path page = folder / "report.html", log = folder / "log.txt";
+  std::ofstream(page, std::ios::binary) << html;
+  const std::string command = "node '" TRUEAXIS_SOURCE "/tests/e2e/report_page.mjs' '" +
+                              page.string() + "' '" + folder.string() + "' >'" + log.string() +
+                              "' 2>&1";
+  const bool sound = std::system(command.c_str()) == 0;
+  return {sound, read_page(log)};
+}
+
+}  // namespace trueaxis::example
