@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/diagnose/known_effect.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/extended.hpp"
+#include "trueaxis/base/error.hpp"
+
+namespace trueaxis {
+
+using namespace diagnose_detail;
+
+namespace {
+
+constexpr int rounds = 6;           // of linearising again; the third already moves by rounding
+constexpr double settled_mm = 1e-12;
+
+/// Surface and one effect, linear about a fitted surface.
+struct Linearised {
+  Scene scene;
+  Rows rows;
+  Resolution resolution;
+  std::vector<double> deviation_mm;
+  Joint joint;
+
+  Linearised(const ProbeStream& stream, const FitResult& about, const FitOptions& options,
+             const Hypothesis& effect)
+      : scene(scene_of(stream, about, options)),
+        rows(make_rows(scene)),
+        resolution(resolution_of(scene, rows)),
+        deviation_mm(deviation(stream, scene)),
+        joint(Problem{scene, rows, resolution, deviation_mm}, {}, {effect}, 1) {}
+
+  static Scene scene_of(const ProbeStream& stream, const FitResult& about,
+                        const FitOptions& options) {
+    const double ball_mm = std::max(stream.ball_radius_mm.value_or(0.0), options.ball_radius_mm);
+    const std::vector<Clamping> clampings = clampings_of(about, ball_mm);
+    return make_scene(stream, clampings, base_of(stream, about, clampings), options.bore);
+  }
+  static std::vector<double> deviation(const ProbeStream& stream, const Scene& scene) {
+    std::vector<double> out(scene.size());
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = stream.reading_mm[i] - scene.x[i];
+    return out;
+  }
+};
+
+/// Positions at both ends from the coefficients of the last axis: x, y, slopes at mid length.
+AxisEnds ends_from(const Scene& scene, const Eigen::VectorXd& base) {
+  const auto from = static_cast<Eigen::Index>((scene.base.axes - 1) * scene.base.per_axis());
+  const double half = scene.base.tilts ? scene.z_half_mm : 0.0;
+  const double sx = scene.base.tilts ? base(from + 2) : 0.0,
+               sy = scene.base.tilts ? base(from + 3) : 0.0;
+  return {base(from) - half * sx, base(from + 1) - half * sy, base(from) + half * sx,
+          base(from + 1) + half * sy};
+}
+
+void look_about(const Linearised& at, EffectOnAxis& out) {
+  const Joint& joint = at.joint;
+  const Solution without = joint.without(0);
+  const Eigen::MatrixXd& gram = joint.evidence.total();
+  const Projection projection = project(gram, without.columns);
+  double kept = 0.0, whole = 0.0;
+  for (const std::size_t column : joint.places[0]) {
+    const auto c = static_cast<Eigen::Index>(column);
+    Eigen::VectorXd right(static_cast<Eigen::Index>(without.columns.size()));
+    for (Eigen::Index i = 0; i < right.size(); ++i)
+      right(i) = gram(static_cast<Eigen::Index>(without.columns[static_cast<std::size_t>(i)]), c);
+    out.shift_per_unit.push_back(ends_from(at.scene, without.inverse * right));
+    kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
+  }
+  out.left = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
+  out.separable = joint.solution.rank == joint.solution.columns.size();
+  const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
+  out.u_ratio = axis_uncertainty(at.scene, joint.solution.inverse.topLeftCorner(n, n)).u_mm /
+                axis_uncertainty(at.scene, without.inverse).u_mm;
+}
+
+double apart(const AxisEnds& a, const AxisEnds& b) {
+  return std::max(std::hypot(a[0] - b[0], a[1] - b[1]), std::hypot(a[2] - b[2], a[3] - b[3]));
+}
+
+}  // namespace
+
+AxisEnds ends_of(const FitResult& fit) {
+  const auto low = fit.axis.axis.at(fit.position_min_mm),
+             high = fit.axis.axis.at(fit.position_max_mm);
+  return {low[0], low[1], high[0], high[1]};
+}
+
+EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options,
+                            const KnownEffect& known) {
+  const Effect* effect = find_effect(known.effect);
+  expects(effect != nullptr && !effect->check, "an effect of the catalogue");
+  expects(options.surface != "plane", "a lateral surface");
+  EffectOnAxis out;
+  out.alone = out.extended = fit(stream, options);
+  if (out.alone.status != FitStatus::converged) return out;
+  const Hypothesis hypothesis = of_effect(known.effect.c_str(), known.shape, known.free);
+  for (int round = 0; round < rounds; ++round) {
+    const Linearised at(stream, out.extended, options, hypothesis);
+    if (round == 0) look_about(at, out);
+    if (!out.separable) return out;
+    const Eigen::VectorXd coefficients = at.joint.of(0);
+    const std::vector<double> effect_mm = contribution(at.scene, {hypothesis}, coefficients);
+    FitResult next = extended_fit(stream, options, at.joint, effect_mm, {});
+    if (next.status != FitStatus::converged) {
+      out.separable = false;
+      return out;
+    }
+    out.linear.assign(coefficients.data(), coefficients.data() + coefficients.size());
+    const double moved = apart(ends_of(next), ends_of(out.extended));
+    out.extended = std::move(next);
+    if (moved < settled_mm) break;
+  }
+  return out;
+}
+
+}  // namespace trueaxis
