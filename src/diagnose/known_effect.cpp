@@ -45,14 +45,20 @@ struct Linearised {
   }
 };
 
-/// Positions at both ends from the coefficients of the last axis: x, y, slopes at mid length.
-AxisEnds ends_from(const Scene& scene, const Eigen::VectorXd& base) {
+/// Positions at the ends of the probed Z from the coefficients of the last axis: x, y, slopes at the
+/// middle of the contacts.
+AxisEnds ends_from(const Scene& scene, const FitResult& fit, const Eigen::VectorXd& base) {
   const auto from = static_cast<Eigen::Index>((scene.base.axes - 1) * scene.base.per_axis());
-  const double half = scene.base.tilts ? scene.z_half_mm : 0.0;
-  const double sx = scene.base.tilts ? base(from + 2) : 0.0,
-               sy = scene.base.tilts ? base(from + 3) : 0.0;
-  return {base(from) - half * sx, base(from + 1) - half * sy, base(from) + half * sx,
-          base(from + 1) + half * sy};
+  AxisEnds out;
+  for (const std::size_t end : {0, 2}) {
+    const double lever =
+        (end == 0 ? fit.position_min_mm : fit.position_max_mm) - scene.z_mid_mm;
+    for (const Eigen::Index i : {0, 1}) {
+      out[end + static_cast<std::size_t>(i)] =
+          base(from + i) + (scene.base.tilts ? lever * base(from + 2 + i) : 0.0);
+    }
+  }
+  return out;
 }
 
 void look_about(const Linearised& at, EffectOnAxis& out) {
@@ -66,10 +72,11 @@ void look_about(const Linearised& at, EffectOnAxis& out) {
     Eigen::VectorXd right(static_cast<Eigen::Index>(without.columns.size()));
     for (Eigen::Index i = 0; i < right.size(); ++i)
       right(i) = gram(static_cast<Eigen::Index>(without.columns[static_cast<std::size_t>(i)]), c);
-    out.shift_per_unit.push_back(ends_from(at.scene, without.inverse * right));
+    out.shift_per_unit.push_back(ends_from(at.scene, out.alone, without.inverse * right));
     kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
   }
   out.left = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
+  out.z_mid_mm = at.scene.z_mid_mm, out.z_half_mm = at.scene.z_half_mm;
   out.separable = joint.solution.rank == joint.solution.columns.size();
   const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
   out.u_ratio = axis_uncertainty(at.scene, joint.solution.inverse.topLeftCorner(n, n)).u_mm /

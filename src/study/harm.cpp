@@ -16,6 +16,13 @@ using namespace virtual_lathe;
 
 // What contact and fit leave of a noise-free axis: some hundred units of the last place of 40 mm.
 constexpr double rounding_mm = 1e-11;
+// The fit stops at a step that is worth this share of its cost: √(share n) u of a parameter.
+constexpr double stop_share = 1e-9;
+
+double stops_within_mm(const FitResult& fit) {
+  const double u = std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
+  return std::sqrt(stop_share * static_cast<double>(fit.points)) * u / fit.u_factor;
+}
 
 /// Displacements of the axis per unit of the effect, one for each of its directions.
 using Moves = std::vector<AxisEnds>;
@@ -69,6 +76,7 @@ AxisEnds true_ends(const Scenario& scenario, const FitResult& fit) {
 struct AtSize {
   Moves alone, extended;
   bool separable = true;
+  double stops_within = 0.0;  ///< per unit
 };
 
 AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase& of, double size) {
@@ -87,6 +95,7 @@ AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase&
     out.alone.push_back(per_unit(ends_of(found.alone)));
     out.extended.push_back(per_unit(ends_of(found.extended)));
     out.separable = out.separable && found.separable;
+    out.stops_within = std::max(out.stops_within, stops_within_mm(found.alone) / size);
   }
   return out;
 }
@@ -118,6 +127,8 @@ HarmRow harm_of(const Scenario& scenario, const HarmCase& of) {
       effect_on_axis(simulate_clean(ideal).stream, options, of.known);
   if (linearised.alone.status != FitStatus::converged)
     throw InputError(of.effect, "the surface cannot be fitted: " + linearised.alone.message);
+  ideal.u_start_mm = linearised.z_mid_mm - linearised.z_half_mm;  // the same u in both
+  ideal.u_end_mm = linearised.z_mid_mm + linearised.z_half_mm;
   const AtSize whole = at_size(ideal, options, of, of.size),
                half = at_size(ideal, options, of, 0.5 * of.size);
   const Moves predicted = predicted_moves(linearised, of),
@@ -132,7 +143,8 @@ HarmRow harm_of(const Scenario& scenario, const HarmCase& of) {
   row.second_order = apart(whole.alone, half.alone);
   row.off = apart(limit, predicted);
   row.off_whole = apart(whole.alone, predicted), row.off_half = apart(half.alone, predicted);
-  row.rounding = 4.0 * rounding_mm / of.size / of.edge;
+  row.rounding = (4.0 * rounding_mm / of.size + 2.0 * half.stops_within + whole.stops_within) /
+                 of.edge;  // of 2 × half − whole
   row.agrees = row.off <= row.second_order + row.rounding;
   row.left = linearised.left;
   row.separable = linearised.separable && whole.separable && half.separable;

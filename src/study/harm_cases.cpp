@@ -29,10 +29,13 @@ struct Where {
 
 Where where_of(const virtual_lathe::Scenario& scenario) {
   const ProbeStream stream = virtual_lathe::simulate_clean(scenario).stream;
-  const Probed probed = probed_length(stream);
+  FitOptions options;
+  options.surface = surface_of(scenario.part.kind);
+  options.bore = scenario.part.bore;
+  const EffectOnAxis about = effect_on_axis(stream, options, {"probe.ball_radius", {}, {}});
   const auto [least, most] = std::ranges::minmax(stream.reading_mm);
-  return {probed.low_mm,
-          probed.high_mm,
+  return {about.z_mid_mm - about.z_half_mm,
+          about.z_mid_mm + about.z_half_mm,
           0.5 * (least + most),
           std::max(0.5, 0.5 * (most - least)),
           stream.time_s.back() - stream.time_s.front(),
@@ -138,9 +141,9 @@ std::vector<HarmCase> machine_cases(const Where& at) {
       angle("encoder.offset", "", small_rad, {}, {}, {only("angle_rad")}),
       angle("encoder.eccentricity", "", small_rad, {}, {},
             phases("amplitude_rad", "phase_rad", 1.0)),
-      free(unit(mm("thermal.drift", "linear", {.time_constant_s = 600},
-                   {{"amplitude_mm", 0.0}, {"time_constant_s", 600}}, {only("rate_mm_per_s")}),
-                small_mm / at.duration_s, "mm/s"),
+      free(mm("thermal.drift", "linear, over the measurement", {.time_constant_s = 600},
+              {{"amplitude_mm", 0.0}, {"time_constant_s", 600}},
+              {{{{"rate_mm_per_s", 1.0 / at.duration_s}}, {1.0 / at.duration_s}}}),
            {0}),
       free(mm("thermal.drift", "exponential, a third of the time",
               {.time_constant_s = at.duration_s / 3},
@@ -184,7 +187,6 @@ void add_stated(std::vector<HarmCase>& cases) {
     const bool first =
         &one == &*std::ranges::find(cases, one.effect, &HarmCase::effect);
     const bool figure = one.effect == "part.roundness"  ? one.form == "ovality"
-                        : one.effect == "thermal.drift" ? one.form.starts_with("exponential")
                                                         : first;
     if (effect->harm && figure) one.stated = effect->harm->value;
     if (one.effect == "part.roundness" && one.form == "three lobes") one.stated = three_lobes;
@@ -196,6 +198,7 @@ void add_stated(std::vector<HarmCase>& cases) {
 std::vector<HarmCase> harm_cases(const virtual_lathe::Scenario& scenario) {
   virtual_lathe::Scenario ideal = scenario;
   ideal.effects.clear();
+  ideal.noise = {};
   const Where at = where_of(ideal);
   std::vector<HarmCase> all = part_cases(at);
   for (const auto& more : {machine_cases(at), probe_cases(at)})

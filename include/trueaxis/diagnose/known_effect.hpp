@@ -34,6 +34,7 @@ struct EffectOnAxis {
   /// Standard uncertainty of the axis with the effect fitted over that without (white noise): what
   /// the extended model costs.
   double u_ratio = 0.0;
+  double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< of the terms: u = (s − z_mid)/z_half, ±1 at the ends
 };
 
 /// @throws InputError as fit() does, ContractViolation for an unknown effect, a check, or a face.
