@@ -67,7 +67,8 @@ AxisEnds true_ends(const Scenario& scenario, const FitResult& fit) {
   const std::vector<Quantity> names = quantities(scenario.part.kind);
   AxisEnds out{};
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].name == "x_at_min_z") std::copy_n(truth.begin() + static_cast<long>(i), 4, out.begin());
+    if (names[i].name == "x_at_min_z")
+      std::copy_n(truth.begin() + static_cast<long>(i), 4, out.begin());
   }
   return out;
 }
@@ -93,7 +94,9 @@ AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase&
       return moved;
     };
     out.alone.push_back(per_unit(ends_of(found.alone)));
-    out.extended.push_back(per_unit(ends_of(found.extended)));
+    AxisEnds extended = per_unit(ends_of(found.extended));
+    for (std::size_t i = 0; i < 4; ++i) extended[i] -= of.directions[d].rigid[i];
+    out.extended.push_back(extended);
     out.separable = out.separable && found.separable;
     out.stops_within = std::max(out.stops_within, stops_within_mm(found.alone) / size);
   }
@@ -104,7 +107,7 @@ AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase&
 Moves predicted_moves(const EffectOnAxis& linearised, const HarmCase& of) {
   Moves out;
   for (const HarmDirection& direction : of.directions) {
-    AxisEnds sum{};
+    AxisEnds sum = direction.rigid;
     for (std::size_t j = 0; j < linearised.shift_per_unit.size(); ++j) {
       for (std::size_t i = 0; i < 4; ++i)
         sum[i] += direction.linear[j] * linearised.shift_per_unit[j][i];
@@ -168,7 +171,7 @@ Scenario harm_reference() {
   scenario.part.m = tilt_rad * std::sin(away_rad);
   PlannedPass pass;
   pass.end_mm = 60.0;
-  pass.feed_mm_per_rev = 3.1;
+  pass.feed_mm_per_rev = 0.77;
   pass.readings_per_revolution = 40.3;
   scenario.plan.passes = {pass};
   return scenario;

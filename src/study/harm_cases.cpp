@@ -21,7 +21,9 @@ constexpr double small_slope_rad = 1e-5;
 
 /// What the plan gives the shapes.
 struct Where {
-  double low_mm, high_mm, x_mm, range_mm, duration_s;
+  double low_mm, high_mm;      ///< of the contacts, along the part's axis
+  double z_low_mm, z_high_mm;  ///< probed
+  double x_mm, range_mm, duration_s;
   bool cone;
   double length_mm() const { return high_mm - low_mm; }
   double middle_mm() const { return 0.5 * (low_mm + high_mm); }
@@ -36,6 +38,8 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
   const auto [least, most] = std::ranges::minmax(stream.reading_mm);
   return {about.z_mid_mm - about.z_half_mm,
           about.z_mid_mm + about.z_half_mm,
+          about.alone.position_min_mm,
+          about.alone.position_max_mm,
           0.5 * (least + most),
           std::max(0.5, 0.5 * (most - least)),
           stream.time_s.back() - stream.time_s.front(),
@@ -77,6 +81,26 @@ HarmCase free(HarmCase of, std::vector<std::size_t> columns) {
   return of;
 }
 
+/// A bend that starts at the lower end: (1 + u)²/4 = 1/4 + u/2 + u²/4, of which the first two are
+/// another place of the axis.
+HarmCase bow_from_the_end(const Where& at) {
+  HarmCase out = mm("part.bow", "from the lower end",  {},
+                    {{"length_mm", 2.0 * at.length_mm()}, {"middle_mm", at.low_mm}},
+                    phases("sagitta_mm", "direction_rad", 1.0));
+  const auto moved = [&](double z) { return 0.25 + (z - at.middle_mm()) / at.length_mm(); };
+  const double low = moved(at.z_low_mm), high = moved(at.z_high_mm);
+  out.directions[0].linear = {0.25, 0.0}, out.directions[0].rigid = {low, 0.0, high, 0.0};
+  out.directions[1].linear = {0.0, 0.25}, out.directions[1].rigid = {0.0, low, 0.0, high};
+  return out;
+}
+
+HarmCase radial_slip(const Where& at, const char* form, double share) {
+  const double when = share * at.duration_s;
+  return free(mm("part.slip", form, {.onset_s = when}, {{"time_s", when}},
+                 {only("dx_mm", {1.0, 0.0}), only("dy_mm", {0.0, 1.0})}),
+              {0, 1});
+}
+
 std::vector<HarmCase> part_cases(const Where& at) {
   const double length = at.length_mm(), jaws = at.low_mm - 5.0;
   const double ring = std::pow((9.0 - 1.0) / (36.0 - 1.0), 2);  // second harmonic of three jaws
@@ -108,10 +132,9 @@ std::vector<HarmCase> part_cases(const Where& at) {
       mm("part.bow", "over the probed length", {},
          {{"length_mm", length}, {"middle_mm", at.middle_mm()}},
          phases("sagitta_mm", "direction_rad", 1.0)),
-      free(mm("part.slip", "radial, half-way",
-              {.onset_s = 0.5 * at.duration_s}, {{"time_s", 0.5 * at.duration_s}},
-              {only("dx_mm", {1.0, 0.0}), only("dy_mm", {0.0, 1.0})}),
-           {0, 1}),
+      bow_from_the_end(at),
+      radial_slip(at, "radial, half-way", 0.5),
+      radial_slip(at, "radial, at two thirds", 2.0 / 3.0),
       free(angle("part.slip", "rotational, half-way", small_rad, {.onset_s = 0.5 * at.duration_s},
                  {{"time_s", 0.5 * at.duration_s}}, {only("turn_rad")}),
            {2})};
@@ -182,14 +205,17 @@ std::vector<HarmCase> probe_cases(const Where& at) {
 /// The catalogue's figure goes to the form that it is of.
 void add_stated(std::vector<HarmCase>& cases) {
   constexpr double three_lobes = 0.008;  // in words beside the figure of ovality
+  const std::map<std::string, std::string> form_of{{"part.roundness", "ovality"},
+                                                   {"part.bow", "from the lower end"},
+                                                   {"part.slip", "radial, at two thirds"}};
+  std::string before;
   for (HarmCase& one : cases) {
     const Effect* effect = find_effect(one.effect);
-    const bool first =
-        &one == &*std::ranges::find(cases, one.effect, &HarmCase::effect);
-    const bool figure = one.effect == "part.roundness"  ? one.form == "ovality"
-                                                        : first;
+    const auto named = form_of.find(one.effect);
+    const bool figure = named != form_of.end() ? one.form == named->second : one.effect != before;
     if (effect->harm && figure) one.stated = effect->harm->value;
     if (one.effect == "part.roundness" && one.form == "three lobes") one.stated = three_lobes;
+    before = one.effect;
   }
 }
 

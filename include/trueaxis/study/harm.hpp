@@ -17,6 +17,9 @@ namespace trueaxis::study {
 struct HarmDirection {
   std::map<std::string, double> lathe;
   std::vector<double> linear;
+  /// What of the effect is no more than another place of the part: moves the axis, and is in no
+  /// column. The extended model's axis is that of the part so moved.
+  AxisEnds rigid{};
 };
 
 /// An effect of the catalogue in one form, at a size that is small enough for its second order.
