@@ -45,18 +45,22 @@ struct Linearised {
   }
 };
 
-/// Positions at the ends of the probed Z from the coefficients of the last axis: x, y, slopes at the
-/// middle of the contacts.
+/// How the axis moves at the ends of the probed Z, from the coefficients of the last axis: a shift
+/// and a turn about (0, 0, z_mid), which displaces a point by (δ lever, −δ·(x, y)). What the axis
+/// moves along itself is a shift, its slope that much.
 AxisEnds ends_from(const Scene& scene, const FitResult& fit, const Eigen::VectorXd& base) {
   const auto from = static_cast<Eigen::Index>((scene.base.axes - 1) * scene.base.per_axis());
-  AxisEnds out;
+  AxisEnds out{base(from), base(from + 1), base(from), base(from + 1)};
+  if (!scene.base.tilts) return out;
+  const Axis& axis = fit.axis.axis;
+  const auto middle = axis.at(scene.z_mid_mm);
+  const double turn_x = base(from + 2), turn_y = base(from + 3);
+  const double down = turn_x * middle[0] + turn_y * middle[1];
+  const double along = turn_x * axis.slope_x + turn_y * axis.slope_y;
   for (const std::size_t end : {0, 2}) {
-    const double lever =
-        (end == 0 ? fit.position_min_mm : fit.position_max_mm) - scene.z_mid_mm;
-    for (const Eigen::Index i : {0, 1}) {
-      out[end + static_cast<std::size_t>(i)] =
-          base(from + i) + (scene.base.tilts ? lever * base(from + 2 + i) : 0.0);
-    }
+    const double lever = (end == 0 ? fit.position_min_mm : fit.position_max_mm) - scene.z_mid_mm;
+    out[end] += axis.slope_x * down + lever * (turn_x + axis.slope_x * along);
+    out[end + 1] += axis.slope_y * down + lever * (turn_y + axis.slope_y * along);
   }
   return out;
 }
@@ -66,6 +70,10 @@ void look_about(const Linearised& at, EffectOnAxis& out) {
   const Solution without = joint.without(0);
   const Eigen::MatrixXd& gram = joint.evidence.total();
   const Projection projection = project(gram, without.columns);
+  const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
+  const AxisEnds step = ends_from(at.scene, out.alone, without.coefficients.head(n));
+  out.alone_ends = ends_of(out.alone);
+  for (std::size_t i = 0; i < step.size(); ++i) out.alone_ends[i] += step[i];
   double kept = 0.0, whole = 0.0;
   for (const std::size_t column : joint.places[0]) {
     const auto c = static_cast<Eigen::Index>(column);
@@ -78,7 +86,6 @@ void look_about(const Linearised& at, EffectOnAxis& out) {
   out.left = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
   out.z_mid_mm = at.scene.z_mid_mm, out.z_half_mm = at.scene.z_half_mm;
   out.separable = joint.solution.rank == joint.solution.columns.size();
-  const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
   out.u_ratio = axis_uncertainty(at.scene, joint.solution.inverse.topLeftCorner(n, n)).u_mm /
                 axis_uncertainty(at.scene, without.inverse).u_mm;
 }

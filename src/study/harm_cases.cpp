@@ -24,6 +24,7 @@ struct Where {
   double low_mm, high_mm;      ///< of the contacts, along the part's axis
   double z_low_mm, z_high_mm;  ///< probed
   double x_mm, range_mm, duration_s;
+  double middle_radius_mm, tangent;
   bool cone;
   double length_mm() const { return high_mm - low_mm; }
   double middle_mm() const { return 0.5 * (low_mm + high_mm); }
@@ -35,6 +36,7 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
   options.surface = surface_of(scenario.part.kind);
   options.bore = scenario.part.bore;
   const EffectOnAxis about = effect_on_axis(stream, options, {"probe.ball_radius", {}, {}});
+  const Revolved& shape = about.alone.shape;
   const auto [least, most] = std::ranges::minmax(stream.reading_mm);
   return {about.z_mid_mm - about.z_half_mm,
           about.z_mid_mm + about.z_half_mm,
@@ -43,6 +45,8 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
           0.5 * (least + most),
           std::max(0.5, 0.5 * (most - least)),
           stream.time_s.back() - stream.time_s.front(),
+          shape.radius_mm + shape.tan_half_angle * (about.z_mid_mm - shape.axis.z_ref_mm),
+          shape.tan_half_angle,
           scenario.part.kind == virtual_lathe::PartKind::cone};
 }
 
@@ -82,12 +86,15 @@ HarmCase free(HarmCase of, std::vector<std::size_t> columns) {
 }
 
 /// A bend that starts at the lower end: (1 + u)²/4 = 1/4 + u/2 + u²/4, of which the first two are
-/// another place of the axis.
+/// another place of the part. Sections that are displaced by a + b s and not turned are those of a
+/// cone turned by θ = b/(1 + tan²α) and displaced by a − R θ tanα.
 HarmCase bow_from_the_end(const Where& at) {
-  HarmCase out = mm("part.bow", "from the lower end",  {},
+  HarmCase out = mm("part.bow", "from the lower end", {},
                     {{"length_mm", 2.0 * at.length_mm()}, {"middle_mm", at.low_mm}},
                     phases("sagitta_mm", "direction_rad", 1.0));
-  const auto moved = [&](double z) { return 0.25 + (z - at.middle_mm()) / at.length_mm(); };
+  const double turned = 1.0 / at.length_mm() / (1.0 + at.tangent * at.tangent);
+  const double displaced = 0.25 - at.middle_radius_mm * turned * at.tangent;
+  const auto moved = [&](double z) { return displaced + turned * (z - at.middle_mm()); };
   const double low = moved(at.z_low_mm), high = moved(at.z_high_mm);
   out.directions[0].linear = {0.25, 0.0}, out.directions[0].rigid = {low, 0.0, high, 0.0};
   out.directions[1].linear = {0.0, 0.25}, out.directions[1].rigid = {0.0, low, 0.0, high};

@@ -166,6 +166,14 @@ void fill_table(const PlanningTask& task, const Search& search, PlanningAnswer& 
   }
 }
 
+void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
+  const bool there = std::ranges::any_of(out.recommended, [&](const Recommendation& one) {
+    return std::ranges::all_of(choices,
+                               [&](Choice c) { return one.plan.of(c) == plan.of(c); });
+  });
+  if (!there) out.recommended.push_back({what, std::move(plan), {}});
+}
+
 const char* words_of(Choice choice) {
   switch (choice) {
     case Choice::readings_per_revolution:
@@ -191,13 +199,13 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
   limit_rate(task, out.remarks);
   const Search search(task);
   out.as_given = search.at(task.base);
-  if (search.meets(out.as_given))
-    out.recommended.push_back({"as it is", out.as_given, {}});
+  if (search.meets(out.as_given) && search.in_time(out.as_given))
+    recommend(out, "as it is", out.as_given);
   for (const Freedom& free : task.free) {
     Alone one{free.choice, false, search.solve(task.base, free)};
     one.reached = search.meets(one.plan);
     if (one.reached && search.in_time(one.plan))
-      out.recommended.push_back({words_of(free.choice), one.plan, {}});
+      recommend(out, words_of(free.choice), one.plan);
     out.alone.push_back(std::move(one));
   }
   out.nearest = task.free.empty() ? out.as_given : smallest_u(task, search, false);
@@ -218,9 +226,8 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
   if (out.reached && !task.free.empty()) {
     const PlannedMeasurement fast = quickest(task, search, best_probe);
     if (search.meets(fast) && search.in_time(fast))
-      out.recommended.push_back(
-          {"quickest", without_excess(task, search, fast), {}});
-    if (task.time_s) out.recommended.push_back({"most certain in the time", out.nearest, {}});
+      recommend(out, "quickest", without_excess(task, search, fast));
+    if (task.time_s) recommend(out, "most certain in the time", out.nearest);
   }
   for (Recommendation& one : out.recommended)
     one.confirmed = confirm(one.plan, task, out.recommended.size());

@@ -24,6 +24,9 @@ AxisEnds ends_of(const FitResult& fit);
 /// What an effect does to the axis of a lateral surface when it is left out, and when it is not.
 struct EffectOnAxis {
   FitResult alone;     ///< the surface fitted as if there were no effect
+  /// Of `alone` after one more linear step: the fit stops where a step is worth 1e-9 of its cost,
+  /// which here is the effect and not noise.
+  AxisEnds alone_ends{};
   FitResult extended;  ///< surface and effect fitted together; u: of the joint covariance
   /// First order: how the axis of `alone` moves per unit of each free linear parameter, about the
   /// surface as it was found: (JᵀJ)⁻¹Jᵀ of the effect's column.

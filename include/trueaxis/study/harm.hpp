@@ -48,7 +48,7 @@ struct HarmRow {
   double second_order = 0.0;  ///< between whole and half; as much is left between half and limit
   double off = 0.0;           ///< between limit and prediction
   double off_whole = 0.0, off_half = 0.0;  ///< between lathe and prediction at both sizes
-  double rounding = 0.0;  ///< of the limit: contacts, and where the fit stops
+  double rounding = 0.0;                   ///< of all these
   bool agrees = false;                     ///< off ≤ second_order + rounding
   double left = 0.0;                       ///< share of the effect that the surface leaves
   bool separable = false;                  ///< whether surface and effect can be fitted together
