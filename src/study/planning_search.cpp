@@ -23,6 +23,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double met = 1.0 + 1e-9;   // of the goal: rounding of the bound
 constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded to be set
+constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;
 
 /// Whether more of a choice makes the axis more certain.
@@ -143,26 +144,36 @@ PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
                                  const Freedom& free) const {
   PlannedMeasurement least = at(with(scenario, free, 0.0));
   if (meets(least)) return least;
-  PlannedMeasurement most = at(with(scenario, free, 1.0));
-  if (!meets(most)) return most;
-  // Regula falsi on ln U, which is nearly linear in the logarithm of every choice; halving where it
-  // is not, or where nothing is determined.
+  // Out by the law of large numbers, back by regula falsi on ln U, which is nearly linear in the
+  // logarithm of every choice; halving where it is not, or where nothing is determined.
   const auto height = [&](const PlannedMeasurement& plan) {
     return std::log(plan.u_expanded_mm / task_.goal_mm);
   };
-  double low = 0.0, high = 1.0, at_low = height(least), at_high = height(most);
-  for (int step = 0; step < most_steps && at_high < -close_enough; ++step) {
-    const bool straight = std::isfinite(at_low) && step % 3 != 2;
-    const double share = straight ? at_low / (at_low - at_high) : 0.5;
-    const double effort = low + std::clamp(share, 0.02, 0.98) * (high - low);
-    PlannedMeasurement between = at(with(scenario, free, effort));
-    if (meets(between)) {
-      high = effort, at_high = height(between), most = std::move(between);
+  const double power = free.choice == Choice::sigma ? 1.0 : 0.5;
+  const double fall = power * std::log(free.high / free.low);
+  PlannedMeasurement most;
+  double low = 0.0, high = infinity, at_low = height(least), at_high = 0.0;
+  for (int step = 0; step < most_steps && !(at_high < 0.0 && at_high > -close_enough); ++step) {
+    double effort = 0.0;
+    if (high > 1.0) {
+      const double further = std::isfinite(at_low) ? beyond * at_low / fall : 0.5 * (1.0 - low);
+      effort = std::min(1.0, low + std::max(further, least_step));
     } else {
-      low = effort, at_low = height(between);
+      const bool straight = std::isfinite(at_low) && step % 3 != 2;
+      const double share = straight ? at_low / (at_low - at_high) : 0.5;
+      effort = low + std::clamp(share, 0.02, 0.98) * (high - low);
+    }
+    PlannedMeasurement now = at(with(scenario, free, effort));
+    if (meets(now)) {
+      high = effort, at_high = height(now), most = std::move(now);
+    } else if (effort >= 1.0) {
+      return now;
+    } else {
+      low = effort, at_low = height(now);
     }
     if (high - low < 1e-6) break;
   }
+  if (high > 1.0) return at(with(scenario, free, 1.0));
   virtual_lathe::Scenario rounded = scenario;
   set_parameter(rounded, path_of(free.choice), settable(free, most.of(free.choice)));
   PlannedMeasurement set = at(rounded);

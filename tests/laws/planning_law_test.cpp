@@ -62,7 +62,7 @@ TEST(PlanningLaw, UncertaintyGoesWithNoiseAndOneOverTheRootOfReadings) {
 TEST(PlanningLaw, SolvesForTheLeastThatMeetsTheGoal) {
   PlanningTask task = cylinder_task();
   task.free = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::sigma, 1e-4, 1e-2},
-               {Choice::feed, 0.05, 2.0}, {Choice::length, 20.0, 400.0}};
+               {Choice::feed, 0.1, 2.0}, {Choice::length, 20.0, 200.0}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
   ASSERT_EQ(answer.alone.size(), task.free.size());
