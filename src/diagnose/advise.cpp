@@ -169,9 +169,10 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
 
   std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
   double weight_sum = 0.0, before_sum = 0.0;
-  const auto column = [&](auto member, std::size_t k) {
+  // More readings never tell less, also where a rival was given no way to bend before.
+  const auto column = [&](auto member, std::size_t k, double before) {
     std::vector<double> values;
-    for (const Outlook& o : after) values.push_back((o.*member)[k]);
+    for (const Outlook& o : after) values.push_back(std::max(before, (o.*member)[k]));
     return values;
   };
   const auto count = [&](double before, const std::vector<double>& values, double sure,
@@ -191,14 +192,14 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     double nearest = 1e9;
     for (const Rival& r : questions[k].found.rivals) nearest = std::min(nearest, r.distance);
     const double before = phi_half(nearest);
-    const std::vector<double> values = column(&Outlook::told, k);
+    const std::vector<double> values = column(&Outlook::told, k, before);
     out.questions.push_back(choose(plans, before, values, told_for_sure,
                                    "no single measurement of this part tells them apart"));
     open |= !out.questions.back()->plan.empty();
     if (!out.questions.back()->plan.empty()) count(before, values, told_for_sure, 1.0);
   }
   for (std::size_t k = 0; k < hidden.size(); ++k) {
-    const std::vector<double> values = column(&Outlook::found, k);
+    const std::vector<double> values = column(&Outlook::found, k, hidden[k].power);
     const bool master = std::ranges::any_of(hidden[k].typical.hypothesis.effect->separations,
                                             [](const Separation& s) { return s.code == "MS"; });
     out.hidden.push_back(choose(plans, hidden[k].power, values, found_for_sure,

@@ -82,6 +82,38 @@ std::vector<Hypothesis> small_atlas(const Scene& scene, const Resolution& resolu
       for (int l = 2; l <= resolution.degrees; ++l) add(n, l);
     }
   }
+  // Between passes: machine terms seen from the rear, drift, backlash, latency.
+  const auto add_machine = [&](int n, int l, bool in_time) {
+    const std::size_t own = n == 0 ? 1 : 2;
+    if (columns + own > most) return;
+    columns += own;
+    cells.push_back(cell(n, l, true, in_time));
+  };
+  if (scene.two_sided || scene.reindexed) {
+    for (int l = 0; l <= std::min(3, resolution.degrees); ++l) add_machine(0, l, false);
+    for (int n = 2; n <= resolution.harmonics; ++n) {
+      add_machine(n, 0, false);
+      if (resolution.degrees > 0) add_machine(n, 1, false);
+    }
+  }
+  if (scene.has_time && !resolution.one_variable && !resolution.sections) {
+    for (int n = 0; n <= 1; ++n)
+      for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
+  }
+  const auto add_cause = [&](Hypothesis h) {
+    columns += h.columns();
+    if (columns <= most) cells.push_back(std::move(h));
+  };
+  if (!resolution.one_variable && !resolution.sections) {
+    if (resolution.degrees > 0) add_cause(of_effect("slide.backlash", {}));
+    if (scene.has_time) add_cause(of_effect("probe.latency", {}));
+    TermShape sensor;
+    sensor.reference_x_mm = scene.reference_x_mm;
+    sensor.range_mm = scene.range_x_mm;
+    add_cause(of_effect("probe.nonlinearity", sensor));
+    add_cause(of_effect("probe.gain", sensor));
+    if (resolution.degrees > 0) add_cause(of_effect("probe.tilt", {}));
+  }
   return cells;
 }
 

@@ -89,7 +89,11 @@ std::vector<NamedValue> values_of(const Hypothesis& h, const Eigen::VectorXd& co
     if (!free(j)) continue;
     const std::string& name = names[j].name;
     if (!name.ends_with("_cos")) {
-      out.push_back({name, names[j].unit, linear[j]});
+      const bool of_part = id == "part.taper" || id == "part.barrel";
+      out.push_back({!of_part                ? name
+                     : name == "amplitude_3" ? "cubic"
+                                             : "amplitude",
+                     names[j].unit, linear[j]});
       continue;
     }
     const std::string of = name.substr(0, name.size() - 4);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <thread>
 
+#include "trueaxis/base/error.hpp"
 #include "trueaxis/math/gram.hpp"
 #include "trueaxis/math/wide_gram.hpp"
 
@@ -102,6 +103,11 @@ Evidence::Evidence(const Scene& scene, const Rows& rows, std::span<const double>
   base_.resize(scene.base.columns());
   std::iota(base_.begin(), base_.end(), 1U);
   pass({});
+}
+
+const std::vector<Eigen::MatrixXd>& Evidence::folds() const {
+  expects(part_begin_ == rows_->fold_begin, "evidence with blocks");
+  return folds_;
 }
 
 std::vector<Columns> Evidence::append(std::span<const Hypothesis> list) {

@@ -28,7 +28,8 @@ class Evidence {
   std::vector<Columns> append(std::span<const Hypothesis> list);
 
   const Eigen::MatrixXd& total() const { return total_; }
-  const std::vector<Eigen::MatrixXd>& folds() const { return folds_; }
+  /// Of the blocks that are held out. @throws ContractViolation where they were not asked for.
+  const std::vector<Eigen::MatrixXd>& folds() const;
   std::size_t count() const { return count_; }  ///< rows that count
   const Columns& base() const { return base_; }
   const std::vector<double>& autoregression() const { return autoregression_; }

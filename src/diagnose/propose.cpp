@@ -14,8 +14,9 @@ constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, bes
 constexpr std::size_t most_rivals = 16;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
-constexpr double step_start = 0.06, step_shrink = 0.4;
+constexpr double step_shrink = 0.4;
 constexpr int rounds = 4;
+constexpr double finest = 1e-4;  // a slip that leads is dated to this share of the time
 
 void append_columns(Columns& to, const std::vector<Columns>& from) {
   for (const Columns& own : from) to.insert(to.end(), own.begin(), own.end());
@@ -90,8 +91,8 @@ double line_cell(const Hypothesis& h, const Scene& scene) {
 
 std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
                               const std::vector<Hypothesis>& others,
-                              std::vector<Hypothesis> candidates) {
-  double step = step_start, shrink = 1.0;
+                              std::vector<Hypothesis> candidates, double step) {
+  double shrink = 1.0;
   std::vector<double> cell;
   for (const Hypothesis& h : candidates)
     cell.push_back(is_line(h) ? line_cell(h, problem.scene) : 0.0);
@@ -124,6 +125,11 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
     shrink *= step_shrink;
   }
   std::ranges::stable_sort(best, better);
+  if (step > finest && !best.empty() && best.front().hypothesis.id() == "part.slip") {
+    Candidate dated =
+        refine(problem, phi, others, {best.front().hypothesis}, step / step_shrink).front();
+    if (dated.criterion < best.front().criterion) best.front() = std::move(dated);
+  }
   return best;
 }
 

@@ -18,7 +18,8 @@ namespace {
 using Column = std::vector<double>;
 
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
-constexpr std::size_t peaks_kept = 2;
+constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
+constexpr double finer = 4.0;
 constexpr double slowest_hz = 0.2;        // slower is no vibration: drift, or the form of a pass
 constexpr double tenth_lost = 0.25;       // cycles a mean: sinc(0.25) = 0.90
 constexpr double longest_wave_mm = 30.0;  // of a waviness, a screw's pitch
@@ -252,6 +253,7 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
   TurnedSums turned;
   std::size_t bins = 0;
   double df = 0.0;
+  bool fringes = false;
   std::vector<Scan> list = scans_of(scene, resolution);
   if (means > 1) {
     for (Scan& scan : list) scan.low = std::max(scan.low, scan.fast / static_cast<double>(means));
@@ -260,7 +262,9 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
   for (const Scan& scan : list) {
     const auto [x_low, x_high] = range_of(*scan.x);
     if (!plan || planned != scan.x || planned_low != scan.low || planned_high != scan.high) {
-      df = 1.0 / (oversampling * (x_high - x_low));
+      // From both sides a period of the scale makes fringes, told apart only by a fine scan.
+      fringes = scan.x == &scene.sensed && scene.two_sided;
+      df = 1.0 / ((fringes ? finer : 1.0) * oversampling * (x_high - x_low));
       bins = static_cast<std::size_t>((scan.high - scan.low) / df) + 1;
       plan = std::make_unique<FourierSums>(*scan.x, two_pi * scan.low, two_pi * df, bins);
       planned = scan.x, planned_low = scan.low, planned_high = scan.high;
@@ -289,7 +293,7 @@ Scans scan_lines(const Evidence& evidence, const Resolution& resolution,
           white ? flat : line_norm2(evidence, used_of_pass, x_step, c_step, f, scan.turns);
       gain[k] = std::norm(sums[k]) / norm2;  // of cos and of sin: norm2 each
     }
-    for (std::size_t taken = 0; taken < peaks_kept; ++taken) {
+    for (std::size_t taken = 0; taken < (fringes ? fringes_kept : peaks_kept); ++taken) {
       const auto top = std::ranges::max_element(gain);
       if (!(*top > 0.0)) break;
       const auto k = static_cast<std::size_t>(top - gain.begin());

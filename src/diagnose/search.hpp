@@ -64,10 +64,12 @@ struct Proposal {
 Proposal propose(const Problem& problem, const std::vector<double>& phi,
                  const std::vector<Hypothesis>& terms, const Hypothesis* named = nullptr);
 
+constexpr double step_start = 0.06;  ///< of a refinement, on a scale where 1 is the range
+
 /// Candidates of one finding refined to their own best shape beside `others`, best first.
 std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
                               const std::vector<Hypothesis>& others,
-                              std::vector<Hypothesis> candidates);
+                              std::vector<Hypothesis> candidates, double step = step_start);
 
 /// Forward by the best hypothesis, backward, swapped and merged, until nothing changes; once with
 /// catalogued causes first and, where a pattern did better on the way, once with patterns allowed:

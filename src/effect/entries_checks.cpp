@@ -16,7 +16,7 @@ std::vector<Effect> checks() {
        .signature = "fixed to the part, all harmonics",
        .absorbed_by = "missing sectors leak ovality into the eccentricity (60 deg: 50 %) unless 2 "
                       "and 3 undulations are fitted with the axis",
-       .source = "ISO 1101 (interrupted features)",
+       .source = "inspection of measured data",
        .check = true},
       {.id = "probe.saturation",
        .title = "readings at the end of the range",

@@ -17,7 +17,7 @@ std::vector<Effect> encoder_and_time() {
        .absorbed_by = "direction of x0, y0, l, m",
        .separations = {{"MS", "a master with an angle mark shows it"}},
        .harm = Harm{0.0039, "mm/deg", "3.9 um per degree, where the cut has another zero"},
-       .source = "ISO 230-1 (zero position of an axis)"},
+       .source = "kinematics: the zero of C"},
       {.id = "encoder.eccentricity",
        .title = "eccentric encoder of C",
        .slot = Slot::arguments,
@@ -29,7 +29,7 @@ std::vector<Effect> encoder_and_time() {
        .signature = "2 undulations per revolution of eps e/2",
        .confounders = {"part.roundness", "spindle.radial_synchronous"},
        .separations = {{"RC", "with another eccentricity e it changes in proportion"}},
-       .source = "ISO 230-2 (angular positioning)"},
+       .source = "geometry of a graduation off its centre: one cycle a turn"},
       {.id = "thermal.drift",
        .title = "machine and part warm up",
        .slot = Slot::machine,
@@ -60,7 +60,7 @@ std::vector<Effect> encoder_and_time() {
                        "slide.leadscrew_periodic", "part.feed_marks"},
        .separations = {{"2W", "its order changes with the speed"},
                        {"ST", "it is there with the spindle standing still"}},
-       .source = "ISO/TR 230-8 (vibrations)"},
+       .source = "a sinusoid of the machine in time"},
   };
 }
 

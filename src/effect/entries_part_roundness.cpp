@@ -27,7 +27,7 @@ std::vector<Effect> part_roundness() {
                        {"RM", "the lobes shrink with the clamping force"},
                        {"OZ", "the decay starts at the jaws and not at a place of the part"}},
        .harm = Harm{0.008, "mm/mm", "three lobes: 0.008 of the amplitude"},
-       .source = "ring theory: a ring pressed at j points bends as 1/(n^2 - 1)^2 (Timoshenko)"},
+       .source = "thin-ring theory: under j radial forces harmonic n goes as 1/(n^2 - 1)^2"},
       {.id = "part.roundness",
        .title = "roundness of the part: ovality, lobes, and their growth along it",
        .slot = Slot::part,
@@ -80,7 +80,7 @@ std::vector<Effect> part_roundness() {
        .separations = {{"OZ", "another length of the part: the sagitta goes as its square"},
                        {"RC", "the direction turns with the part"}},
        .harm = Harm{0.76, "mm/mm", "0.76 of the amplitude"},
-       .source = "ISO 1101 (straightness of an axis)"},
+       .source = "ISO 1101 (straightness of a derived median line)"},
       {.id = "part.slip",
        .title = "the part slipped in the chuck",
        .slot = Slot::part,
@@ -96,7 +96,7 @@ std::vector<Effect> part_roundness() {
        .separations = {{"RZ", "probed again, the first part of the length shows the new axis"},
                        {"DW", "a dwell after the slip shows the new vector at one Z"}},
        .harm = Harm{0.90, "mm/mm", "radial: 0.90 of the step"},
-       .source = "inspection records; a radial and a rotational slip part by a feature with an "
+       .source = "kinematics of a step; a radial and a rotational slip part by a feature with an "
                  "angle mark"},
   };
 }

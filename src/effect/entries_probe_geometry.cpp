@@ -17,7 +17,7 @@ std::vector<Effect> probe_geometry() {
        .absorbed_by = "direction of x0, y0, l, m; radius",
        .separations = {{"RE", "from the rear the phase turns the other way"}},
        .harm = Harm{0.005, "mm/mm", "5 um per mm"},
-       .source = "exact intersection; ISO 230-10 (probing on machine tools)"},
+       .source = "exact intersection of a line at Y = h with the surface"},
       {.id = "probe.tilt",
        .title = "the probe line is tilted in X-Z",
        .slot = Slot::probe_line,
@@ -31,7 +31,7 @@ std::vector<Effect> probe_geometry() {
        .absorbed_by = "half angle, radius",
        .separations = {{"RE", "from the rear, with two radii, the shear has the opposite sign"},
                        {"MS", "a master of known angle and radius shows it"}},
-       .source = "exact intersection; ISO 230-10"},
+       .source = "exact intersection of a tilted line with the surface"},
       {.id = "probe.ball_radius",
        .title = "a ball radius that nobody took off",
        .slot = Slot::probe_line,
@@ -43,8 +43,8 @@ std::vector<Effect> probe_geometry() {
        .confounders = {"probe.pretravel"},
        .absorbed_by = "radius",
        .separations = {{"MS", "a master of known radius shows it"}},
-       .harm = Harm{0.0, "mm/mm", "harmless to the axis"},
-       .source = "parallel surface of a cone; ISO 230-10"},
+       .harm = Harm{0.0, "mm/mm", "nothing"},
+       .source = "parallel surface of a cone"},
       {.id = "probe.pretravel",
        .title = "trigger path of a switching probe",
        .slot = Slot::sensor,
@@ -60,7 +60,7 @@ std::vector<Effect> probe_geometry() {
        .confounders = {"probe.ball_radius"},
        .absorbed_by = "radius",
        .separations = {{"MS", "a master of known radius shows it"}},
-       .source = "ISO 230-10 (probing tool performance); two approach speeds split it too"},
+       .source = "trigger path of a switching probe; two approach speeds split it too"},
   };
 }
 

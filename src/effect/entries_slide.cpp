@@ -45,7 +45,7 @@ std::vector<Effect> slide() {
                        "part.feed_marks", "probe.cyclic"},
        .separations = {{"OZ", "it stays with the machine when the part moves"},
                        {"MS", "it vanishes on a master cylinder"}},
-       .source = "ISO 230-2 (positioning, periodic deviation)"},
+       .source = "ISO 230-2 (periodic positioning error)"},
       {.id = "slide.backlash",
        .title = "reversal error of the Z slide",
        .slot = Slot::arguments,
@@ -61,7 +61,7 @@ std::vector<Effect> slide() {
                        {"RV", "a latency's part in C changes its sign with the spindle"},
                        {"2W", "a latency grows with the speed"},
                        {"MS", "another cone angle splits b from c"}},
-       .source = "ISO 230-2 (reversal value)"},
+       .source = "ISO 230-2 (reversal error)"},
   };
 }
 

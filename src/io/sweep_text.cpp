@@ -37,6 +37,7 @@ std::string cell_note(const Sweep& sweep, const CellSummary& cell) {
 /// A ratio with the half width that its repeats leave it; "!" where it is not the bound's.
 std::string ratio_text(const Row& row) {
   if (!std::isfinite(row.ratio)) return "-";
+  if (!std::isfinite(row.ratio_95.low)) return format("%.2f", row.ratio);
   return format("%.3f ± %.3f", row.ratio, 0.5 * (row.ratio_95.high - row.ratio_95.low)) +
          (row.at_bound.value_or(true) ? "" : " !");
 }

@@ -81,6 +81,18 @@ void check_range(TomlTable& table, std::string_view at, const Known& known, doub
   table.complain(at, "gives " + label_of(value) + " but must give " + allowed);
 }
 
+/// A number is varied by one axis only.
+void check_free(TomlTable& table, std::string_view at, const std::string& path,
+                const Sweep& sweep) {
+  bool taken = std::ranges::find(sweep.drawn, path, &Drawn::path) != sweep.drawn.end();
+  for (const GridAxis& axis : sweep.axes) {
+    for (const AxisPoint& point : axis.points)
+      taken =
+          taken || std::ranges::find(point.settings, path, &Setting::path) != point.settings.end();
+  }
+  if (taken) table.complain(at, "is set by an axis before: vary a number once");
+}
+
 std::vector<double> spaced(TomlTable& table) {
   const double from = table.required_number("from"), to = table.required_number("to");
   const auto count = table.integer("count", 2, 2, most_points);
@@ -108,6 +120,7 @@ void read_grid(TomlTable table, const std::string& key, const std::optional<Know
   const std::vector<double> values = listed ? table.numbers("values") : spaced(table);
   if (listed && values.empty()) table.complain("values", "is empty: give at least one number");
   if (!known) return;
+  check_free(table, "key", known->parameter.path, sweep);
   GridAxis axis{key, {}};
   for (const double value : values) {
     check_range(table, listed ? "values" : "from", *known, value);
@@ -133,6 +146,7 @@ void read_distribution(TomlTable table, const std::string& key, const std::optio
   if (drawn.kind == Drawn::Kind::log_uniform && !(first > 0.0) && std::isfinite(first))
     table.complain("low", "must be more than 0 for a log-uniform distribution");
   if (!known) return;
+  check_free(table, "key", known->parameter.path, sweep);
   check_range(table, normal ? "mean" : "low", *known, first);
   if (!normal) check_range(table, "high", *known, second);
   drawn.path = known->parameter.path;
@@ -151,6 +165,7 @@ void read_cases(TomlTable table, const std::vector<TomlTable>& cases, const Keys
       const double value = set.required_number(key);
       const std::optional<Known> known = keys.find(set, key, key);
       if (!known) continue;
+      check_free(set, key, known->parameter.path, sweep);
       check_range(set, key, *known, value);
       point.settings.push_back({known->parameter.path, value * known->factor});
     }
@@ -216,15 +231,15 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path)
   TomlDocument document(content, path);
   TomlTable root = document.root();
   Sweep sweep;
+  const std::string scenario = read_base(document, root, sweep.base);
+  const bool whole = document.ok();
   sweep.name = root.text("name");
   sweep.seed =
       static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
   sweep.repeats = static_cast<std::size_t>(root.integer("repeats", 2000, 1, most_repeats));
   sweep.methods = read_methods(root);
-  const std::string scenario = read_base(document, root, sweep.base);
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
-  const bool whole = document.ok();
-  if (whole && sweep.base.cut)
+  if (sweep.base.cut)
     document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
   const Keys keys(sweep.base, whole);
   for (const TomlTable& axis : root.tables("axis")) read_axis(axis, keys, sweep);

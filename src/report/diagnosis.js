@@ -21,7 +21,11 @@ function estimated({value, u, unit, why_not: why}, k) {
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.before)} → ${chance(plan.after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min.`;
+  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.before)} → ${chance(plan.after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min${otherPlans(plan)}.`;
+}
+
+function otherPlans({others = []}) {
+  return others.map((o) => `; or ${o.plan} (→ ${chance(o.after)}, ${tick(Number(o.minutes.toPrecision(3)))} min)`).join('');
 }
 
 function classTable(finding) {
@@ -112,16 +116,23 @@ function seenFrom({detectable: size, detectable_unit: unit}) {
   return `${significant(size, 2)}${unit === '1' || unit === '' ? '' : ` ${unit}`}`;
 }
 
-function notObservableTable({not_observable: list}) {
-  if (!list.length) return null;
+const harmlessMm = 1e-5;
+
+function notObservableTable({not_observable: all}) {
+  if (!all.length) return null;
+  const isHarmless = (n) => isNumber(n.harm_typical?.value) && n.harm_typical.value < harmlessMm;
+  const list = all.filter((n) => !isHarmless(n)), harmless = all.filter(isHarmless);
+  const rest = harmless.length
+    ? paragraph(`Unseen too, but shifting the axis by less than 0.01 µm: ${harmless.map((n) => n.effect).join(', ')}.`, 'quiet') : null;
+  if (!list.length) return block('What these readings cannot show', rest);
   return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
       element('span', {}, n.effect, element('small', {}, n.title)), n.why,
       n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
-      harmUnit(n.harm), seenFrom(n)]), 3));
+      harmUnit(n.harm), seenFrom(n)]), 3), rest);
 }
 
-function noiseBlock({noise, checks, k}) {
+function noiseBlock({noise, checks, remarks, k}) {
   const list = [['σ of one reading', estimated({value: noise.sigma_mm, u: noise.u_sigma_mm, unit: 'mm'}, k)], ['Source', noise.source || 'none']];
   for (const [name, key] of [['stationary capture', 'stationary_mm'], ['repeated passes', 'repeated_mm'], ['revolution differences', 'revolutions_mm'], ['stated', 'stated_mm']]) {
     if (isNumber(noise[key])) list.push([`σ, ${name}`, micrometres(noise[key])]);
@@ -134,7 +145,8 @@ function noiseBlock({noise, checks, k}) {
   return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
     found.length ? table('Checks that found something', ['Check', 'What was seen'],
       found.map((check) => [element('span', {}, check.effect, element('small', {}, check.title)), check.text]), 2)
-      : paragraph('No check of the data found anything.', 'quiet'));
+      : paragraph('No check of the data found anything.', 'quiet'),
+    ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
 }
 
 function nextBlock({next, plans}) {

@@ -16,8 +16,12 @@ json estimate(const Estimate& e) {
 }
 
 json separating(const Separating& s) {
+  json others = json::array();
+  for (const Separating::Other& o : s.others)
+    others.push_back({{"plan", o.plan}, {"after", o.power}, {"minutes", o.minutes}});
   return {{"plan", s.plan},   {"what", s.what},       {"before", s.power_before},
-          {"after", s.power}, {"minutes", s.minutes}, {"why_not", s.why_not}};
+          {"after", s.power}, {"minutes", s.minutes}, {"why_not", s.why_not},
+          {"others", others}};
 }
 
 std::string title_of(const std::string& effect) {
@@ -67,6 +71,7 @@ json not_observable_data(const NotObservable& n) {
             {"title", title_of(n.effect)},
             {"why", n.why},
             {"harm", estimate(n.harm_per_unit)},
+            {"harm_typical", estimate(n.harm_typical)},
             {"detectable", n.detectable},
             {"detectable_unit", n.detectable_unit}};
   if (n.separate_with) data["separate_with"] = separating(*n.separate_with);
@@ -153,6 +158,7 @@ json diagnosis_data(const ProbeStream& stream, const Diagnosis& d, const Resimul
           {"not_observable", list_of(d.not_observable, not_observable_data)},
           {"noise", noise_data(d.noise)},
           {"checks", list_of(d.checks, check_data)},
+          {"remarks", d.remarks},
           {"plans", list_of(d.plans, separating)},
           {"gain", gain_data(d)},
           {"simulation", simulation_data(stream, d, again)},

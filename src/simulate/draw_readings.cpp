@@ -39,11 +39,6 @@ void add_autoregression(const CleanStream& clean, const Noise& noise, std::uint6
   }
 }
 
-void add_white(double sigma_mm, std::uint64_t seed, std::span<double> reading_mm) {
-  Xoshiro bits(seed, 1);
-  for (double& reading : reading_mm) reading += sigma_mm * normal_variate(bits);
-}
-
 void add_outliers(const CleanStream& clean, const Noise& noise, std::uint64_t seed,
                   std::span<double> reading_mm) {
   Xoshiro bits(seed, 3);
@@ -68,7 +63,8 @@ void draw_readings(const CleanStream& clean, const Noise& noise, std::uint64_t s
     if (!noise.autoregression.empty()) {
       add_autoregression(clean, noise, seed, reading_mm);
     } else if (white) {
-      add_white(noise.sigma_mm, seed, reading_mm);
+      Xoshiro bits(seed, 1);
+      add_normal_variates(bits, noise.sigma_mm, reading_mm);
     } else {
       add_correlated(clean, noise, seed, reading_mm);
     }
@@ -78,6 +74,7 @@ void draw_readings(const CleanStream& clean, const Noise& noise, std::uint64_t s
     for (double& reading : reading_mm) reading += noise.uniform_mm * (2.0 * bits.uniform() - 1.0);
   }
   if (noise.outlier_fraction > 0.0) add_outliers(clean, noise, seed, reading_mm);
+  if (clean.sensor == SensorLimits{}) return;
   for (double& reading : reading_mm) reading = shown(clean.sensor, reading).value_mm;
 }
 

@@ -38,6 +38,10 @@ ImpulseResponse impulse_response(const std::vector<double>& phi) {
   return out;
 }
 
+void need(bool condition, const char* message) {
+  if (!condition) throw InputError("scenario", std::string("noise: ") + message);
+}
+
 }  // namespace
 
 std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose) {
@@ -47,15 +51,13 @@ std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose) {
 }
 
 void validate(const Noise& noise) {
-  const auto need = [](bool condition, const char* message) {
-    if (!condition) throw InputError("scenario", std::string("noise: ") + message);
-  };
   need(noise.sigma_mm >= 0.0 && noise.uniform_mm >= 0.0, "sigma and uniform must be at least 0");
   need(std::abs(noise.rho) < 1.0, "rho must be in (-1, 1)");
   need(noise.student_dof == 0.0 || noise.student_dof > 2.0, "student_dof must be more than 2");
   need(noise.outlier_fraction >= 0.0 && noise.outlier_fraction <= 1.0,
        "outlier_fraction must be in [0, 1]");
   need(noise.quantisation_mm >= 0.0, "quantisation must be at least 0");
+  need(noise.autoregression.empty() || noise.rho == 0.0, "give rho or an autoregression, not both");
 }
 
 NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
@@ -70,7 +72,6 @@ NoiseSource::NoiseSource(const Noise& noise, std::uint64_t seed)
   }
   innovation_ = std::sqrt(1.0 - noise.rho * noise.rho);
   if (noise.autoregression.empty()) return;
-  need(noise.rho == 0.0, "give rho or an autoregression, not both");
   const ImpulseResponse response = impulse_response(noise.autoregression);
   need(response.dies_out, "the autoregression is not stationary");
   innovation_ = 1.0 / std::sqrt(response.energy);

@@ -71,6 +71,26 @@ double tail_variate(Xoshiro& bits) {
   }
 }
 
+/// A point of a layer, from 53 bits for the place and 9 others for the layer and the sign.
+struct Candidate {
+  std::size_t layer;
+  double x, sign;
+
+  explicit Candidate(std::uint64_t word)
+      : layer(word & 0xFFU),
+        x(static_cast<double>(word >> 11U) * 0x1p-53 * layers.x[layer]),
+        sign((word & 0x100U) != 0 ? -1.0 : 1.0) {}
+  bool inside() const { return x < layers.x[layer + 1]; }
+  double value() const { return sign * x; }
+};
+
+/// In the part of a layer that the density cuts through.
+bool is_below_density(const Candidate& at, Xoshiro& bits) {
+  if (at.layer == 0) return false;
+  const double low = layers.height[at.layer], high = layers.height[at.layer + 1];
+  return low + bits.uniform() * (high - low) < plain_exp(-0.5 * at.x * at.x);
+}
+
 /// Gamma of shape a ≥ 1 and scale 1 (Marsaglia and Tsang, 2000).
 double gamma_variate(Xoshiro& bits, double a) {
   const double d = a - 1.0 / 3.0, c = 1.0 / std::sqrt(9.0 * d);
@@ -88,15 +108,27 @@ double gamma_variate(Xoshiro& bits, double a) {
 
 double normal_variate(Xoshiro& bits) {
   while (true) {
-    const std::uint64_t word = bits();
-    const std::size_t layer = word & 0xFFU;
-    const double x = static_cast<double>(word >> 11U) * 0x1p-53 * layers.x[layer];
-    const double sign = (word & 0x100U) != 0 ? -1.0 : 1.0;
-    if (x < layers.x[layer + 1]) return sign * x;
-    if (layer == 0) return sign * tail_variate(bits);
-    const double low = layers.height[layer], high = layers.height[layer + 1];
-    if (low + bits.uniform() * (high - low) < plain_exp(-0.5 * x * x)) return sign * x;
+    const Candidate candidate(bits());
+    if (candidate.inside() || is_below_density(candidate, bits)) return candidate.value();
+    if (candidate.layer == 0) return candidate.sign * tail_variate(bits);
   }
+}
+
+// The generator's state stays in registers but for one draw in a hundred.
+void add_normal_variates(Xoshiro& bits, double sigma, std::span<double> to) {
+  Xoshiro local = bits;
+  for (double& value : to) {
+    const Xoshiro before = local;
+    const Candidate candidate(local());
+    if (candidate.inside()) {
+      value += sigma * candidate.value();
+    } else {
+      bits = before;
+      value += sigma * normal_variate(bits);
+      local = bits;
+    }
+  }
+  bits = local;
 }
 
 double student_variate(Xoshiro& bits, double dof) {

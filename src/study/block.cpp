@@ -19,7 +19,7 @@ namespace {
 using virtual_lathe::CleanStream;
 using virtual_lathe::Scenario;
 
-constexpr std::size_t drawn_bounds = 16;  // bounds averaged where numbers are drawn
+constexpr std::size_t drawn_bounds = 32;  // bounds averaged where numbers are drawn
 
 /// Some hundredths of a second: short against the sweep, long against handing it out.
 std::size_t repeats_per_block(Method method) {

@@ -149,6 +149,10 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
       summary.rows.push_back(std::move(row));
     }
   }
+  if (!sweep.drawn.empty()) {  // errors of different spread in one cell: no χ²
+    for (Row& row : summary.rows) row.ratio_95 = {none, none};
+    return summary;
+  }
   const auto tested = static_cast<double>(
       std::ranges::count_if(summary.rows, [](const Row& row) { return std::isfinite(row.ratio); }));
   for (Row& row : summary.rows) {

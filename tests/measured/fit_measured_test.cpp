@@ -93,8 +93,8 @@ TEST_F(MeasuredJob, TubeToATable) {
   const CommandStreams done = command("run job.toml -o out");
   ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
   EXPECT_EQ(files_in(folder_ / "out"),
-            (std::vector<std::string>{"diagnosis_1_tube.json", "report.html", "result.json",
-                                      "table.csv"}));
+            (std::vector<std::string>{"diagnosis_1_tube.json", "readings_1_tube.csv", "report.html",
+                                      "result.json", "table.csv"}));
   const nlohmann::json found = result("out/result.json");
   // The sections are 84 to 194 µm off (README of the data); twice that is the stroke.
   const double stroke =

@@ -75,6 +75,14 @@ TEST(Variates, NormalHasItsTailsAndNoSteps) {
   EXPECT_NEAR(far_square / beyond, mean, 4.0 * 2.1 / std::sqrt(beyond));
 }
 
+TEST(Variates, AColumnHasTheBitsOfSingleDraws) {
+  Xoshiro one(seed, 4), column(seed, 4);
+  std::vector<double> sample(100'000, 0.5);  // a thousand of them in the rare cases
+  add_normal_variates(column, 3.0, sample);
+  for (const double x : sample) ASSERT_EQ(x, 0.5 + 3.0 * normal_variate(one));
+  EXPECT_EQ(one(), column());
+}
+
 TEST(Variates, NormalMomentsAndNeighboursAreThoseOfIndependentDraws) {
   constexpr int draws = 4'000'000;
   Xoshiro bits(seed, 3);

@@ -17,6 +17,8 @@ struct SensorLimits {
   double low_mm = -std::numeric_limits<double>::infinity();
   double high_mm = std::numeric_limits<double>::infinity();
   double quantisation_mm = 0.0;
+
+  bool operator==(const SensorLimits&) const = default;
 };
 
 /// What the sensor's head meets, before noise, limits and rounding; noise can be drawn on it again
