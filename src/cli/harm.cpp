@@ -21,7 +21,8 @@ int execute(const std::string& path, const std::string& folder) {
     scenario = parse_scenario_toml(content, path);
     hash = content_hash(content);
     if (scenario.part.kind == virtual_lathe::PartKind::face || scenario.cut)
-      throw InputError(path, "needs a cone or cylinder that is probed: the effects are those of X_M");
+      throw InputError(path,
+                       "needs a cone or cylinder that is probed: the effects are those of X_M");
   }
   const std::vector<study::HarmCase> cases = study::harm_cases(scenario);
   Progress progress(0, cases.size(), "effects");
@@ -37,9 +38,8 @@ int execute(const std::string& path, const std::string& folder) {
   std::filesystem::create_directories(folder, unused);
   const std::string csv = harm_csv(rows), json = harm_json(scenario, rows, hash),
                     page = harm_markdown(rows);
-  const FileContent files[] = {{folder + "/harm.csv", csv},
-                               {folder + "/harm.json", json},
-                               {folder + "/harm.md", page}};
+  const FileContent files[] = {
+      {folder + "/harm.csv", csv}, {folder + "/harm.json", json}, {folder + "/harm.md", page}};
   write_files(files);
   return done;
 }

@@ -13,7 +13,7 @@ using namespace diagnose_detail;
 
 namespace {
 
-constexpr int rounds = 6;           // of linearising again; the third already moves by rounding
+constexpr int rounds = 6;  // of linearising again; the third already moves by rounding
 constexpr double settled_mm = 1e-12;
 
 /// Surface and one effect, linear about a fitted surface.

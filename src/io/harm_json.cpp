@@ -10,9 +10,7 @@ using namespace study;
 using layout::format;
 
 /// Of a shift in mm per unit of the effect.
-std::string unit_of(const HarmRow& row) {
-  return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit;
-}
+std::string unit_of(const HarmRow& row) { return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit; }
 
 std::string cell(double value) { return std::isfinite(value) ? format("%.9g", value) : ""; }
 
@@ -20,7 +18,8 @@ std::string cell(double value) { return std::isfinite(value) ? format("%.9g", va
 
 std::string harm_csv(const std::vector<HarmRow>& rows) {
   std::string text =
-      "effect,form,unit,size,lathe,lathe_half,limit,predicted,second_order,off,rounding,agrees,stated,"
+      "effect,form,unit,size,lathe,lathe_half,limit,predicted,second_order,off,rounding,agrees,"
+      "stated,"
       "left,separable,u_ratio,extended,extended_half\n";
   for (const HarmRow& row : rows) {
     text += row.of.effect + ",\"" + row.of.form + "\"," + unit_of(row);

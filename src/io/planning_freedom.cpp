@@ -28,14 +28,16 @@ study::Freedom parse_freedom(std::string_view text) {
     for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
       const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
       if (key == whole || key == shorter) {
-        return {choice, number_of(text.substr(equals + 1, colon - equals - 1), text) * spelling.factor,
+        return {choice,
+                number_of(text.substr(equals + 1, colon - equals - 1), text) * spelling.factor,
                 number_of(text.substr(colon + 1), text) * spelling.factor};
       }
       if (spelling.key == key_spellings(study::path_of(choice)).front().key)
         known += (known.empty() ? "" : ", ") + std::string(shorter);
     }
   }
-  throw InputError(std::string(text), "\"" + std::string(key) + "\" cannot be chosen; what can: " + known);
+  throw InputError(std::string(text),
+                   "\"" + std::string(key) + "\" cannot be chosen; what can: " + known);
 }
 
 }  // namespace trueaxis

@@ -42,8 +42,8 @@ Json confirmed_json(const Confirmation& confirmed) {
           {"U",
            {{"value", number(confirmed.u_expanded_mm)},
             {"unit", "mm"},
-            {"interval_95", {number(confirmed.interval_95_mm.low),
-                             number(confirmed.interval_95_mm.high)}}}},
+            {"interval_95",
+             {number(confirmed.interval_95_mm.low), number(confirmed.interval_95_mm.high)}}}},
           {"U_stated", with_unit(confirmed.stated_mm, "mm")},
           {"at_bound", confirmed.at_bound}};
 }

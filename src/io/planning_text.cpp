@@ -78,7 +78,7 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
              confirmed.repeats, um(confirmed.u_expanded_mm).c_str(),
              um(confirmed.interval_95_mm.low).c_str(), um(confirmed.interval_95_mm.high).c_str(),
              um(confirmed.stated_mm).c_str());
-  text += !confirmed.at_bound ? "not what the bound says"
+  text += !confirmed.at_bound                        ? "not what the bound says"
           : confirmed.interval_95_mm.high <= goal_mm ? "within the goal"
                                                      : "as the bound says, at the goal";
   if (confirmed.failures > 0) text += format(", %zu failed", confirmed.failures);
@@ -88,9 +88,9 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
 }  // namespace
 
 std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
-  std::string text = format("U(axis) <= %s um, k = %g\n\nThe plan as it is\n  %s  %s\n",
-                            um(task.goal_mm).c_str(), task.coverage_factor, head,
-                            row_text(answer.as_given).c_str());
+  std::string text =
+      format("U(axis) <= %s um, k = %g\n\nThe plan as it is\n  %s  %s\n", um(task.goal_mm).c_str(),
+             task.coverage_factor, head, row_text(answer.as_given).c_str());
   if (!answer.alone.empty()) text += alone_text(answer);
   if (!answer.table.empty()) {
     text += format("\nOver the ranges, %s as needed\n  %s", words_of(answer.solved_for), head);
@@ -107,10 +107,10 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
   }
   for (const std::string& remark : answer.remarks) text += "\nNote: " + remark + '\n';
   if (answer.reached) return text;
-  text += format("\nNot reached: the best that the ranges%s allow is U = %s um (%.3g of the goal)\n  %s  %s\n",
-                 task.time_s ? " and the time" : "", um(answer.nearest.u_expanded_mm).c_str(),
-                 answer.nearest.u_expanded_mm / task.goal_mm, head,
-                 row_text(answer.nearest).c_str());
+  text += format(
+      "\nNot reached: the best that the ranges%s allow is U = %s um (%.3g of the goal)\n  %s  %s\n",
+      task.time_s ? " and the time" : "", um(answer.nearest.u_expanded_mm).c_str(),
+      answer.nearest.u_expanded_mm / task.goal_mm, head, row_text(answer.nearest).c_str());
   return text;
 }
 

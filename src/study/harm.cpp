@@ -75,8 +75,7 @@ struct AtSize {
 AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase& of, double size) {
   AtSize out;
   for (std::size_t d = 0; d < of.directions.size(); ++d) {
-    const EffectOnAxis found =
-        effect_on_axis(probed_with(ideal, of, d, size), options, of.known);
+    const EffectOnAxis found = effect_on_axis(probed_with(ideal, of, d, size), options, of.known);
     if (found.alone.status != FitStatus::converged)
       throw InputError(of.effect, "the surface cannot be fitted: " + found.alone.message);
     const AxisEnds truth = true_ends(ideal, found.alone);
@@ -117,8 +116,7 @@ HarmRow harm_of(const Scenario& scenario, const HarmCase& of) {
   FitOptions options;
   options.surface = surface_of(ideal.part.kind);
   options.bore = ideal.part.bore;
-  const EffectOnAxis linearised =
-      effect_on_axis(simulate_clean(ideal).stream, options, of.known);
+  const EffectOnAxis linearised = effect_on_axis(simulate_clean(ideal).stream, options, of.known);
   if (linearised.alone.status != FitStatus::converged)
     throw InputError(of.effect, "the surface cannot be fitted: " + linearised.alone.message);
   ideal.u_start_mm = linearised.z_mid_mm - linearised.z_half_mm;  // the same u in both

@@ -64,12 +64,19 @@ HarmDirection only(const char* size, std::vector<double> linear = {1.0}) {
 
 HarmCase mm(const char* effect, const char* form, TermShape shape, Parameters fixed,
             std::vector<HarmDirection> directions) {
-  return {effect, form, small_mm, "mm", 1.0, std::move(fixed), {effect, shape, {}},
-          std::move(directions), {}};
+  return {effect,
+          form,
+          small_mm,
+          "mm",
+          1.0,
+          std::move(fixed),
+          {effect, shape, {}},
+          std::move(directions),
+          {}};
 }
 
-HarmCase angle(const char* effect, const char* form, double size, TermShape shape,
-               Parameters fixed, std::vector<HarmDirection> directions) {
+HarmCase angle(const char* effect, const char* form, double size, TermShape shape, Parameters fixed,
+               std::vector<HarmDirection> directions) {
   HarmCase out = mm(effect, form, shape, std::move(fixed), std::move(directions));
   out.size = size, out.unit = "deg", out.edge = 1.0 / rad_per_deg;
   return out;
@@ -121,8 +128,7 @@ std::vector<HarmCase> part_cases(const Where& at) {
                             std::vector<std::size_t> columns) {
     Parameters fixed{{"order", order}};
     if (std::string(size) != "amplitude_mm") fixed["amplitude_mm"] = 0.0;
-    return free(mm("part.roundness", form, {.order = order}, fixed,
-                   phases(size, "phase_rad", 1.0)),
+    return free(mm("part.roundness", form, {.order = order}, fixed, phases(size, "phase_rad", 1.0)),
                 std::move(columns));
   };
   std::vector<HarmCase> out{
@@ -190,23 +196,22 @@ std::vector<HarmCase> probe_cases(const Where& at) {
   const Parameters sensor{{"reference_mm", at.x_mm}, {"range_mm", at.range_mm}};
   Parameters cubic = sensor;
   cubic["quadratic_mm"] = 0.0;
-  return {
-      mm("probe.height", "", {}, {}, {only("height_mm")}),
-      angle("probe.tilt", "", small_slope_rad, {}, {}, {only("angle_rad")}),
-      mm("probe.ball_radius", "", {}, {}, {only("radius_mm")}),
-      free(mm("probe.pretravel", "constant", {}, {}, {only("amplitude_mm")}), {0}),
-      free(mm("probe.pretravel", "three lobes", {.order = 3},
-              {{"amplitude_mm", 0.0}, {"order", 3}}, phases("lobing_mm", "phase_rad", 1.0)),
-           {1, 2}),
-      unit(mm("probe.gain", "", sensed, {{"reference_mm", at.x_mm}}, {only("gain")}), small_share,
-           "1"),
-      free(mm("probe.nonlinearity", "quadratic", sensed, sensor, {only("quadratic_mm")}), {0}),
-      free(mm("probe.nonlinearity", "cubic", sensed, cubic, {only("cubic_mm")}), {1}),
-      mm("probe.cyclic", "0.137 mm", {.period_mm = period_mm}, {{"period_mm", period_mm}},
-         phases("amplitude_mm", "phase_rad", -1.0)),
-      unit(mm("probe.latency", "", {}, {}, {only("delay_s")}), small_s, "s"),
-      unit(mm("probe.lag", "", {.time_constant_s = 0.0}, {}, {only("time_constant_s")}), small_s,
-           "s")};
+  return {mm("probe.height", "", {}, {}, {only("height_mm")}),
+          angle("probe.tilt", "", small_slope_rad, {}, {}, {only("angle_rad")}),
+          mm("probe.ball_radius", "", {}, {}, {only("radius_mm")}),
+          free(mm("probe.pretravel", "constant", {}, {}, {only("amplitude_mm")}), {0}),
+          free(mm("probe.pretravel", "three lobes", {.order = 3},
+                  {{"amplitude_mm", 0.0}, {"order", 3}}, phases("lobing_mm", "phase_rad", 1.0)),
+               {1, 2}),
+          unit(mm("probe.gain", "", sensed, {{"reference_mm", at.x_mm}}, {only("gain")}),
+               small_share, "1"),
+          free(mm("probe.nonlinearity", "quadratic", sensed, sensor, {only("quadratic_mm")}), {0}),
+          free(mm("probe.nonlinearity", "cubic", sensed, cubic, {only("cubic_mm")}), {1}),
+          mm("probe.cyclic", "0.137 mm", {.period_mm = period_mm}, {{"period_mm", period_mm}},
+             phases("amplitude_mm", "phase_rad", -1.0)),
+          unit(mm("probe.latency", "", {}, {}, {only("delay_s")}), small_s, "s"),
+          unit(mm("probe.lag", "", {.time_constant_s = 0.0}, {}, {only("time_constant_s")}),
+               small_s, "s")};
 }
 
 /// The catalogue's figure goes to the form that it is of.

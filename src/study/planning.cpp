@@ -56,8 +56,9 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   for (Freedom& free : task.free) {
     if (free.choice != Choice::readings_per_revolution || free.high <= most) continue;
     free.high = most;
-    std::snprintf(text, sizeof text, "%g readings a second are %.4g readings per revolution at %g/min",
-                  *task.rate_hz, most, fastest_rpm);
+    std::snprintf(text, sizeof text,
+                  "%g readings a second are %.4g readings per revolution at %g/min", *task.rate_hz,
+                  most, fastest_rpm);
     remarks.emplace_back(text);
     if (free.low > free.high)
       throw InputError("plan", std::string(text) + ": less than the range begins with");
@@ -70,7 +71,8 @@ Scenario demanding(const PlanningTask& task, bool best_probe) {
   if (const Freedom* readings = find(task.free, Choice::readings_per_revolution))
     out = Search::with(out, *readings, 1.0);
   const Freedom* sigma = find(task.free, Choice::sigma);
-  if (sigma && (best_probe || !(out.noise.sigma_mm >= sigma->low && out.noise.sigma_mm <= sigma->high)))
+  if (sigma &&
+      (best_probe || !(out.noise.sigma_mm >= sigma->low && out.noise.sigma_mm <= sigma->high)))
     out = Search::with(out, *sigma, 1.0);
   return out;
 }
@@ -168,8 +170,7 @@ void fill_table(const PlanningTask& task, const Search& search, PlanningAnswer& 
 
 void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
   const bool there = std::ranges::any_of(out.recommended, [&](const Recommendation& one) {
-    return std::ranges::all_of(choices,
-                               [&](Choice c) { return one.plan.of(c) == plan.of(c); });
+    return std::ranges::all_of(choices, [&](Choice c) { return one.plan.of(c) == plan.of(c); });
   });
   if (!there) out.recommended.push_back({what, std::move(plan), {}});
 }
@@ -204,8 +205,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
   for (const Freedom& free : task.free) {
     Alone one{free.choice, false, search.solve(task.base, free)};
     one.reached = search.meets(one.plan);
-    if (one.reached && search.in_time(one.plan))
-      recommend(out, words_of(free.choice), one.plan);
+    if (one.reached && search.in_time(one.plan)) recommend(out, words_of(free.choice), one.plan);
     out.alone.push_back(std::move(one));
   }
   out.nearest = task.free.empty() ? out.as_given : smallest_u(task, search, false);
@@ -214,7 +214,8 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
       find(task.free, Choice::sigma)) {
     best_probe = true;
     out.nearest = smallest_u(task, search, true);
-    out.remarks.emplace_back("the probe of the scenario does not do: the best of its range is taken");
+    out.remarks.emplace_back(
+        "the probe of the scenario does not do: the best of its range is taken");
   }
   out.reached = search.meets(out.nearest) && search.in_time(out.nearest);
   for (const Choice choice : choices) {

@@ -21,7 +21,7 @@ using namespace planning_detail;
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double met = 1.0 + 1e-9;   // of the goal: rounding of the bound
+constexpr double met = 1.0 + 1e-9;     // of the goal: rounding of the bound
 constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded to be set
 constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;

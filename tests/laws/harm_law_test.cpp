@@ -29,8 +29,8 @@ Scenario reference(PartKind kind) {
 class HarmLaw : public ::testing::TestWithParam<PartKind> {};
 
 // bias(a)/a = projection + O(a): half the size halves the error, and 2 × half − whole has none but
-// what the third order leaves, which is less than the second where sizes are small. Rounding is that
-// of contacts, and must itself be small beside the harm.
+// what the third order leaves, which is less than the second where sizes are small. Rounding is
+// that of contacts, and must itself be small beside the harm.
 TEST_P(HarmLaw, LatheGoesToTheProjectionAsTheSizeGoesToZero) {
   const Scenario scenario = reference(GetParam());
   for (const HarmCase& one : harm_cases(scenario)) {
@@ -69,7 +69,8 @@ TEST_P(HarmLaw, EveryEffectOfTheCatalogueHasACase) {
   for (const HarmCase& one : cases) covered.insert(one.effect);
   for (const Effect& effect : effect_catalogue()) {
     // Of a cone a taper is the angle itself.
-    const bool asked = !effect.check && !(effect.id == "part.taper" && GetParam() == PartKind::cone);
+    const bool asked =
+        !effect.check && !(effect.id == "part.taper" && GetParam() == PartKind::cone);
     EXPECT_EQ(covered.contains(effect.id), asked) << effect.id;
   }
 }
@@ -107,9 +108,12 @@ TEST(HarmGeometry, FiguresOfTheCatalogue) {
   const struct {
     const char *effect, *form;
     double half_a_digit;
-  } figures[] = {{"encoder.offset", "", 5e-5},   {"probe.latency", "", 5e-3},
-                 {"probe.gain", "", 5e-3},       {"probe.height", "", 5e-4},
-                 {"probe.ball_radius", "", 1e-7}, {"part.bow", "from the lower end", 5e-3},
+  } figures[] = {{"encoder.offset", "", 5e-5},
+                 {"probe.latency", "", 5e-3},
+                 {"probe.gain", "", 5e-3},
+                 {"probe.height", "", 5e-4},
+                 {"probe.ball_radius", "", 1e-7},
+                 {"part.bow", "from the lower end", 5e-3},
                  {"part.slip", "radial, at two thirds", 5e-3}};
   for (const HarmCase& one : harm_cases(scenario)) {
     for (const auto& figure : figures) {

@@ -34,7 +34,8 @@ PlanningTask cylinder_task() {
 }
 
 // x(z) = mean + slope × (z − middle) by N readings of x cos C + y sin C: at an end the variance is
-// (2σ²/N)(1 + (L/2)²/(L²/12)) = 8σ²/N. What is left: correlation of sin C and Z over 80 turns, 1/80.
+// (2σ²/N)(1 + (L/2)²/(L²/12)) = 8σ²/N. What is left: correlation of sin C and Z over 80 turns,
+// 1/80.
 TEST(PlanningLaw, UncertaintyOfACylinderIsThatOfALine) {
   const PlanningTask task = cylinder_task();
   const PlannedMeasurement plan = planned(task.base, 2.0);
@@ -53,7 +54,8 @@ TEST(PlanningLaw, UncertaintyGoesWithNoiseAndOneOverTheRootOfReadings) {
               1e-9 * once.u_expanded_mm);
   task.base.plan.passes[0].readings_per_revolution *= 4.0;
   const PlannedMeasurement four = planned(task.base, 2.0);
-  const double root = std::sqrt(static_cast<double>(four.readings) / static_cast<double>(once.readings));
+  const double root =
+      std::sqrt(static_cast<double>(four.readings) / static_cast<double>(once.readings));
   EXPECT_NEAR(four.u_expanded_mm * root, 2.0 * once.u_expanded_mm, 0.005 * once.u_expanded_mm);
 }
 
@@ -61,8 +63,10 @@ TEST(PlanningLaw, UncertaintyGoesWithNoiseAndOneOverTheRootOfReadings) {
 // needed: a step (a tenth of a reading, the third digit) less misses.
 TEST(PlanningLaw, SolvesForTheLeastThatMeetsTheGoal) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::sigma, 1e-4, 1e-2},
-               {Choice::feed, 0.1, 2.0}, {Choice::length, 20.0, 200.0}};
+  task.free = {{Choice::readings_per_revolution, 4.0, 64.0},
+               {Choice::sigma, 1e-4, 1e-2},
+               {Choice::feed, 0.1, 2.0},
+               {Choice::length, 20.0, 200.0}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
   ASSERT_EQ(answer.alone.size(), task.free.size());
@@ -130,7 +134,8 @@ TEST(PlanningLaw, SaysHowNearAnUnreachableGoalComes) {
 TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 1e-3;
-  task.free = {{Choice::readings_per_revolution, 4.0, 30.0}, {Choice::feed, 0.1, 4.0},
+  task.free = {{Choice::readings_per_revolution, 4.0, 30.0},
+               {Choice::feed, 0.1, 4.0},
                {Choice::length, 10.0, 60.0}};
   task.repeats = 100;
   task.time_s = 40.0;
@@ -145,7 +150,8 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
     virtual_lathe::Scenario scenario = task.base;
     for (const Freedom& free : task.free) {
       const double share = static_cast<double>(draw() >> 11) * 0x1p-53;
-      set_parameter(scenario, path_of(free.choice), free.low * std::pow(free.high / free.low, share));
+      set_parameter(scenario, path_of(free.choice),
+                    free.low * std::pow(free.high / free.low, share));
     }
     const PlannedMeasurement plan = planned(scenario, 2.0);
     if (plan.u_expanded_mm > task.goal_mm) continue;

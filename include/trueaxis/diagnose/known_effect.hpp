@@ -23,7 +23,7 @@ AxisEnds ends_of(const FitResult& fit);
 
 /// What an effect does to the axis of a lateral surface when it is left out, and when it is not.
 struct EffectOnAxis {
-  FitResult alone;     ///< the surface fitted as if there were no effect
+  FitResult alone;  ///< the surface fitted as if there were no effect
   /// Of `alone` after one more linear step: the fit stops where a step is worth 1e-9 of its cost,
   /// which here is the effect and not noise.
   AxisEnds alone_ends{};

@@ -24,10 +24,10 @@ struct HarmDirection {
 
 /// An effect of the catalogue in one form, at a size that is small enough for its second order.
 struct HarmCase {
-  std::string effect, form;  ///< "part.roundness", "ovality"
-  double size = 0.0;         ///< mm, rad, s or 1
-  std::string unit;          ///< at the edge: mm, deg, s or 1
-  double edge = 1.0;         ///< edge value of one inside unit
+  std::string effect, form;                      ///< "part.roundness", "ovality"
+  double size = 0.0;                             ///< mm, rad, s or 1
+  std::string unit;                              ///< at the edge: mm, deg, s or 1
+  double edge = 1.0;                             ///< edge value of one inside unit
   std::map<std::string, double> shape_of_lathe;  ///< parameters that the size does not scale
   KnownEffect known;
   /// Two of an effect with a phase or direction: the harm is then that of the worst phase.
@@ -43,8 +43,8 @@ struct HarmRow {
   HarmCase of;
   double lathe = 0.0;       ///< simulated at the size, the surface fitted alone
   double lathe_half = 0.0;  ///< at half the size
-  double limit = 0.0;       ///< 2 × half − whole: what is left of the second order is of the third
-  double predicted = 0.0;   ///< the effect's column projected on the surface's columns
+  double limit = 0.0;  ///< 2 × half − whole: what is left of the second order is of the third
+  double predicted = 0.0;     ///< the effect's column projected on the surface's columns
   double second_order = 0.0;  ///< between whole and half; as much is left between half and limit
   double off = 0.0;           ///< between limit and prediction
   double off_whole = 0.0, off_half = 0.0;  ///< between lathe and prediction at both sizes
@@ -60,8 +60,8 @@ struct HarmRow {
 /// @throws InputError when the part cannot be probed, or the surface not be fitted.
 HarmRow harm_of(const virtual_lathe::Scenario& scenario, const HarmCase& of);
 
-/// The plan of the catalogue's figures: cone of R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad, one
-/// helical pass over Z 0-60 mm at 60 rpm.
+/// The plan of the catalogue's figures: cone of R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad,
+/// one helical pass over Z 0-60 mm at 60 rpm.
 virtual_lathe::Scenario harm_reference();
 
 }  // namespace trueaxis::study

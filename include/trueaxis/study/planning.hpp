@@ -11,8 +11,8 @@
 #include "trueaxis/simulate/scenario.hpp"
 #include "trueaxis/study/summary.hpp"
 
-/// Which length, readings and probe are needed for an uncertainty of the axis: before measuring, from
-/// the Cramér-Rao bound, and confirmed by simulation.
+/// Which length, readings and probe are needed for an uncertainty of the axis: before measuring,
+/// from the Cramér-Rao bound, and confirmed by simulation.
 namespace trueaxis::study {
 
 /// What may be chosen.
@@ -32,7 +32,7 @@ struct Freedom {
 struct PlanningTask {
   virtual_lathe::Scenario base;
   std::vector<Freedom> free;  ///< each choice once
-  double goal_mm = 1e-3;      ///< largest U = k u of the axis over the probed length, worse direction
+  double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
   double coverage_factor = 2.0;
   std::optional<double> rate_hz;  ///< readings a second that the probe can give
   std::optional<double> time_s;   ///< that the measurement may take
@@ -92,8 +92,8 @@ struct PlanningAnswer {
   std::vector<std::string> remarks;         ///< what limits the answer
 };
 
-/// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without a
-/// bound, or a goal that is none.
+/// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without
+/// a bound, or a goal that is none.
 PlanningAnswer plan_measurement(const PlanningTask& task);
 
 }  // namespace trueaxis::study
