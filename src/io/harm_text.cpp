@@ -76,7 +76,7 @@ std::string harm_markdown(const std::vector<HarmRow>& rows) {
     const Cells c = cells_of(row);
     text += "| `" + row.of.effect + "`" + (row.of.form.empty() ? "" : ", " + row.of.form) + " | " +
             c.lathe + " | " + c.predicted + " | " + c.stated + " | " + c.unit + " | " +
-            format("%.2g %%", 100.0 * row.left) + " | " + c.extended + " | " + c.cost + " |\n";
+            format("%.3g %%", 100.0 * row.left) + " | " + c.extended + " | " + c.cost + " |\n";
   }
   return text;
 }
