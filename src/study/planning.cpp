@@ -127,6 +127,8 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
 /// Shortest time that meets the goal; of those that do not, the smallest U.
 PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool best_probe) {
   const Freedom* feed = find(task.free, Choice::feed);
+  const Freedom* length = find(task.free, Choice::length);
+  if (length && !feed) return search.solve(demanding(task, best_probe), *length);
   return best_over_length(task, demanding(task, best_probe), [&](const Scenario& scenario) {
     PlannedMeasurement plan = feed ? search.solve(scenario, *feed) : search.at(scenario);
     const double time = search.meets(plan) ? plan.time_s : 1e12 * plan.u_expanded_mm / task.goal_mm;
@@ -215,7 +217,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
     best_probe = true;
     out.nearest = smallest_u(task, search, true);
     out.remarks.emplace_back(
-        "the probe of the scenario does not do: the best of its range is taken");
+        "within the ranges the probe of the scenario does not do: the best of its range is taken");
   }
   out.reached = search.meets(out.nearest) && search.in_time(out.nearest);
   for (const Choice choice : choices) {

@@ -161,6 +161,17 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   EXPECT_GT(met, 5);
 }
 
+// With the length alone to choose, the least length is the quickest: one recommendation, not two.
+TEST(PlanningLaw, TheLeastLengthIsTheQuickest) {
+  PlanningTask task = cylinder_task();
+  task.free = {{Choice::length, 20.0, 200.0}};
+  task.repeats = 100;
+  const PlanningAnswer answer = plan_measurement(task);
+  ASSERT_EQ(answer.recommended.size(), 1U);
+  EXPECT_EQ(answer.recommended.front().plan.of(Choice::length),
+            answer.alone.front().plan.of(Choice::length));
+}
+
 TEST(PlanningLaw, RefusesWhatHasNoAnswer) {
   PlanningTask face = cylinder_task();
   face.base.part.kind = virtual_lathe::PartKind::face;
