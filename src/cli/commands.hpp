@@ -16,6 +16,8 @@ void add_advise(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
+void add_harm(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli

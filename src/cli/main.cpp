@@ -26,6 +26,8 @@ int run(int argc, char** argv) {
   add_correct(app, code);
   add_simulate(app, code);
   add_sweep(app, code);
+  add_plan(app, code);
+  add_harm(app, code);
   add_effects(app, code);
   try {
     app.parse(argc, argv);

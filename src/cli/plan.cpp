@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include "cli/commands.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/base/units.hpp"
+#include "trueaxis/io/file.hpp"
+#include "trueaxis/io/planning_results.hpp"
+#include "trueaxis/io/scenario_toml.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+namespace lathe = virtual_lathe;
+
+/// A part and one helical pass, without a scenario's file.
+struct Simple {
+  std::string surface = "cone";
+  double radius_mm = 40.0, half_angle_deg = 5.710593, length_mm = 60.0, feed_mm = 1.0;
+  double per_revolution = 20.3, speed_rpm = 60.0, sigma_um = 2.0;
+
+  lathe::Scenario scenario() const {
+    lathe::Scenario out;
+    const bool cone = surface == "cone";
+    out.part.kind = cone ? lathe::PartKind::cone : lathe::PartKind::cylinder;
+    out.part.radius_mm = radius_mm;
+    if (cone) out.part.half_angle_rad = half_angle_deg * rad_per_deg;
+    out.noise.sigma_mm = sigma_um * mm_per_um;
+    lathe::PlannedPass pass;
+    pass.end_mm = length_mm, pass.feed_mm_per_rev = feed_mm;
+    pass.readings_per_revolution = per_revolution, pass.speed_rpm = speed_rpm;
+    out.plan.passes = {pass};
+    return out;
+  }
+};
+
+struct Options {
+  std::string scenario, json;
+  Simple simple;
+  std::vector<std::string> free;
+  double goal_um = 1.0;
+  study::PlanningTask task;
+};
+
+int execute(Options options) {
+  study::PlanningTask& task = options.task;
+  std::string hash = content_hash("");
+  if (options.scenario.empty()) {
+    task.base = options.simple.scenario();
+  } else {
+    const std::string content = read_file(options.scenario);
+    task.base = parse_scenario_toml(content, options.scenario);
+    hash = content_hash(content);
+    if (task.base.cut) throw InputError(options.scenario, "a plan probes a part: take [cut] out");
+  }
+  task.goal_mm = options.goal_um * mm_per_um;
+  try {
+    for (const std::string& text : options.free) task.free.push_back(parse_freedom(text));
+  } catch (const InputError& error) {
+    throw CLI::ValidationError("--free", error.what());
+  }
+  const study::PlanningAnswer answer = study::plan_measurement(task);
+  if (options.json != "-") std::cout << planning_text(task, answer);
+  if (!options.json.empty()) write_file(options.json, planning_json(task, answer, hash));
+  return answer.reached ? done : refused;
+}
+
+void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
+  const auto add = [&](const char* name, double& value, const char* what) {
+    command.add_option(name, value, what)
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str()
+        ->excludes(scenario)
+        ->group("Without a scenario");
+  };
+  command.add_option("--surface", simple.surface, "cone or cylinder")
+      ->check(CLI::IsMember({"cone", "cylinder"}))
+      ->capture_default_str()
+      ->excludes(scenario)
+      ->group("Without a scenario");
+  add("--radius-mm", simple.radius_mm, "radius where the pass starts");
+  add("--half-angle-deg", simple.half_angle_deg, "half angle of the cone");
+  add("--length-mm", simple.length_mm, "travel of the pass");
+  add("--feed-mm", simple.feed_mm, "feed per revolution");
+  add("--per-revolution", simple.per_revolution, "readings per revolution");
+  add("--speed-rpm", simple.speed_rpm, "spindle speed");
+  add("--sigma-um", simple.sigma_um, "standard deviation of one reading");
+}
+
+}  // namespace
+
+void add_plan(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "plan", "which length, readings and probe an uncertainty of the axis needs");
+  auto options = std::make_shared<Options>();
+  auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
+  command->add_option("--goal-um", options->goal_um, "largest U of the axis over the length")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--k", options->task.coverage_factor, "coverage factor of U")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--free", options->free,
+                      "what may be chosen, KEY=LOW:HIGH, each once: readings_per_revolution, "
+                      "sigma_um, feed_mm_per_rev, length_mm");
+  command->add_option("--time-s", options->task.time_s, "time that the measurement may take")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--rate-hz", options->task.rate_hz, "readings a second that the probe gives")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--repeats", options->task.repeats, "of each confirmation")
+      ->check(CLI::Range(100, 10'000'000))
+      ->capture_default_str();
+  command->add_option("--seed", options->task.seed, "of the confirmations")->capture_default_str();
+  command->add_option("--threads", options->task.threads, "default: as many as there are")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--json", options->json, "the answer (trueaxis.plan/1), '-' prints it");
+  add_simple(*command, options->simple, scenario);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+
+#include "io/toml_units.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/io/planning_results.hpp"
+
+namespace trueaxis {
+namespace {
+
+double number_of(std::string_view text, std::string_view whole) {
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+    throw InputError(std::string(whole), "\"" + std::string(text) + "\" is no number");
+  return value;
+}
+
+}  // namespace
+
+study::Freedom parse_freedom(std::string_view text) {
+  const std::size_t equals = text.find('='), colon = text.find(':');
+  if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals)
+    throw InputError(std::string(text), "is not KEY=LOW:HIGH");
+  const std::string_view key = text.substr(0, equals);
+  std::string known;
+  for (const study::Choice choice : study::choices) {
+    for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
+      const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
+      if (key == whole || key == shorter) {
+        return {choice,
+                number_of(text.substr(equals + 1, colon - equals - 1), text) * spelling.factor,
+                number_of(text.substr(colon + 1), text) * spelling.factor};
+      }
+      if (spelling.key == key_spellings(study::path_of(choice)).front().key)
+        known += (known.empty() ? "" : ", ") + std::string(shorter);
+    }
+  }
+  throw InputError(std::string(text),
+                   "\"" + std::string(key) + "\" cannot be chosen; what can: " + known);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/study/planning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "study/planning_search.hpp"
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/study/scenario_parameters.hpp"
+
+namespace trueaxis::study {
+
+using namespace planning_detail;
+
+namespace {
+
+using virtual_lathe::Scenario;
+
+constexpr int lengths_tried = 9, lengths_between = 7;
+
+void check(const PlanningTask& task) {
+  const auto refuse = [](const char* why) { throw InputError("plan", why); };
+  const virtual_lathe::Noise& noise = task.base.noise;
+  if (!(task.goal_mm > 0.0) || !(task.coverage_factor > 0.0))
+    refuse("the goal and k must be more than 0");
+  for (const Freedom& free : task.free) {
+    if (!(free.low > 0.0) || !(free.low <= free.high) || !std::isfinite(free.high))
+      refuse("a range goes from a number above 0 to one that is not smaller");
+    if (std::ranges::count(task.free, free.choice, &Freedom::choice) > 1)
+      refuse("a choice has two ranges");
+  }
+  if (!(noise.sigma_mm > 0.0 || noise.uniform_mm > 0.0) && !find(task.free, Choice::sigma))
+    refuse("without noise every plan is perfect: give the probe's noise");
+  if (task.base.probe.relative_zero_mm || !noise.autoregression.empty() ||
+      task.base.plan.setups.size() > 1)
+    refuse("there is no bound for a relative gauge, an autoregression or several set-ups");
+}
+
+/// The probe's rate as a limit on the readings per revolution.
+void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
+  if (!task.rate_hz) return;
+  double fastest_rpm = 0.0;
+  for (const auto& pass : task.base.plan.passes)
+    fastest_rpm = std::max(fastest_rpm, std::abs(pass.speed_rpm));
+  const double most = *task.rate_hz * 60.0 / fastest_rpm;
+  char text[160];
+  for (const auto& pass : task.base.plan.passes) {
+    const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
+    if (rate <= *task.rate_hz || find(task.free, Choice::readings_per_revolution)) continue;
+    std::snprintf(text, sizeof text, "the plan asks for %.4g readings a second, more than the %g",
+                  rate, *task.rate_hz);
+    remarks.emplace_back(text);
+    break;
+  }
+  for (Freedom& free : task.free) {
+    if (free.choice != Choice::readings_per_revolution || free.high <= most) continue;
+    free.high = most;
+    std::snprintf(text, sizeof text,
+                  "%g readings a second are %.4g readings per revolution at %g/min", *task.rate_hz,
+                  most, fastest_rpm);
+    remarks.emplace_back(text);
+    if (free.low > free.high)
+      throw InputError("plan", std::string(text) + ": less than the range begins with");
+  }
+}
+
+/// Everything as demanding as it may be but feed and length.
+Scenario demanding(const PlanningTask& task, bool best_probe) {
+  Scenario out = task.base;
+  if (const Freedom* readings = find(task.free, Choice::readings_per_revolution))
+    out = Search::with(out, *readings, 1.0);
+  const Freedom* sigma = find(task.free, Choice::sigma);
+  if (sigma &&
+      (best_probe || !(out.noise.sigma_mm >= sigma->low && out.noise.sigma_mm <= sigma->high)))
+    out = Search::with(out, *sigma, 1.0);
+  return out;
+}
+
+/// The best of `rate(effort of the length)` over the range, smaller is better.
+template <class Rate>
+PlannedMeasurement best_over_length(const PlanningTask& task, const Scenario& from,
+                                    const Rate& rate) {
+  const Freedom* length = find(task.free, Choice::length);
+  if (!length) return rate(from).second;
+  std::pair<double, PlannedMeasurement> best;
+  double best_effort = 0.0;
+  bool first = true;
+  const auto look = [&](double effort) {
+    auto now = rate(Search::with(from, *length, effort));
+    if (first || now.first < best.first) best = std::move(now), best_effort = effort, first = false;
+  };
+  constexpr double apart = 1.0 / (lengths_tried - 1);
+  for (int i = 0; i < lengths_tried; ++i) look(i * apart);
+  const double about = best_effort;
+  for (int i = 1; i <= lengths_between; ++i) {
+    const double effort = about + apart * (2.0 * i / (lengths_between + 1) - 1.0);
+    if (effort > 0.0 && effort < 1.0 && effort != about) look(effort);
+  }
+  return best.second;
+}
+
+/// Smallest U, within the time if there is one.
+PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bool best_probe) {
+  const Freedom* feed = find(task.free, Choice::feed);
+  return best_over_length(task, demanding(task, best_probe), [&](const Scenario& scenario) {
+    Scenario slow = scenario;
+    if (feed) {
+      slow = Search::with(scenario, *feed, 1.0);
+      // Passes and turns share the time left beside the pauses: time falls as 1/feed.
+      if (task.time_s && measuring_time_s(slow) > *task.time_s) {
+        double pauses = 0.0;
+        for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
+        const double room = *task.time_s - pauses;
+        const double wanted = feed->low * (measuring_time_s(slow) - pauses) / room;
+        set_parameter(slow, path_of(Choice::feed),
+                      room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
+      }
+    }
+    PlannedMeasurement plan = search.at(slow);
+    const double late = search.in_time(plan) ? 0.0 : 1e6 * plan.time_s;
+    const double height = plan.u_expanded_mm + late;
+    return std::pair{height, std::move(plan)};
+  });
+}
+
+/// Shortest time that meets the goal; of those that do not, the smallest U.
+PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool best_probe) {
+  const Freedom* feed = find(task.free, Choice::feed);
+  const Freedom* length = find(task.free, Choice::length);
+  if (length && !feed) return search.solve(demanding(task, best_probe), *length);
+  return best_over_length(task, demanding(task, best_probe), [&](const Scenario& scenario) {
+    PlannedMeasurement plan = feed ? search.solve(scenario, *feed) : search.at(scenario);
+    const double time = search.meets(plan) ? plan.time_s : 1e12 * plan.u_expanded_mm / task.goal_mm;
+    return std::pair{time, std::move(plan)};
+  });
+}
+
+/// As many readings as are needed and no more, where they may be chosen.
+PlannedMeasurement without_excess(const PlanningTask& task, const Search& search,
+                                  PlannedMeasurement plan) {
+  const Freedom* readings = find(task.free, Choice::readings_per_revolution);
+  if (!readings) return plan;
+  PlannedMeasurement fewer = search.solve(plan.scenario, *readings);
+  return search.meets(fewer) ? fewer : plan;
+}
+
+void fill_table(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
+  std::vector<Freedom> others;
+  for (const Freedom& free : task.free) {
+    if (free.choice != out.solved_for) others.push_back(free);
+  }
+  if (others.empty()) return;
+  const std::size_t nodes = others.size() == 1 ? 5 : others.size() == 2 ? 4 : 3;
+  std::size_t rows = 1;
+  for (std::size_t i = 0; i < others.size(); ++i) rows *= nodes;
+  const Freedom& solved = *find(task.free, out.solved_for);
+  for (std::size_t row = 0; row < rows; ++row) {
+    Scenario scenario = task.base;
+    std::size_t left = row;
+    for (const Freedom& other : others) {
+      const double effort = static_cast<double>(left % nodes) / static_cast<double>(nodes - 1);
+      scenario = Search::with(scenario, other, effort);
+      left /= nodes;
+    }
+    TableRow one;
+    one.plan = search.solve(scenario, solved);
+    one.reached = search.meets(one.plan);
+    out.table.push_back(std::move(one));
+  }
+}
+
+void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
+  const bool there = std::ranges::any_of(out.recommended, [&](const Recommendation& one) {
+    return std::ranges::all_of(choices, [&](Choice c) { return one.plan.of(c) == plan.of(c); });
+  });
+  if (!there) out.recommended.push_back({what, std::move(plan), {}});
+}
+
+const char* words_of(Choice choice) {
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return "other readings per revolution alone";
+    case Choice::sigma:
+      return "another probe alone";
+    case Choice::feed:
+      return "another feed alone";
+    case Choice::length:
+      break;
+  }
+  return "another length alone";
+}
+
+}  // namespace
+
+PlanningAnswer plan_measurement(const PlanningTask& asked) {
+  if (asked.base.part.kind == virtual_lathe::PartKind::face)
+    throw InputError("plan", "a face has no axis: plan a cone or a cylinder");
+  PlanningTask task = asked;
+  PlanningAnswer out;
+  check(task);
+  limit_rate(task, out.remarks);
+  const Search search(task);
+  out.as_given = search.at(task.base);
+  if (search.meets(out.as_given) && search.in_time(out.as_given))
+    recommend(out, "as it is", out.as_given);
+  for (const Freedom& free : task.free) {
+    Alone one{free.choice, false, search.solve(task.base, free)};
+    one.reached = search.meets(one.plan);
+    if (one.reached && search.in_time(one.plan)) recommend(out, words_of(free.choice), one.plan);
+    out.alone.push_back(std::move(one));
+  }
+  out.nearest = task.free.empty() ? out.as_given : smallest_u(task, search, false);
+  bool best_probe = false;
+  if (!(search.meets(out.nearest) && search.in_time(out.nearest)) &&
+      find(task.free, Choice::sigma)) {
+    best_probe = true;
+    out.nearest = smallest_u(task, search, true);
+    out.remarks.emplace_back(
+        "within the ranges the probe of the scenario does not do: the best of its range is taken");
+  }
+  out.reached = search.meets(out.nearest) && search.in_time(out.nearest);
+  for (const Choice choice : choices) {
+    if (!find(task.free, choice)) continue;
+    out.solved_for = choice;
+    break;
+  }
+  if (!task.free.empty()) fill_table(task, search, out);
+  if (out.reached && !task.free.empty()) {
+    const PlannedMeasurement fast = quickest(task, search, best_probe);
+    if (search.meets(fast) && search.in_time(fast))
+      recommend(out, "quickest", without_excess(task, search, fast));
+    if (task.time_s) recommend(out, "most certain in the time", out.nearest);
+  }
+  for (Recommendation& one : out.recommended)
+    one.confirmed = confirm(one.plan, task, out.recommended.size());
+  return out;
+}
+
+}  // namespace trueaxis::study

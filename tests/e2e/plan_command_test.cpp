@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planning a measurement, and what unmodelled effects cost, as a user asks for it.
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using PlanCommand = CommandTest;
+using HarmCommand = CommandTest;
+
+const char* const scenario =
+    "name = \"seat\"\nseed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.05\n"
+    "[noise]\nsigma_um = 3\n[[pass]]\nz_start_mm = 0\nz_end_mm = 40\nfeed_mm_per_rev = 1\n"
+    "readings_per_revolution = 10.3\nspeed_rpm = 60\n";
+
+// U = k σ √(8/N) of a cylinder (40 turns: 1/40); the goal 0.6 µm needs N = 8 (k σ/U)² = 800.
+TEST_F(PlanCommand, AnswersAndConfirms) {
+  file("seat.toml", scenario);
+  const CommandStreams done = command(
+      "plan seat.toml --goal-um 0.6 --free readings_per_revolution=4:64 --free sigma_um=0.5:5 "
+      "--repeats 200 --seed 7 --json plan.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json plan = result("plan.json");
+  EXPECT_EQ(plan.at("schema"), "trueaxis.plan/1");
+  EXPECT_EQ(plan.at("status"), "reached");
+  const double as_given = plan.at("as_given").at("U").at("value");
+  const double readings = plan.at("as_given").at("readings");
+  EXPECT_NEAR(as_given, 2.0 * 3e-3 * std::sqrt(8.0 / readings), as_given / 40.0);
+  const nlohmann::json& alone = plan.at("alone").at(0);
+  EXPECT_EQ(alone.at("choice"), "readings_per_revolution");
+  EXPECT_NEAR(alone.at("plan").at("readings").get<double>(), 800.0, 2.0 * 800.0 / 40.0);
+  EXPECT_EQ(plan.at("table").size(), 5U);  // over the noise
+  for (const nlohmann::json& one : plan.at("recommended")) {
+    EXPECT_LE(one.at("plan").at("U").at("value").get<double>(), 0.6e-3 * (1 + 1e-9));
+    EXPECT_TRUE(one.at("confirmed").at("at_bound")) << one << " seed 7";
+    EXPECT_EQ(one.at("confirmed").at("repeats"), 200);
+  }
+  EXPECT_TRUE(contains(done.out, "Recommended, and confirmed by simulation (seed 7)"));
+}
+
+TEST_F(PlanCommand, SameSeedSameBytesOnAnyThreads) {
+  file("seat.toml", scenario);
+  const std::string ask =
+      "plan seat.toml --goal-um 0.8 --free length_mm=20:80 --repeats 300 --seed 3 --json ";
+  ASSERT_EQ(command(ask + "one.json --threads 1").exit_code, 0);
+  ASSERT_EQ(command(ask + "two.json --threads 2").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "one.json"), read_text(folder_ / "two.json"));
+}
+
+TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
+  const CommandStreams done = command(
+      "plan --surface cylinder --sigma-um 3 --goal-um 0.05 --free readings_per_revolution=4:20 "
+      "--time-s 30 --json -");
+  EXPECT_EQ(done.exit_code, 1) << done.err;
+  const nlohmann::json plan = nlohmann::json::parse(done.out);
+  EXPECT_EQ(plan.at("status"), "not_reached");
+  EXPECT_GT(plan.at("nearest").at("U").at("value").get<double>(), 0.05e-3);
+  EXPECT_TRUE(plan.at("recommended").empty());
+}
+
+TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
+  EXPECT_EQ(command("plan --free colour=1:2").exit_code, 2);
+  EXPECT_EQ(command("plan --free sigma_um=1").exit_code, 2);
+  EXPECT_EQ(command("plan --goal-um 0").exit_code, 2);
+  file("seat.toml", scenario);
+  EXPECT_EQ(command("plan seat.toml --surface cone").exit_code, 2);
+  expect_input_error("plan seat.toml --free sigma_um=5:0.5", "a range goes from");
+  expect_input_error("plan missing.toml", "missing.toml");
+}
+
+TEST_F(HarmCommand, WritesEveryEffectWithLatheAndPrediction) {
+  file("seat.toml", scenario);
+  const CommandStreams done = command("harm seat.toml -o harm");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json harm = result("harm/harm.json");
+  EXPECT_EQ(harm.at("schema"), "trueaxis.harm/1");
+  std::set<std::string> ids;
+  for (const nlohmann::json& one : harm.at("effects")) {
+    ids.insert(one.at("effect"));
+    const nlohmann::json& alone = one.at("alone");
+    EXPECT_TRUE(alone.at("agrees")) << one;
+    const double predicted = alone.at("predicted").at("value");
+    EXPECT_NEAR(alone.at("limit").at("value").get<double>(), predicted, 1e-3 * predicted + 1e-6)
+        << one;
+  }
+  EXPECT_EQ(ids.size(), 29U);  // the catalogue without its checks
+  std::istringstream csv(read_text(folder_ / "harm" / "harm.csv"));
+  std::size_t lines = 0;
+  for (std::string line; std::getline(csv, line);) ++lines;
+  EXPECT_EQ(lines, harm.at("effects").size() + 1);
+  EXPECT_TRUE(there("harm/harm.md"));
+}
+
+TEST_F(HarmCommand, AFaceHasNoAxis) {
+  file("face.toml",
+       "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 20\nx_end_mm = 40\n"
+       "feed_mm_per_rev = 1\nreadings_per_revolution = 10.3\n");
+  expect_input_error("harm face.toml", "needs a cone or cylinder");
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
