@@ -65,7 +65,7 @@ std::string reading_text(const Published& published, const PlacedReading& placed
              probability(placed.p_value).c_str());
   text += factor_text(placed, reading.fit_noise) + "\n     each run: χ²";
   for (const PlacedRow& row : placed.rows)
-    text += format("  %.3g, ", row.chi_squared) + probability(row.p_value);
+    text += format("  %.3g (", row.chi_squared) + probability(row.p_value) + ")";
   return text + '\n';
 }
 

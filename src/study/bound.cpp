@@ -113,6 +113,7 @@ bool is_simple(const Scenario& scenario, const CleanStream& clean) {
 
 /// (JᵀJ)⁻¹ of whitened rows; empty where a direction is not determined to rounding.
 Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& jacobian) {
+  if (jacobian.rows() < jacobian.cols()) return {};
   const Eigen::VectorXd scale = jacobian.colwise().norm().cwiseInverse();
   if (!scale.allFinite()) return {};
   const Eigen::MatrixXd scaled = jacobian * scale.asDiagonal();

@@ -81,6 +81,17 @@ TEST_F(PaperTables, TheDamagedLevelOfTable2HasAnInterval) {
   EXPECT_GT(at[3]["below_best"], 3.0);
 }
 
+TEST_F(PaperTables, AreTheSameBytesOnAnyNumberOfThreads) {
+  std::string sweep = read_text(TRUEAXIS_SOURCE "/data/sweeps/table1.toml");
+  const std::string repeats = "repeats = 2000";
+  ASSERT_NE(sweep.find(repeats), std::string::npos);
+  file("sweep.toml", sweep.replace(sweep.find(repeats), repeats.size(), "repeats = 300"));
+  for (const std::string threads : {"1", "3"})
+    ASSERT_EQ(command("sweep sweep.toml --threads " + threads + " -o t" + threads).exit_code, 0);
+  for (const char* name : {"published.json", "report.html"})
+    EXPECT_EQ(read_text(folder_ / "t1" / name), read_text(folder_ / "t3" / name)) << name;
+}
+
 TEST_F(PaperTables, CylinderAndPlaneReachTheBound) {
   for (const char* table : {"table1_cylinder", "table1_plane"}) {
     const CommandStreams done =
