@@ -14,7 +14,11 @@ using layout::format;
 using layout::padded;
 
 std::string um(double length_mm) {
-  return std::isfinite(length_mm) ? format("%.3g", length_mm / mm_per_um) : "none";
+  return std::isfinite(length_mm) ? format("%.3g", length_mm / mm_per_um) : "not determined";
+}
+
+std::string u_text(double length_mm) {
+  return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " um" : "");
 }
 
 const char* words_of(Choice choice) {
@@ -64,8 +68,8 @@ std::string alone_text(const PlanningAnswer& answer) {
   for (const Alone& one : answer.alone) {
     text += "  " + padded(words_of(one.choice), 26);
     text += one.reached ? value_text(one.plan, one.choice)
-                        : "not in its range: at " + value_text(one.plan, one.choice) + " U is " +
-                              um(one.plan.u_expanded_mm) + " um";
+                        : "not in its range: at " + value_text(one.plan, one.choice) + ' ' +
+                              u_text(one.plan.u_expanded_mm);
     text += one.reached ? format(" (%.4g s)\n", one.plan.time_s) : "\n";
   }
   return text;
@@ -107,10 +111,11 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
   }
   for (const std::string& remark : answer.remarks) text += "\nNote: " + remark + '\n';
   if (answer.reached) return text;
-  text += format(
-      "\nNot reached: the best that the ranges%s allow is U = %s um (%.3g of the goal)\n  %s  %s\n",
-      task.time_s ? " and the time" : "", um(answer.nearest.u_expanded_mm).c_str(),
-      answer.nearest.u_expanded_mm / task.goal_mm, head, row_text(answer.nearest).c_str());
+  text += std::string("\nNot reached: with the best that the ranges") +
+          (task.time_s ? " and the time" : "") + " allow, " + u_text(answer.nearest.u_expanded_mm);
+  if (std::isfinite(answer.nearest.u_expanded_mm))
+    text += format(", %.3g times the goal", answer.nearest.u_expanded_mm / task.goal_mm);
+  text += std::string("\n  ") + head + "  " + row_text(answer.nearest) + '\n';
   return text;
 }
 

@@ -78,12 +78,12 @@ HarmCase mm(const char* effect, const char* form, TermShape shape, Parameters fi
 HarmCase angle(const char* effect, const char* form, double size, TermShape shape, Parameters fixed,
                std::vector<HarmDirection> directions) {
   HarmCase out = mm(effect, form, shape, std::move(fixed), std::move(directions));
-  out.size = size, out.unit = "deg", out.edge = 1.0 / rad_per_deg;
+  out.size = size, out.unit = std::string("deg"), out.edge = 1.0 / rad_per_deg;
   return out;
 }
 
 HarmCase unit(HarmCase of, double size, const char* name) {
-  of.size = size, of.unit = name;
+  of.size = size, of.unit = std::string(name);
   return of;
 }
 

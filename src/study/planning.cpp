@@ -7,6 +7,7 @@
 
 #include "study/planning_search.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/study/scenario_parameters.hpp"
 
 namespace trueaxis::study {
@@ -62,6 +63,17 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
     remarks.emplace_back(text);
     if (free.low > free.high)
       throw InputError("plan", std::string(text) + ": less than the range begins with");
+  }
+}
+
+/// A range of lengths must stay on the part.
+void check_length(const PlanningTask& task) {
+  const Freedom* length = find(task.free, Choice::length);
+  if (!length) return;
+  try {
+    (void)virtual_lathe::simulate_clean(Search::with(task.base, *length, 1.0));
+  } catch (const InputError& error) {
+    throw InputError("plan", std::string("at the longest length of its range: ") + error.what());
   }
 }
 
@@ -199,6 +211,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
   PlanningTask task = asked;
   PlanningAnswer out;
   check(task);
+  check_length(task);
   limit_rate(task, out.remarks);
   const Search search(task);
   out.as_given = search.at(task.base);
@@ -218,6 +231,10 @@ PlanningAnswer plan_measurement(const PlanningTask& asked) {
     out.nearest = smallest_u(task, search, true);
     out.remarks.emplace_back(
         "within the ranges the probe of the scenario does not do: the best of its range is taken");
+  }
+  if (!std::isfinite(out.nearest.u_expanded_mm)) {
+    out.remarks.emplace_back(
+        "no plan of the ranges determines the axis: probe more of the length or the circumference");
   }
   out.reached = search.meets(out.nearest) && search.in_time(out.nearest);
   for (const Choice choice : choices) {

@@ -62,6 +62,20 @@ TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
   EXPECT_TRUE(plan.at("recommended").empty());
 }
 
+TEST_F(PlanCommand, SaysWhatAPlanCannotShow) {
+  file("dwell.toml",
+       "[part]\nkind = \"cylinder\"\nradius_mm = 30\n[noise]\nsigma_um = 3\n[[pass]]\n"
+       "z_start_mm = 0\nz_end_mm = 0\nrevolutions = 20\nreadings_per_revolution = 10\n");
+  const CommandStreams dwell = command("plan dwell.toml --free sigma_um=1:30");
+  EXPECT_EQ(dwell.exit_code, 1) << dwell.err;
+  EXPECT_TRUE(contains(dwell.out, "no plan of the ranges determines the axis")) << dwell.out;
+  file("cone.toml",
+       "[part]\nkind = \"cone\"\nk_mm = 102\nhalf_angle_deg = 25\n[noise]\nsigma_um = 3\n"
+       "[[pass]]\nz_start_mm = 0\nz_end_mm = 60\nfeed_mm_per_rev = 1\n"
+       "readings_per_revolution = 10\n");
+  expect_input_error("plan cone.toml --free length_mm=20:300", "at the longest length");
+}
+
 TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
   EXPECT_EQ(command("plan --free colour=1:2").exit_code, 2);
   EXPECT_EQ(command("plan --free sigma_um=1").exit_code, 2);
