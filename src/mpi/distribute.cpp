@@ -20,9 +20,9 @@ namespace {
 using namespace study;
 
 constexpr int work_tag = 1, result_tag = 2;
-constexpr int blocks_ahead = 2;  // a rank never waits for rank 0 to look
-constexpr auto look_every = std::chrono::microseconds(200);
-using Message = std::array<std::uint64_t, 3>;  // a block; one of no repeats lets go
+constexpr int blocks_ahead = 2;                            // a rank never waits for rank 0 to look
+constexpr auto look_every = std::chrono::milliseconds(1);  // a tenth of a block
+using Message = std::array<std::uint64_t, 3>;              // a block; one of no repeats lets go
 
 int rank_count() {
   int count = 1;

@@ -134,7 +134,6 @@ TEST_F(SweepCommand, RefusesTheJournalOfAnotherSweep) {
 TEST_F(SweepCommand, RefusesAFolderInUse) {
   fs::create_directories(folder_ / "out");
   file("out/journal.bin", "");
-  CommandStreams done = run_in(folder_, "--version");
   const std::string locked = "sweep sweep.toml -o out";
   const int status =
       std::system(("cd " + shell_word(folder_) + " && flock out/journal.bin " +
