@@ -18,7 +18,7 @@ std::string um(double length_mm) {
 }
 
 std::string u_text(double length_mm) {
-  return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " um" : "");
+  return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " µm" : "");
 }
 
 const char* words_of(Choice choice) {
@@ -41,7 +41,7 @@ std::string value_text(const PlannedMeasurement& plan, Choice choice) {
     case Choice::readings_per_revolution:
       return format("%.4g", value);
     case Choice::sigma:
-      return format("%.3g um", value / mm_per_um);
+      return format("%.3g µm", value / mm_per_um);
     case Choice::feed:
       return format("%.3g mm/rev", value);
     case Choice::length:
@@ -51,7 +51,7 @@ std::string value_text(const PlannedMeasurement& plan, Choice choice) {
 }
 
 const char* const head =
-    "length    feed         per rev  sigma     readings  time      readings/s  U [um]\n";
+    "length    feed         per rev  sigma     readings  time      readings/s  U [µm]\n";
 
 std::string row_text(const PlannedMeasurement& plan) {
   std::string text = padded(value_text(plan, Choice::length), 10);
@@ -78,7 +78,7 @@ std::string alone_text(const PlanningAnswer& answer) {
 std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
   if (confirmed.repeats == 0) return "    simulated: no fit ended\n";
   std::string text =
-      format("    simulated %zu times: U %s um (95 %%: %s to %s), the fits state %s um; ",
+      format("    simulated %zu times: U %s µm (95 %%: %s to %s), the fits state %s µm; ",
              confirmed.repeats, um(confirmed.u_expanded_mm).c_str(),
              um(confirmed.interval_95_mm.low).c_str(), um(confirmed.interval_95_mm.high).c_str(),
              um(confirmed.stated_mm).c_str());
@@ -93,7 +93,7 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
 
 std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
   std::string text =
-      format("U(axis) <= %s um, k = %g\n\nThe plan as it is\n  %s  %s\n", um(task.goal_mm).c_str(),
+      format("U(axis) ≤ %s µm, k = %g\n\nThe plan as it is\n  %s  %s\n", um(task.goal_mm).c_str(),
              task.coverage_factor, head, row_text(answer.as_given).c_str());
   if (!answer.alone.empty()) text += alone_text(answer);
   if (!answer.table.empty()) {
