@@ -126,6 +126,10 @@ void serve(const Sweep& sweep) {
   Worker worker(sweep);
   while (true) {
     Message message{};
+    for (int there = 0; there == 0;) {  // a blocking receive would keep the core busy
+      MPI_Iprobe(0, work_tag, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+      if (there == 0) std::this_thread::sleep_for(look_every / 10);
+    }
     MPI_Recv(message.data(), static_cast<int>(message.size()), MPI_UINT64_T, 0, work_tag,
              MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     const Block block{message[0], message[1], message[2]};

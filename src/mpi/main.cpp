@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <string_view>
@@ -88,6 +89,8 @@ int run(int argc, char** argv, int rank) {
 int main(int argc, char** argv) {
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
+  // A block's result is sent at once and not when rank 0 looks: Open MPI waits from 4 KiB on.
+  setenv("OMPI_MCA_btl_vader_eager_limit", "65536", 0);
   int granted = 0, rank = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &granted);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank);
