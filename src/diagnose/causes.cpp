@@ -18,15 +18,6 @@ constexpr double not_a_cylinder = 1e-3;               // tan of the half angle
 constexpr double no_motion = 1e-9;
 constexpr double few_cycles[] = {0.5, 0.7, 0.9, 1.15, 1.5, 1.9, 2.4, 3.0};
 
-struct Span {
-  double low, high;
-  double length() const { return high - low; }
-};
-Span span_of(const std::vector<double>& column) {
-  const auto [low, high] = range_of(column);
-  return {low, high};
-}
-
 TermShape with_order(double order) {
   TermShape shape;
   shape.order = order;
@@ -69,7 +60,7 @@ void add_along_z(const Scene& scene, const Resolution& resolution, std::vector<H
 }
 
 bool both_ways(const Scene& scene) {
-  const Span v = span_of(scene.velocity);
+  const Extent v = range_of(scene.velocity);
   return v.low < -no_motion && v.high > no_motion;
 }
 
@@ -112,7 +103,7 @@ void add_probe(const Scene& scene, const Resolution& resolution, std::vector<Hyp
 
 void add_time(const Scene& scene, std::vector<Hypothesis>& list) {
   if (!scene.has_time) return;
-  const double lasted = span_of(scene.time).length();
+  const double lasted = range_of(scene.time).length();
   list.push_back(of_effect("thermal.drift", {}, {0}, 4));
   for (const double share : {0.1, 0.3, 1.0}) {
     TermShape shape;

@@ -6,6 +6,7 @@
 #include "diagnose/causes.hpp"
 #include "diagnose/noise.hpp"
 #include "diagnose/search.hpp"
+#include "trueaxis/math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -76,15 +77,11 @@ std::vector<Hypothesis> variants(const Hypothesis& h, const Scene& scene, double
 
 /// Half a resolution cell of a line in its own variable.
 double line_cell(const Hypothesis& h, const Scene& scene) {
-  const auto width = [](const std::vector<double>& x) {
-    const auto [low, high] = std::ranges::minmax(x);
-    return high - low;
-  };
-  if (!h.effect) return 0.4 / width(h.pattern.in_time ? scene.time : scene.s);
-  if (h.effect->id == "spindle.asynchronous") return 0.4 / width(scene.c);
-  if (h.effect->id == "environment.vibration") return 0.4 / width(scene.time);
-  if (h.effect->id == "probe.cyclic") return 0.4 / width(scene.sensed);
-  return 0.4 / width(scene.s);
+  if (!h.effect) return 0.4 / range_of(h.pattern.in_time ? scene.time : scene.s).length();
+  if (h.effect->id == "spindle.asynchronous") return 0.4 / range_of(scene.c).length();
+  if (h.effect->id == "environment.vibration") return 0.4 / range_of(scene.time).length();
+  if (h.effect->id == "probe.cyclic") return 0.4 / range_of(scene.sensed).length();
+  return 0.4 / range_of(scene.s).length();
 }
 
 }  // namespace

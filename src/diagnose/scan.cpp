@@ -73,10 +73,6 @@ double sampling(const Scene& scene, const Column& x) {
 
 std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
   std::vector<Scan> list;
-  const auto span = [](const Column& x) {
-    const auto [low, high] = range_of(x);
-    return high - low;
-  };
   const bool single = resolution.one_variable;
   const double turn_step = sampling(scene, scene.c) / two_pi;
   if (resolution.turns > 2.5 && turn_step > 0.0 && !resolution.sections) {
@@ -86,14 +82,14 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
   }
   const double time_step = scene.has_time ? sampling(scene, scene.time) : 0.0;
   if (time_step > 0.0 && !resolution.sections) {
-    const double lasted = span(scene.time);
+    const double lasted = range_of(scene.time).length();
     list.push_back({&scene.time, 0.0, false, std::max(slowest_hz, 1.5 / lasted),
                     std::min(0.5 / time_step, 500.0),
                     [](double f) { return line_of("environment.vibration", f); }});
     list.back().counts = !single;
     list.back().fast = tenth_lost / time_step;
   }
-  const double length = scene.has_position ? span(scene.s) : 0.0;
+  const double length = scene.has_position ? range_of(scene.s).length() : 0.0;
   if (length > 1.0 && !resolution.sections) {
     const double step = sampling(scene, scene.s), highest = std::min(0.5 / step, 2.0);
     const double lowest = std::max(1.5 / length, 1.0 / longest_wave_mm);
@@ -137,7 +133,7 @@ std::vector<Scan> scans_of(const Scene& scene, const Resolution& resolution) {
     list.back().fast = tenth_lost / fastest;
   }
   if (time_step > 0.0 && !single && !resolution.sections) {
-    const double lasted = span(scene.time);
+    const double lasted = range_of(scene.time).length();
     for (int k = 1; k <= resolution.harmonics; ++k) {
       for (const double sign : {1.0, -1.0}) {
         Scan scan{&scene.time,   sign * k,

@@ -114,8 +114,7 @@ class Search {
   }
 
   /// Pooled held-out sum of squares with a term minus without it.
-  bool predicts(const Fitted& f, std::size_t i) const {
-    const Hypothesis& h = problem_terms_[i];
+  bool predicts(const Fitted& f, std::size_t i, const Hypothesis& h) const {
     if (h.effect ? h.effect->id == "part.slip" : h.pattern.kind == Pattern::Kind::bump) return true;
     Columns with = f.evidence.base(), rest = with;
     for (std::size_t t = 0; t < f.places.size(); ++t) {
@@ -131,12 +130,11 @@ class Search {
   bool backward(Model& model) {
     bool changed = false;
     while (!model.terms.empty()) {
-      problem_terms_ = model.terms;
       const Fitted f = fitted(model);
       std::size_t worst = 0;
       double worst_log_p = -1e300;
       for (std::size_t i = 0; i < model.terms.size(); ++i) {
-        const double log_p = predicts(f, i) ? term_log_p(f, i) : 0.0;
+        const double log_p = predicts(f, i, model.terms[i]) ? term_log_p(f, i) : 0.0;
         if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
       }
       if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;
@@ -232,7 +230,6 @@ class Search {
   }
 
   void finish(Model& model) {
-    problem_terms_ = model.terms;
     model.criterion = criterion(model);
     const Fitted f = fitted(model);
     model.p_values.clear();
@@ -242,7 +239,6 @@ class Search {
 
   const Problem& problem_;
   std::vector<Hypothesis> cells_;
-  std::vector<Hypothesis> problem_terms_;
 };
 
 }  // namespace

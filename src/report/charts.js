@@ -144,3 +144,12 @@ function follow(figures) {
   window.addEventListener('beforeprint', () => printing(true));
   window.addEventListener('afterprint', () => printing(false));
 }
+
+/** Draws the page's charts once all figures stand; says so to a test when two frames have passed. */
+function startPage() {
+  const figures = [...document.querySelectorAll('figure')];
+  figures.forEach((f) => f.start());
+  follow(figures);
+  window.trueaxisReport = {charts, ready: false};
+  requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));
+}

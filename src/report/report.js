@@ -50,8 +50,4 @@ function build() {
 }
 
 build();
-const figures = [...document.querySelectorAll('figure')];
-figures.forEach((f) => f.start());
-follow(figures);
-window.trueaxisReport = {charts, ready: false};
-requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));
+startPage();

@@ -134,8 +134,7 @@ class EveryEffect : public ::testing::TestWithParam<LatheCase> {};
 /// Whose sizes are what one chooses beside them: jaws' beyond the probed length their place, a
 /// sensor's its zero and range, a drift's that is both linear and exponential the part of each.
 bool told_in_other_words(const std::string& id) {
-  return id == "part.chuck_lobing" || id == "probe.gain" || id == "probe.nonlinearity" ||
-         id == "thermal.drift";
+  return id == "part.chuck_lobing" || id == "probe.nonlinearity" || id == "thermal.drift";
 }
 
 /// Parameters of the finding that bears the planted effect's name, beside what was planted:

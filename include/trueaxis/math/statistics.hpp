@@ -19,6 +19,7 @@ double median(std::vector<double> values);
 /// Smallest and largest of a column that is not empty.
 struct Extent {
   double low, high;
+  double length() const { return high - low; }
 };
 Extent range_of(std::span<const double> values);
 
