@@ -55,11 +55,17 @@ Json row_json(const Row& row) {
 }  // namespace
 
 std::string sweep_json(const Sweep& sweep, const Summary& summary) {
-  Json json{{"schema", "trueaxis.sweep/1"}, {"version", TRUEAXIS_VERSION},
-            {"name", sweep.name},           {"input_hash", sweep.input_hash},
-            {"seed", sweep.seed},           {"repeats", sweep.repeats},
-            {"axes", axes_json(sweep)},     {"drawn", drawn_json(sweep)},
-            {"coverage_factor", 2.0},       {"bonferroni_level", bonferroni_level}};
+  Json json{{"schema", "trueaxis.sweep/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"name", sweep.name},
+            {"input_hash", sweep.input_hash},
+            {"seed", sweep.seed},
+            {"repeats", sweep.repeats},
+            {"surface", fitted_surface(sweep)},
+            {"axes", axes_json(sweep)},
+            {"drawn", drawn_json(sweep)},
+            {"coverage_factor", 2.0},
+            {"bonferroni_level", bonferroni_level}};
   Json cells = Json::array();
   std::size_t next = 0;
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {

@@ -133,7 +133,7 @@ std::vector<std::vector<const BlockResult*>> sorted(const Sweep& sweep,
 
 Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   Summary summary;
-  const std::vector<Quantity> names = quantities(sweep.base.part.kind);
+  const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     summary.cells.push_back(cell_of(cells[cell]));
