@@ -26,7 +26,8 @@ std::string cell_title(const Sweep& sweep, std::size_t cell) {
 std::string cell_note(const Sweep& sweep, const CellSummary& cell) {
   std::string text = format(": %zu readings", cell.readings);
   if (std::isfinite(cell.found)) {
-    text += format(", found in %.1f %%, named in %.1f %%", 100.0 * cell.found, 100.0 * cell.named);
+    text += format(", found in %.1f %%", 100.0 * cell.found);
+    if (std::isfinite(cell.named)) text += format(", named in %.1f %%", 100.0 * cell.named);
   }
   if (cell.failures > 0)
     text += format(", %zu of %zu failed (%s)", cell.failures, sweep.repeats, cell.why.c_str());

@@ -17,12 +17,14 @@ namespace {
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double coverage_factor = 2.0;
 
-/// Linear between order statistics (Hyndman and Fan's type 7).
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+/// Linear between order statistics (Hyndman and Fan's type 7); reorders the values.
+double quantile(std::vector<double>& values, double share) {
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(values.begin(), below, values.end());
+  if (below + 1 == values.end()) return *below;
+  const double above = *std::min_element(below + 1, values.end());
+  return *below + (at - std::floor(at)) * (above - *below);
 }
 
 /// n (RMSE / bound)² of an efficient fit is χ² with n degrees of freedom.
@@ -80,7 +82,6 @@ void fill(Row& row, Sample sample) {
   row.mean_u = u / n;
   row.coverage = hits / n;
   row.coverage_95 = clopper_pearson(hits, n, 0.05);
-  std::ranges::sort(sample.error);
   row.q05 = quantile(sample.error, 0.05);
   row.q50 = quantile(sample.error, 0.50);
   row.q95 = quantile(sample.error, 0.95);
@@ -89,7 +90,7 @@ void fill(Row& row, Sample sample) {
   row.ratio_95 = ratio_ends(row.ratio, n, 0.05);
 }
 
-CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
+CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_hidden) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
   for (const BlockResult* block : blocks) {
@@ -104,7 +105,7 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
     }
   }
   cell.found = looked > 0.0 ? found / looked : none;
-  cell.named = looked > 0.0 ? named / looked : none;
+  cell.named = looked > 0.0 && effects_hidden ? named / looked : none;
   const CellFacts& facts = blocks.front()->facts.at(0);
   cell.readings = facts.readings;
   cell.bound = facts.bound;
@@ -136,7 +137,7 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    summary.cells.push_back(cell_of(cells[cell]));
+    summary.cells.push_back(cell_of(cells[cell], !scenario_of(sweep, cell).effects.empty()));
     const CellFacts& facts = cells[cell].front()->facts.at(0);
     for (std::size_t i = 0; i < names.size(); ++i) {
       Row row;

@@ -41,8 +41,9 @@ struct CellSummary {
   std::size_t failures = 0;
   std::string why;  ///< of the first failure
   Bound bound;
-  double found = 0.0, named = 0.0;  ///< diagnosis: share of repeats; else NaN
-  double seconds = 0.0;             ///< of one thread
+  double found = 0.0;    ///< share of a diagnosis' repeats with a finding; else NaN
+  double named = 0.0;    ///< share with every hidden effect in a class; NaN where none is hidden
+  double seconds = 0.0;  ///< of one thread
 };
 
 struct Summary {
