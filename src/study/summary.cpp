@@ -34,12 +34,14 @@ Ends ratio_ends(double ratio, double n, double level) {
           ratio * std::sqrt(n / boost::math::quantile(square, 0.5 * level))};
 }
 
-Ends clopper_pearson(double hits, double n, double level) {
+Share share_of(double hits, double n) {
+  constexpr double level = 0.05;
   const auto beta = [](double a, double b, double p) {
     return boost::math::quantile(boost::math::beta_distribution<>(a, b), p);
   };
-  return {hits == 0.0 ? 0.0 : beta(hits, n - hits + 1.0, 0.5 * level),
-          hits == n ? 1.0 : beta(hits + 1.0, n - hits, 1.0 - 0.5 * level)};
+  return {hits / n,
+          {hits == 0.0 ? 0.0 : beta(hits, n - hits + 1.0, 0.5 * level),
+           hits == n ? 1.0 : beta(hits + 1.0, n - hits, 1.0 - 0.5 * level)}};
 }
 
 /// The errors of one quantity and their u, in order of repeat, without those that failed.
@@ -63,8 +65,8 @@ void fill(Row& row, Sample sample) {
   const auto n = static_cast<double>(sample.error.size());
   row.estimates = sample.error.size();
   row.bias = row.u_bias = row.sd = row.rmse = row.q05 = row.q50 = row.q95 = none;
-  row.ratio = row.coverage = row.mean_u = none;
-  row.ratio_95 = row.coverage_95 = {none, none};
+  row.ratio = row.mean_u = none;
+  row.ratio_95 = {none, none};
   if (sample.error.empty()) return;
   double sum = 0.0, squares = 0.0, hits = 0.0, u = 0.0;
   for (std::size_t i = 0; i < sample.error.size(); ++i) {
@@ -80,8 +82,7 @@ void fill(Row& row, Sample sample) {
   if (n > 1.0) row.sd = std::sqrt(spread / (n - 1.0));
   row.u_bias = row.sd / std::sqrt(n);
   row.mean_u = u / n;
-  row.coverage = hits / n;
-  row.coverage_95 = clopper_pearson(hits, n, 0.05);
+  row.coverage = share_of(hits, n);
   row.q05 = quantile(sample.error, 0.05);
   row.q50 = quantile(sample.error, 0.50);
   row.q95 = quantile(sample.error, 0.95);
@@ -104,8 +105,8 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_
       named += (bits & 2U) != 0 ? 1.0 : 0.0;
     }
   }
-  cell.found = looked > 0.0 ? found / looked : none;
-  cell.named = looked > 0.0 && effects_hidden ? named / looked : none;
+  if (looked > 0.0) cell.found = share_of(found, looked);
+  if (looked > 0.0 && effects_hidden) cell.named = share_of(named, looked);
   const CellFacts& facts = blocks.front()->facts.at(0);
   cell.readings = facts.readings;
   cell.bound = facts.bound;

@@ -51,8 +51,8 @@ void expect_efficient(const Sweep& sweep, double tests, double parameters = 6.0)
     const double freedom = static_cast<double>(summary.cells[row.cell].readings) - parameters;
     const double inside = 1.0 - 2.0 * cdf(complement(boost::math::students_t(freedom), 2.0));
     const boost::math::binomial hits(n, inside);
-    EXPECT_GE(row.coverage * n, quantile(hits, tail) - 1.0) << where;
-    EXPECT_LE(row.coverage * n, quantile(complement(hits, tail)) + 1.0) << where;
+    EXPECT_GE(row.coverage.value * n, quantile(hits, tail) - 1.0) << where;
+    EXPECT_LE(row.coverage.value * n, quantile(complement(hits, tail)) + 1.0) << where;
   }
 }
 
