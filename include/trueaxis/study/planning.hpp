@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ struct PlanningTask {
   std::optional<double> time_s;   ///< that the measurement may take
   std::size_t repeats = 1000;     ///< of each confirmation
   std::uint64_t seed = 1;
-  int threads = 0;
+  int threads = 0;  ///< 0: as many as there are
 };
 
 /// A plan and what the bound says of it.
@@ -50,6 +51,9 @@ struct PlannedMeasurement {
   std::size_t readings = 0;
   double of(Choice choice) const;
 };
+
+/// By the bound; of streams of more than 20 000 readings with independent noise by that of fewer
+/// readings a revolution, scaled by 1/√N, which is within 0.1 % (see stand_in).
 PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double coverage_factor);
 
 /// Repeated simulated measurements of a plan, fitted.
@@ -70,7 +74,7 @@ struct Recommendation {
 
 /// One choice changed, all others as they are.
 struct Alone {
-  Choice choice;
+  Choice choice = Choice::readings_per_revolution;
   bool reached = false;
   PlannedMeasurement plan;  ///< the least that does it; when not reached the nearest of the range
 };
@@ -92,8 +96,17 @@ struct PlanningAnswer {
   std::vector<std::string> remarks;         ///< what limits the answer
 };
 
+enum class PlanningStage {
+  search,     ///< a step is a choice, a length or a row
+  simulation  ///< a step is a repeat
+};
+/// Called after each step, one call at a time, on any thread.
+using PlanningProgress =
+    std::function<void(PlanningStage stage, std::size_t done, std::size_t to_do)>;
+
+/// The same on any number of threads.
 /// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without
 /// a bound, or a goal that is none.
-PlanningAnswer plan_measurement(const PlanningTask& task);
+PlanningAnswer plan_measurement(const PlanningTask& task, const PlanningProgress& progress = {});
 
 }  // namespace trueaxis::study
