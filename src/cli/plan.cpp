@@ -95,7 +95,7 @@ int execute(Options options) {
   progress.end();
   if (options.json != "-") std::cout << planning_text(task, answer);
   if (!options.json.empty()) write_file(options.json, planning_json(task, answer, hash));
-  return answer.reached ? done : refused;
+  return answer.reached && answer.confirmed ? done : refused;
 }
 
 void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {

@@ -27,6 +27,8 @@ void check(const PlanningTask& task) {
   const virtual_lathe::Noise& noise = task.base.noise;
   if (!(task.goal_mm > 0.0) || !(task.coverage_factor > 0.0))
     refuse("the goal and k must be more than 0");
+  if (!std::isfinite(task.goal_mm) || !std::isfinite(task.coverage_factor))
+    refuse("the goal and k must be finite");
   for (const Freedom& free : task.free) {
     if (!(free.low > 0.0) || !(free.low <= free.high) || !std::isfinite(free.high))
       refuse("a range goes from a number above 0 to one that is not smaller");
@@ -51,7 +53,9 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   for (const auto& pass : task.base.plan.passes) {
     const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
     if (rate <= *task.rate_hz || find(task.free, Choice::readings_per_revolution)) continue;
-    std::snprintf(text, sizeof text, "the plan asks for %.4g readings a second, more than the %g",
+    std::snprintf(text, sizeof text,
+                  "the plan asks for %.4g readings a second, more than the %g: fewer a revolution, "
+                  "or a slower spindle",
                   rate, *task.rate_hz);
     remarks.emplace_back(text);
     break;
@@ -68,9 +72,16 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   }
 }
 
-/// A range of lengths must stay on the part.
-void check_length(const PlanningTask& task) {
+/// The ranges must be possible: on the part, and readings that can be counted.
+void check_ends(const PlanningTask& task) {
   const Freedom* length = find(task.free, Choice::length);
+  Scenario most = task.base;
+  for (const Freedom& free : task.free) most = Search::with(most, free, 1.0);
+  try {
+    (void)readings_of(most);
+  } catch (const InputError& error) {
+    throw InputError("plan", std::string("at the demanding ends of the ranges: ") + error.what());
+  }
   if (!length) return;
   try {
     (void)virtual_lathe::simulate_clean(stand_in(Search::with(task.base, *length, 1.0)).scenario);
@@ -151,7 +162,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
       }
     }
     PlannedMeasurement plan = search.at(slow);
-    const double late = search.in_time(plan) ? 0.0 : 1e6 * plan.time_s;
+    const double late = search.allowed(plan) ? 0.0 : 1e6 * plan.time_s;
     const double height = plan.u_expanded_mm + late;
     return Rated{height, std::move(plan)};
   });
@@ -239,9 +250,8 @@ const char* words_of(Choice choice) {
 
 /// What is nearest, with the scenario's own probe where that does.
 bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
-  const auto good = [&] { return search.meets(out.nearest) && search.in_time(out.nearest); };
   out.nearest = smallest_u(task, search, false);
-  const bool better_probe = !good() && find(task.free, Choice::sigma);
+  const bool better_probe = !search.good(out.nearest) && find(task.free, Choice::sigma);
   if (better_probe) {
     out.nearest = smallest_u(task, search, true);
     out.remarks.emplace_back(
@@ -249,11 +259,19 @@ bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAn
   } else {
     search.skip(lengths_looked_at(task));
   }
+  // Where the ranges leave out what is given, that with one of them may be nearer.
+  const auto nearer = [&](const PlannedMeasurement& plan) {
+    if (search.allowed(plan) &&
+        !(search.allowed(out.nearest) && out.nearest.u_expanded_mm <= plan.u_expanded_mm))
+      out.nearest = plan;
+  };
+  nearer(out.as_given);
+  for (const Alone& one : out.alone) nearer(one.plan);
   if (!std::isfinite(out.nearest.u_expanded_mm)) {
     out.remarks.emplace_back(
         "no plan of the ranges determines the axis: probe more of the length or the circumference");
   }
-  out.reached = good();
+  out.reached = search.good(out.nearest);
   return better_probe;
 }
 
@@ -275,8 +293,8 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   PlanningTask task = asked;
   PlanningAnswer out;
   check(task);
-  check_length(task);
   limit_rate(task, out.remarks);
+  check_ends(task);
   for (const Choice choice : choices) {
     if (!find(task.free, choice)) continue;
     out.solved_for = choice;
@@ -288,23 +306,26 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   const Search search(task, steps);
   steps.begin(PlanningStage::search, task.free.size() + grid.rows + 3 * lengths_looked_at(task));
   out.as_given = search.at(task.base);
-  if (search.meets(out.as_given) && search.in_time(out.as_given))
-    recommend(out, "as it is", out.as_given);
+  const bool good_as_given = search.good(out.as_given);
+  if (good_as_given) recommend(out, "as it is", out.as_given);
   out.alone = each_alone(task, search);
   for (const Alone& one : out.alone) {
-    if (one.reached && search.in_time(one.plan)) recommend(out, words_of(one.choice), one.plan);
+    const double change = one.plan.of(one.choice) - out.as_given.of(one.choice);
+    const bool needless = good_as_given && (more_is_better(one.choice) ? change : -change) > 0.0;
+    if (search.good(one.plan) && !needless) recommend(out, words_of(one.choice), one.plan);
   }
   const bool best_probe = look_for_nearest(task, search, out);
   if (solved) out.table = table_of(task, search, grid, *solved);
   if (out.reached && solved) {
     const PlannedMeasurement fast = quickest(task, search, best_probe);
-    if (search.meets(fast) && search.in_time(fast))
-      recommend(out, "quickest", without_excess(task, search, fast));
+    if (search.good(fast)) recommend(out, "quickest", without_excess(task, search, fast));
     if (task.time_s) recommend(out, "most certain in the time", out.nearest);
   }
   steps.begin(PlanningStage::simulation, out.recommended.size() * task.repeats);
   for (Recommendation& one : out.recommended)
     one.confirmed = search.confirm(one.plan, out.recommended.size());
+  out.confirmed = std::ranges::any_of(
+      out.recommended, [](const Recommendation& one) { return !one.confirmed.misses; });
   return out;
 }
 

@@ -19,6 +19,7 @@ using virtual_lathe::PlannedPass;
 using virtual_lathe::Scenario;
 
 constexpr double least_per_revolution = 8.3;
+constexpr double beyond_linear_mm = 10.0;  // a bound of derivatives says nothing so far off
 constexpr double sigma_of_reference_mm = 1e-3;
 
 bool is_independent(const Noise& noise) { return noise.rho == 0.0 && noise.autoregression.empty(); }
@@ -147,7 +148,7 @@ PlannedMeasurement planned(const Scenario& scenario, double coverage_factor, Axi
   }
   const double u = bounds.of(scenario).sd_mm;
   out.u_expanded_mm =
-      std::isfinite(u) ? coverage_factor * u : std::numeric_limits<double>::infinity();
+      u < beyond_linear_mm ? coverage_factor * u : std::numeric_limits<double>::infinity();
   return out;
 }
 

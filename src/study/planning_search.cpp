@@ -22,11 +22,6 @@ constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded
 constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;
 
-/// Whether more of a choice makes the axis more certain.
-bool more_is_better(Choice choice) {
-  return choice == Choice::readings_per_revolution || choice == Choice::length;
-}
-
 /// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
 /// readings inside the range: orders n and M − n would be one column.
 double settable(const Freedom& free, double value) {
@@ -61,6 +56,10 @@ double PlannedMeasurement::of(Choice choice) const { return parameter(scenario, 
 
 namespace planning_detail {
 
+bool more_is_better(Choice choice) {
+  return choice == Choice::readings_per_revolution || choice == Choice::length;
+}
+
 void Steps::begin(PlanningStage stage, std::size_t to_do) {
   const std::lock_guard lock(one_at_a_time_);
   stage_ = stage, done_ = 0, to_do_ = to_do;
@@ -88,8 +87,9 @@ bool Search::meets(const PlannedMeasurement& plan) const {
   return plan.u_expanded_mm <= task_.goal_mm * met;
 }
 
-bool Search::in_time(const PlannedMeasurement& plan) const {
-  return !task_.time_s || plan.time_s <= *task_.time_s * met;
+bool Search::allowed(const PlannedMeasurement& plan) const {
+  return (!task_.time_s || plan.time_s <= *task_.time_s * met) &&
+         (!task_.rate_hz || plan.rate_hz <= *task_.rate_hz * met);
 }
 
 virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, const Freedom& free,
@@ -173,7 +173,8 @@ Confirmation Search::confirm(const PlannedMeasurement& plan, std::size_t among) 
       ++out.repeats, squares += error * error, stated += std::sqrt(variance);
     }
   }
-  if (out.repeats == 0) return out;
+  out.misses = out.repeats == 0;
+  if (out.misses) return out;
   const auto n = static_cast<double>(out.repeats);
   const double rmse = std::sqrt(squares / n), k = task_.coverage_factor;
   const boost::math::chi_squared law(n);
@@ -187,6 +188,7 @@ Confirmation Search::confirm(const PlannedMeasurement& plan, std::size_t among) 
   out.interval_95_mm = {k * of_95.low, k * of_95.high};
   out.stated_mm = k * stated / n;
   out.at_bound = worst.sd_mm >= of_all.low && worst.sd_mm <= of_all.high;
+  out.misses = !out.at_bound && out.interval_95_mm.low > task_.goal_mm;
   return out;
 }
 

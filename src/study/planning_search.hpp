@@ -34,7 +34,9 @@ class Search {
     return planned(scenario, task_.coverage_factor, bounds_);
   }
   bool meets(const PlannedMeasurement& plan) const;
-  bool in_time(const PlannedMeasurement& plan) const;
+  /// Whether time and rate are within what is given.
+  bool allowed(const PlannedMeasurement& plan) const;
+  bool good(const PlannedMeasurement& plan) const { return meets(plan) && allowed(plan); }
 
   /// The least demanding value of a choice that meets the goal, rounded to what can be set; or the
   /// most demanding, which does not.
@@ -57,6 +59,8 @@ class Search {
   mutable AxisBounds bounds_;
 };
 
+/// Whether more of a choice makes the axis more certain.
+bool more_is_better(Choice choice);
 const Freedom* find(const std::vector<Freedom>& free, Choice choice);
 
 }  // namespace trueaxis::study::planning_detail

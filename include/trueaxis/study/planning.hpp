@@ -35,7 +35,7 @@ struct PlanningTask {
   std::vector<Freedom> free;  ///< each choice once
   double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
   double coverage_factor = 2.0;
-  std::optional<double> rate_hz;  ///< readings a second that the probe can give
+  std::optional<double> rate_hz;  ///< readings a second that the probe gives, at most
   std::optional<double> time_s;   ///< that the measurement may take
   std::size_t repeats = 1000;     ///< of each confirmation
   std::uint64_t seed = 1;
@@ -63,6 +63,7 @@ struct Confirmation {
   Ends interval_95_mm;         ///< of the same for infinitely many repeats (χ²)
   double stated_mm = 0.0;      ///< mean of the U that the fits state
   bool at_bound = false;  ///< the bound is within what chance leaves, at 1 % over all confirmations
+  bool misses = false;    ///< the goal, by more than chance leaves: the fits are not efficient
 };
 
 /// A plan that meets the goal; which choices were changed.
@@ -87,9 +88,11 @@ struct TableRow {
 
 struct PlanningAnswer {
   PlannedMeasurement as_given;
-  bool reached = false;        ///< whether some plan in the ranges meets the goal (and the time)
-  PlannedMeasurement nearest;  ///< smallest U that the ranges (and the time) allow
-  std::vector<Alone> alone;    ///< in the order of `free`
+  bool reached = false;    ///< whether some plan meets the goal, within time and rate
+  bool confirmed = false;  ///< and the simulation of one that is recommended does not miss it
+  PlannedMeasurement
+      nearest;               ///< smallest U that the ranges, time and rate allow, if they allow any
+  std::vector<Alone> alone;  ///< in the order of `free`
   Choice solved_for = Choice::readings_per_revolution;
   std::vector<TableRow> table;  ///< by the choices that are not solved for; empty without others
   std::vector<Recommendation> recommended;  ///< each met by the bound and confirmed
