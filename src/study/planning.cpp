@@ -90,15 +90,14 @@ void check_ends(const PlanningTask& task) {
   }
 }
 
-/// Everything as demanding as it may be but feed and length.
+/// Everything as demanding as it may be but feed and length; the scenario's own probe, or the best.
 Scenario demanding(const PlanningTask& task, bool best_probe) {
   Scenario out = task.base;
-  if (const Freedom* readings = find(task.free, Choice::readings_per_revolution))
-    out = Search::with(out, *readings, 1.0);
-  const Freedom* sigma = find(task.free, Choice::sigma);
-  if (sigma &&
-      (best_probe || !(out.noise.sigma_mm >= sigma->low && out.noise.sigma_mm <= sigma->high)))
-    out = Search::with(out, *sigma, 1.0);
+  for (const Freedom& free : task.free) {
+    if (free.choice == Choice::readings_per_revolution ||
+        (free.choice == Choice::sigma && best_probe))
+      out = Search::with(out, free, 1.0);
+  }
   return out;
 }
 
