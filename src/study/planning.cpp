@@ -117,7 +117,7 @@ PlannedMeasurement best_over_length(const PlanningTask& task, const Search& sear
   const auto look = [&](const std::vector<double>& efforts) {
     std::vector<Rated> rated(efforts.size());
     search.each(efforts.size(), [&](std::size_t i) {
-      rated[i] = rate(length ? Search::with(from, *length, efforts[i]) : from);
+      rated[i] = rate(length ? Search::with_settable(from, *length, efforts[i]) : from);
     });
     for (std::size_t i = 0; i < rated.size(); ++i) {
       if (best && !(rated[i].first < best->first)) continue;
@@ -155,7 +155,9 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
         double pauses = 0.0;
         for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
         const double room = *task.time_s - pauses;
-        const double wanted = feed->low * (measuring_time_s(slow) - pauses) / room;
+        const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
+        const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+        const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
         set_parameter(slow, path_of(Choice::feed),
                       room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
       }
@@ -209,7 +211,7 @@ struct Grid {
   Scenario at(Scenario scenario, std::size_t row) const {
     for (const Freedom& other : others) {
       const double effort = static_cast<double>(row % nodes) / static_cast<double>(nodes - 1);
-      scenario = Search::with(scenario, other, effort);
+      scenario = Search::with_settable(scenario, other, effort);
       row /= nodes;
     }
     return scenario;

@@ -22,20 +22,6 @@ constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded
 constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;
 
-/// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
-/// readings inside the range: orders n and M − n would be one column.
-double settable(const Freedom& free, double value) {
-  if (free.choice == Choice::readings_per_revolution) {
-    double tenths = std::ceil(value * 10.0 - 1e-9);
-    if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
-    return std::clamp(tenths / 10.0, free.low, free.high);
-  }
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
-                                                   : std::floor(value / step + 1e-9);
-  return std::clamp(steps * step, free.low, free.high);
-}
-
 }  // namespace
 
 const char* path_of(Choice choice) {
@@ -58,6 +44,18 @@ namespace planning_detail {
 
 bool more_is_better(Choice choice) {
   return choice == Choice::readings_per_revolution || choice == Choice::length;
+}
+
+double settable(const Freedom& free, double value) {
+  if (free.choice == Choice::readings_per_revolution) {
+    double tenths = std::ceil(value * 10.0 - 1e-9);
+    if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
+    return std::clamp(tenths / 10.0, free.low, free.high);
+  }
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
+                                                   : std::floor(value / step + 1e-9);
+  return std::clamp(steps * step, free.low, free.high);
 }
 
 void Steps::begin(PlanningStage stage, std::size_t to_do) {
@@ -98,6 +96,14 @@ virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, co
   const double share = more_is_better(free.choice) ? effort : 1.0 - effort;
   const double value = free.low * std::pow(free.high / free.low, share);
   set_parameter(out, path_of(free.choice), std::clamp(value, free.low, free.high));
+  return out;
+}
+
+virtual_lathe::Scenario Search::with_settable(const virtual_lathe::Scenario& scenario,
+                                              const Freedom& free, double effort) {
+  virtual_lathe::Scenario out = with(scenario, free, effort);
+  const char* const path = path_of(free.choice);
+  set_parameter(out, path, settable(free, parameter(out, path)));
   return out;
 }
 

@@ -46,6 +46,10 @@ class Search {
   static virtual_lathe::Scenario with(const virtual_lathe::Scenario& scenario, const Freedom& free,
                                       double effort);
 
+  /// As above, rounded to what can be set.
+  static virtual_lathe::Scenario with_settable(const virtual_lathe::Scenario& scenario,
+                                               const Freedom& free, double effort);
+
   /// Independent pieces of the search on the task's threads; each is a step.
   void each(std::size_t count, const IndexedWork& work) const;
   void skip(std::size_t count) const { steps_.done(count); }
@@ -59,6 +63,9 @@ class Search {
   mutable AxisBounds bounds_;
 };
 
+/// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
+/// readings inside the range: orders n and M − n would be one column.
+double settable(const Freedom& free, double value);
 /// Whether more of a choice makes the axis more certain.
 bool more_is_better(Choice choice);
 const Freedom* find(const std::vector<Freedom>& free, Choice choice);

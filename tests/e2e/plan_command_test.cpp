@@ -57,7 +57,7 @@ TEST_F(PlanCommand, SearchesOnAnyThreadsGiveTheSameBytes) {
   file("seat.toml", scenario);
   const std::string ask =
       "plan seat.toml --goal-um 0.1 --free length_mm=20:80 --free sigma_um=0.5:5 "
-      "--free feed_mm_per_rev=0.1:2 --free readings_per_revolution=4:300 --time-s 60 "
+      "--free feed_mm_per_rev=0.1:2 --free readings_per_revolution=4:60 --time-s 30 "
       "--repeats 100 --seed 3 --json ";
   ASSERT_EQ(command(ask + "one.json --threads 1").exit_code, 0);
   const std::string one = read_text(folder_ / "one.json");

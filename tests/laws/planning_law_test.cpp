@@ -235,6 +235,33 @@ TEST(PlanningLaw, HalfTurnsDetermineNoAxis) {
   EXPECT_FALSE(std::isfinite(planned(task.base, 2.0).u_expanded_mm));
 }
 
+// What is recommended or stands in the table can be set as printed: length, feed and noise have
+// three digits, readings per revolution a tenth.
+TEST(PlanningLaw, EveryPlanCanBeSet) {
+  PlanningTask task = cylinder_task();
+  task.goal_mm = 0.3e-3;
+  task.time_s = 60.0;
+  task.free = {{Choice::readings_per_revolution, 4.0, 60.0},
+               {Choice::sigma, 5e-4, 3e-3},
+               {Choice::feed, 0.1, 2.0},
+               {Choice::length, 20.0, 100.0}};
+  task.repeats = 100;
+  const PlanningAnswer answer = plan_measurement(task);
+  std::vector<const PlannedMeasurement*> plans{&answer.nearest};
+  for (const Recommendation& one : answer.recommended) plans.push_back(&one.plan);
+  for (const TableRow& row : answer.table) plans.push_back(&row.plan);
+  ASSERT_GT(plans.size(), 28U);
+  for (const PlannedMeasurement* plan : plans) {
+    for (const Choice choice : choices) {
+      const double value = plan->of(choice);
+      const double step = choice == Choice::readings_per_revolution
+                              ? 0.1
+                              : std::pow(10.0, std::floor(std::log10(value * (1 + 1e-12))) - 2.0);
+      EXPECT_NEAR(value / step, std::round(value / step), 1e-6) << path_of(choice) << ' ' << value;
+    }
+  }
+}
+
 TEST(PlanningLaw, AsksForNoBetterProbeThanTheOneThatDoes) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 2e-3;  // as given 2 × 3 √(8/985) = 0.54 µm
