@@ -122,6 +122,19 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
 }
 
+/// With the goal at which the least wasteful of the simulated fits would do.
+std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  double efficiency = 0.0;
+  for (const Recommendation& one : answer.recommended) {
+    if (one.confirmed.repeats > 0)
+      efficiency = std::max(efficiency, one.plan.u_expanded_mm / one.confirmed.u_expanded_mm);
+  }
+  std::string text = "\nNot confirmed: the bound meets the goal, the simulated fits do not";
+  if (efficiency > 0.0)
+    text += "; ask for a bound of " + um(task.goal_mm * efficiency) + " µm (--goal-um)";
+  return text + '\n';
+}
+
 }  // namespace
 
 std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
@@ -144,8 +157,7 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
     }
   }
   for (const std::string& remark : answer.remarks) text += "\nNote: " + remark + '\n';
-  if (answer.reached && !answer.confirmed)
-    text += "\nNot confirmed: the bound meets the goal, the simulated fits do not\n";
+  if (answer.reached && !answer.confirmed) text += not_confirmed_text(task, answer);
   return answer.reached ? text : text + not_reached_text(task, answer);
 }
 

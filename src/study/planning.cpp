@@ -296,6 +296,14 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   check(task);
   limit_rate(task, out.remarks);
   check_ends(task);
+  const virtual_lathe::Noise& noise = task.base.noise;
+  if (find(task.free, Choice::readings_per_revolution) &&
+      (noise.rho != 0.0 || !noise.autoregression.empty())) {
+    out.remarks.emplace_back(
+        "the noise is correlated from reading to reading, at any rate alike: where it lasts a "
+        "time, "
+        "the correlation is greater the more readings a second");
+  }
   for (const Choice choice : choices) {
     if (!find(task.free, choice)) continue;
     out.solved_for = choice;

@@ -99,6 +99,30 @@ TEST_F(PlanCommand, AGoalThatTheFitMissesIsNotConfirmed) {
   EXPECT_TRUE(contains(done.out, "Not confirmed")) << done.out;
 }
 
+// Student's t of 4 degrees of freedom: least squares has (v − 2)(v + 3)/(v (v + 1)) = 0.7 of the
+// information, so the bound must be √0.7 = 0.837 of the goal; the simulated RMSE of 2000 repeats
+// in one direction has a standard error of 1/√4000 = 1.6 %, five of them and 2 digits: 0.1.
+TEST_F(PlanCommand, SaysWhichBoundAFitThatWastesNeeds) {
+  std::string tails = scenario;
+  tails.replace(tails.find("sigma_um = 3"), 12, "sigma_um = 3\nstudent_dof = 4");
+  file("tails.toml", tails);
+  // As it is 2 × 3 √(0.7 × 8/413) = 0.70 µm by the bound, 0.84 of least squares.
+  const CommandStreams done = command("plan tails.toml --goal-um 0.72 --repeats 2000 --seed 11");
+  EXPECT_EQ(done.exit_code, 1) << done.err;
+  const std::size_t at = done.out.find("ask for a bound of ");
+  ASSERT_NE(at, std::string::npos) << done.out;
+  EXPECT_NEAR(std::stod(done.out.substr(at + 19)), 0.72 * std::sqrt(0.7), 0.1 * 0.6) << "seed 11";
+}
+
+TEST_F(PlanCommand, CorrelatedNoiseIsSaidToBePerReading) {
+  std::string slow = scenario;
+  slow.replace(slow.find("sigma_um = 3"), 12, "sigma_um = 3\nrho = 0.5");
+  file("slow.toml", slow);
+  const std::string ask = "plan slow.toml --goal-um 3 --repeats 100 --free ";
+  EXPECT_TRUE(contains(command(ask + "readings_per_revolution=4:20").out, "lasts a time"));
+  EXPECT_FALSE(contains(command(ask + "length_mm=20:60").out, "lasts a time"));
+}
+
 TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
   const CommandStreams done = command(
       "plan --surface cylinder --sigma-um 3 --goal-um 0.05 --free readings_per_revolution=4:20 "
