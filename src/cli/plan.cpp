@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
 #include <iostream>
 #include <memory>
-#include <optional>
 
 #include "cli/commands.hpp"
+#include "cli/progress.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/io/file.hpp"
@@ -44,6 +45,34 @@ struct Options {
   study::PlanningTask task;
 };
 
+/// A line for the search, then one for the simulations.
+class PlanProgress {
+ public:
+  PlanProgress() = default;
+  PlanProgress(const PlanProgress&) = delete;
+  PlanProgress& operator=(const PlanProgress&) = delete;
+  ~PlanProgress() { end(); }
+  void operator()(study::PlanningStage stage, std::size_t done, std::size_t to_do) {
+    if (!line_ || stage != stage_) {
+      end();
+      line_ = std::make_unique<Progress>(
+          0, to_do, stage == study::PlanningStage::search ? "steps" : "simulations");
+      stage_ = stage, done_ = 0;
+    }
+    line_->add(done - done_);
+    done_ = done;
+  }
+  void end() {
+    if (line_) line_->end();
+    line_.reset();
+  }
+
+ private:
+  std::unique_ptr<Progress> line_;
+  study::PlanningStage stage_{};
+  std::size_t done_ = 0;
+};
+
 int execute(Options options) {
   study::PlanningTask& task = options.task;
   std::string hash = content_hash("");
@@ -61,10 +90,12 @@ int execute(Options options) {
   } catch (const InputError& error) {
     throw CLI::ValidationError("--free", error.what());
   }
-  const study::PlanningAnswer answer = study::plan_measurement(task);
+  PlanProgress progress;
+  const study::PlanningAnswer answer = study::plan_measurement(task, std::ref(progress));
+  progress.end();
   if (options.json != "-") std::cout << planning_text(task, answer);
   if (!options.json.empty()) write_file(options.json, planning_json(task, answer, hash));
-  return answer.reached ? done : refused;
+  return answer.reached && answer.confirmed ? done : refused;
 }
 
 void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {

@@ -44,8 +44,8 @@ void Progress::show() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
   const double rate = static_cast<double>(done_) / seconds;
   const double share = static_cast<double>(before_ + done_) / static_cast<double>(before_ + to_do_);
-  std::fprintf(stderr, "\r\033[K%3.0f %%  %zu of %zu %s, %.0f/s, %s left", 100.0 * share,
-               before_ + done_, before_ + to_do_, unit_.c_str(), rate,
+  std::fprintf(stderr, "\r\033[K%3.0f %%  %zu of %zu %s, %.*f/s, %s left", 100.0 * share,
+               before_ + done_, before_ + to_do_, unit_.c_str(), rate < 10.0 ? 1 : 0, rate,
                duration_text(static_cast<double>(to_do_ - done_) / rate).c_str());
   std::fflush(stderr);
 }

@@ -45,7 +45,8 @@ Json confirmed_json(const Confirmation& confirmed) {
             {"interval_95",
              {number(confirmed.interval_95_mm.low), number(confirmed.interval_95_mm.high)}}}},
           {"U_stated", with_unit(confirmed.stated_mm, "mm")},
-          {"at_bound", confirmed.at_bound}};
+          {"at_bound", confirmed.at_bound},
+          {"misses", confirmed.misses}};
 }
 
 }  // namespace
@@ -55,7 +56,9 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
   Json json{{"schema", "trueaxis.plan/1"},
             {"version", TRUEAXIS_VERSION},
             {"input_hash", input_hash},
-            {"status", answer.reached ? "reached" : "not_reached"},
+            {"status", !answer.reached    ? "not_reached"
+                       : answer.confirmed ? "reached"
+                                          : "not_confirmed"},
             {"goal", with_unit(task.goal_mm, "mm")},
             {"coverage_factor", task.coverage_factor},
             {"seed", task.seed},

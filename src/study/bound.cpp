@@ -43,6 +43,15 @@ Eigen::MatrixXd derivatives(Estimable model, const Of& of) {
   return out;
 }
 
+/// Whether every lever moves some reading by more than rounding does.
+bool all_move_readings(Estimable model, const Eigen::MatrixXd& jacobian) {
+  constexpr double picometre = 1e-9;
+  Eigen::Index column = 0;
+  return std::ranges::all_of(model.levers(), [&](const Lever& lever) {
+    return jacobian.col(column++).cwiseAbs().maxCoeff() * lever.step > picometre;
+  });
+}
+
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -101,6 +110,7 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
   } catch (const InputError&) {  // a step leaves what can be probed
     return bound;
   }
+  if (!all_move_readings(*model, jacobian)) return bound;
   const Eigen::Index levers = jacobian.cols();
   append_gauge_zeros(*model, jacobian);
   if (!whiten(clean, scenario.noise, jacobian)) return bound;

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <utility>
 
+#include "study/levers.hpp"
 #include "study/planning_search.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/simulate/clean_stream.hpp"
+#include "trueaxis/study/quantities.hpp"
 #include "trueaxis/study/scenario_parameters.hpp"
 
 namespace trueaxis::study {
@@ -25,6 +29,8 @@ void check(const PlanningTask& task) {
   const virtual_lathe::Noise& noise = task.base.noise;
   if (!(task.goal_mm > 0.0) || !(task.coverage_factor > 0.0))
     refuse("the goal and k must be more than 0");
+  if (!std::isfinite(task.goal_mm) || !std::isfinite(task.coverage_factor))
+    refuse("the goal and k must be finite");
   for (const Freedom& free : task.free) {
     if (!(free.low > 0.0) || !(free.low <= free.high) || !std::isfinite(free.high))
       refuse("a range goes from a number above 0 to one that is not smaller");
@@ -33,9 +39,14 @@ void check(const PlanningTask& task) {
   }
   if (!(noise.sigma_mm > 0.0 || noise.uniform_mm > 0.0) && !find(task.free, Choice::sigma))
     refuse("without noise every plan is perfect: give the probe's noise");
-  if (task.base.probe.relative_zero_mm || !noise.autoregression.empty() ||
-      task.base.plan.setups.size() > 1)
-    refuse("there is no bound for a relative gauge, an autoregression or several set-ups");
+  const virtual_lathe::Probe& probe = task.base.probe;
+  if (probe.relative_zero_mm && !probe.nominal_radius_mm)
+    refuse("a relative gauge does not show the radius: give nominal_radius_mm");
+  const ProbeStream probed = virtual_lathe::simulate_clean(task.base).stream;
+  if (!Estimable::of(task.base, probed, surface_of(task.base.part.kind)))
+    refuse(
+        "the axis moves between set-ups of one clamping: say in the set-up what moved the part "
+        "(reindex, z_shift or clamp_force_ratio)");
 }
 
 /// The probe's rate as a limit on the readings per revolution.
@@ -49,7 +60,9 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   for (const auto& pass : task.base.plan.passes) {
     const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
     if (rate <= *task.rate_hz || find(task.free, Choice::readings_per_revolution)) continue;
-    std::snprintf(text, sizeof text, "the plan asks for %.4g readings a second, more than the %g",
+    std::snprintf(text, sizeof text,
+                  "the plan asks for %.4g readings a second, more than the %g: fewer a revolution, "
+                  "or a slower spindle",
                   rate, *task.rate_hz);
     remarks.emplace_back(text);
     break;
@@ -66,56 +79,81 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   }
 }
 
-/// A range of lengths must stay on the part.
-void check_length(const PlanningTask& task) {
+/// The ranges must be possible: on the part, and readings that can be counted.
+void check_ends(const PlanningTask& task) {
   const Freedom* length = find(task.free, Choice::length);
+  Scenario most = task.base;
+  for (const Freedom& free : task.free) most = Search::with(most, free, 1.0);
+  try {
+    (void)readings_of(most);
+  } catch (const InputError& error) {
+    throw InputError("plan", std::string("at the demanding ends of the ranges: ") + error.what());
+  }
   if (!length) return;
   try {
-    (void)virtual_lathe::simulate_clean(Search::with(task.base, *length, 1.0));
+    (void)virtual_lathe::simulate_clean(stand_in(Search::with(task.base, *length, 1.0)).scenario);
   } catch (const InputError& error) {
     throw InputError("plan", std::string("at the longest length of its range: ") + error.what());
   }
 }
 
-/// Everything as demanding as it may be but feed and length.
+/// Everything as demanding as it may be but feed and length; the scenario's own probe, or the best.
 Scenario demanding(const PlanningTask& task, bool best_probe) {
   Scenario out = task.base;
-  if (const Freedom* readings = find(task.free, Choice::readings_per_revolution))
-    out = Search::with(out, *readings, 1.0);
-  const Freedom* sigma = find(task.free, Choice::sigma);
-  if (sigma &&
-      (best_probe || !(out.noise.sigma_mm >= sigma->low && out.noise.sigma_mm <= sigma->high)))
-    out = Search::with(out, *sigma, 1.0);
+  for (const Freedom& free : task.free) {
+    if (free.choice == Choice::readings_per_revolution ||
+        (free.choice == Choice::sigma && best_probe))
+      out = Search::with(out, free, 1.0);
+  }
   return out;
 }
 
-/// The best of `rate(effort of the length)` over the range, smaller is better.
-template <class Rate>
-PlannedMeasurement best_over_length(const PlanningTask& task, const Scenario& from,
-                                    const Rate& rate) {
+std::size_t lengths_looked_at(const PlanningTask& task) {
+  return find(task.free, Choice::length) ? lengths_tried + lengths_between : 1;
+}
+
+using Rated = std::pair<double, PlannedMeasurement>;
+
+/// The best of `rate(scenario of a length)` over the range, smaller is better.
+PlannedMeasurement best_over_length(const PlanningTask& task, const Search& search,
+                                    const Scenario& from,
+                                    const std::function<Rated(const Scenario&)>& rate) {
   const Freedom* length = find(task.free, Choice::length);
-  if (!length) return rate(from).second;
-  std::pair<double, PlannedMeasurement> best;
+  std::optional<Rated> best;
   double best_effort = 0.0;
-  bool first = true;
-  const auto look = [&](double effort) {
-    auto now = rate(Search::with(from, *length, effort));
-    if (first || now.first < best.first) best = std::move(now), best_effort = effort, first = false;
+  const auto look = [&](const std::vector<double>& efforts) {
+    std::vector<Rated> rated(efforts.size());
+    search.each(efforts.size(), [&](std::size_t i) {
+      rated[i] = rate(length ? Search::with_settable(from, *length, efforts[i]) : from);
+    });
+    for (std::size_t i = 0; i < rated.size(); ++i) {
+      if (best && !(rated[i].first < best->first)) continue;
+      best = std::move(rated[i]), best_effort = efforts[i];
+    }
   };
-  constexpr double apart = 1.0 / (lengths_tried - 1);
-  for (int i = 0; i < lengths_tried; ++i) look(i * apart);
-  const double about = best_effort;
-  for (int i = 1; i <= lengths_between; ++i) {
-    const double effort = about + apart * (2.0 * i / (lengths_between + 1) - 1.0);
-    if (effort > 0.0 && effort < 1.0 && effort != about) look(effort);
+  if (!length) {
+    look({0.0});
+    return std::move(best->second);
   }
-  return best.second;
+  constexpr double apart = 1.0 / (lengths_tried - 1);
+  std::vector<double> efforts;
+  for (int i = 0; i < lengths_tried; ++i) efforts.push_back(i * apart);
+  look(efforts);
+  efforts.clear();
+  for (int i = 1; i <= lengths_between; ++i) {
+    const double effort = best_effort + apart * (2.0 * i / (lengths_between + 1) - 1.0);
+    if (effort > 0.0 && effort < 1.0 && effort != best_effort) efforts.push_back(effort);
+  }
+  look(efforts);
+  search.skip(lengths_between - efforts.size());
+  return std::move(best->second);
 }
 
 /// Smallest U, within the time if there is one.
 PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bool best_probe) {
   const Freedom* feed = find(task.free, Choice::feed);
-  return best_over_length(task, demanding(task, best_probe), [&](const Scenario& scenario) {
+  const Scenario from = demanding(task, best_probe);
+  return best_over_length(task, search, from, [&](const Scenario& scenario) {
     Scenario slow = scenario;
     if (feed) {
       slow = Search::with(scenario, *feed, 1.0);
@@ -124,15 +162,17 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
         double pauses = 0.0;
         for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
         const double room = *task.time_s - pauses;
-        const double wanted = feed->low * (measuring_time_s(slow) - pauses) / room;
+        const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
+        const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+        const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
         set_parameter(slow, path_of(Choice::feed),
                       room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
       }
     }
     PlannedMeasurement plan = search.at(slow);
-    const double late = search.in_time(plan) ? 0.0 : 1e6 * plan.time_s;
+    const double late = search.allowed(plan) ? 0.0 : 1e6 * plan.time_s;
     const double height = plan.u_expanded_mm + late;
-    return std::pair{height, std::move(plan)};
+    return Rated{height, std::move(plan)};
   });
 }
 
@@ -140,11 +180,15 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
 PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool best_probe) {
   const Freedom* feed = find(task.free, Choice::feed);
   const Freedom* length = find(task.free, Choice::length);
-  if (length && !feed) return search.solve(demanding(task, best_probe), *length);
-  return best_over_length(task, demanding(task, best_probe), [&](const Scenario& scenario) {
+  const Scenario from = demanding(task, best_probe);
+  if (length && !feed) {
+    search.skip(lengths_looked_at(task));
+    return search.solve(from, *length);
+  }
+  return best_over_length(task, search, from, [&](const Scenario& scenario) {
     PlannedMeasurement plan = feed ? search.solve(scenario, *feed) : search.at(scenario);
     const double time = search.meets(plan) ? plan.time_s : 1e12 * plan.u_expanded_mm / task.goal_mm;
-    return std::pair{time, std::move(plan)};
+    return Rated{time, std::move(plan)};
   });
 }
 
@@ -157,29 +201,38 @@ PlannedMeasurement without_excess(const PlanningTask& task, const Search& search
   return search.meets(fewer) ? fewer : plan;
 }
 
-void fill_table(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
+/// The other choices on a grid, from least to most demanding.
+struct Grid {
   std::vector<Freedom> others;
-  for (const Freedom& free : task.free) {
-    if (free.choice != out.solved_for) others.push_back(free);
-  }
-  if (others.empty()) return;
-  const std::size_t nodes = others.size() == 1 ? 5 : others.size() == 2 ? 4 : 3;
-  std::size_t rows = 1;
-  for (std::size_t i = 0; i < others.size(); ++i) rows *= nodes;
-  const Freedom& solved = *find(task.free, out.solved_for);
-  for (std::size_t row = 0; row < rows; ++row) {
-    Scenario scenario = task.base;
-    std::size_t left = row;
-    for (const Freedom& other : others) {
-      const double effort = static_cast<double>(left % nodes) / static_cast<double>(nodes - 1);
-      scenario = Search::with(scenario, other, effort);
-      left /= nodes;
+  std::size_t nodes = 0, rows = 0;
+
+  Grid(const PlanningTask& task, Choice solved_for) {
+    for (const Freedom& free : task.free) {
+      if (free.choice != solved_for) others.push_back(free);
     }
-    TableRow one;
-    one.plan = search.solve(scenario, solved);
-    one.reached = search.meets(one.plan);
-    out.table.push_back(std::move(one));
+    nodes = others.size() == 1 ? 5 : others.size() == 2 ? 4 : 3;
+    rows = others.empty() ? 0 : 1;
+    for (std::size_t i = 0; i < others.size(); ++i) rows *= nodes;
   }
+
+  Scenario at(Scenario scenario, std::size_t row) const {
+    for (const Freedom& other : others) {
+      const double effort = static_cast<double>(row % nodes) / static_cast<double>(nodes - 1);
+      scenario = Search::with_settable(scenario, other, effort);
+      row /= nodes;
+    }
+    return scenario;
+  }
+};
+
+std::vector<TableRow> table_of(const PlanningTask& task, const Search& search, const Grid& grid,
+                               const Freedom& solved) {
+  std::vector<TableRow> table(grid.rows);
+  search.each(grid.rows, [&](std::size_t row) {
+    table[row].plan = search.solve(grid.at(task.base, row), solved);
+    table[row].reached = search.meets(table[row].plan);
+  });
+  return table;
 }
 
 void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
@@ -203,54 +256,92 @@ const char* words_of(Choice choice) {
   return "another length alone";
 }
 
+/// What is nearest, with the scenario's own probe where that does.
+bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
+  out.nearest = smallest_u(task, search, false);
+  const bool better_probe = !search.good(out.nearest) && find(task.free, Choice::sigma);
+  if (better_probe) {
+    out.nearest = smallest_u(task, search, true);
+    out.remarks.emplace_back(
+        "within the ranges the probe of the scenario does not do: the best of its range is taken");
+  } else {
+    search.skip(lengths_looked_at(task));
+  }
+  // Where the ranges leave out what is given, that with one of them may be nearer.
+  const auto nearer = [&](const PlannedMeasurement& plan) {
+    if (search.allowed(plan) &&
+        !(search.allowed(out.nearest) && out.nearest.u_expanded_mm <= plan.u_expanded_mm))
+      out.nearest = plan;
+  };
+  nearer(out.as_given);
+  for (const Alone& one : out.alone) nearer(one.plan);
+  if (!std::isfinite(out.nearest.u_expanded_mm)) {
+    out.remarks.emplace_back(
+        "no plan of the ranges determines the axis: probe more of the length or the circumference");
+  }
+  out.reached = search.good(out.nearest);
+  return better_probe;
+}
+
+std::vector<Alone> each_alone(const PlanningTask& task, const Search& search) {
+  std::vector<Alone> alone(task.free.size());
+  search.each(alone.size(), [&](std::size_t i) {
+    alone[i].choice = task.free[i].choice;
+    alone[i].plan = search.solve(task.base, task.free[i]);
+    alone[i].reached = search.meets(alone[i].plan);
+  });
+  return alone;
+}
+
 }  // namespace
 
-PlanningAnswer plan_measurement(const PlanningTask& asked) {
+PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgress& progress) {
   if (asked.base.part.kind == virtual_lathe::PartKind::face)
     throw InputError("plan", "a face has no axis: plan a cone or a cylinder");
   PlanningTask task = asked;
   PlanningAnswer out;
   check(task);
-  check_length(task);
   limit_rate(task, out.remarks);
-  const Search search(task);
-  out.as_given = search.at(task.base);
-  if (search.meets(out.as_given) && search.in_time(out.as_given))
-    recommend(out, "as it is", out.as_given);
-  for (const Freedom& free : task.free) {
-    Alone one{free.choice, false, search.solve(task.base, free)};
-    one.reached = search.meets(one.plan);
-    if (one.reached && search.in_time(one.plan)) recommend(out, words_of(free.choice), one.plan);
-    out.alone.push_back(std::move(one));
-  }
-  out.nearest = task.free.empty() ? out.as_given : smallest_u(task, search, false);
-  bool best_probe = false;
-  if (!(search.meets(out.nearest) && search.in_time(out.nearest)) &&
-      find(task.free, Choice::sigma)) {
-    best_probe = true;
-    out.nearest = smallest_u(task, search, true);
+  check_ends(task);
+  const virtual_lathe::Noise& noise = task.base.noise;
+  if (find(task.free, Choice::readings_per_revolution) &&
+      (noise.rho != 0.0 || !noise.autoregression.empty())) {
     out.remarks.emplace_back(
-        "within the ranges the probe of the scenario does not do: the best of its range is taken");
+        "the noise is correlated from reading to reading, at any rate alike: where it lasts a "
+        "time, "
+        "the correlation is greater the more readings a second");
   }
-  if (!std::isfinite(out.nearest.u_expanded_mm)) {
-    out.remarks.emplace_back(
-        "no plan of the ranges determines the axis: probe more of the length or the circumference");
-  }
-  out.reached = search.meets(out.nearest) && search.in_time(out.nearest);
   for (const Choice choice : choices) {
     if (!find(task.free, choice)) continue;
     out.solved_for = choice;
     break;
   }
-  if (!task.free.empty()) fill_table(task, search, out);
-  if (out.reached && !task.free.empty()) {
+  const Freedom* solved = find(task.free, out.solved_for);
+  const Grid grid(task, out.solved_for);
+  Steps steps(progress);
+  const Search search(task, steps);
+  steps.begin(PlanningStage::search, task.free.size() + grid.rows + 3 * lengths_looked_at(task));
+  out.as_given = search.at(task.base);
+  const bool good_as_given = search.good(out.as_given);
+  if (good_as_given) recommend(out, "as it is", out.as_given);
+  out.alone = each_alone(task, search);
+  for (const Alone& one : out.alone) {
+    const double change = one.plan.of(one.choice) - out.as_given.of(one.choice);
+    const bool needless = good_as_given && (more_is_better(one.choice) ? change : -change) > 0.0;
+    if (search.good(one.plan) && !needless) recommend(out, words_of(one.choice), one.plan);
+  }
+  const bool best_probe = look_for_nearest(task, search, out);
+  if (solved) out.table = table_of(task, search, grid, *solved);
+  if (out.reached && solved) {
     const PlannedMeasurement fast = quickest(task, search, best_probe);
-    if (search.meets(fast) && search.in_time(fast))
-      recommend(out, "quickest", without_excess(task, search, fast));
+    if (search.good(fast)) recommend(out, "quickest", without_excess(task, search, fast));
     if (task.time_s) recommend(out, "most certain in the time", out.nearest);
   }
+  steps.begin(PlanningStage::simulation, out.recommended.size() * task.repeats);
   for (Recommendation& one : out.recommended)
-    one.confirmed = confirm(one.plan, task, out.recommended.size());
+    one.confirmed = search.confirm(one.plan, out.recommended.size());
+  out.confirmed = std::ranges::any_of(
+      out.recommended, [](const Recommendation& one) { return !one.confirmed.misses; });
   return out;
 }
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/planning_search.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <limits>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/study/block.hpp"
-#include "trueaxis/study/quantities.hpp"
 #include "trueaxis/study/run.hpp"
 #include "trueaxis/study/scenario_parameters.hpp"
 
@@ -25,25 +21,6 @@ constexpr double met = 1.0 + 1e-9;     // of the goal: rounding of the bound
 constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded to be set
 constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;
-
-/// Whether more of a choice makes the axis more certain.
-bool more_is_better(Choice choice) {
-  return choice == Choice::readings_per_revolution || choice == Choice::length;
-}
-
-/// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
-/// readings inside the range: orders n and M − n would be one column.
-double settable(const Freedom& free, double value) {
-  if (free.choice == Choice::readings_per_revolution) {
-    double tenths = std::ceil(value * 10.0 - 1e-9);
-    if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
-    return std::clamp(tenths / 10.0, free.low, free.high);
-  }
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
-                                                   : std::floor(value / step + 1e-9);
-  return std::clamp(steps * step, free.low, free.high);
-}
 
 }  // namespace
 
@@ -63,73 +40,54 @@ const char* path_of(Choice choice) {
 
 double PlannedMeasurement::of(Choice choice) const { return parameter(scenario, path_of(choice)); }
 
-PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double coverage_factor) {
-  PlannedMeasurement out;
-  out.scenario = scenario;
-  out.readings = virtual_lathe::simulate_clean(scenario).value_mm.size();
-  out.time_s = measuring_time_s(scenario);
-  for (const virtual_lathe::PlannedPass& pass : scenario.plan.passes) {
-    const double turning = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
-    out.rate_hz = std::max(out.rate_hz, pass.speed_rpm == 0.0 ? pass.rate_hz : turning);
-  }
-  const double u =
-      worst_of_axis(scenario, bound_of(scenario, surface_of(scenario.part.kind))).sd_mm;
-  out.u_expanded_mm = std::isfinite(u) ? coverage_factor * u : infinity;
-  return out;
+namespace planning_detail {
+
+bool more_is_better(Choice choice) {
+  return choice == Choice::readings_per_revolution || choice == Choice::length;
 }
 
-namespace planning_detail {
+double settable(const Freedom& free, double value) {
+  if (free.choice == Choice::readings_per_revolution) {
+    double tenths = std::ceil(value * 10.0 - 1e-9);
+    if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
+    return std::clamp(tenths / 10.0, free.low, free.high);
+  }
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
+                                                   : std::floor(value / step + 1e-9);
+  return std::clamp(steps * step, free.low, free.high);
+}
+
+void Steps::begin(PlanningStage stage, std::size_t to_do) {
+  const std::lock_guard lock(one_at_a_time_);
+  stage_ = stage, done_ = 0, to_do_ = to_do;
+}
+
+void Steps::done(std::size_t count) {
+  const std::lock_guard lock(one_at_a_time_);
+  done_ += count;
+  if (progress_ && count > 0) progress_(stage_, done_, to_do_);
+}
 
 const Freedom* find(const std::vector<Freedom>& free, Choice choice) {
   const auto at = std::ranges::find(free, choice, &Freedom::choice);
   return at == free.end() ? nullptr : &*at;
 }
 
-double measuring_time_s(const virtual_lathe::Scenario& scenario) {
-  double time = 0.0;
-  for (const virtual_lathe::PlannedPass& pass : scenario.plan.passes) {
-    const double turns = pass.start_mm == pass.end_mm
-                             ? pass.revolutions
-                             : std::abs(pass.end_mm - pass.start_mm) / pass.feed_mm_per_rev;
-    time += pass.pause_s +
-            (pass.speed_rpm == 0.0 ? pass.duration_s : turns * 60.0 / std::abs(pass.speed_rpm));
-  }
-  return time;
-}
-
-std::size_t place_of_ends(const virtual_lathe::Scenario& scenario) {
-  const std::vector<Quantity> all = quantities(surface_of(scenario.part.kind));
-  const auto at = std::ranges::find(all, "x_at_min_z", &Quantity::name);
-  expects(at != all.end(), "a part with an axis");
-  return static_cast<std::size_t>(at - all.begin());
-}
-
-WorstOfAxis worst_of_axis(const virtual_lathe::Scenario& scenario, const Bound& bound) {
-  const std::size_t count = bound.sd.size(), from = place_of_ends(scenario);
-  WorstOfAxis worst;
-  for (const std::size_t end : {0, 2}) {  // the variance is convex along the axis
-    const auto c = [&](std::size_t i, std::size_t j) {
-      return bound.covariance[(from + end + i) * count + from + end + j];
-    };
-    Eigen::Matrix2d covariance;
-    covariance << c(0, 0), c(0, 1), c(1, 0), c(1, 1);
-    if (!covariance.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), {}};
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
-    const double sd = std::sqrt(std::max(0.0, eigen.eigenvalues()(1)));
-    if (sd < worst.sd_mm) continue;
-    worst = {sd, {}};
-    worst.weight[end] = eigen.eigenvectors()(0, 1);
-    worst.weight[end + 1] = eigen.eigenvectors()(1, 1);
-  }
-  return worst;
+void Search::each(std::size_t count, const IndexedWork& work) const {
+  for_each_index(count, task_.threads, [&](std::size_t i) {
+    work(i);
+    steps_.done(1);
+  });
 }
 
 bool Search::meets(const PlannedMeasurement& plan) const {
   return plan.u_expanded_mm <= task_.goal_mm * met;
 }
 
-bool Search::in_time(const PlannedMeasurement& plan) const {
-  return !task_.time_s || plan.time_s <= *task_.time_s * met;
+bool Search::allowed(const PlannedMeasurement& plan) const {
+  return (!task_.time_s || plan.time_s <= *task_.time_s * met) &&
+         (!task_.rate_hz || plan.rate_hz <= *task_.rate_hz * met);
 }
 
 virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, const Freedom& free,
@@ -138,6 +96,14 @@ virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, co
   const double share = more_is_better(free.choice) ? effort : 1.0 - effort;
   const double value = free.low * std::pow(free.high / free.low, share);
   set_parameter(out, path_of(free.choice), std::clamp(value, free.low, free.high));
+  return out;
+}
+
+virtual_lathe::Scenario Search::with_settable(const virtual_lathe::Scenario& scenario,
+                                              const Freedom& free, double effort) {
+  virtual_lathe::Scenario out = with(scenario, free, effort);
+  const char* const path = path_of(free.choice);
+  set_parameter(out, path, settable(free, parameter(out, path)));
   return out;
 }
 
@@ -181,17 +147,17 @@ PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
   return meets(set) ? set : most;
 }
 
-Confirmation confirm(const PlannedMeasurement& plan, const PlanningTask& task, std::size_t among) {
+Confirmation Search::confirm(const PlannedMeasurement& plan, std::size_t among) const {
   Sweep sweep;
   sweep.base = plan.scenario;
-  sweep.repeats = task.repeats;
-  sweep.seed = task.seed;
-  const WorstOfAxis worst =
-      worst_of_axis(plan.scenario, bound_of(plan.scenario, surface_of(plan.scenario.part.kind)));
+  sweep.repeats = task_.repeats;
+  sweep.seed = task_.seed;
+  const WorstOfAxis worst = bounds_.of(plan.scenario);
   const std::size_t from = place_of_ends(plan.scenario);
   const std::vector<Block> blocks = blocks_of(sweep);
   std::vector<BlockResult> results(blocks.size());
-  run_blocks(sweep, blocks, task.threads, [&](BlockResult&& result) {
+  run_blocks(sweep, blocks, task_.threads, [&](BlockResult&& result) {
+    steps_.done(result.block.count);
     results[static_cast<std::size_t>(std::ranges::find(blocks, result.block) - blocks.begin())] =
         std::move(result);
   });
@@ -213,9 +179,10 @@ Confirmation confirm(const PlannedMeasurement& plan, const PlanningTask& task, s
       ++out.repeats, squares += error * error, stated += std::sqrt(variance);
     }
   }
-  if (out.repeats == 0) return out;
+  out.misses = out.repeats == 0;
+  if (out.misses) return out;
   const auto n = static_cast<double>(out.repeats);
-  const double rmse = std::sqrt(squares / n), k = task.coverage_factor;
+  const double rmse = std::sqrt(squares / n), k = task_.coverage_factor;
   const boost::math::chi_squared law(n);
   const auto ends = [&](double level) {
     return Ends{rmse * std::sqrt(n / quantile(law, 1.0 - 0.5 * level)),
@@ -227,6 +194,7 @@ Confirmation confirm(const PlannedMeasurement& plan, const PlanningTask& task, s
   out.interval_95_mm = {k * of_95.low, k * of_95.high};
   out.stated_mm = k * stated / n;
   out.at_bound = worst.sd_mm >= of_all.low && worst.sd_mm <= of_all.high;
+  out.misses = !out.at_bound && out.interval_95_mm.low > task_.goal_mm;
   return out;
 }
 

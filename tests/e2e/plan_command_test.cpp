@@ -51,6 +51,78 @@ TEST_F(PlanCommand, SameSeedSameBytesOnAnyThreads) {
   EXPECT_EQ(read_text(folder_ / "one.json"), read_text(folder_ / "two.json"));
 }
 
+// Every search at once: rows, choices alone, lengths, another probe, a limit of time, a long
+// stream.
+TEST_F(PlanCommand, SearchesOnAnyThreadsGiveTheSameBytes) {
+  file("seat.toml", scenario);
+  const std::string ask =
+      "plan seat.toml --goal-um 0.1 --free length_mm=20:80 --free sigma_um=0.5:5 "
+      "--free feed_mm_per_rev=0.1:2 --free readings_per_revolution=4:60 --time-s 30 "
+      "--repeats 100 --seed 3 --json ";
+  ASSERT_EQ(command(ask + "one.json --threads 1").exit_code, 0);
+  const std::string one = read_text(folder_ / "one.json");
+  EXPECT_EQ(nlohmann::json::parse(one).at("table").size(), 27U);
+  for (const char* threads : {"2", "3"}) {
+    const CommandStreams done = command(ask + "more.json --threads " + threads);
+    ASSERT_EQ(done.exit_code, 0);
+    EXPECT_EQ(done.err, "");  // a progress line is for terminals
+    EXPECT_EQ(read_text(folder_ / "more.json"), one) << threads;
+  }
+}
+
+TEST_F(PlanCommand, SaysWhatForbidsAPlan) {
+  file("seat.toml", scenario);
+  const CommandStreams fast = command("plan seat.toml --goal-um 5 --rate-hz 5 --json fast.json");
+  EXPECT_EQ(fast.exit_code, 1) << fast.err;
+  EXPECT_TRUE(contains(fast.out, "too fast for the probe")) << fast.out;
+  EXPECT_TRUE(result("fast.json").at("recommended").empty());
+  const CommandStreams late = command("plan seat.toml --goal-um 5 --time-s 20");
+  EXPECT_EQ(late.exit_code, 1) << late.err;
+  EXPECT_TRUE(contains(late.out, "takes too long")) << late.out;
+  const CommandStreams bare = command("plan seat.toml --goal-um 0.1");
+  EXPECT_EQ(bare.exit_code, 1) << bare.err;
+  EXPECT_TRUE(contains(bare.out, "--free")) << bare.out;
+}
+
+// 5 % of outliers of 0.1 mm are 22 µm RMS beside 3: the plain fit cannot meet what the bound does.
+TEST_F(PlanCommand, AGoalThatTheFitMissesIsNotConfirmed) {
+  std::string spoilt = scenario;
+  spoilt.replace(spoilt.find("sigma_um = 3"), 12,
+                 "sigma_um = 3\noutlier_fraction = 0.05\noutlier_size_um = 100");
+  file("spoilt.toml", spoilt);
+  const CommandStreams done =
+      command("plan spoilt.toml --goal-um 1 --repeats 200 --seed 5 --json spoilt.json");
+  EXPECT_EQ(done.exit_code, 1) << done.err;
+  const nlohmann::json plan = result("spoilt.json");
+  EXPECT_EQ(plan.at("status"), "not_confirmed") << "seed 5";
+  EXPECT_TRUE(plan.at("recommended").at(0).at("confirmed").at("misses")) << "seed 5";
+  EXPECT_TRUE(contains(done.out, "Not confirmed")) << done.out;
+}
+
+// Student's t of 4 degrees of freedom: least squares has (v − 2)(v + 3)/(v (v + 1)) = 0.7 of the
+// information, so the bound must be √0.7 = 0.837 of the goal; the simulated RMSE of 2000 repeats
+// in one direction has a standard error of 1/√4000 = 1.6 %, five of them and 2 digits: 0.1.
+TEST_F(PlanCommand, SaysWhichBoundAFitThatWastesNeeds) {
+  std::string tails = scenario;
+  tails.replace(tails.find("sigma_um = 3"), 12, "sigma_um = 3\nstudent_dof = 4");
+  file("tails.toml", tails);
+  // As it is 2 × 3 √(0.7 × 8/413) = 0.70 µm by the bound, 0.84 of least squares.
+  const CommandStreams done = command("plan tails.toml --goal-um 0.72 --repeats 2000 --seed 11");
+  EXPECT_EQ(done.exit_code, 1) << done.err;
+  const std::size_t at = done.out.find("ask for a bound of ");
+  ASSERT_NE(at, std::string::npos) << done.out;
+  EXPECT_NEAR(std::stod(done.out.substr(at + 19)), 0.72 * std::sqrt(0.7), 0.1 * 0.6) << "seed 11";
+}
+
+TEST_F(PlanCommand, CorrelatedNoiseIsSaidToBePerReading) {
+  std::string slow = scenario;
+  slow.replace(slow.find("sigma_um = 3"), 12, "sigma_um = 3\nrho = 0.5");
+  file("slow.toml", slow);
+  const std::string ask = "plan slow.toml --goal-um 3 --repeats 100 --free ";
+  EXPECT_TRUE(contains(command(ask + "readings_per_revolution=4:20").out, "lasts a time"));
+  EXPECT_FALSE(contains(command(ask + "length_mm=20:60").out, "lasts a time"));
+}
+
 TEST_F(PlanCommand, RefusesAndSaysHowNearItComes) {
   const CommandStreams done = command(
       "plan --surface cylinder --sigma-um 3 --goal-um 0.05 --free readings_per_revolution=4:20 "

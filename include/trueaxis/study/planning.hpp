@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,11 +35,11 @@ struct PlanningTask {
   std::vector<Freedom> free;  ///< each choice once
   double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
   double coverage_factor = 2.0;
-  std::optional<double> rate_hz;  ///< readings a second that the probe can give
+  std::optional<double> rate_hz;  ///< readings a second that the probe gives, at most
   std::optional<double> time_s;   ///< that the measurement may take
   std::size_t repeats = 1000;     ///< of each confirmation
   std::uint64_t seed = 1;
-  int threads = 0;
+  int threads = 0;  ///< 0: as many as there are
 };
 
 /// A plan and what the bound says of it.
@@ -50,6 +51,9 @@ struct PlannedMeasurement {
   std::size_t readings = 0;
   double of(Choice choice) const;
 };
+
+/// By the bound; of streams of more than 20 000 readings with independent noise by that of fewer
+/// readings a revolution, scaled by 1/√N, which is within 0.1 % (see stand_in).
 PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double coverage_factor);
 
 /// Repeated simulated measurements of a plan, fitted.
@@ -59,6 +63,7 @@ struct Confirmation {
   Ends interval_95_mm;         ///< of the same for infinitely many repeats (χ²)
   double stated_mm = 0.0;      ///< mean of the U that the fits state
   bool at_bound = false;  ///< the bound is within what chance leaves, at 1 % over all confirmations
+  bool misses = false;    ///< the goal, by more than chance leaves: the fits are not efficient
 };
 
 /// A plan that meets the goal; which choices were changed.
@@ -70,7 +75,7 @@ struct Recommendation {
 
 /// One choice changed, all others as they are.
 struct Alone {
-  Choice choice;
+  Choice choice = Choice::readings_per_revolution;
   bool reached = false;
   PlannedMeasurement plan;  ///< the least that does it; when not reached the nearest of the range
 };
@@ -83,17 +88,28 @@ struct TableRow {
 
 struct PlanningAnswer {
   PlannedMeasurement as_given;
-  bool reached = false;        ///< whether some plan in the ranges meets the goal (and the time)
-  PlannedMeasurement nearest;  ///< smallest U that the ranges (and the time) allow
-  std::vector<Alone> alone;    ///< in the order of `free`
+  bool reached = false;    ///< whether some plan meets the goal, within time and rate
+  bool confirmed = false;  ///< and the simulation of one that is recommended does not miss it
+  PlannedMeasurement
+      nearest;               ///< smallest U that the ranges, time and rate allow, if they allow any
+  std::vector<Alone> alone;  ///< in the order of `free`
   Choice solved_for = Choice::readings_per_revolution;
   std::vector<TableRow> table;  ///< by the choices that are not solved for; empty without others
   std::vector<Recommendation> recommended;  ///< each met by the bound and confirmed
   std::vector<std::string> remarks;         ///< what limits the answer
 };
 
+enum class PlanningStage {
+  search,     ///< a step is a choice, a length or a row
+  simulation  ///< a step is a repeat
+};
+/// Called after each step, one call at a time, on any thread.
+using PlanningProgress =
+    std::function<void(PlanningStage stage, std::size_t done, std::size_t to_do)>;
+
+/// The same on any number of threads.
 /// @throws InputError for a face (it has no axis), a scenario that cannot be probed, noise without
 /// a bound, or a goal that is none.
-PlanningAnswer plan_measurement(const PlanningTask& task);
+PlanningAnswer plan_measurement(const PlanningTask& task, const PlanningProgress& progress = {});
 
 }  // namespace trueaxis::study
