@@ -158,21 +158,36 @@ std::optional<Effect> read_effect(TomlTable table) {
 
 }  // namespace
 
+std::vector<PlannedPass> read_passes(TomlTable table, bool face) {
+  std::vector<PlannedPass> passes;
+  for (const TomlTable& one : table.tables("pass")) passes.push_back(read_pass(one, face));
+  if (passes.empty())
+    table.complain("pass", table.has("pass") ? "is empty: give at least one pass"
+                                             : "is missing: add a [[pass]]");
+  return passes;
+}
+
+std::vector<Chucking> read_setups(TomlTable table) {
+  std::vector<Chucking> setups;
+  for (const TomlTable& one : table.tables("setup")) setups.push_back(read_setup(one));
+  return setups;
+}
+
+std::vector<Effect> read_effects(TomlTable table) {
+  std::vector<Effect> effects;
+  for (const TomlTable& one : table.tables("effect")) {
+    if (auto effect = read_effect(one)) effects.push_back(std::move(*effect));
+  }
+  return effects;
+}
+
 void read_scenario_tables(TomlTable root, virtual_lathe::Scenario& scenario) {
   read_part(root.required_table("part"), scenario);
   if (const auto probe = root.maybe_table("probe")) scenario.probe = read_probe(*probe);
   if (const auto noise = root.maybe_table("noise")) scenario.noise = read_noise(*noise);
-  const bool face = scenario.part.kind == PartKind::face;
-  for (const TomlTable& table : root.tables("pass")) {
-    scenario.plan.passes.push_back(read_pass(table, face));
-  }
-  if (!root.has("pass")) root.complain("pass", "is missing: add a [[pass]]");
-  for (const TomlTable& table : root.tables("setup")) {
-    scenario.plan.setups.push_back(read_setup(table));
-  }
-  for (const TomlTable& table : root.tables("effect")) {
-    if (auto effect = read_effect(table)) scenario.effects.push_back(std::move(*effect));
-  }
+  scenario.plan.passes = read_passes(root, scenario.part.kind == PartKind::face);
+  scenario.plan.setups = read_setups(root);
+  scenario.effects = read_effects(root);
   if (const auto cut = root.maybe_table("cut")) scenario.cut = read_cut_program(*cut);
 }
 

@@ -180,4 +180,29 @@ void set_parameter(Scenario& scenario, std::string_view path, double value) {
   expects(found, "a parameter that the scenario has");
 }
 
+bool is_travel(std::string_view path) {
+  return path.starts_with("pass.") && path.ends_with(".length_mm");
+}
+
+void set_parameters(Scenario& scenario, std::span<const Setting> settings) {
+  const std::vector<PlannedPass> before = scenario.plan.passes;
+  for (const Setting& setting : settings) {
+    if (!is_travel(setting.path)) set_parameter(scenario, setting.path, setting.value);
+  }
+  for (const Setting& setting : settings) {
+    if (!is_travel(setting.path)) continue;
+    bool found = false;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (setting.path != "pass.length_mm" &&
+          setting.path != "pass." + std::to_string(i) + ".length_mm")
+        continue;
+      PlannedPass& pass = scenario.plan.passes[i];
+      const bool back = before[i].end_mm < before[i].start_mm;
+      pass.end_mm = pass.start_mm + (back ? -setting.value : setting.value);
+      found = true;
+    }
+    expects(found, "a pass that the scenario has");
+  }
+}
+
 }  // namespace trueaxis::study

@@ -47,6 +47,8 @@ TEST_F(SweepReport, PlaneHasNoAxis) { expect_sound(shipped("table1_plane", 50), 
 
 TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "noise"); }
 
+TEST_F(SweepReport, CasesOfListsAreWords) { expect_sound(shipped("plans", 2), "plans"); }
+
 TEST_F(SweepReport, OneCellWithoutAxes) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
