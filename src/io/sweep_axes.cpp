@@ -90,7 +90,7 @@ std::vector<GridAxis> SweepAxes::lists_but_of(const Axis* without) const {
 const WrittenKey* SweepAxes::taken_by(const std::string& path,
                                       const std::vector<WrittenKey>& list) const {
   const auto at = std::ranges::find_if(
-      list, [&](const WrittenKey& one) { return one.path == path; });
+      list, [&](const WrittenKey& one) { return keys_.same_number(one.path, path); });
   return at == list.end() ? nullptr : &*at;
 }
 
@@ -101,21 +101,34 @@ void SweepAxes::take(TomlTable& table, std::string_view at, const WrittenKey& wr
   taken_.push_back(written);
 }
 
+/// Complains of a number that is written twice in the set.
 std::vector<Setting> SweepAxes::read_set(TomlTable& set, const SweepKeys& keys) const {
   std::vector<Setting> settings;
+  std::vector<WrittenKey> here;
   for (const std::string& key : set.keys()) {
     const double value = set.required_number(key);
     const std::optional<KnownKey> known = keys.find(set, key, key);
     if (!known) continue;
     SweepKeys::check_range(set, key, *known, value);
     const std::string& path = known->parameter.path;
+    if (const WrittenKey* other = taken_by(path, here))
+      set.complain(key, "writes the number of \"" + other->key + "\" too: keep one of them");
+    here.push_back({path, key});
     settings.push_back({path, value * known->factor});
   }
   return settings;
 }
 
 std::vector<Setting> SweepAxes::read_reading_set(TomlTable set) const {
-  return read_set(set, keys_);
+  std::vector<Setting> settings = read_set(set, keys_);
+  for (const Setting& setting : settings) {
+    const WrittenKey* axis = taken_by(setting.path, taken_);
+    // A pass' end is the way of a travel that an axis sets.
+    if (axis == nullptr || (is_travel(axis->path) && !is_travel(setting.path))) continue;
+    set.complain("set", "writes " + setting.path + ", which the axis of \"" + axis->key +
+                            "\" sets afterwards: take it out");
+  }
+  return settings;
 }
 
 void SweepAxes::read_axis(Axis& axis) {

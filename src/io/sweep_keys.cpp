@@ -79,6 +79,17 @@ std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,
   return std::nullopt;
 }
 
+bool SweepKeys::same_number(const std::string& a, const std::string& b) const {
+  if (a == b) return true;
+  const auto [place, first] = same_.try_emplace({a, b}, false);
+  if (first) {
+    place->second = std::ranges::any_of(variants_, [&](const Variant& variant) {
+      return write_same_number(variant.scenario, a, b);
+    });
+  }
+  return place->second;
+}
+
 void SweepKeys::check_range(TomlTable& table, std::string_view at, const KnownKey& known,
                             double value) {
   const ScenarioParameter& p = known.parameter;

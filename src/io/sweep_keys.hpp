@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/toml_reader.hpp"
@@ -38,6 +39,9 @@ class SweepKeys {
   /// Notes at `at` what is wrong with a key that the scenario or one of the cases does not have.
   std::optional<KnownKey> find(TomlTable& table, std::string_view at, const std::string& key) const;
 
+  /// Whether two paths write one number in any of the scenarios.
+  bool same_number(const std::string& a, const std::string& b) const;
+
   /// Notes at `at` where `value` (in the key's unit) is outside the number's range.
   static void check_range(TomlTable& table, std::string_view at, const KnownKey& known,
                           double value);
@@ -51,6 +55,7 @@ class SweepKeys {
     std::string usual;  ///< the keys in their usual spelling
   };
   std::vector<Variant> variants_;  ///< the scenario without lists first
+  mutable std::map<std::pair<std::string, std::string>, bool> same_;
 
   void add(Variant variant);
   std::vector<const Variant*> that_matter_for(const std::string& key) const;

@@ -33,6 +33,11 @@ struct Place {
     if (travels != nullptr) return std::abs(travels->end_mm - travels->start_mm);
     return number != nullptr ? *number : maybe->value_or(std::numeric_limits<double>::quiet_NaN());
   }
+  /// What is written, to compare with that of another place.
+  const void* address() const {
+    if (travels != nullptr) return &travels->end_mm;
+    return number != nullptr ? static_cast<const void*>(number) : maybe;
+  }
   void set(double value) const {
     if (travels != nullptr) {
       const double way = travels->end_mm < travels->start_mm ? -1.0 : 1.0;
@@ -203,6 +208,16 @@ void set_parameters(Scenario& scenario, std::span<const Setting> settings) {
     }
     expects(found, "a pass that the scenario has");
   }
+}
+
+bool write_same_number(const Scenario& scenario, std::string_view a, std::string_view b) {
+  Scenario copy = scenario;
+  std::vector<const void*> of_a, of_b;
+  visit_all(copy, [&](const std::string& here, const Limits&, const Place& place) {
+    if (here == a) of_a.push_back(place.address());
+    if (here == b) of_b.push_back(place.address());
+  });
+  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
 }  // namespace trueaxis::study

@@ -37,4 +37,9 @@ bool is_travel(std::string_view path);
 /// was set and the way that the pass had before.
 void set_parameters(virtual_lathe::Scenario& scenario, std::span<const Setting> settings);
 
+/// Whether two paths write one number: "pass.feed_mm_per_rev" and "pass.0.feed_mm_per_rev",
+/// "pass.length_mm" and "pass.z_end_mm". No path that the scenario lacks does.
+bool write_same_number(const virtual_lathe::Scenario& scenario, std::string_view a,
+                       std::string_view b);
+
 }  // namespace trueaxis::study
