@@ -7,6 +7,7 @@
 #include "io/scenario_cut.hpp"
 #include "io/scenario_tables.hpp"
 #include "io/toml_reader.hpp"
+#include "simulate/noise_source.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/simulate/effects.hpp"
 
@@ -70,6 +71,11 @@ Noise read_noise(TomlTable table) {
   noise.sigma_mm = table.number("sigma_mm", 0.0, Range::non_negative());
   noise.uniform_mm = table.number("uniform_mm", 0.0, Range::non_negative());
   noise.rho = table.number("rho", 0.0, Range::inside(-1.0, 1.0));
+  noise.autoregression = table.numbers("autoregression");
+  if (!noise.autoregression.empty() && noise.rho != 0.0)
+    table.complain("autoregression", "contradicts `rho`: keep one of them");
+  if (!is_stationary(noise.autoregression))
+    table.complain("autoregression", "is not stationary: make its numbers smaller");
   noise.student_dof = table.number("student_dof", 0.0, {.low = 2.0, .low_open = true});
   noise.incidence = table.number("incidence", 0.0, Range::non_negative());
   noise.outlier_fraction = table.number("outlier_fraction", 0.0, Range::fraction());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/scenario_tables.hpp"
+#include "simulate/noise_source.hpp"
 
 namespace trueaxis {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 using namespace study;
 
 constexpr long long most_points = 10'000;
+constexpr std::size_t most_autoregressions = 2'000;  // more are told by the cell that fails
 
 std::string case_words(const std::string& label, const std::string& axis) {
   return "the case \"" + label + "\" of \"" + axis + "\"";
@@ -34,6 +36,28 @@ std::vector<double> spaced(TomlTable& table) {
   return values;
 }
 
+bool is_autoregression(const std::string& path) { return path.starts_with("noise.autoregression"); }
+
+/// The part of a point that sets the autoregression, and words for it.
+AxisPoint autoregression_of(const std::string& axis, const AxisPoint& point) {
+  AxisPoint out{axis + " = " + point.label, {}};
+  for (const Setting& setting : point.settings) {
+    if (is_autoregression(setting.path)) out.settings.push_back(setting);
+  }
+  return out;
+}
+
+/// The ends of a distribution; a normal one has none and stands at its mean.
+GridAxis ends_of(const Drawn& drawn) {
+  GridAxis axis{drawn.name, {}};
+  const auto add = [&](double value) {
+    axis.points.push_back({drawn.name + " = " + sweep_label(value), {{drawn.path, value}}});
+  };
+  add(drawn.first);
+  if (drawn.kind != Drawn::Kind::normal) add(drawn.second);
+  return axis;
+}
+
 }  // namespace
 
 SweepAxes::SweepAxes(TomlDocument& document, TomlTable root, Sweep& sweep) : sweep_(sweep) {
@@ -50,6 +74,7 @@ SweepAxes::SweepAxes(TomlDocument& document, TomlTable root, Sweep& sweep) : swe
   readable_ = document.ok();
   if (readable_) keys_ = SweepKeys(sweep.base, lists_but_of(nullptr), "");
   for (Axis& axis : axes_) read_axis(axis);
+  if (document.ok()) check_autoregression(document);
 }
 
 void SweepAxes::read_lists(Axis& axis) {
@@ -229,6 +254,37 @@ void SweepAxes::read_distribution(TomlTable table, const std::string& key,
   drawn.first = first * known->factor;
   drawn.second = second * known->factor;
   sweep_.drawn.push_back(std::move(drawn));
+}
+
+/// Looks at the grid of those axes alone that set the autoregression.
+void SweepAxes::check_autoregression(TomlDocument& document) const {
+  Sweep grid;
+  grid.base = sweep_.base;
+  for (const GridAxis& axis : sweep_.axes) {
+    GridAxis part{axis.name, {}};
+    bool sets = false;
+    for (const AxisPoint& point : axis.points) {
+      part.points.push_back(autoregression_of(axis.name, point));
+      sets = sets || !part.points.back().settings.empty();
+    }
+    if (sets) grid.axes.push_back(std::move(part));
+  }
+  for (const Drawn& drawn : sweep_.drawn) {
+    if (is_autoregression(drawn.path)) grid.axes.push_back(ends_of(drawn));
+  }
+  if (grid.axes.empty() || cell_count(grid) > most_autoregressions) return;
+  for (std::size_t cell = 0; cell < cell_count(grid); ++cell) {
+    if (virtual_lathe::is_stationary(scenario_of(grid, cell).noise.autoregression)) continue;
+    std::string where;
+    const Cell at = cell_at(grid, cell);
+    for (std::size_t a = 0; a < grid.axes.size(); ++a)
+      where += (a > 0 ? ", " : "") + grid.axes[a].points[at.point[a]].label;
+    const std::string& last = grid.axes.back().name;
+    const auto axis = std::ranges::find(axes_, last, &Axis::name);
+    document.add(axis->table.here("the autoregression is not stationary at " + where +
+                                  ": make its numbers smaller"));
+    return;
+  }
 }
 
 }  // namespace trueaxis

@@ -45,6 +45,7 @@ class SweepAxes {
   void read_grid(TomlTable table, const std::string& key, const std::optional<KnownKey>& known);
   void read_distribution(TomlTable table, const std::string& key,
                          const std::optional<KnownKey>& known);
+  void check_autoregression(TomlDocument& document) const;
 };
 
 }  // namespace trueaxis

@@ -89,6 +89,9 @@ void visit_probe_and_noise(Scenario& scenario, const Visit& visit) {
   visit("noise.sigma_mm", not_negative, at(noise.sigma_mm));
   visit("noise.uniform_mm", not_negative, at(noise.uniform_mm));
   visit("noise.rho", cosine, at(noise.rho));
+  std::size_t order = 0;
+  for (double& phi : noise.autoregression)
+    visit("noise.autoregression." + std::to_string(order++), any, at(phi));
   visit("noise.student_dof", not_negative, at(noise.student_dof));
   visit("noise.incidence", not_negative, at(noise.incidence));
   visit("noise.outlier_fraction", fraction, at(noise.outlier_fraction));

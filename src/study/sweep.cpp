@@ -43,6 +43,11 @@ Scenario with_lists(const Sweep& sweep, std::size_t cell, std::vector<Setting>& 
   return scenario;
 }
 
+/// φ = 0 at the end of an autoregression is no part of it.
+void shorten(std::vector<double>& autoregression) {
+  while (!autoregression.empty() && autoregression.back() == 0.0) autoregression.pop_back();
+}
+
 }  // namespace
 
 void Lists::put_into(Scenario& scenario) const {
@@ -74,6 +79,7 @@ Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
   Scenario scenario = with_lists(sweep, cell, numbers);
   for (const Drawn& drawn : sweep.drawn) numbers.push_back({drawn.path, middle(drawn)});
   set_parameters(scenario, numbers);
+  shorten(scenario.noise.autoregression);
   scenario.seed = seed_of(sweep, cell, 0);
   return scenario;
 }
@@ -88,6 +94,7 @@ Scenario scenario_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
   virtual_lathe::Xoshiro bits(scenario.seed, for_drawn_numbers);
   for (const Drawn& drawn : sweep.drawn) numbers.push_back({drawn.path, draw(drawn, bits)});
   set_parameters(scenario, numbers);
+  shorten(scenario.noise.autoregression);
   return scenario;
 }
 

@@ -14,7 +14,7 @@ namespace trueaxis::study {
 
 /// A number of a scenario, by the path of its key in the scenario's file with the unit inside:
 /// "noise.sigma_mm", "pass.z_end_mm" (of every pass), "pass.0.z_end_mm" (of the first),
-/// "effect.1.amplitude_mm", "setup.0.reindex_rad". "pass.length_mm"
+/// "effect.1.amplitude_mm", "setup.0.reindex_rad", "noise.autoregression.0" (φ₁). "pass.length_mm"
 /// is the travel: the start stays, the end moves the way it lies.
 struct ScenarioParameter {
   std::string path;
