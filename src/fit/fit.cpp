@@ -70,7 +70,7 @@ void validate(const FitOptions& options) {
 }
 
 FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
-                       const SurfaceFrame& frame) {
+                       const std::array<double, 2>& range_mm) {
   FitResult result;
   result.surface = options.surface;
   result.loss = options.loss;
@@ -79,8 +79,8 @@ FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
   result.points = stream.size();
   result.input_hash = stream.input_hash;
   result.source = stream.source;
-  result.position_min_mm = frame.position_ref_mm - frame.half_length_mm;
-  result.position_max_mm = frame.position_ref_mm + frame.half_length_mm;
+  result.position_min_mm = range_mm[0];
+  result.position_max_mm = range_mm[1];
   return result;
 }
 
@@ -93,7 +93,7 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
 
 FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
                     const JointModel& model, const FitOptions& options) {
-  FitResult result = empty_result(stream, options, model.last_frame());
+  FitResult result = empty_result(stream, options, model.last_range_mm());
   if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
                      std::to_string(model.parameter_count()) + " parameters of a " +

@@ -108,6 +108,7 @@ void JointModel::place_frames(const ProbeStream& stream, const std::vector<Place
     middle_mm_[placed.clamping] = at_ref ? ref_mm_ : 0.5 * (low + high);
     frames_[placed.clamping].position_ref_mm = middle_mm_[placed.clamping] + placed.z_shift_mm;
     frames_[placed.clamping].half_length_mm = 0.5 * (high - low);
+    last_range_mm_ = {low + placed.z_shift_mm, high + placed.z_shift_mm};
   }
 }
 

@@ -66,7 +66,8 @@ class JointModel {
   std::size_t size() const { return size_; }
   Indication indication() const { return parts_.front().prepared->source().indication; }
   std::size_t clampings() const { return first_.size(); }
-  const SurfaceFrame& last_frame() const { return frames_.back(); }
+  /// Lowest and highest position probed in the last clamping; 0 without positions.
+  const std::array<double, 2>& last_range_mm() const { return last_range_mm_; }
   const std::vector<JointPart>& parts() const { return parts_; }
   const JointPart& part_of(const PlacedSetUp& set_up) const { return parts_[part_index(set_up)]; }
   const std::vector<std::string>& names() const { return names_; }
@@ -104,7 +105,8 @@ class JointModel {
   std::size_t own_ = 0;  ///< how many working parameters a clamping has for itself
   std::size_t radius_ = 0, tan_ = 0, slope_ = 0;  ///< working indices; past the end where absent
   double ref_mm_ = 0.0;
-  std::vector<double> middle_mm_;     ///< of each clamping, on the part
+  std::vector<double> middle_mm_;  ///< of each clamping, on the part
+  std::array<double, 2> last_range_mm_{};
   std::vector<SurfaceFrame> frames_;  ///< of each clamping, the side that of its first set-up
 };
 

@@ -32,7 +32,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 std::vector<std::string> read_parameters(TomlTable& paper, const Sweep& sweep) {
   std::vector<std::string> known;
-  for (const Quantity& quantity : quantities(sweep.base.part.kind)) known.push_back(quantity.name);
+  for (const Quantity& quantity : quantities(fitted_surface(sweep))) known.push_back(quantity.name);
   const std::vector<std::string> names = paper.texts("parameters");
   if (names.empty()) paper.complain("parameters", "must name what was printed: " + listed(known));
   for (const std::string& name : names) {

@@ -54,6 +54,10 @@ Line axes_head(const Sweep& sweep) {
   return head;
 }
 
+void add_share(const Share& share, Line& line) {
+  for (const double value : {share.value, share.ends_95.low, share.ends_95.high}) line.add(value);
+}
+
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep, const Summary& summary) {
@@ -61,11 +65,11 @@ std::string sweep_csv(const Sweep& sweep, const Summary& summary) {
                     sweep.input_hash + "\n# seed: " + std::to_string(sweep.seed) + '\n';
   Line head = axes_head(sweep);
   for (const char* column :
-       {"readings",     "parameter",     "unit",       "true",     "repeats",
-        "failures",     "bias",          "u_bias",     "sd",       "rmse",
-        "q05",          "q50",           "q95",        "bound",    "bound_kind",
-        "ratio",        "ratio_low",     "ratio_high", "at_bound", "coverage",
-        "coverage_low", "coverage_high", "mean_u",     "found",    "named"})
+       {"readings",  "parameter",  "unit",         "true",          "repeats",   "failures",
+        "bias",      "u_bias",     "sd",           "rmse",          "q05",       "q50",
+        "q95",       "bound",      "bound_kind",   "ratio",         "ratio_low", "ratio_high",
+        "at_bound",  "coverage",   "coverage_low", "coverage_high", "mean_u",    "found",
+        "found_low", "found_high", "named",        "named_low",     "named_high"})
     head.add(std::string(column));
   out += head.end();
   for (const Row& row : summary.rows) {
@@ -85,9 +89,10 @@ std::string sweep_csv(const Sweep& sweep, const Summary& summary) {
     line.add(to_string(cell.bound.kind));
     for (const double value : {row.ratio, row.ratio_95.low, row.ratio_95.high}) line.add(value);
     line.add(std::string(!row.at_bound ? "" : *row.at_bound ? "yes" : "no"));
-    for (const double value : {row.coverage, row.coverage_95.low, row.coverage_95.high, row.mean_u,
-                               cell.found, cell.named})
-      line.add(value);
+    add_share(row.coverage, line);
+    line.add(row.mean_u);
+    add_share(cell.found, line);
+    add_share(cell.named, line);
     out += line.end();
   }
   return out;

@@ -9,6 +9,10 @@ using namespace study;
 
 Json ends_json(const Ends& ends) { return Json::array({number(ends.low), number(ends.high)}); }
 
+Json share_json(const Share& share) {
+  return {{"value", number(share.value)}, {"interval_95", ends_json(share.ends_95)}};
+}
+
 Json axes_json(const Sweep& sweep) {
   Json axes = Json::array();
   for (const GridAxis& axis : sweep.axes) {
@@ -47,7 +51,7 @@ Json row_json(const Row& row) {
             {"bound", number(row.bound)},
             {"ratio", {{"value", number(row.ratio)}, {"interval_95", ends_json(row.ratio_95)}}}};
   json["at_bound"] = row.at_bound ? Json(*row.at_bound) : Json(nullptr);
-  json["coverage"] = {{"value", number(row.coverage)}, {"interval_95", ends_json(row.coverage_95)}};
+  json["coverage"] = share_json(row.coverage);
   json["mean_u"] = number(row.mean_u);
   return json;
 }
@@ -55,11 +59,17 @@ Json row_json(const Row& row) {
 }  // namespace
 
 std::string sweep_json(const Sweep& sweep, const Summary& summary) {
-  Json json{{"schema", "trueaxis.sweep/1"}, {"version", TRUEAXIS_VERSION},
-            {"name", sweep.name},           {"input_hash", sweep.input_hash},
-            {"seed", sweep.seed},           {"repeats", sweep.repeats},
-            {"axes", axes_json(sweep)},     {"drawn", drawn_json(sweep)},
-            {"coverage_factor", 2.0},       {"bonferroni_level", bonferroni_level}};
+  Json json{{"schema", "trueaxis.sweep/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"name", sweep.name},
+            {"input_hash", sweep.input_hash},
+            {"seed", sweep.seed},
+            {"repeats", sweep.repeats},
+            {"surface", fitted_surface(sweep)},
+            {"axes", axes_json(sweep)},
+            {"drawn", drawn_json(sweep)},
+            {"coverage_factor", 2.0},
+            {"bonferroni_level", bonferroni_level}};
   Json cells = Json::array();
   std::size_t next = 0;
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
@@ -76,8 +86,8 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
     if (!of.why.empty()) one["why"] = of.why;
     one["bound_kind"] = to_string(of.bound.kind);
     if (at.method == Method::diagnosis) {
-      one["found"] = number(of.found);
-      one["named"] = number(of.named);
+      one["found"] = share_json(of.found);
+      one["named"] = share_json(of.named);
     }
     Json rows = Json::array();
     for (; next < summary.rows.size() && summary.rows[next].cell == cell; ++next)

@@ -25,9 +25,10 @@ std::string cell_title(const Sweep& sweep, std::size_t cell) {
 
 std::string cell_note(const Sweep& sweep, const CellSummary& cell) {
   std::string text = format(": %zu readings", cell.readings);
-  if (std::isfinite(cell.found)) {
-    text += format(", found in %.1f %%, named in %.1f %%", 100.0 * cell.found, 100.0 * cell.named);
-  }
+  if (std::isfinite(cell.found.value))
+    text += format(", found in %.1f %%", 100.0 * cell.found.value);
+  if (std::isfinite(cell.named.value))
+    text += format(", named in %.1f %%", 100.0 * cell.named.value);
   if (cell.failures > 0)
     text += format(", %zu of %zu failed (%s)", cell.failures, sweep.repeats, cell.why.c_str());
   if (cell.bound.kind == Bound::Kind::gauss_markov) text += ", bound of linear estimates";
@@ -51,7 +52,7 @@ std::string row_text(const Row& row) {
     text += layout::padded(value_text(value), 11);
   text += layout::padded(ratio_text(row), 18);
   text += layout::padded(
-      std::isfinite(row.coverage) ? format("%.1f %%", 100.0 * row.coverage) : "-", 9);
+      std::isfinite(row.coverage.value) ? format("%.1f %%", 100.0 * row.coverage.value) : "-", 9);
   return text + (row.unit == "1" ? "" : row.unit) + '\n';
 }
 
@@ -77,14 +78,15 @@ std::string short_text(const Sweep& sweep, const Summary& summary) {
       if (row.cell != cell) continue;
       if (std::isfinite(row.ratio))
         low = std::min(low, row.ratio), high = std::max(high, row.ratio);
-      if (std::isfinite(row.coverage)) least = std::min(least, row.coverage);
+      if (std::isfinite(row.coverage.value)) least = std::min(least, row.coverage.value);
     }
     text += "  " + cell_title(sweep, cell) + ": ";
     text += std::isfinite(low) ? format("%.3f to %.3f", low, high) : "no bound";
     if (std::isfinite(least)) text += format(", at least %.1f %%", 100.0 * least);
     const CellSummary& of = summary.cells[cell];
     if (of.failures > 0) text += format(", %zu failed", of.failures);
-    if (std::isfinite(of.found)) text += format(", found %.1f %%", 100.0 * of.found);
+    if (std::isfinite(of.found.value)) text += format(", found %.1f %%", 100.0 * of.found.value);
+    if (std::isfinite(of.named.value)) text += format(", named %.1f %%", 100.0 * of.named.value);
     text += '\n';
   }
   return text;

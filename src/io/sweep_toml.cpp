@@ -37,6 +37,15 @@ std::vector<Method> read_methods(TomlTable root) {
   return methods;
 }
 
+/// "section" where the sweep wants a circle and not the surface of the part.
+std::string read_surface(TomlTable root, const virtual_lathe::Scenario& base) {
+  const bool section = root.choice("surface", {{"part", false}, {"section", true}}, false);
+  if (section && base.part.kind == virtual_lathe::PartKind::face)
+    root.complain("surface",
+                  "is \"section\", but a face is probed across: give a cone or cylinder");
+  return section ? "section" : "";
+}
+
 /// The scenario of the file or of the sweep's own tables, and its bytes for the hash.
 std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Scenario& base) {
   if (!root.has("scenario")) {
@@ -68,6 +77,7 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path)
       static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
   sweep.repeats = static_cast<std::size_t>(root.integer("repeats", 2000, 1, most_repeats));
   sweep.methods = read_methods(root);
+  sweep.surface = read_surface(root, sweep.base);
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
   if (sweep.base.cut)
     document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});

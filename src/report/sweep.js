@@ -43,7 +43,10 @@ function chartSections(view) {
   const shares = (options) => view.curves.map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
   const efficiency = shares({keys: ['ratio_low', 'ratio', 'ratio_high'], factor: 1, reference: 1, name: 'RMSE / bound', words: 'RMSE over the bound with its 95 % interval.'});
   const coverage = shares({keys: ['coverage_low', 'coverage', 'coverage_high'], factor: 100, reference: 95.45, name: '%', words: 'Share of the repeats with |error| ≤ U (k = 2), 95 % interval; dashed: 95.45 %.'});
-  return [section('error', 'Error and bound', note, each(errorChart)),
+  const detection = [detectionChart(data, view, 'found', 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.'),
+    detectionChart(data, view, 'named', 'Named: every hidden effect is in the class of a finding.')].filter(Boolean);
+  return [detection.length ? section('detection', 'What the diagnosis finds', element('div', {class: 'triple'}, detection)) : null,
+    section('error', 'Error and bound', note, each(errorChart)),
     efficiency.length ? section('efficiency', 'Efficiency', ...efficiency) : null,
     coverage.length ? section('coverage', 'Does U cover?', ...coverage) : null,
     section('spread', 'Spread', paragraph('Dashed where there is a bound: where 5 % and 95 % of a normal distribution at the bound lie.', 'quiet'), each(spreadChart))];
@@ -51,17 +54,20 @@ function chartSections(view) {
 
 function tableSection() {
   const many = data.methods.length > 1;
+  const diagnosed = data.cells.some((cell) => cell.found);
+  const share = (one) => one ? `${fixed(100 * one[1], 1)}${range(one[0], one[2], 1, 100)}${nbsp}%` : '–';
   const rows = data.cells.flatMap((cell) => cell.rows.map((row, q) => {
     const {name, unit} = data.quantities[q];
     return [unitOf(name, unit), ...data.axes.map((a, i) => a.labels[cell.at[i]]), ...(many ? [cell.method] : []), String(cell.readings), trueText(row.truth, unit),
       ...amounts(['bias', 'sd', 'rmse', 'q05', 'q50', 'q95', 'bound'].map((key) => row[key]), unit, row.bound ?? row.rmse),
       isNumber(row.ratio) ? `${fixed(row.ratio, 3)}${range(row.ratio_low, row.ratio_high, 3)}${row.at_bound === false ? ' !' : ''}` : '–',
-      isNumber(row.coverage) ? `${fixed(100 * row.coverage, 1)}${range(row.coverage_low, row.coverage_high, 1, 100)}${nbsp}%` : '–', String(data.repeats - row.estimates)];
+      isNumber(row.coverage) ? `${fixed(100 * row.coverage, 1)}${range(row.coverage_low, row.coverage_high, 1, 100)}${nbsp}%` : '–', String(data.repeats - row.estimates),
+      ...(diagnosed ? [share(cell.found), share(cell.named)] : [])];
   }));
   const failed = data.cells.filter((cell) => cell.why).map((cell) => paragraph(`${cell.failures} failed: ${cell.why}`, 'quiet')).slice(0, 12);
   return section('table', 'Table', rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
     table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
-      ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed'],
+      ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed', ...(diagnosed ? ['Found', 'Named'] : [])],
       rows.slice(0, mostRows)), ...failed);
 }
 

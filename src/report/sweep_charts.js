@@ -169,3 +169,19 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
       yAxis: uprightAxis(name, {min: Math.max(0, step * Math.floor((Math.min(...values) - margin) / step)), max: step * Math.ceil((Math.max(...values) + margin) / step), interval: step,
         nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -30]}}), series})});
 }
+
+/** How often a diagnosis finds, over the grid, with its interval; `key` is "found" or "named". */
+function detectionChart(sweep, view, key, caption) {
+  const curves = view.all.map((curve, i) => ({...curve, colour: curveColour(i), cells: curve.cells.filter((c) => c.method === 'diagnosis' && c[key])
+    .sort((a, b) => view.place(a.point) - view.place(b.point))})).filter((curve) => curve.cells.length).slice(0, 6);
+  if (!curves.length) return null;
+  const name = (curve) => curves.length > 1 ? curve.name : key;
+  const series = curves.flatMap((curve) => [
+    {name: name(curve), type: 'line', symbol: 'circle', symbolSize: 6, z: 4, data: curve.cells.map((c) => [view.place(c.point), 100 * c[key][1]]),
+      itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, width: 1.6}},
+    {...spans(name(curve), curve.cells.map((c) => [view.place(c.point), ...c[key].map((share) => 100 * share)]), {colour: curve.colour, half: 4}), tooltip: {show: false}}]);
+  const names = series.filter((s) => s.type === 'line');
+  return figure({caption, description: caption, size: curves.length > 2 ? 'map' : 'normal',
+    build: (width) => ({grid: grid({top: 38 + legendHeight(names.map((s) => s.name), width)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view, width),
+      yAxis: uprightAxis('% of the repeats', {min: 0, max: 100, interval: 25, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
+}

@@ -43,6 +43,13 @@ json drawn_data(const Sweep& sweep) {
   return list;
 }
 
+/// Low end, value, high end; null where there is none.
+json share_data(const Share& share) {
+  if (!std::isfinite(share.value)) return nullptr;
+  return {to_six_digits(share.ends_95.low), to_six_digits(share.value),
+          to_six_digits(share.ends_95.high)};
+}
+
 json row_data(const Row& row) {
   json data;
   const std::pair<const char*, double> numbers[] = {{"truth", row.truth},
@@ -57,9 +64,9 @@ json row_data(const Row& row) {
                                                     {"ratio", row.ratio},
                                                     {"ratio_low", row.ratio_95.low},
                                                     {"ratio_high", row.ratio_95.high},
-                                                    {"coverage", row.coverage},
-                                                    {"coverage_low", row.coverage_95.low},
-                                                    {"coverage_high", row.coverage_95.high}};
+                                                    {"coverage", row.coverage.value},
+                                                    {"coverage_low", row.coverage.ends_95.low},
+                                                    {"coverage_high", row.coverage.ends_95.high}};
   for (const auto& [name, value] : numbers) data[name] = to_six_digits(value);
   data["estimates"] = row.estimates;
   data["at_bound"] = row.at_bound ? json(*row.at_bound) : json(nullptr);
@@ -81,8 +88,8 @@ json cells_data(const Sweep& sweep, const Summary& summary) {
                      {"failures", of.failures},
                      {"why", of.why},
                      {"linear", of.bound.kind == Bound::Kind::gauss_markov},
-                     {"found", to_six_digits(of.found)},
-                     {"named", to_six_digits(of.named)},
+                     {"found", share_data(of.found)},
+                     {"named", share_data(of.named)},
                      {"rows", std::move(rows)}});
   }
   return cells;
@@ -101,21 +108,15 @@ std::string sweep_title(const Sweep& sweep) { return sweep.name.empty() ? "Sweep
 
 json sweep_data(const Sweep& sweep, const Summary& summary, const Placement* placement) {
   json quantity_list = json::array(), methods = json::array();
-  for (const Quantity& quantity : quantities(sweep.base.part.kind))
+  for (const Quantity& quantity : quantities(fitted_surface(sweep)))
     quantity_list.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
   for (const Method method : sweep.methods) methods.push_back(to_string(method));
-  json data{{"schema", "trueaxis.sweep_report/1"},
-            {"version", TRUEAXIS_VERSION},
-            {"title", sweep_title(sweep)},
-            {"input_hash", sweep.input_hash},
-            {"seed", std::to_string(sweep.seed)},
-            {"repeats", sweep.repeats},
-            {"surface", surface_of(sweep.base.part.kind)},
-            {"axes", axes_data(sweep)},
-            {"drawn", drawn_data(sweep)},
-            {"methods", methods},
-            {"quantities", quantity_list},
-            {"cells", cells_data(sweep, summary)}};
+  json data{{"schema", "trueaxis.sweep_report/1"}, {"version", TRUEAXIS_VERSION},
+            {"title", sweep_title(sweep)},         {"input_hash", sweep.input_hash},
+            {"seed", std::to_string(sweep.seed)},  {"repeats", sweep.repeats},
+            {"surface", fitted_surface(sweep)},    {"axes", axes_data(sweep)},
+            {"drawn", drawn_data(sweep)},          {"methods", methods},
+            {"quantities", quantity_list},         {"cells", cells_data(sweep, summary)}};
   if (placement && placement->why_not.empty())
     data["published"] = published_data(sweep, *placement);
   return data;

@@ -26,9 +26,9 @@ std::size_t repeats_per_block(Method method) {
   return method == Method::diagnosis ? 4 : method == Method::fit ? 100 : 50;
 }
 
-FitOptions fit_options(const Scenario& scenario, Method method) {
+FitOptions fit_options(const Sweep& sweep, const Scenario& scenario, Method method) {
   FitOptions options;
-  options.surface = surface_of(scenario.part.kind);
+  options.surface = fitted_surface(sweep);
   options.bore = scenario.part.bore;
   if (method == Method::huber) options.loss = Loss::huber;
   if (method == Method::tukey) options.loss = Loss::tukey;
@@ -59,8 +59,9 @@ struct Prepared {
   Prepared(const Sweep& sweep, std::size_t cell, std::size_t repeat, Method method)
       : scenario(scenario_of(sweep, cell, repeat)),
         clean(virtual_lathe::simulate_clean(scenario)),
-        truth(true_values(scenario, probed_length(clean.stream))) {
-    if (method != Method::diagnosis) fit.emplace(clean.stream, fit_options(scenario, method));
+        truth(true_values(scenario, probed_length(clean.stream), fitted_surface(sweep))) {
+    if (method != Method::diagnosis)
+      fit.emplace(clean.stream, fit_options(sweep, scenario, method));
   }
 };
 
@@ -78,12 +79,12 @@ std::uint8_t found_by(const Diagnosis& diagnosis, const Scenario& scenario) {
 
 /// @param spread see CellFacts::bound_spread
 Bound mean_bound(const Sweep& sweep, std::size_t cell, std::vector<double>& spread) {
-  if (sweep.drawn.empty()) return bound_of(scenario_of(sweep, cell, 0));
+  if (sweep.drawn.empty()) return bound_of(scenario_of(sweep, cell, 0), fitted_surface(sweep));
   Bound mean;
   std::vector<double> fourth;  // mean of sd⁴
   const std::size_t count = std::min(drawn_bounds, sweep.repeats);
   for (std::size_t repeat = 0; repeat < count; ++repeat) {
-    const Bound one = bound_of(scenario_of(sweep, cell, repeat));
+    const Bound one = bound_of(scenario_of(sweep, cell, repeat), fitted_surface(sweep));
     mean.kind = one.kind;
     mean.covariance.resize(one.covariance.size(), 0.0);
     for (std::size_t i = 0; i < one.covariance.size(); ++i)
@@ -105,14 +106,14 @@ Bound mean_bound(const Sweep& sweep, std::size_t cell, std::vector<double>& spre
 CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
   const Scenario scenario = scenario_of(sweep, cell);
   CellFacts facts;
-  const std::size_t count = quantities(scenario.part.kind).size();
+  const std::size_t count = quantities(fitted_surface(sweep)).size();
   facts.truth.assign(count, std::numeric_limits<double>::quiet_NaN());
   facts.bound.sd = facts.truth;
   facts.bound.covariance.assign(count * count, facts.truth.front());
   try {
     const CleanStream clean = virtual_lathe::simulate_clean(scenario);
     facts.readings = clean.value_mm.size();
-    facts.truth = true_values(scenario, probed_length(clean.stream));
+    facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
     facts.bound = mean_bound(sweep, cell, facts.bound_spread);
   } catch (const InputError&) {  // its repeats say why
   }
@@ -144,7 +145,7 @@ struct CellRunner {
     ProbeStream stream = prepared.clean.stream;
     stream.reading_mm = reading_mm;
     DiagnoseOptions options;
-    options.fit = fit_options(prepared.scenario, method);
+    options.fit = fit_options(sweep, prepared.scenario, method);
     options.threads = 1;
     const Diagnosis diagnosis = diagnose(stream, options);
     out.found.back() = found_by(diagnosis, prepared.scenario);
@@ -184,7 +185,7 @@ BlockResult Worker::run(const Block& block) {
     impl_->runner.emplace(CellRunner{sweep,
                                      block.cell,
                                      cell_at(sweep, block.cell).method,
-                                     quantities(sweep.base.part.kind).size(),
+                                     quantities(fitted_surface(sweep)).size(),
                                      {},
                                      {}});
   CellRunner& runner = *impl_->runner;

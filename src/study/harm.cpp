@@ -56,8 +56,8 @@ ProbeStream probed_with(const Scenario& ideal, const HarmCase& of, std::size_t d
 
 AxisEnds true_ends(const Scenario& scenario, const FitResult& fit) {
   const std::vector<double> truth =
-      true_values(scenario, {fit.position_min_mm, fit.position_max_mm});
-  const std::vector<Quantity> names = quantities(scenario.part.kind);
+      true_values(scenario, {fit.position_min_mm, fit.position_max_mm}, fit.surface);
+  const std::vector<Quantity> names = quantities(fit.surface);
   AxisEnds out{};
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i].name == "x_at_min_z")

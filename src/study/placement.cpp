@@ -55,7 +55,9 @@ Understood understood(const Table& table, std::size_t index) {
   for (const PublishedRow& row : table.published.rows) {
     const std::size_t cell = table.cell_of(row);
     const CellFacts& facts = *table.facts.at(cell);
-    const Bound bound = reading.settings.empty() ? facts.bound : bound_of(scenario_of(sweep, cell));
+    const Bound bound = reading.settings.empty()
+                            ? facts.bound
+                            : bound_of(scenario_of(sweep, cell), fitted_surface(sweep));
     out.runs.push_back(printed_run(row, reading, table.quantity, facts.truth, bound));
   }
   return out;
@@ -171,7 +173,7 @@ Table table_of(const Sweep& sweep, const std::vector<BlockResult>& results) {
   for (const BlockResult& block : results) {
     if (!block.facts.empty()) table.facts[block.block.cell] = &block.facts.front();
   }
-  const std::vector<Quantity> all = quantities(sweep.base.part.kind);
+  const std::vector<Quantity> all = quantities(fitted_surface(sweep));
   for (const std::string& name : table.published.parameters) {
     const auto at = std::ranges::find(all, name, &Quantity::name);
     expects(at != all.end(), "published parameters that the part has");

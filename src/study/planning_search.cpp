@@ -72,7 +72,8 @@ PlannedMeasurement planned(const virtual_lathe::Scenario& scenario, double cover
     const double turning = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
     out.rate_hz = std::max(out.rate_hz, pass.speed_rpm == 0.0 ? pass.rate_hz : turning);
   }
-  const double u = worst_of_axis(scenario, bound_of(scenario)).sd_mm;
+  const double u =
+      worst_of_axis(scenario, bound_of(scenario, surface_of(scenario.part.kind))).sd_mm;
   out.u_expanded_mm = std::isfinite(u) ? coverage_factor * u : infinity;
   return out;
 }
@@ -97,7 +98,7 @@ double measuring_time_s(const virtual_lathe::Scenario& scenario) {
 }
 
 std::size_t place_of_ends(const virtual_lathe::Scenario& scenario) {
-  const std::vector<Quantity> all = quantities(scenario.part.kind);
+  const std::vector<Quantity> all = quantities(surface_of(scenario.part.kind));
   const auto at = std::ranges::find(all, "x_at_min_z", &Quantity::name);
   expects(at != all.end(), "a part with an axis");
   return static_cast<std::size_t>(at - all.begin());
@@ -185,7 +186,8 @@ Confirmation confirm(const PlannedMeasurement& plan, const PlanningTask& task, s
   sweep.base = plan.scenario;
   sweep.repeats = task.repeats;
   sweep.seed = task.seed;
-  const WorstOfAxis worst = worst_of_axis(plan.scenario, bound_of(plan.scenario));
+  const WorstOfAxis worst =
+      worst_of_axis(plan.scenario, bound_of(plan.scenario, surface_of(plan.scenario.part.kind)));
   const std::size_t from = place_of_ends(plan.scenario);
   const std::vector<Block> blocks = blocks_of(sweep);
   std::vector<BlockResult> results(blocks.size());

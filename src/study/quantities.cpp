@@ -23,7 +23,8 @@ struct TrueAxis {
 };
 
 Chucking last_chucking(const Scenario& scenario) {
-  const int number = scenario.plan.passes.empty() ? 1 : scenario.plan.passes.back().setup;
+  int number = 1;
+  for (const PlannedPass& pass : scenario.plan.passes) number = std::max(number, pass.setup);
   for (const Chucking& setup : scenario.plan.setups) {
     if (setup.number == number) return setup;
   }
@@ -54,21 +55,37 @@ double apex_of(const Part& part) {
                         : part.radius_at_mm - part.radius_mm / tangent;
 }
 
+/// Of a cone, `along` the axis from the spindle's origin.
+double radius_at(const Part& part, double apex, double along) {
+  return std::abs(apex - along) * std::tan(std::abs(part.half_angle_rad));
+}
+
+/// n·p = d of the face as it stands last: through its origin's height, turned about that origin.
+std::vector<double> face_of(const Scenario& scenario) {
+  const Part& part = scenario.part;
+  const Chucking setup = last_chucking(scenario);
+  const double l = setup.l.value_or(part.l), m = setup.m.value_or(part.m);
+  const double height = part.d_mm - part.l * part.x0_mm - part.m * part.y0_mm;
+  return {l, m,
+          height + l * setup.x0_mm.value_or(part.x0_mm) + m * setup.y0_mm.value_or(part.y0_mm) +
+              std::sqrt(1.0 - l * l - m * m) * setup.z_shift_mm};
+}
+
 }  // namespace
 
 const char* surface_of(PartKind kind) {
   return kind == PartKind::cone ? "cone" : kind == PartKind::cylinder ? "cylinder" : "plane";
 }
 
-std::vector<Quantity> quantities(PartKind kind) {
-  const SurfaceInfo& info = surface_info(surface_of(kind));
+std::vector<Quantity> quantities(std::string_view surface) {
+  const SurfaceInfo& info = surface_info(surface);
   std::vector<Quantity> out;
   for (std::size_t i = 0; i < info.parameters.size(); ++i)
     out.push_back({std::string(info.parameters[i]), std::string(info.units[i])});
-  if (kind == PartKind::face) return out;
+  if (surface == "plane" || surface == "section") return out;
   for (const char* name : {"x_at_min_z", "y_at_min_z", "x_at_max_z", "y_at_max_z"})
     out.push_back({name, "mm"});
-  if (kind == PartKind::cone) out.push_back({"radius_mid", "mm"});
+  if (surface == "cone") out.push_back({"radius_mid", "mm"});
   return out;
 }
 
@@ -87,13 +104,19 @@ Probed probed_length(const ProbeStream& stream) {
   return out;
 }
 
-std::vector<double> true_values(const Scenario& scenario, const Probed& probed) {
+std::vector<double> true_values(const Scenario& scenario, const Probed& probed,
+                                std::string_view surface) {
   const Part& part = scenario.part;
+  if (part.kind == PartKind::face) return face_of(scenario);
   const TrueAxis axis = axis_of(scenario);
-  if (part.kind == PartKind::face)
-    return {axis.l, axis.m, part.d_mm + axis.n * last_chucking(scenario).z_shift_mm};
   std::vector<double> out{axis.x0, axis.y0, axis.l, axis.m};
   const double apex = apex_of(part) + axis.from_origin_mm;
+  if (surface == "section") {
+    const double z = 0.5 * (probed.low_mm + probed.high_mm);
+    const bool tapers = part.kind == PartKind::cone && part.half_angle_rad != 0.0;
+    return {axis.x_at(z), axis.y_at(z),
+            tapers ? radius_at(part, apex, z / axis.n) : part.radius_mm};
+  }
   if (part.kind == PartKind::cone) {
     out.insert(out.end(), {apex, std::abs(part.half_angle_rad) / rad_per_deg});
   } else {
@@ -103,7 +126,7 @@ std::vector<double> true_values(const Scenario& scenario, const Probed& probed) 
     out.insert(out.end(), {axis.x_at(z), axis.y_at(z)});
   if (part.kind == PartKind::cone) {
     const double along = 0.5 * (probed.low_mm + probed.high_mm) / axis.n;
-    out.push_back(std::abs(apex - along) * std::tan(std::abs(part.half_angle_rad)));
+    out.push_back(radius_at(part, apex, along));
   }
   return out;
 }
@@ -116,7 +139,7 @@ Estimated estimated(const FitResult& fit) {
   };
   for (const FitParameter& parameter : fit.parameters)
     put(parameter.estimate.value, parameter.estimate.u);
-  if (fit.surface == "plane") return out;
+  if (fit.surface == "plane" || fit.surface == "section") return out;
   const Axis& axis = fit.axis.axis;
   const auto& c = fit.axis.covariance;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {

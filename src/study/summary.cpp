@@ -19,12 +19,14 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double coverage_factor = 2.0;
 constexpr double least_estimates = 100.0;  // for a mean of squares to be about normal
 
-/// Linear between order statistics (Hyndman and Fan's type 7).
-double quantile(const std::vector<double>& sorted, double share) {
-  const double at = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+/// Linear between order statistics (Hyndman and Fan's type 7); reorders the values.
+double quantile(std::vector<double>& values, double share) {
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = values.begin() + static_cast<std::ptrdiff_t>(at);
+  std::nth_element(values.begin(), below, values.end());
+  if (below + 1 == values.end()) return *below;
+  const double above = *std::min_element(below + 1, values.end());
+  return *below + (at - std::floor(at)) * (above - *below);
 }
 
 /// n (RMSE / bound)² of an efficient fit is χ² with n degrees of freedom.
@@ -57,12 +59,14 @@ double mean_square_spread(const std::vector<double>& error) {
   return (fourths / (squares * squares) - 1.0) / (n - 1.0);
 }
 
-Ends clopper_pearson(double hits, double n, double level) {
+Share share_of(double hits, double n) {
+  constexpr double level = 0.05;
   const auto beta = [](double a, double b, double p) {
     return boost::math::quantile(boost::math::beta_distribution<>(a, b), p);
   };
-  return {hits == 0.0 ? 0.0 : beta(hits, n - hits + 1.0, 0.5 * level),
-          hits == n ? 1.0 : beta(hits + 1.0, n - hits, 1.0 - 0.5 * level)};
+  return {hits / n,
+          {hits == 0.0 ? 0.0 : beta(hits, n - hits + 1.0, 0.5 * level),
+           hits == n ? 1.0 : beta(hits + 1.0, n - hits, 1.0 - 0.5 * level)}};
 }
 
 /// The errors of one quantity and their u, in order of repeat, without those that failed.
@@ -86,8 +90,8 @@ void fill(Row& row, Sample sample) {
   const auto n = static_cast<double>(sample.error.size());
   row.estimates = sample.error.size();
   row.bias = row.u_bias = row.sd = row.rmse = row.q05 = row.q50 = row.q95 = none;
-  row.ratio = row.coverage = row.mean_u = none;
-  row.ratio_95 = row.coverage_95 = {none, none};
+  row.ratio = row.mean_u = none;
+  row.ratio_95 = {none, none};
   if (sample.error.empty()) return;
   double sum = 0.0, squares = 0.0, hits = 0.0, u = 0.0;
   for (std::size_t i = 0; i < sample.error.size(); ++i) {
@@ -103,9 +107,7 @@ void fill(Row& row, Sample sample) {
   if (n > 1.0) row.sd = std::sqrt(spread / (n - 1.0));
   row.u_bias = row.sd / std::sqrt(n);
   row.mean_u = u / n;
-  row.coverage = hits / n;
-  row.coverage_95 = clopper_pearson(hits, n, 0.05);
-  std::ranges::sort(sample.error);
+  row.coverage = share_of(hits, n);
   row.q05 = quantile(sample.error, 0.05);
   row.q50 = quantile(sample.error, 0.50);
   row.q95 = quantile(sample.error, 0.95);
@@ -113,7 +115,7 @@ void fill(Row& row, Sample sample) {
   row.ratio = row.rmse / row.bound;
 }
 
-CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
+CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_hidden) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
   for (const BlockResult* block : blocks) {
@@ -127,8 +129,8 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
       named += (bits & 2U) != 0 ? 1.0 : 0.0;
     }
   }
-  cell.found = looked > 0.0 ? found / looked : none;
-  cell.named = looked > 0.0 ? named / looked : none;
+  if (looked > 0.0) cell.found = share_of(found, looked);
+  if (looked > 0.0 && effects_hidden) cell.named = share_of(named, looked);
   const CellFacts& facts = blocks.front()->facts.at(0);
   cell.readings = facts.readings;
   cell.bound = facts.bound;
@@ -158,10 +160,10 @@ std::vector<std::vector<const BlockResult*>> sorted(const Sweep& sweep,
 Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   Summary summary;
   std::vector<double> spread;  // of every row's ratio², where numbers are drawn
-  const std::vector<Quantity> names = quantities(sweep.base.part.kind);
+  const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    summary.cells.push_back(cell_of(cells[cell]));
+    summary.cells.push_back(cell_of(cells[cell], !scenario_of(sweep, cell).effects.empty()));
     const CellFacts& facts = cells[cell].front()->facts.at(0);
     for (std::size_t i = 0; i < names.size(); ++i) {
       Row row;

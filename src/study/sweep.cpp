@@ -6,6 +6,7 @@
 #include "simulate/random.hpp"
 #include "simulate/variates.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/study/quantities.hpp"
 #include "trueaxis/study/scenario_parameters.hpp"
 
 namespace trueaxis::study {
@@ -100,6 +101,10 @@ Scenario scenario_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
 
 std::uint64_t seed_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
   return virtual_lathe::hashed(sweep.seed, cell / sweep.methods.size(), repeat);
+}
+
+std::string_view fitted_surface(const Sweep& sweep) {
+  return sweep.surface.empty() ? surface_of(sweep.base.part.kind) : std::string_view(sweep.surface);
 }
 
 const char* to_string(Method method) {

@@ -66,7 +66,7 @@ TEST_F(SweepPlans, ALateProbeTurnsTheEccentricity) {
     expect_bias(late, "x0", -turn * 0.1);
     expect_bias(late, "y0", turn * 0.2);
   }
-  EXPECT_EQ(cell("one pass", "late by 2 ms", "diagnosis")["named"], 0.0);
+  EXPECT_EQ(cell("one pass", "late by 2 ms", "diagnosis")["named"]["value"], 0.0);
 }
 
 // There and back the radius in the middle differs by 2 v delay tan(half angle), v = 2 mm/s: 0.5
@@ -82,7 +82,7 @@ TEST_F(SweepPlans, ASecondSpeedTellsItBest) {
   const double expected = std::hypot(of_y, 2.0 * std::numbers::pi * 0.216 * of_delay_s);
   const double u_back = row(back, "y_at_max_z")["mean_u"];
   EXPECT_NEAR(u_back, expected, 0.1 * expected);  // mean of 30, each ±2 % from 960 readings
-  EXPECT_EQ(speeds["named"], 1.0);
+  EXPECT_EQ(speeds["named"]["value"], 1.0);
   expect_bias(speeds, "y_at_max_z", 0.0);
   EXPECT_LT(row(speeds, "y_at_max_z")["mean_u"].get<double>(), 0.7 * u_back);
 }

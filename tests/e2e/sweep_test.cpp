@@ -182,8 +182,9 @@ TEST_F(SweepCommand, StudiesADiagnosis) {
   file("sweep.toml", text);
   ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
   const nlohmann::json cells = result("out/sweep.json")["cells"];
-  EXPECT_EQ(cells[0]["found"], 1.0);  // 8 µm at σ = 2 µm over 1395 readings: λ of thousands
-  EXPECT_EQ(cells[0]["named"], 1.0);
+  EXPECT_EQ(cells[0]["found"]["value"],
+            1.0);  // 8 µm at σ = 2 µm over 1395 readings: λ of thousands
+  EXPECT_EQ(cells[0]["named"]["value"], 1.0);
 }
 
 }  // namespace

@@ -37,6 +37,16 @@ inline study::GridAxis over(const std::string& path, const std::vector<double>& 
   return axis;
 }
 
+inline study::Sweep sweep_of(const virtual_lathe::Scenario& base, std::vector<study::GridAxis> axes,
+                             std::size_t repeats, std::uint64_t seed) {
+  study::Sweep sweep;
+  sweep.base = base;
+  sweep.axes = std::move(axes);
+  sweep.repeats = repeats;
+  sweep.seed = seed;
+  return sweep;
+}
+
 inline std::vector<study::BlockResult> run_all(const study::Sweep& sweep, int threads) {
   std::vector<study::BlockResult> results;
   study::run_blocks(sweep, study::blocks_of(sweep), threads,

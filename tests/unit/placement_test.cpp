@@ -97,7 +97,7 @@ class OwnRun : public ::testing::Test {
     results_ = testing::run_all(sweep_, 1);
     Published published;
     for (std::size_t i = 0; i < 6; ++i)
-      published.parameters.push_back(quantities(sweep_.base.part.kind)[i].name);
+      published.parameters.push_back(quantities(fitted_surface(sweep_))[i].name);
     for (std::size_t repeat = 0; repeat < 20; ++repeat) published.rows.push_back(row(repeat));
     const std::vector<double> ones(6, 1.0);
     const std::vector<int> all_printed(6, 0);

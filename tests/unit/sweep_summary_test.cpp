@@ -57,16 +57,16 @@ TEST(Summary, IsThatOfTheErrorsByHand) {
   EXPECT_NEAR(l.ratio_95.low, l.ratio * std::sqrt(10.0 / 20.48318), 1e-6);
   EXPECT_NEAR(l.ratio_95.high, l.ratio * std::sqrt(10.0 / 3.24697), 1e-6);
   EXPECT_EQ(l.at_bound, true);
-  EXPECT_DOUBLE_EQ(l.coverage, 0.5);  // errors 1 … 5 within 2 × 2.5
+  EXPECT_DOUBLE_EQ(l.coverage.value, 0.5);  // errors 1 … 5 within 2 × 2.5
   // Clopper-Pearson of 5 in 10: 0.18709, 0.81291 (tables).
-  EXPECT_NEAR(l.coverage_95.low, 0.18709, 1e-5);
-  EXPECT_NEAR(l.coverage_95.high, 0.81291, 1e-5);
+  EXPECT_NEAR(l.coverage.ends_95.low, 0.18709, 1e-5);
+  EXPECT_NEAR(l.coverage.ends_95.high, 0.81291, 1e-5);
   const Row& m = summary.rows[1];
   EXPECT_EQ(m.estimates, 9U);
   EXPECT_DOUBLE_EQ(m.sd, 0.0);
   EXPECT_TRUE(std::isnan(m.ratio));
   EXPECT_FALSE(m.at_bound.has_value());
-  EXPECT_DOUBLE_EQ(m.coverage_95.high, 1.0);
+  EXPECT_DOUBLE_EQ(m.coverage.ends_95.high, 1.0);
   EXPECT_EQ(summary.rows[2].estimates, 0U);
   EXPECT_TRUE(std::isnan(summary.rows[2].bias));
   EXPECT_EQ(summary.cells[0].failures, 1U);

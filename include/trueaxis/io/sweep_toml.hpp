@@ -12,6 +12,7 @@ namespace trueaxis {
 ///
 ///     name = "…"   seed = 1   repeats = 2000
 ///     methods = ["fit", "huber", "tukey", "diagnosis"]      (["fit"])
+///     surface = "section"                 a circle off-centre ("part": the surface that it is)
 ///     scenario = "cone_shaft.toml"       or the scenario's own tables here: [part], [[pass]] …
 ///     [[axis]]     key = "noise.sigma_um"   values = [2, 5, 10]
 ///     [[axis]]     key = "pass.length_mm"   from = 10  to = 50  count = 5   spacing = "log"

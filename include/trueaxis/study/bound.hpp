@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/simulate/scenario.hpp"
@@ -10,7 +11,8 @@ namespace trueaxis::study {
 /// The least standard deviation that unbiased estimates of the quantities can have on a plan.
 struct Bound {
   enum class Kind {
-    cramer_rao,    ///< of the noise as it is: Gaussian, AR(1), wider where oblique, Student's t
+    cramer_rao,    ///< of the noise as it is: Gaussian, autoregressive, wider where oblique,
+                   ///< Student's t
     gauss_markov,  ///< of estimates linear in the readings: noise with a uniform part or rounding
   } kind = Kind::cramer_rao;
   std::vector<double> sd;          ///< in the order of quantities(); NaN: none (see bound_of)
@@ -19,11 +21,13 @@ struct Bound {
 
 /// σ²(JᵀJ)⁻¹ with J the derivatives of the virtual lathe's clean readings with respect to the
 /// surface's parameters, by Richardson's central differences, the noise whitened along the stream
-/// (Kalman's innovations, so AR(1) and a white part are exact): nothing of the model that is fitted
-/// enters. Effects are taken as known, outliers as recognised and free. NaN everywhere where the
-/// readings do not determine the parameters, for several clampings, a relative gauge and an
-/// autoregression of higher order.
-Bound bound_of(const virtual_lathe::Scenario& scenario);
+/// (Kalman's innovations, so an autoregression and a white part are exact): nothing of the model
+/// that is fitted enters. Every clamping has an axis of its own and, with a relative gauge, a zero
+/// of its own, as in the fit. Effects are taken as known, outliers as recognised and free. NaN
+/// everywhere where the readings do not determine the parameters and where the metadata tell one
+/// clamping but the axis moved; the radius under a relative gauge.
+/// @param surface fitted: that of the part, or "section"
+Bound bound_of(const virtual_lathe::Scenario& scenario, std::string_view surface);
 
 /// "cramer_rao" or "gauss_markov".
 const char* to_string(Bound::Kind kind);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/fit/fit.hpp"
@@ -15,9 +16,9 @@ namespace trueaxis::study {
 struct Quantity {
   std::string name, unit;
 };
-std::vector<Quantity> quantities(virtual_lathe::PartKind kind);
+std::vector<Quantity> quantities(std::string_view surface);
 
-/// Surface of the catalogue that a part is fitted with.
+/// Surface of the catalogue that a part is.
 const char* surface_of(virtual_lathe::PartKind kind);
 
 /// Lowest and highest position of the readings since the part was last moved.
@@ -26,9 +27,11 @@ struct Probed {
 };
 Probed probed_length(const ProbeStream& stream);
 
-/// Of the part as it stands in the last set-up of the plan, in the order of quantities(); NaN where
-/// there is none (the apex of a cone of half angle 0).
-std::vector<double> true_values(const virtual_lathe::Scenario& scenario, const Probed& probed);
+/// Of the part as it stands in the set-up of the highest number, in the order of quantities(); NaN
+/// where there is none (the apex of a cone of half angle 0). A section lies in the middle of
+/// `probed`.
+std::vector<double> true_values(const virtual_lathe::Scenario& scenario, const Probed& probed,
+                                std::string_view surface);
 
 /// The same of a fit, with standard uncertainties; NaN where the fit withholds a number.
 struct Estimated {

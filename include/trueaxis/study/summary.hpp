@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@ namespace trueaxis::study {
 /// Ends of an interval.
 struct Ends {
   double low = 0.0, high = 0.0;
+};
+
+/// A share of repeats with its 95 % interval (Clopper-Pearson); NaN where there is none.
+struct Share {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  Ends ends_95{value, value};
 };
 
 /// One quantity in one cell; errors are estimate − truth, in the quantity's edge unit. Numbers that
@@ -33,8 +40,7 @@ struct Row {
   /// Whether a ratio of 1 is within what chance leaves, at 1 % over all rows (Bonferroni); where
   /// there is an interval.
   std::optional<bool> at_bound;
-  double coverage = 0.0;  ///< share of |error| ≤ U, k = 2
-  Ends coverage_95;       ///< Clopper-Pearson
+  Share coverage;  ///< of |error| ≤ U, k = 2
   double mean_u = 0.0;
 };
 
@@ -43,8 +49,9 @@ struct CellSummary {
   std::size_t failures = 0;
   std::string why;  ///< of the first failure
   Bound bound;
-  double found = 0.0, named = 0.0;  ///< diagnosis: share of repeats; else NaN
-  double seconds = 0.0;             ///< of one thread
+  Share found;  ///< of a diagnosis: any finding
+  Share named;  ///< of a diagnosis: every hidden effect in a class; none where none is hidden
+  double seconds = 0.0;  ///< of one thread
 };
 
 struct Summary {

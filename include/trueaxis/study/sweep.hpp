@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/simulate/scenario.hpp"
@@ -51,6 +52,7 @@ enum class Method { fit, huber, tukey, diagnosis };
 struct Sweep {
   std::string name;
   virtual_lathe::Scenario base;
+  std::string surface;            ///< fitted; empty: that of the part
   std::vector<Setting> settings;  ///< of all cells, before the numbers of the axes
   std::vector<GridAxis> axes;     ///< a grid: every point of one with every point of the others
   std::vector<Drawn> drawn;       ///< beside the grid
@@ -60,6 +62,9 @@ struct Sweep {
   std::optional<Published> published;  ///< single runs that someone printed
   std::string input_hash;              ///< of all bytes that the sweep was read from
 };
+
+/// Surface that the sweep fits.
+std::string_view fitted_surface(const Sweep& sweep);
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.
 struct Cell {
