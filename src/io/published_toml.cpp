@@ -47,7 +47,7 @@ std::vector<std::string> read_parameters(TomlTable& paper, const Sweep& sweep) {
 /// Every point sets the amplitude of the noise and nothing else: its level is one number.
 bool is_noise_level(const GridAxis& axis) {
   return std::ranges::all_of(axis.points, [&](const AxisPoint& point) {
-    return point.settings.size() == 1 && point.settings.front().value > 0.0 &&
+    return point.settings.size() == 1 && !point.lists.any() && point.settings.front().value > 0.0 &&
            point.settings.front().path == axis.points.front().settings.front().path &&
            (point.settings.front().path == "noise.sigma_mm" ||
             point.settings.front().path == "noise.uniform_mm");
@@ -101,14 +101,11 @@ PublishedRow read_row(TomlTable table, const Sweep& sweep, std::size_t parameter
 }
 
 PublishedReading read_reading(TomlTable table, const std::vector<std::string>& parameters,
-                              const ReadSetting& setting) {
+                              const ReadSet& read_set) {
   PublishedReading reading;
   reading.name = table.required_text("name");
-  if (std::optional<TomlTable> set = table.maybe_table("set")) {
-    for (const std::string& key : set->keys()) {
-      if (const std::optional<Setting> one = setting(*set, key)) reading.settings.push_back(*one);
-    }
-  }
+  if (const std::optional<TomlTable> set = table.maybe_table("set"))
+    reading.settings = read_set(*set);
   reading.printed_per_error.assign(parameters.size(), 1.0);
   if (std::optional<TomlTable> factors = table.maybe_table("printed_per_error")) {
     for (std::size_t i = 0; i < parameters.size(); ++i)
@@ -126,7 +123,7 @@ PublishedReading read_reading(TomlTable table, const std::vector<std::string>& p
 
 }  // namespace
 
-Published read_published(TomlTable paper, const Sweep& sweep, const ReadSetting& setting) {
+Published read_published(TomlTable paper, const Sweep& sweep, const ReadSet& read_set) {
   Published published;
   published.source = paper.required_text("source");
   published.parameters = read_parameters(paper, sweep);
@@ -134,7 +131,7 @@ Published read_published(TomlTable paper, const Sweep& sweep, const ReadSetting&
     published.rows.push_back(read_row(row, sweep, published.parameters.size()));
   if (published.rows.empty()) paper.complain("row", "is missing: [[paper.row]] gives a run");
   for (const TomlTable& reading : paper.tables("reading"))
-    published.readings.push_back(read_reading(reading, published.parameters, setting));
+    published.readings.push_back(read_reading(reading, published.parameters, read_set));
   if (published.readings.empty()) {
     const std::size_t count = published.parameters.size();
     published.readings.push_back(

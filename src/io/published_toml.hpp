@@ -2,19 +2,18 @@
 #pragma once
 
 #include <functional>
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "io/toml_reader.hpp"
 #include "trueaxis/study/sweep.hpp"
 
 namespace trueaxis {
 
-/// A number of a `set` table as the scenario knows it; none after a diagnostic.
-using ReadSetting = std::function<std::optional<study::Setting>(TomlTable&, const std::string&)>;
+/// The numbers of a `set` table as the scenario knows them.
+using ReadSet = std::function<std::vector<study::Setting>(const TomlTable&)>;
 
 /// The table [paper] of a sweep whose axes and scenario are read.
 study::Published read_published(TomlTable paper, const study::Sweep& sweep,
-                                const ReadSetting& setting);
+                                const ReadSet& read_set);
 
 }  // namespace trueaxis

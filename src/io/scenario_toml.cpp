@@ -7,6 +7,7 @@
 #include "io/scenario_cut.hpp"
 #include "io/scenario_tables.hpp"
 #include "io/toml_reader.hpp"
+#include "simulate/noise_source.hpp"
 #include "trueaxis/io/file.hpp"
 #include "trueaxis/simulate/effects.hpp"
 
@@ -70,6 +71,11 @@ Noise read_noise(TomlTable table) {
   noise.sigma_mm = table.number("sigma_mm", 0.0, Range::non_negative());
   noise.uniform_mm = table.number("uniform_mm", 0.0, Range::non_negative());
   noise.rho = table.number("rho", 0.0, Range::inside(-1.0, 1.0));
+  noise.autoregression = table.numbers("autoregression");
+  if (!noise.autoregression.empty() && noise.rho != 0.0)
+    table.complain("autoregression", "contradicts `rho`: keep one of them");
+  if (!is_stationary(noise.autoregression))
+    table.complain("autoregression", "is not stationary: make its numbers smaller");
   noise.student_dof = table.number("student_dof", 0.0, {.low = 2.0, .low_open = true});
   noise.incidence = table.number("incidence", 0.0, Range::non_negative());
   noise.outlier_fraction = table.number("outlier_fraction", 0.0, Range::fraction());
@@ -158,21 +164,36 @@ std::optional<Effect> read_effect(TomlTable table) {
 
 }  // namespace
 
+std::vector<PlannedPass> read_passes(TomlTable table, bool face) {
+  std::vector<PlannedPass> passes;
+  for (const TomlTable& one : table.tables("pass")) passes.push_back(read_pass(one, face));
+  if (passes.empty())
+    table.complain("pass", table.has("pass") ? "is empty: give at least one pass"
+                                             : "is missing: add a [[pass]]");
+  return passes;
+}
+
+std::vector<Chucking> read_setups(TomlTable table) {
+  std::vector<Chucking> setups;
+  for (const TomlTable& one : table.tables("setup")) setups.push_back(read_setup(one));
+  return setups;
+}
+
+std::vector<Effect> read_effects(TomlTable table) {
+  std::vector<Effect> effects;
+  for (const TomlTable& one : table.tables("effect")) {
+    if (auto effect = read_effect(one)) effects.push_back(std::move(*effect));
+  }
+  return effects;
+}
+
 void read_scenario_tables(TomlTable root, virtual_lathe::Scenario& scenario) {
   read_part(root.required_table("part"), scenario);
   if (const auto probe = root.maybe_table("probe")) scenario.probe = read_probe(*probe);
   if (const auto noise = root.maybe_table("noise")) scenario.noise = read_noise(*noise);
-  const bool face = scenario.part.kind == PartKind::face;
-  for (const TomlTable& table : root.tables("pass")) {
-    scenario.plan.passes.push_back(read_pass(table, face));
-  }
-  if (!root.has("pass")) root.complain("pass", "is missing: add a [[pass]]");
-  for (const TomlTable& table : root.tables("setup")) {
-    scenario.plan.setups.push_back(read_setup(table));
-  }
-  for (const TomlTable& table : root.tables("effect")) {
-    if (auto effect = read_effect(table)) scenario.effects.push_back(std::move(*effect));
-  }
+  scenario.plan.passes = read_passes(root, scenario.part.kind == PartKind::face);
+  scenario.plan.setups = read_setups(root);
+  scenario.effects = read_effects(root);
   if (const auto cut = root.maybe_table("cut")) scenario.cut = read_cut_program(*cut);
 }
 

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/build_id.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/file.hpp"
 
@@ -29,10 +30,24 @@ constexpr std::string_view record_mark = "TXBLOCK1";
 using Place = std::pair<std::size_t, std::size_t>;
 Place place_of(const Block& block) { return {block.cell, block.first_repeat}; }
 
-/// "trueaxis sweep journal 1 <version> <hash>\n": what a block's numbers depend on.
+/// "trueaxis sweep journal 2 <hash of the input> <version> <build>\n": what a block's numbers
+/// depend on.
 std::string head_of(const Sweep& sweep) {
-  return std::string("trueaxis sweep journal 1 ") + TRUEAXIS_VERSION + ' ' + sweep.input_hash +
+  return "trueaxis sweep journal 2 " + sweep.input_hash + ' ' + TRUEAXIS_VERSION + ' ' + build_id +
          '\n';
+}
+
+/// Why a journal that does not begin with head_of() is refused.
+std::string refusal(std::string_view journal, const Sweep& sweep) {
+  const std::string same_sweep = "trueaxis sweep journal 2 " + sweep.input_hash + ' ';
+  if (!journal.starts_with(same_sweep))
+    return "is of another sweep: its file or scenario has changed since; choose another folder "
+           "with -o, or delete this one";
+  const std::string_view rest = journal.substr(same_sweep.size());
+  return "was begun by another build of TrueAxis (" + std::string(rest.substr(0, rest.find('\n'))) +
+         "; this is " + TRUEAXIS_VERSION + ' ' + build_id +
+         "), and results of two must not mix: continue with that build, choose another folder with "
+         "-o, or delete this one";
 }
 
 std::string as_bytes(std::uint64_t number) {
@@ -95,11 +110,8 @@ struct SweepJournal::Impl {
   void read(const Sweep& sweep) {
     const std::string head = head_of(sweep), bytes = read_file(path);
     const std::string_view all = bytes;
-    if (!all.starts_with(head) && !std::string_view(head).starts_with(all)) {
-      throw InputError(path,
-                       "is of another sweep or version: its file or scenario has changed since; "
-                       "choose another folder with -o, or delete this one");
-    }
+    if (!all.starts_with(head) && !std::string_view(head).starts_with(all))
+      throw InputError(path, refusal(all, sweep));
     std::size_t at = std::min(head.size(), all.size());
     if (at == head.size()) {
       std::map<Place, std::size_t> open;  // blocks that no record has finished, and their counts

@@ -60,6 +60,7 @@ Json noise_json(const Noise& noise) {
   return {{"sigma", length(noise.sigma_mm)},
           {"uniform", length(noise.uniform_mm)},
           {"rho", quantity(noise.rho, "1")},
+          {"autoregression", noise.autoregression},
           {"student_dof", quantity(noise.student_dof, "1")},
           {"incidence", quantity(noise.incidence, "1")},
           {"outlier_fraction", quantity(noise.outlier_fraction, "1")},

@@ -50,6 +50,10 @@ std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose) {
   return std::mt19937_64(sequence);
 }
 
+bool is_stationary(const std::vector<double>& phi) {
+  return phi.empty() || impulse_response(phi).dies_out;
+}
+
 void validate(const Noise& noise) {
   need(noise.sigma_mm >= 0.0 && noise.uniform_mm >= 0.0, "sigma and uniform must be at least 0");
   need(std::abs(noise.rho) < 1.0, "rho must be in (-1, 1)");

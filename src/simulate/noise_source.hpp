@@ -22,6 +22,9 @@ std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose);
 /// @throws InputError where a number is outside its range.
 void validate(const Noise& noise);
 
+/// Whether an impulse into ε_i = Σ φ_j ε_{i−j} + e_i dies out.
+bool is_stationary(const std::vector<double>& phi);
+
 /// What noise adds to one reading.
 struct NoiseDraw {
   double error_mm = 0.0;

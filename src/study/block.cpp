@@ -77,9 +77,11 @@ std::uint8_t found_by(const Diagnosis& diagnosis, const Scenario& scenario) {
                                    (all ? 2 : 0));
 }
 
-Bound mean_bound(const Sweep& sweep, std::size_t cell) {
+/// @param spread see CellFacts::bound_spread
+Bound mean_bound(const Sweep& sweep, std::size_t cell, std::vector<double>& spread) {
   if (sweep.drawn.empty()) return bound_of(scenario_of(sweep, cell, 0), fitted_surface(sweep));
   Bound mean;
+  std::vector<double> fourth;  // mean of sd⁴
   const std::size_t count = std::min(drawn_bounds, sweep.repeats);
   for (std::size_t repeat = 0; repeat < count; ++repeat) {
     const Bound one = bound_of(scenario_of(sweep, cell, repeat), fitted_surface(sweep));
@@ -88,9 +90,16 @@ Bound mean_bound(const Sweep& sweep, std::size_t cell) {
     for (std::size_t i = 0; i < one.covariance.size(); ++i)
       mean.covariance[i] += one.covariance[i] / static_cast<double>(count);
     mean.sd.resize(one.sd.size());
+    fourth.resize(one.sd.size(), 0.0);
+    for (std::size_t i = 0; i < one.sd.size(); ++i)
+      fourth[i] += std::pow(one.sd[i], 4) / static_cast<double>(count);
   }
-  for (std::size_t i = 0; i < mean.sd.size(); ++i)
-    mean.sd[i] = std::sqrt(mean.covariance[i * mean.sd.size() + i]);
+  for (std::size_t i = 0; i < mean.sd.size(); ++i) {
+    const double square = mean.covariance[i * mean.sd.size() + i];
+    mean.sd[i] = std::sqrt(square);
+    spread.push_back(std::max(fourth[i] / (square * square) - 1.0, 0.0) /
+                     (static_cast<double>(count) - 1.0));
+  }
   return mean;
 }
 
@@ -105,7 +114,7 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
     const CleanStream clean = virtual_lathe::simulate_clean(scenario);
     facts.readings = clean.value_mm.size();
     facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
-    facts.bound = mean_bound(sweep, cell);
+    facts.bound = mean_bound(sweep, cell, facts.bound_spread);
   } catch (const InputError&) {  // its repeats say why
   }
   return facts;

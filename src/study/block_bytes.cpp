@@ -77,6 +77,7 @@ void pass_facts_through(Stream& stream, Facts& facts) {
   stream.number(facts.bound.kind);
   stream.list(facts.bound.sd);
   stream.list(facts.bound.covariance);
+  stream.list(facts.bound_spread);
 }
 
 }  // namespace

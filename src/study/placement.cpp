@@ -12,7 +12,6 @@
 #include "study/profile.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/study/quantities.hpp"
-#include "trueaxis/study/scenario_parameters.hpp"
 
 namespace trueaxis::study {
 namespace {
@@ -51,8 +50,7 @@ struct Understood {
 Understood understood(const Table& table, std::size_t index) {
   const PublishedReading& reading = table.published.readings[index];
   Sweep sweep = table.sweep;
-  for (const Setting& setting : reading.settings)
-    set_parameter(sweep.base, setting.path, setting.value);
+  sweep.settings = reading.settings;
   Understood out{index, {}};
   for (const PublishedRow& row : table.published.rows) {
     const std::size_t cell = table.cell_of(row);

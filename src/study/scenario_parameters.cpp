@@ -33,6 +33,11 @@ struct Place {
     if (travels != nullptr) return std::abs(travels->end_mm - travels->start_mm);
     return number != nullptr ? *number : maybe->value_or(std::numeric_limits<double>::quiet_NaN());
   }
+  /// What is written, to compare with that of another place.
+  const void* address() const {
+    if (travels != nullptr) return &travels->end_mm;
+    return number != nullptr ? static_cast<const void*>(number) : maybe;
+  }
   void set(double value) const {
     if (travels != nullptr) {
       const double way = travels->end_mm < travels->start_mm ? -1.0 : 1.0;
@@ -84,6 +89,9 @@ void visit_probe_and_noise(Scenario& scenario, const Visit& visit) {
   visit("noise.sigma_mm", not_negative, at(noise.sigma_mm));
   visit("noise.uniform_mm", not_negative, at(noise.uniform_mm));
   visit("noise.rho", cosine, at(noise.rho));
+  std::size_t order = 0;
+  for (double& phi : noise.autoregression)
+    visit("noise.autoregression." + std::to_string(order++), any, at(phi));
   visit("noise.student_dof", not_negative, at(noise.student_dof));
   visit("noise.incidence", not_negative, at(noise.incidence));
   visit("noise.outlier_fraction", fraction, at(noise.outlier_fraction));
@@ -178,6 +186,41 @@ void set_parameter(Scenario& scenario, std::string_view path, double value) {
     found = true;
   });
   expects(found, "a parameter that the scenario has");
+}
+
+bool is_travel(std::string_view path) {
+  return path.starts_with("pass.") && path.ends_with(".length_mm");
+}
+
+void set_parameters(Scenario& scenario, std::span<const Setting> settings) {
+  const std::vector<PlannedPass> before = scenario.plan.passes;
+  for (const Setting& setting : settings) {
+    if (!is_travel(setting.path)) set_parameter(scenario, setting.path, setting.value);
+  }
+  for (const Setting& setting : settings) {
+    if (!is_travel(setting.path)) continue;
+    bool found = false;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (setting.path != "pass.length_mm" &&
+          setting.path != "pass." + std::to_string(i) + ".length_mm")
+        continue;
+      PlannedPass& pass = scenario.plan.passes[i];
+      const bool back = before[i].end_mm < before[i].start_mm;
+      pass.end_mm = pass.start_mm + (back ? -setting.value : setting.value);
+      found = true;
+    }
+    expects(found, "a pass that the scenario has");
+  }
+}
+
+bool write_same_number(const Scenario& scenario, std::string_view a, std::string_view b) {
+  Scenario copy = scenario;
+  std::vector<const void*> of_a, of_b;
+  visit_all(copy, [&](const std::string& here, const Limits&, const Place& place) {
+    if (here == a) of_a.push_back(place.address());
+    if (here == b) of_b.push_back(place.address());
+  });
+  return std::ranges::find_first_of(of_a, of_b) != of_a.end();
 }
 
 }  // namespace trueaxis::study

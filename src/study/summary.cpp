@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double coverage_factor = 2.0;
+constexpr double least_estimates = 100.0;  // for a mean of squares to be about normal
 
 /// Linear between order statistics (Hyndman and Fan's type 7); reorders the values.
 double quantile(std::vector<double>& values, double share) {
@@ -32,6 +34,29 @@ Ends ratio_ends(double ratio, double n, double level) {
   const boost::math::chi_squared square(n);
   return {ratio * std::sqrt(n / boost::math::quantile(complement(square, 0.5 * level))),
           ratio * std::sqrt(n / boost::math::quantile(square, 0.5 * level))};
+}
+
+/// Where numbers are drawn the errors of a cell have different spreads and there is no χ². Delta
+/// method on the logarithm: `spread` is the variance of mean(e²) over its square plus that of
+/// mean(bound²). The first draws are in both means; they count as independent, so that the interval
+/// is rather too wide.
+Ends drawn_ratio_ends(double ratio, double n, double spread, double level) {
+  if (n < least_estimates || !std::isfinite(ratio) || !std::isfinite(spread)) return {none, none};
+  const boost::math::normal normal;
+  const double half =
+      0.5 * boost::math::quantile(complement(normal, 0.5 * level)) * std::sqrt(spread);
+  return {ratio * std::exp(-half), ratio * std::exp(half)};
+}
+
+/// Variance of mean(e²) over its square.
+double mean_square_spread(const std::vector<double>& error) {
+  const auto n = static_cast<double>(error.size());
+  double squares = 0.0, fourths = 0.0;
+  for (const double e : error) {
+    squares += e * e / n;
+    fourths += e * e * e * e / n;
+  }
+  return (fourths / (squares * squares) - 1.0) / (n - 1.0);
 }
 
 Share share_of(double hits, double n) {
@@ -88,7 +113,6 @@ void fill(Row& row, Sample sample) {
   row.q95 = quantile(sample.error, 0.95);
   if (!(row.bound > 0.0)) return;
   row.ratio = row.rmse / row.bound;
-  row.ratio_95 = ratio_ends(row.ratio, n, 0.05);
 }
 
 CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_hidden) {
@@ -135,6 +159,7 @@ std::vector<std::vector<const BlockResult*>> sorted(const Sweep& sweep,
 
 Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   Summary summary;
+  std::vector<double> spread;  // of every row's ratio², where numbers are drawn
   const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
@@ -147,21 +172,29 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
       row.unit = names[i].unit;
       row.truth = facts.truth[i];
       row.bound = facts.bound.sd[i];
-      fill(row, sample_of(cells[cell], i));
+      const Sample sample = sample_of(cells[cell], i);
+      fill(row, sample);
+      spread.push_back(facts.bound_spread.empty()
+                           ? none
+                           : mean_square_spread(sample.error) + facts.bound_spread[i]);
       summary.rows.push_back(std::move(row));
     }
   }
-  if (!sweep.drawn.empty()) {  // errors of different spread in one cell: no χ²
-    for (Row& row : summary.rows) row.ratio_95 = {none, none};
-    return summary;
+  const auto ends = [&](std::size_t i, double level) {
+    const Row& row = summary.rows[i];
+    const auto n = static_cast<double>(row.estimates);
+    if (!sweep.drawn.empty()) return drawn_ratio_ends(row.ratio, n, spread[i], level);
+    return std::isfinite(row.ratio) ? ratio_ends(row.ratio, n, level) : Ends{none, none};
+  };
+  double tested = 0.0;
+  for (std::size_t i = 0; i < summary.rows.size(); ++i) {
+    summary.rows[i].ratio_95 = ends(i, 0.05);
+    tested += std::isfinite(summary.rows[i].ratio_95.low) ? 1.0 : 0.0;
   }
-  const auto tested = static_cast<double>(
-      std::ranges::count_if(summary.rows, [](const Row& row) { return std::isfinite(row.ratio); }));
-  for (Row& row : summary.rows) {
-    if (!std::isfinite(row.ratio)) continue;
-    const Ends ends =
-        ratio_ends(row.ratio, static_cast<double>(row.estimates), bonferroni_level / tested);
-    row.at_bound = ends.low <= 1.0 && 1.0 <= ends.high;
+  for (std::size_t i = 0; i < summary.rows.size(); ++i) {
+    if (!std::isfinite(summary.rows[i].ratio_95.low)) continue;
+    const Ends within = ends(i, bonferroni_level / tested);
+    summary.rows[i].at_bound = within.low <= 1.0 && 1.0 <= within.high;
   }
   return summary;
 }

@@ -31,17 +31,31 @@ double draw(const Drawn& drawn, virtual_lathe::Xoshiro& bits) {
              : drawn.first + share * (drawn.second - drawn.first);
 }
 
-Scenario on_grid(const Sweep& sweep, std::size_t cell) {
+/// The scenario of a cell before the numbers of its axes, which are put into `numbers`.
+Scenario with_lists(const Sweep& sweep, std::size_t cell, std::vector<Setting>& numbers) {
   const Cell at = cell_at(sweep, cell);
   Scenario scenario = sweep.base;
   for (std::size_t a = 0; a < sweep.axes.size(); ++a) {
-    for (const Setting& setting : sweep.axes[a].points[at.point[a]].settings)
-      set_parameter(scenario, setting.path, setting.value);
+    const AxisPoint& point = sweep.axes[a].points[at.point[a]];
+    point.lists.put_into(scenario);
+    numbers.insert(numbers.end(), point.settings.begin(), point.settings.end());
   }
+  set_parameters(scenario, sweep.settings);
   return scenario;
 }
 
+/// φ = 0 at the end of an autoregression is no part of it.
+void shorten(std::vector<double>& autoregression) {
+  while (!autoregression.empty() && autoregression.back() == 0.0) autoregression.pop_back();
+}
+
 }  // namespace
+
+void Lists::put_into(Scenario& scenario) const {
+  if (passes) scenario.plan.passes = *passes;
+  if (setups) scenario.plan.setups = *setups;
+  if (effects) scenario.effects = *effects;
+}
 
 std::size_t cell_count(const Sweep& sweep) {
   std::size_t count = sweep.methods.size();
@@ -62,8 +76,11 @@ Cell cell_at(const Sweep& sweep, std::size_t cell) {
 }
 
 Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
-  Scenario scenario = on_grid(sweep, cell);
-  for (const Drawn& drawn : sweep.drawn) set_parameter(scenario, drawn.path, middle(drawn));
+  std::vector<Setting> numbers;
+  Scenario scenario = with_lists(sweep, cell, numbers);
+  for (const Drawn& drawn : sweep.drawn) numbers.push_back({drawn.path, middle(drawn)});
+  set_parameters(scenario, numbers);
+  shorten(scenario.noise.autoregression);
   scenario.seed = seed_of(sweep, cell, 0);
   return scenario;
 }
@@ -72,10 +89,13 @@ Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
 // then one for the whole cell, and only the noise differs.
 Scenario scenario_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) {
   if (sweep.drawn.empty()) return scenario_of(sweep, cell);
-  Scenario scenario = on_grid(sweep, cell);
+  std::vector<Setting> numbers;
+  Scenario scenario = with_lists(sweep, cell, numbers);
   scenario.seed = seed_of(sweep, cell, repeat);
   virtual_lathe::Xoshiro bits(scenario.seed, for_drawn_numbers);
-  for (const Drawn& drawn : sweep.drawn) set_parameter(scenario, drawn.path, draw(drawn, bits));
+  for (const Drawn& drawn : sweep.drawn) numbers.push_back({drawn.path, draw(drawn, bits)});
+  set_parameters(scenario, numbers);
+  shorten(scenario.noise.autoregression);
   return scenario;
 }
 

@@ -103,6 +103,8 @@ TEST_F(SweepMpi, RanksGiveTheBytesOfOneProcess) {
     ASSERT_EQ(wait_for(start(ranks, "sweep.toml", out)), 0) << text("said.txt");
     expect_same_results("one", out);
   }
+  // The journal of one process is that of the same build's ranks too.
+  EXPECT_EQ(wait_for(start(2, "sweep.toml", "one")), 0) << text("said.txt");
 }
 
 TEST_F(SweepMpi, EndsWhenARankDiesAndGoesOnFromThere) {

@@ -47,13 +47,28 @@ TEST_F(SweepReport, PlaneHasNoAxis) { expect_sound(shipped("table1_plane", 50), 
 
 TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "noise"); }
 
+TEST_F(SweepReport, CasesOfListsAreWords) { expect_sound(shipped("plans", 2), "plans"); }
+
 TEST_F(SweepReport, OneCellWithoutAxes) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
   sweep.repeats = 10;
   expect_sound(sweep, "one_cell");
-  sweep.drawn = {{"part.x0_um", "part.x0_mm", study::Drawn::Kind::uniform, -0.1, 0.1}};
-  expect_sound(sweep, "drawn");
+}
+
+// Efficiency has a chart where its ratios have intervals: from 100 repeats on.
+TEST_F(SweepReport, DrawnNumbersHaveAnEfficiency) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::face);
+  sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
+  const auto charts = [&](std::size_t repeats) {
+    sweep.repeats = repeats;
+    const Opinion opinion = open_page(page_of(sweep), "drawn" + std::to_string(repeats));
+    EXPECT_TRUE(opinion.sound) << opinion.log;
+    const std::size_t at = opinion.log.find("wide: ");
+    return at == std::string::npos ? -1 : std::stoi(opinion.log.substr(at + 6));
+  };
+  EXPECT_EQ(charts(100), charts(99) + 1);
 }
 
 TEST_F(SweepReport, WithoutABoundAndWithFailures) {

@@ -128,7 +128,19 @@ TEST_F(SweepCommand, TakesOffATornRecord) {
 TEST_F(SweepCommand, RefusesTheJournalOfAnotherSweep) {
   ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
   file("sweep.toml", sweep_text(41));
-  expect_input_error("sweep sweep.toml -o out", "is of another sweep or version");
+  expect_input_error("sweep sweep.toml -o out", "is of another sweep");
+}
+
+// The same version with another engine: one digit of the build's hash differs.
+TEST_F(SweepCommand, RefusesTheJournalOfAnotherBuild) {
+  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  std::string journal = text("out/journal.bin");
+  char& digit = journal.at(journal.find('\n') - 1);
+  digit = digit == '0' ? '1' : '0';
+  file("out/journal.bin", journal);
+  expect_input_error("sweep sweep.toml -o out", "was begun by another build of TrueAxis");
+  expect_input_error("sweep sweep.toml -o out", "choose another folder with -o");
+  EXPECT_EQ(text("out/journal.bin"), journal);
 }
 
 TEST_F(SweepCommand, RefusesAFolderInUse) {

@@ -73,6 +73,41 @@ TEST(Summary, IsThatOfTheErrorsByHand) {
   EXPECT_EQ(summary.cells[0].readings, 77U);
 }
 
+// Where numbers are drawn: half the errors 1, half 3, so mean(e²) = 5 and mean(e⁴) = 41.
+TEST(Summary, IntervalOfDrawnNumbersIsThatOfTheDeltaMethodByHand) {
+  Example example;
+  example.sweep.drawn = {{"x0", "part.x0_mm", Drawn::Kind::uniform, 0.0, 1.0}};
+  BlockResult& block = example.results.front();
+  block.facts.front().bound_spread = {0.01, 0.01, none};
+  Summary few = summarise(example.sweep, example.results);
+  EXPECT_TRUE(std::isnan(few.rows[0].ratio_95.low)) << "10 estimates";
+  EXPECT_FALSE(few.rows[0].at_bound.has_value());
+
+  example.sweep.repeats = block.block.count = 100;
+  block.error.clear(), block.u.assign(300, 1.0);
+  block.outcome.assign(100, Outcome::converged);
+  for (int i = 0; i < 100; ++i) {
+    for (const double error : {i % 2 == 0 ? 1.0 : -3.0, i == 0 ? none : 1.0, 1.0})
+      block.error.push_back(error);
+  }
+  const Summary summary = summarise(example.sweep, example.results);
+  const Row& l = summary.rows[0];
+  EXPECT_DOUBLE_EQ(l.ratio, std::sqrt(5.0) / 5.0);
+  const double spread = (41.0 / 25.0 - 1.0) / 99.0 + 0.01;
+  EXPECT_NEAR(l.ratio_95.high, l.ratio * std::exp(0.5 * 1.959964 * std::sqrt(spread)), 1e-6);
+  EXPECT_NEAR(l.ratio_95.low, l.ratio * std::exp(-0.5 * 1.959964 * std::sqrt(spread)), 1e-6);
+  // One row is tested: 1 % two-sided is 2.5758 standard deviations, 1/0.447 is far beyond.
+  EXPECT_EQ(l.at_bound, false);
+  EXPECT_TRUE(std::isnan(summary.rows[1].ratio_95.low)) << "99 estimates and no bound";
+  EXPECT_TRUE(std::isnan(summary.rows[2].ratio_95.low)) << "a single draw";
+  // A ratio 2.3 standard deviations from 1 is, one 4.6 from it is not.
+  const double at = std::exp(0.5 * 2.3 * std::sqrt(spread));
+  block.facts.front().bound.sd[0] = std::sqrt(5.0) / at;
+  EXPECT_EQ(summarise(example.sweep, example.results).rows[0].at_bound, true);
+  block.facts.front().bound.sd[0] = std::sqrt(5.0) / (at * at);
+  EXPECT_EQ(summarise(example.sweep, example.results).rows[0].at_bound, false);
+}
+
 TEST(Summary, WantsEveryBlockOnce) {
   Example example;
   example.results.push_back(example.results.front());

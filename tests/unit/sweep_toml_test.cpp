@@ -132,6 +132,66 @@ TEST(SweepToml, RefusesWhatIsNoSweep) {
       "a [cut] is a study of its own");
 }
 
+std::string axis(const std::string& key, const std::string& values) {
+  return "[[axis]]\nkey = \"" + key + "\"\nvalues = [" + values + "]\n";
+}
+std::string drawn(const std::string& key) {
+  return "[[axis]]\nkey = \"" + key + "\"\ndistribution = \"uniform\"\nlow = 1\nhigh = 2\n";
+}
+std::string one_case(const std::string& set) {
+  return "[[axis]]\nname = \"n\"\n[[axis.case]]\nlabel = \"a\"\nset = { " + set + " }\n";
+}
+
+// Two names of one number are one number.
+TEST(SweepToml, ANumberIsWrittenOnce) {
+  const std::string once = "vary a number once";
+  for (const auto& [a, b] :
+       {std::pair("pass.feed_mm_per_rev", "pass.0.feed_mm_per_rev"),
+        std::pair("pass.length_mm", "pass.z_end_mm"),
+        std::pair("pass.length_mm", "pass.0.z_end_um"),
+        std::pair("pass.0.length_mm", "pass.length_um"), std::pair("part.x0_mm", "part.x0_um")}) {
+    expect_complaint(part + axis(a, "1, 2") + axis(b, "3"), once);
+    expect_complaint(part + axis(b, "1, 2") + axis(a, "3"), once);
+    expect_complaint(part + axis(a, "1") + drawn(b), once);
+    expect_complaint(part + drawn(b) + drawn(a), once);
+    expect_complaint(part + axis(a, "1") + one_case('"' + std::string(b) + "\" = 2"), once);
+    expect_complaint(part + one_case('"' + std::string(b) + "\" = 2") + axis(a, "1"), once);
+    expect_complaint(part + one_case('"' + std::string(a) + "\" = 2, \"" + b + "\" = 3"),
+                     "keep one of them");
+  }
+  const std::string second = "[[pass]]\nz_start_mm = 5\nz_end_mm = 9\n";
+  EXPECT_EQ(
+      complaints(part + second + axis("pass.0.length_mm", "1") + axis("pass.1.z_end_mm", "3")), "");
+}
+
+// The travel starts where the start was set, and keeps its way, whatever the order.
+TEST(SweepToml, AStartAndATravelGoTogether) {
+  const std::string start = axis("pass.z_start_mm", "-50, 20"),
+                    travel = axis("pass.length_mm", "10");
+  for (const std::string& text : {part + start + travel, part + travel + start}) {
+    const study::Sweep sweep = parse(text);
+    EXPECT_EQ(study::scenario_of(sweep, 0).plan.passes[0].end_mm, -60.0);
+    EXPECT_EQ(study::scenario_of(sweep, 1).plan.passes[0].end_mm, 10.0);
+  }
+  const study::Sweep sweep = parse(part + axis("pass.length_mm", "10") + drawn("pass.z_start_mm"));
+  EXPECT_EQ(study::scenario_of(sweep, 0).plan.passes[0].end_mm, 1.5 - 10.0);
+}
+
+// A reading of print comes before the axes: what they set again would be lost without a word.
+TEST(SweepToml, AReadingSetsWhatNoAxisSets) {
+  const auto reading = [](const std::string& set) {
+    return axis("pass.length_mm", "10, 20") + axis("noise.sigma_um", "5") +
+           "[paper]\nsource = \"s\"\nparameters = [\"x0\"]\n[[paper.row]]\nat = [\"10\", \"5\"]\n"
+           "values = [\"0.1\"]\n[[paper.reading]]\nname = \"r\"\nset = { " +
+           set + " }\n";
+  };
+  EXPECT_EQ(complaints(part + reading("\"pass.z_end_mm\" = 5")), "");  // the way of the travel
+  expect_complaint(part + reading("\"noise.sigma_um\" = 5"), "sets afterwards: take it out");
+  expect_complaint(part + reading("\"pass.0.length_mm\" = 5"), "sets afterwards: take it out");
+  expect_complaint(part + reading("\"pass.feed_mm_per_rev\" = 5, \"pass.0.feed_mm_per_rev\" = 1"),
+                   "keep one of them");
+}
+
 TEST(SweepToml, TheHashIsThatOfAllBytes) {
   EXPECT_EQ(parse(part).input_hash, parse(part).input_hash);
   EXPECT_NE(parse(part).input_hash, parse(part + "# a remark\n").input_hash);

@@ -10,14 +10,14 @@
 
 namespace trueaxis {
 
-/// What is finished of a sweep, on disk: a head with the hash of the sweep, then one record a block
-/// with a checksum of its own, only ever appended. A process that is killed at any instant leaves
-/// at most one torn record at the end, which the next one takes off.
+/// What is finished of a sweep, on disk: a head with the hash of the sweep and the build that began
+/// it, then one record a block with a checksum of its own, only ever appended. A process that is
+/// killed at any instant leaves at most one torn record at the end, which the next one takes off.
 class SweepJournal {
  public:
   /// Opens or begins `folder`/journal.bin and reads what is finished.
-  /// @throws InputError for a journal of another sweep, one that another process is writing, and a
-  ///         folder that cannot be written.
+  /// @throws InputError for a journal of another sweep or build, one that another process is
+  ///         writing, and a folder that cannot be written.
   SweepJournal(const std::string& folder, const study::Sweep& sweep);
   ~SweepJournal();
   SweepJournal(const SweepJournal&) = delete;

@@ -20,6 +20,8 @@ namespace trueaxis {
 ///                  distribution = "log-uniform" low high | "normal" mean sd
 ///     [[axis]]     name = "noise"
 ///     [[axis.case]]  label = "uniform"   set = { "noise.sigma_um" = 0, "noise.uniform_um" = 5 }
+///     [[axis.case.pass]], [[axis.case.setup]], [[axis.case.effect]]   as in a scenario: the whole
+///                  list; effect = [] for none; `set` may then be missing
 ///     [paper]      source = "…"   parameters = ["x0", "k"]
 ///     [[paper.row]]  at = ["10"]   values = ["0.0507", "402.036"]     ("?": a noise level lost)
 ///     [[paper.reading]]  name = "…"   set = { "pass.z_end_mm" = -10 }
@@ -28,7 +30,8 @@ namespace trueaxis {
 ///
 /// A key is a scenario's table, its place in the list where there are several ("pass.1.",
 /// "effect.0."; "pass." is every pass), and its key there in any unit; "pass.length_mm" moves the
-/// end.
+/// end. A number is written by one axis only, a list replaced by one only, and keys exist in every
+/// case of a list.
 ///
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 study::Sweep read_sweep_toml(const std::string& path);

@@ -30,6 +30,9 @@ struct CellFacts {
   std::size_t readings = 0;
   std::vector<double> truth;  ///< of quantities(); where numbers are drawn, at their middles
   Bound bound;                ///< where numbers are drawn, root mean square over the first repeats
+  /// Of every quantity's mean square bound: its variance over its square, as far as it comes from
+  /// the draws; NaN of a single draw, empty where nothing is drawn.
+  std::vector<double> bound_spread{};
 };
 
 struct BlockResult {

@@ -34,9 +34,11 @@ struct Row {
   double q05 = 0.0, q50 = 0.0, q95 = 0.0;
   double bound = 0.0;
   double ratio = 0.0;  ///< RMSE / bound
-  Ends ratio_95;  ///< of the ratio of infinitely many repeats (χ²); none where numbers are drawn
-  /// Whether a ratio of 1 is within what chance leaves, at 1 % over all rows (Bonferroni); as
-  /// above.
+  /// Of the ratio of infinitely many repeats: χ², where numbers are drawn by the delta method from
+  /// 100 estimates on.
+  Ends ratio_95;
+  /// Whether a ratio of 1 is within what chance leaves, at 1 % over all rows (Bonferroni); where
+  /// there is an interval.
   std::optional<bool> at_bound;
   Share coverage;  ///< of |error| ≤ U, k = 2
   double mean_u = 0.0;

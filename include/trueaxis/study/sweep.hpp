@@ -15,10 +15,21 @@
 /// what the fit or the diagnosis makes of it, beside the Cramér-Rao bound.
 namespace trueaxis::study {
 
-/// A point of an axis of the grid: one number or, for a case with a name, several.
+/// Lists that take the place of the scenario's, each as a whole.
+struct Lists {
+  std::optional<std::vector<virtual_lathe::PlannedPass>> passes;
+  std::optional<std::vector<virtual_lathe::Chucking>> setups;
+  std::optional<std::vector<virtual_lathe::Effect>> effects;
+
+  bool any() const { return passes || setups || effects; }
+  void put_into(virtual_lathe::Scenario& scenario) const;
+};
+
+/// A point of an axis of the grid: one number or, for a case with a name, several, and lists.
 struct AxisPoint {
   std::string label;  ///< as in the file: "5", "uniform"
   std::vector<Setting> settings;
+  Lists lists{};
 };
 
 struct GridAxis {
@@ -41,9 +52,10 @@ enum class Method { fit, huber, tukey, diagnosis };
 struct Sweep {
   std::string name;
   virtual_lathe::Scenario base;
-  std::string surface;         ///< fitted; empty: that of the part
-  std::vector<GridAxis> axes;  ///< a grid: every point of one with every point of the others
-  std::vector<Drawn> drawn;    ///< beside the grid
+  std::string surface;            ///< fitted; empty: that of the part
+  std::vector<Setting> settings;  ///< of all cells, before the numbers of the axes
+  std::vector<GridAxis> axes;     ///< a grid: every point of one with every point of the others
+  std::vector<Drawn> drawn;       ///< beside the grid
   std::vector<Method> methods{Method::fit};  ///< each on the same readings
   std::size_t repeats = 2000;
   std::uint64_t seed = 1;
@@ -63,8 +75,9 @@ struct Cell {
 std::size_t cell_count(const Sweep& sweep);
 Cell cell_at(const Sweep& sweep, std::size_t cell);
 
-/// The scenario of a cell, its noise seeded for repeat 0 and nothing drawn: a drawn number is at
-/// the middle of its distribution.
+/// The scenario of a cell: first the lists of its cases, then the sweep's settings, then the
+/// numbers of all axes together. Its noise is seeded for repeat 0 and nothing drawn: a drawn number
+/// is at the middle of its distribution.
 virtual_lathe::Scenario scenario_of(const Sweep& sweep, std::size_t cell);
 
 /// The scenario of a repeat: a function of (sweep, grid point, repeat) alone, whatever else is run,
