@@ -41,8 +41,8 @@ std::string head_of(const Sweep& sweep) {
 std::string refusal(std::string_view journal, const Sweep& sweep) {
   const std::string same_sweep = "trueaxis sweep journal 2 " + sweep.input_hash + ' ';
   if (!journal.starts_with(same_sweep))
-    return "is of another sweep: its file or scenario has changed since; choose another folder "
-           "with -o, or delete this one";
+    return "is of another sweep (its file or scenario has changed since) or of an older version: "
+           "choose another folder with -o, or delete this one";
   const std::string_view rest = journal.substr(same_sweep.size());
   return "was begun by another build of TrueAxis (" + std::string(rest.substr(0, rest.find('\n'))) +
          "; this is " + TRUEAXIS_VERSION + ' ' + build_id +
