@@ -178,7 +178,7 @@ function detectionChart(sweep, view, key, caption) {
   const name = (curve) => curves.length > 1 ? curve.name : key;
   const series = curves.flatMap((curve) => [
     {name: name(curve), type: 'line', symbol: 'circle', symbolSize: 6, z: 4, data: curve.cells.map((c) => [view.place(c.point), 100 * c[key][1]]),
-      itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, width: 1.6}},
+      itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, width: view.values.every(isNumber) ? 1.6 : 0}},
     {...spans(name(curve), curve.cells.map((c) => [view.place(c.point), ...c[key].map((share) => 100 * share)]), {colour: curve.colour, half: 4}), tooltip: {show: false}}]);
   const names = series.filter((s) => s.type === 'line');
   return figure({caption, description: caption, size: curves.length > 2 ? 'map' : 'normal',
