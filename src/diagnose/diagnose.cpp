@@ -9,6 +9,7 @@
 #include "diagnose/extended.hpp"
 #include "diagnose/gain.hpp"
 #include "diagnose/noise.hpp"
+#include "diagnose/refined.hpp"
 #include "diagnose/sought.hpp"
 #include "diagnose/sources.hpp"
 #include "diagnose/spectrum.hpp"
@@ -24,23 +25,6 @@ namespace {
 
 double ball_of(const ProbeStream& stream, const FitOptions& options) {
   return std::max(stream.ball_radius_mm.value_or(0.0), options.ball_radius_mm);
-}
-
-/// A fit that ended short of a minimum, or a face, has no scene to diagnose.
-bool usable(const FitResult& fit) {
-  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
-         (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
-         std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
-}
-
-/// Readings minus the scene's surface, of a gauge less its zero, which the base takes out anyway.
-std::vector<double> deviation_from(const ProbeStream& stream, const Scene& scene) {
-  std::vector<double> out(scene.size());
-  for (std::size_t i = 0; i < scene.size(); ++i) out[i] = stream.reading_mm[i] - scene.x[i];
-  if (!scene.base.offset) return out;
-  const double zero = median(out);
-  for (double& d : out) d -= zero;
-  return out;
 }
 
 Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
@@ -87,7 +71,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.false_alarm = options.false_alarm;
   out.baseline = fit(stream, options.fit);
   out.extended = out.baseline;
-  if (!usable(out.baseline)) {
+  if (!is_diagnosable(out.baseline)) {
     out.noise.note = out.baseline.surface == "plane"
                          ? "faces are not diagnosed: the catalogue's terms are those of X_M"
                          : "the surface was not found: nothing can be said beside it";
@@ -107,31 +91,19 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows, threads);
   const auto most = static_cast<std::size_t>(options.max_findings);
   const Problem whole{first, rows, resolution, deviation, options.false_alarm, threads, most};
-  const Sought sought(whole);
+  Sought sought(whole);
+  const Given given{stream, options.fit, ball_mm, masked};
+  std::optional<Timing> timing;
+  const std::unique_ptr<Refined> refined = refine_model(given, whole, sought.model, timing);
   const Model& model = sought.model;
-
-  // Once more about the extended model: its columns are then those of the part without the effects.
-  const Joint near(whole, model.phi, model.terms, model.terms.size());
-  const Eigen::VectorXd near_terms =
-      near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
-  std::vector<double> effect_mm = contribution(first, model.terms, near_terms);
-  out.extended = extended_fit(stream, options.fit, near, effect_mm, masked);
-  const bool again = usable(out.extended) && !model.terms.empty();
-  const Scene second =
-      again ? make_scene(stream, clampings_of(out.extended, ball_mm), base, options.fit.bore)
-            : first;
-  const std::vector<double> second_deviation = deviation_from(stream, second);
-  const Problem problem{second,  rows, resolution, second_deviation, options.false_alarm,
-                        threads, most};
-  const Joint joint(problem, model.phi, model.terms, model.terms.size());
-  const Eigen::VectorXd terms =
-      joint.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(model.terms)));
-  effect_mm = contribution(second, model.terms, terms);
-  out.extended = extended_fit(stream, options.fit, joint, effect_mm, masked);
-  out.effect_mm = effect_mm;
+  const Problem& problem = refined->problem;
+  const Scene& second = problem.scene;
+  const Joint& joint = refined->joint;
+  out.extended = refined->extended;
+  out.effect_mm = refined->effect_mm;
   out.residual_before_mm = out.baseline.residual_mm;
   out.residual_after_mm =
-      remainder(second, second_deviation, model.terms, joint.solution.coefficients);
+      remainder(second, problem.deviation_mm, joint.terms, joint.solution.coefficients);
   out.z_mid_mm = second.z_mid_mm, out.z_half_mm = second.z_half_mm;
 
   std::vector<Question> questions;
@@ -143,9 +115,10 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       continue;
     }
     questions.push_back({t, sought.distinguish(t)});
+    if (timing && timing->term == t) narrow(questions.back().found, timing->likelihood_ratio);
     Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
     add_harm(joint, t, finding.axis_shift, finding.cosmetic);
-    finding.rms_mm = rms_of(contribution(second, {model.terms[t]}, joint.of(t)));
+    finding.rms_mm = rms_of(contribution(second, {joint.terms[t]}, joint.of(t)));
     out.findings.push_back(std::move(finding));
   }
   const std::vector<Hidden> hidden = hidden_effects(problem, model, joint.sigma_mm);

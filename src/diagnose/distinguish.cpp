@@ -111,4 +111,24 @@ Class distinguish(const Problem& problem, const Model& model, std::size_t term) 
   return sorted;
 }
 
+void narrow(Class& found, double likelihood_ratio) {
+  const auto at = std::ranges::find_if(found.rivals, [](const Rival& r) {
+    return r.effect == "probe.lag" || r.effect == "probe.latency";
+  });
+  if (at == found.rivals.end()) return;
+  const double both = found.probability + at->probability;
+  const double other = both / (1.0 + std::exp(0.5 * likelihood_ratio));
+  at->likelihood_ratio = likelihood_ratio;
+  if (likelihood_ratio < likelihood_tells) {
+    found.probability = both - other;
+    at->probability = other;
+    return;
+  }
+  found.members.erase(found.members.begin() + 1 + (at - found.rivals.begin()));
+  const double rest = 1.0 - at->probability;
+  found.probability /= rest;
+  found.rivals.erase(at);
+  for (Rival& rival : found.rivals) rival.probability /= rest;
+}
+
 }  // namespace trueaxis::diagnose_detail

@@ -19,4 +19,8 @@ struct Class {
 /// prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood ratio does not tell.
 Class distinguish(const Problem& problem, const Model& model, std::size_t term);
 
+/// The class of a lag or a delay with what the second order says: −2 ln of the likelihood of the
+/// other over that of the named one.
+void narrow(Class& found, double likelihood_ratio);
+
 }  // namespace trueaxis::diagnose_detail

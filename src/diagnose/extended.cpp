@@ -54,6 +54,12 @@ Eigen::RowVectorXd reported_slope(const std::string& name, const Revolved& shape
 
 }  // namespace
 
+bool is_diagnosable(const FitResult& fit) {
+  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+         (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
+         std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
+}
+
 std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
   std::vector<Clamping> out;
   const SetUp* before = nullptr;

@@ -8,6 +8,9 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// A fit that ended short of a minimum, or a face, has no scene to diagnose.
+bool is_diagnosable(const FitResult& fit);
+
 /// How the part stands in every set-up of a fit, the ball's centre on its surface.
 std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm);
 
