@@ -10,8 +10,9 @@ Resimulation resimulated(DiagnosedScenarios& scenarios, const ProbeStream& measu
   Resimulation out;
   out.readings.before_mm = virtual_lathe::resimulate(scenarios.before, measured, scenarios.masked);
   out.readings.after_mm = virtual_lathe::resimulate(scenarios.after, measured, scenarios.masked);
+  const virtual_lathe::Noise& noise = scenarios.after.noise;
   out.comparison =
-      compare(measured, out.readings, scenarios.masked, scenarios.after.noise.sigma_mm);
+      compare(measured, out.readings, scenarios.masked, noise.sigma_mm, noise.autoregression);
   return out;
 }
 

@@ -51,6 +51,7 @@ std::vector<std::string> reference_files(JobResult& result) {
   for (const auto& diagnosis : result.diagnoses)
     diagnoses.push_back(diagnosis ? diagnosis_json(*diagnosis) : "");
   result.resimulations = resimulate_job(result, diagnoses);
+  judge_resimulations(result);
   for (std::size_t i = 0; i < diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
     texts.push_back(std::move(diagnoses[i]));

@@ -19,9 +19,13 @@ Json comparison_object(const Comparison& comparison) {
                      {"before", with_unit(line.before_mm, "mm")},
                      {"after", with_unit(line.after_mm, "mm")}});
   }
-  return {{"readings", comparison.readings},          {"masked", comparison.masked},
-          {"before", discrepancy(comparison.before)}, {"after", discrepancy(comparison.after)},
-          {"noise", discrepancy(comparison.noise)},   {"lines", lines}};
+  return {{"readings", comparison.readings},
+          {"masked", comparison.masked},
+          {"before", discrepancy(comparison.before)},
+          {"after", discrepancy(comparison.after)},
+          {"noise", discrepancy(comparison.noise)},
+          {"way_back", to_json(comparison.way_back)},
+          {"lines", lines}};
 }
 
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,

@@ -42,12 +42,20 @@ std::string origin(const Diagnosis& d) {
   return wrapped("", text);
 }
 
+/// What a slip does to the meaning of the axis; empty for any other finding.
+std::string axis_note(const Finding& finding) {
+  return finding.effect == "part.slip" ? "that of before the slip; the part stands there no longer"
+                                       : "";
+}
+
 std::string finding_block(const Finding& finding, std::size_t number, double k) {
   std::string text = "\n";
   text += wrapped(format("%2zu  ", number), finding.effect + "  " + finding_parameters(finding, k));
   if (finding.members.size() > 1) text += wrapped("    cause    ", finding_class(finding));
   text += wrapped("    harm     ", finding_harm(finding, k) + "; RMS of its part of the readings " +
                                        um(finding.rms_mm));
+  const std::string axis = axis_note(finding);
+  if (!axis.empty()) text += wrapped("    axis     ", axis);
   text += wrapped("    sure     ", "family-wise p " + probability(finding.p_value));
   if (finding.separate_with)
     text += wrapped("    to tell  ", separating_text(*finding.separate_with));
@@ -106,6 +114,8 @@ std::string findings_text(const Diagnosis& d) {
   for (const Finding& f : d.findings) {
     text += wrapped("  ", f.effect + "  " + finding_parameters(f, k) + "; " + finding_harm(f, k));
     if (f.members.size() > 1) text += wrapped("    ", finding_class(f));
+    const std::string axis = axis_note(f);
+    if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
   }
   for (const Unexplained& u : d.unexplained) {
     text += wrapped("  ", "unexplained: " + u.harmonic + ", " + u.dependence + ", amplitude " +

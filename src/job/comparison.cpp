@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <utility>
 
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
@@ -14,6 +15,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t most_lines = 6;
+constexpr double one_sided_1_percent = 2.326;  // Φ⁻¹(0.99)
 
 /// Measured − simulated of the readings that count.
 std::vector<double> difference(const ProbeStream& measured, const std::vector<double>& simulated_mm,
@@ -39,6 +41,61 @@ double variance(const std::vector<double>& values) {
   for (const double v : values) sum += v;
   for (const double v : values) squares += (v - sum / count) * (v - sum / count);
   return squares / count;
+}
+
+/// The recursion ε_i = e_i + Σ φ_j ε_{i−j} on values and, until it dies out, on zeros after them.
+std::vector<double> responded(std::vector<double> values, const std::vector<double>& phi) {
+  constexpr std::size_t longest = 4096;
+  if (!phi.empty()) values.resize(values.size() + longest, 0.0);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    for (std::size_t j = 1; j <= std::min(phi.size(), i); ++j)
+      values[i] += phi[j - 1] * values[i - j];
+  }
+  return values;
+}
+
+double sum_of_squares(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return sum;
+}
+
+/// Σ d_i d_j ρ(i − j) with ρ the autocorrelation of the noise: Σ d_i ε_i in terms of the
+/// innovations, which the recursion gives when it runs from the last reading to the first.
+double correlated_squares(std::vector<double> d, const std::vector<double>& phi) {
+  std::ranges::reverse(d);
+  return sum_of_squares(responded(std::move(d), phi)) / sum_of_squares(responded({1.0}, phi));
+}
+
+/// Takes the mean of the readings that count off; the masked ones get 0.
+void centre(std::vector<double>& values, const std::vector<bool>& masked) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (masked[i]) continue;
+    sum += values[i];
+    count += 1.0;
+  }
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = masked[i] ? 0.0 : values[i] - sum / count;
+}
+
+Estimate way_back(const ProbeStream& measured, const SimulatedReadings& simulated,
+                  const std::vector<bool>& masked, double sigma_mm,
+                  const std::vector<double>& autoregression) {
+  std::vector<double> way, left;
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    way.push_back(simulated.before_mm[i] - simulated.after_mm[i]);
+    left.push_back(measured.reading_mm[i] - simulated.after_mm[i]);
+  }
+  centre(way, masked);
+  centre(left, masked);
+  const double squares = sum_of_squares(way);
+  if (!(squares > 0.0))
+    return {std::nan(""), std::nan(""), "1", "the two simulations are the same"};
+  double product = 0.0;
+  for (std::size_t i = 0; i < way.size(); ++i) product += way[i] * left[i];
+  const double u = sigma_mm * std::sqrt(correlated_squares(way, autoregression)) / squares;
+  return {product / squares, u, "1", ""};
 }
 
 std::vector<SpectrumBin> spectrum_of(const std::vector<double>& c_rad,
@@ -83,7 +140,8 @@ std::vector<SpectrumBin> largest_lines(const std::vector<SpectrumBin>& spectrum)
 }  // namespace
 
 Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulated,
-                   const std::vector<bool>& masked, double sigma_mm) {
+                   const std::vector<bool>& masked, double sigma_mm,
+                   const std::vector<double>& autoregression) {
   expects(masked.size() == measured.size(), "a mark for every reading");
   const std::vector<double> before = difference(measured, simulated.before_mm, masked);
   const std::vector<double> after = difference(measured, simulated.after_mm, masked);
@@ -95,6 +153,7 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
   out.before = {rms(before), share(whole)};
   out.after = {rms(after), share(variance(after))};
   out.noise = {sigma_mm, share(sigma_mm * sigma_mm)};
+  out.way_back = way_back(measured, simulated, masked, sigma_mm, autoregression);
   std::vector<double> c_rad;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     if (!masked[i]) c_rad.push_back(measured.c_rad[i]);
@@ -102,6 +161,11 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
   out.spectrum = spectrum_of(c_rad, before, after);
   out.lines = largest_lines(out.spectrum);
   return out;
+}
+
+bool refuted(const Comparison& comparison) {
+  const Estimate& back = comparison.way_back;
+  return back.value > std::max(0.5, one_sided_1_percent * back.u);
 }
 
 }  // namespace trueaxis

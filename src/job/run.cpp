@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "job/inclusion.hpp"
+#include "job/slip.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/job/job.hpp"
@@ -95,6 +96,10 @@ void decide(JobResult& result, const std::vector<Reference>& references) {
       std::string(target.kind == TargetKind::face ? "axial run-out " : "coaxiality ") +
       in_um(verdict.coaxiality_after_mm, U) + " with the table (U = " + in_um(U, U) + "), " +
       in_um(verdict.coaxiality_before_mm, U) + " without it";
+  if (const std::string slip = slip_objection(result); !slip.empty()) {
+    verdict.line = "NO-GO: " + slip;
+    return;
+  }
   if (!correction.margin.follows) {
     verdict.line = "NO-GO: the actuator cannot follow: " + correction.margin.breaks + "; " +
                    runs_at(correction.margin) + "; " + numbers;
@@ -163,8 +168,10 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
     }
   }
   if (!result.job.target) {
-    result.verdict.go = true;
-    result.verdict.line = "DONE: identified, no target to correct";
+    const std::string slip = slip_objection(result);
+    result.verdict.go = slip.empty();
+    result.verdict.line =
+        slip.empty() ? "DONE: identified, no target to correct" : "NO-GO: " + slip;
     return result;
   }
   const TargetSurface& target = *result.job.target;

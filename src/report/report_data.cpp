@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_data.hpp"
 
-#include <algorithm>
 #include <limits>
 
 namespace trueaxis {
@@ -10,12 +9,8 @@ namespace {
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
-  if (result.verdict.go) return judged ? "go" : "done";
-  const bool unsolved =
-      std::any_of(result.fits.begin(), result.fits.end(),
-                  [](const FitResult& fit) { return fit.status != FitStatus::converged; });
-  const bool cannot_follow = result.correction && !result.correction->margin.follows;
-  return judged || unsolved || cannot_follow ? "no-go" : "done";
+  if (!result.verdict.go) return "no-go";
+  return judged ? "go" : "done";
 }
 
 nlohmann::json verdict_data(const JobResult& result) {

@@ -36,7 +36,7 @@ Resimulation by_model(const ProbeStream& stream, const Diagnosis& d,
     out.readings.before_mm.push_back(stream.reading_mm[i] - d.residual_before_mm[i]);
     out.readings.after_mm.push_back(stream.reading_mm[i] - d.residual_after_mm[i]);
   }
-  out.comparison = compare(stream, out.readings, masked, d.noise.sigma_mm);
+  out.comparison = compare(stream, out.readings, masked, d.noise.sigma_mm, d.noise.autoregression);
   return out;
 }
 

@@ -97,6 +97,58 @@ TEST(Comparison, NothingMissedHasNoShare) {
   EXPECT_TRUE(std::isnan(c.after.share));
 }
 
+/// λ = 0.3 of the way back from lobes, and a harmonic that they do not hold.
+TEST(Comparison, WayBackIsWhereTheReadingsLie) {
+  for (const double share : {0.0, 0.3, 0.49, 0.51, 1.2}) {
+    Example e = example();
+    for (std::size_t i = 0; i < e.measured.size(); ++i) {
+      const double c = e.measured.c_rad[i], after = e.simulated.after_mm[i];
+      e.simulated.before_mm[i] = after - lobes_mm * std::cos(3.0 * c - 0.4);
+      e.measured.reading_mm[i] = after + share * (e.simulated.before_mm[i] - after) + offset_mm +
+                                 left_mm * std::sin(11.0 * c);
+    }
+    const Comparison c = compare(e.measured, e.simulated, e.masked, sigma_mm);
+    EXPECT_NEAR(c.way_back.value, share, 1e-9);
+    EXPECT_EQ(c.after.share > 1.0, share > 0.5);
+    // Least squares of one factor of a harmonic: σ/√(n A²/2).
+    EXPECT_NEAR(c.way_back.u, sigma_mm / (lobes_mm * std::sqrt(turns * per_turn / 2.0)), 1e-9);
+  }
+}
+
+/// AR(1) correlates readings i and j by φ^|i − j|: the sum over all pairs that count.
+TEST(Comparison, WayBackKnowsCorrelatedNoise) {
+  Example e = example();
+  for (const std::size_t i : {0, 5, 6, 7, 333, 799}) e.masked[i] = true;
+  std::vector<double> way;
+  double mean = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < e.masked.size(); ++i) {
+    way.push_back(e.simulated.before_mm[i] - e.simulated.after_mm[i]);
+    if (!e.masked[i]) mean += way[i] / (turns * per_turn - 6.0);
+  }
+  for (std::size_t i = 0; i < way.size(); ++i) {
+    way[i] = e.masked[i] ? 0.0 : way[i] - mean;
+    squares += way[i] * way[i];
+  }
+  for (const double phi : {-0.5, 0.9}) {
+    double pairs = 0.0;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      for (std::size_t j = 0; j < way.size(); ++j)
+        pairs += way[i] * way[j] * std::pow(phi, i > j ? i - j : j - i);
+    }
+    const double u = sigma_mm * std::sqrt(pairs) / squares;
+    EXPECT_NEAR(compare(e.measured, e.simulated, e.masked, sigma_mm, {phi}).way_back.u, u, 1e-9 * u)
+        << phi;
+  }
+}
+
+TEST(Comparison, TwoSimulationsAlikeHaveNoWayBack) {
+  Example e = example();
+  e.simulated.before_mm = e.simulated.after_mm;
+  const Comparison c = compare(e.measured, e.simulated, e.masked, sigma_mm);
+  EXPECT_FALSE(c.way_back.determined());
+  EXPECT_FALSE(c.way_back.why_not.empty());
+}
+
 TEST(Comparison, LessThanHalfATurnHasNoSpectrum) {
   Example e = example();
   for (std::size_t i = per_turn / 3; i < e.masked.size(); ++i) e.masked[i] = true;

@@ -228,6 +228,15 @@ TEST(ReportData, WithoutToleranceThereIsNoGo) {
   EXPECT_EQ(report_data(result)["verdict"]["outcome"], "done");
 }
 
+TEST(ReportData, ARefusalIsNoGoWithoutToleranceToo) {
+  JobResult result = example::cone_job(100);
+  result.job.coaxiality_tolerance_mm.reset();
+  result.verdict.go = false;
+  EXPECT_EQ(report_data(result)["verdict"]["outcome"], "no-go");
+  result.target_axis.reset();
+  EXPECT_EQ(report_data(result)["verdict"]["outcome"], "no-go");
+}
+
 TEST(ReportData, FaceAndGaugeShowTheirTilt) {
   const JobResult result = example::shaft_and_face_job();
   const json data = report_data(result);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "trueaxis/base/estimate.hpp"
 #include "trueaxis/diagnose/diagnosis.hpp"
 #include "trueaxis/measure/probe_stream.hpp"
 
@@ -26,6 +27,10 @@ struct Comparison {
   std::size_t readings = 0, masked = 0;
   Discrepancy before, after;
   Discrepancy noise;  ///< what noise alone would leave
+  /// λ of measured = after + λ (before − after) + noise, by least squares about the mean: 0 where
+  /// what was found is right; above ½ exactly where more of the variance is left than before. u is
+  /// that of the diagnosis' noise. Not determined where the two simulations are the same.
+  Estimate way_back;
   /// Amplitudes of measured − simulated over the order, in half resolution cells up to order 15 or
   /// half the sampling; none for less than half a turn.
   std::vector<SpectrumBin> spectrum;
@@ -40,7 +45,15 @@ struct Resimulation {
 };
 
 /// @param sigma_mm standard deviation of a reading
+/// @param autoregression φ of its noise ε_i = Σ φ_j ε_{i−j} + e_i; empty: white
 Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulated,
-                   const std::vector<bool>& masked, double sigma_mm);
+                   const std::vector<bool>& masked, double sigma_mm,
+                   const std::vector<double>& autoregression = {});
+
+/// Whether the findings are refuted: more is left with them than without (λ > ½), and by more than
+/// chance. Both differences hold the same noise; were the findings right, λ would be 0 with the
+/// standard uncertainty u. Beyond chance is λ > 2.33 u, 1 % on one side: the C test of Davidson &
+/// MacKinnon, Econometrica 49 (1981) 781, of two models that do not contain each other.
+bool refuted(const Comparison& comparison);
 
 }  // namespace trueaxis

@@ -94,4 +94,9 @@ const FitResult& fit_used(const JobResult& result, std::size_t reference);
 /// Fit, diagnosis, target axis, correction, verdict. Streams come read, one per reference.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 
+/// Takes a go back where the virtual lathe refutes what the diagnosis of a reference found
+/// (refuted()): the axis that the correction takes is then that of a wrong model. A resimulation
+/// that there is none of refutes nothing.
+void judge_resimulations(JobResult& result);
+
 }  // namespace trueaxis

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/slip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "trueaxis/base/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::string_view slip = "part.slip";
+constexpr const char* remedy = ": clamp it again and probe again";
+
+Estimate parameter_of(const Finding& finding, std::string_view name) {
+  for (const FitParameter& p : finding.parameters) {
+    if (p.name == name) return p.estimate;
+  }
+  return {};
+}
+
+/// "19.7 ± 0.9 µm"
+std::string plus_minus(double value, double U, const char* unit) {
+  const int decimals = decimals_of(U, 1);
+  char text[80];
+  std::snprintf(text, sizeof text, "%.*f ± %.*f%s", decimals, value, decimals, U, unit);
+  return text;
+}
+
+/// Length of the step with the U of its direction, the turn, or both.
+std::string how_far(const Finding& finding, double k) {
+  const Estimate dx = parameter_of(finding, "dx"), dy = parameter_of(finding, "dy"),
+                 turn = parameter_of(finding, "turn");
+  std::string text;
+  if (dx.determined() && dy.determined()) {
+    const double step_mm = std::hypot(dx.value, dy.value);
+    const double u_mm =
+        step_mm > 0.0 ? std::hypot(dx.value * dx.u, dy.value * dy.u) / step_mm : dx.u;
+    text = plus_minus(step_mm / mm_per_um, k * u_mm / mm_per_um, " µm");
+  }
+  if (turn.determined())
+    text += (text.empty() ? "" : " and ") + plus_minus(turn.value, k * turn.u, "°");
+  return text;
+}
+
+std::string named(const Finding& finding, double k) {
+  std::string text = "the part slipped in the chuck";
+  const Estimate onset = parameter_of(finding, "onset");
+  if (onset.determined()) {
+    char at[40];
+    std::snprintf(at, sizeof at, " at %.1f s", onset.value);
+    text += at;
+  }
+  const std::string by = how_far(finding, k);
+  return text + (by.empty() ? "" : " by " + by);
+}
+
+/// As a member of the class of another name.
+std::string possible(const Finding& finding) {
+  std::string text =
+      "the part may have slipped in the chuck, which the data cannot tell from " + finding.effect;
+  for (const Rival& rival : finding.rivals) {
+    if (rival.effect != slip) continue;
+    char chance[48];
+    std::snprintf(chance, sizeof chance, " (probability of the slip %.2g)", rival.probability);
+    text += chance;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string slip_objection(const JobResult& result) {
+  std::string perhaps;
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    const Diagnosis& diagnosis = *result.diagnoses[i];
+    const std::string reference = result.job.references[i].name;
+    const std::string where = reference.empty() ? "" : reference + ": ";
+    for (const Finding& finding : diagnosis.findings) {
+      if (finding.effect == slip)
+        return where + named(finding, diagnosis.baseline.coverage_factor) + remedy;
+      if (perhaps.empty() && std::ranges::find(finding.members, slip) != finding.members.end())
+        perhaps = where + possible(finding) + remedy;
+    }
+  }
+  return perhaps;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A slip that a diagnosis names, or cannot exclude, forbids the table and says so plainly.
+#include "job/slip.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/diagnosis_example.hpp"
+#include "trueaxis/io/diagnosis_text.hpp"
+
+namespace trueaxis {
+namespace {
+
+Finding slipped(std::vector<FitParameter> parameters) {
+  Finding finding;
+  finding.effect = "part.slip";
+  finding.members = {finding.effect};
+  finding.parameters = std::move(parameters);
+  finding.parameters.push_back(example::parameter("onset", 11.982, 0.012, "s"));
+  finding.probability = 1.0;
+  finding.axis_shift = {0.022, 5e-4, "mm", ""};
+  return finding;
+}
+
+JobResult found(const std::vector<Finding>& findings) {
+  JobResult result = example::diagnosed_job(100);
+  result.job.references.front().name = "seat";
+  result.diagnoses.front()->findings = findings;
+  result.diagnoses.front()->baseline.coverage_factor = 2.0;
+  return result;
+}
+
+TEST(Slip, AStepIsGivenAsItsLength) {
+  // 3-4-5: u of the length is that along its direction, √(0.6² 3² + 0.8² 1²) = 1.97 µm.
+  const Finding step = slipped(
+      {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
+  EXPECT_EQ(slip_objection(found({step})),
+            "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: clamp it again and "
+            "probe again");
+}
+
+TEST(Slip, ATurnIsGivenInDegrees) {
+  const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
+  EXPECT_EQ(slip_objection(found({turn})),
+            "seat: the part slipped in the chuck at 12.0 s by 9.5 ± 1.0°: clamp it again and probe "
+            "again");
+}
+
+TEST(Slip, AMemberOfTheClassMayHaveBeenOne) {
+  Finding bow = example::tilt_motion();
+  bow.effect = "part.bow";
+  bow.members = {"part.bow", "part.slip"};
+  bow.rivals = {{"part.slip", 0.4, 1.1, 0.37, false}};
+  EXPECT_EQ(
+      slip_objection(found({bow})),
+      "seat: the part may have slipped in the chuck, which the data cannot tell from part.bow "
+      "(probability of the slip 0.37): clamp it again and probe again");
+}
+
+TEST(Slip, TheNamedOneGoesBeforeThePossibleOne) {
+  Finding bow = example::tilt_motion();
+  bow.members = {"spindle.tilt_synchronous", "part.slip"};
+  const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
+  EXPECT_NE(slip_objection(found({bow, turn})).find("the part slipped"), std::string::npos);
+}
+
+TEST(Slip, NoSlipNoObjection) {
+  EXPECT_EQ(slip_objection(found({example::lobes(), example::tilt_motion()})), "");
+  JobResult face = example::diagnosed_job(100);
+  face.diagnoses = {std::nullopt};
+  EXPECT_EQ(slip_objection(face), "");
+}
+
+TEST(Slip, TheTextSaysWhoseAxisItIs) {
+  const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
+  for (const bool slip : {true, false}) {
+    const JobResult result = found({slip ? turn : example::lobes()});
+    for (const std::string& text :
+         {diagnosis_text(*result.diagnoses.front()), findings_text(*result.diagnoses.front())})
+      EXPECT_EQ(text.find("that of before the slip") != std::string::npos, slip) << text;
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis
