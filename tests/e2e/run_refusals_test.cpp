@@ -58,10 +58,11 @@ TEST_F(RunRefusals, ARadialSlip) {
   expect_refusal(done, "the part slipped in the chuck at 12.0 s by ");
   const std::string line = first_line(done.out);
   EXPECT_TRUE(contains(line, ": clamp it again and probe again")) << line;
-  // 20 µm between the vectors of 290 and 190 readings that fitted axes share: five standard errors
-  // of σ √(2/n) each and of the slopes, six times that of a mean at the ends.
+  // A step at 0.6 of the length leaves 0.24 − 0.12² · 12 = 0.0672 of its square beside an axis with
+  // a slope; each component is seen through a cosine, mean square ½.
+  const double u_um = 2.0 / std::sqrt(487.0 * 0.5 * 0.0672);
   const double step_um = std::stod(line.substr(line.find(" by ") + 4));
-  EXPECT_NEAR(step_um, 20.0, 5.0 * 2.0 * std::sqrt(6.0 * (2.0 / 290.0 + 2.0 / 190.0)));
+  EXPECT_NEAR(step_um, 20.0, 5.0 * u_um) << line;
   EXPECT_TRUE(contains(done.out, "the axis is that of before the slip")) << done.out;
 }
 
