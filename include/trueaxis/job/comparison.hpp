@@ -53,8 +53,9 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
 /// Whether the findings are refuted: more is left with them than without (λ > ½), and by more than
 /// chance. Both differences hold the same noise; were the findings right, λ would be 0 with the
 /// standard uncertainty u. Beyond chance is λ > 2.33 u, 1 % on one side: the C test of Davidson &
-/// MacKinnon, Econometrica 49 (1981) 781, of two models that do not contain each other. Chance alone
-/// does not do, as linearised terms move λ of a right finding too (a nonlinearity of 20 µm: to 0.2).
+/// MacKinnon, Econometrica 49 (1981) 781, of two models that do not contain each other. That alone
+/// would refute too much: linearised terms move λ of a right finding (a nonlinearity of 20 µm:
+/// 0.2).
 bool refuted(const Comparison& comparison);
 
 }  // namespace trueaxis
