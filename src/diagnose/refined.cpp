@@ -129,11 +129,16 @@ Refined::Refined(const Given& given, const Problem& whole, const Model& model)
               whole.false_alarm, whole.threads, whole.most_terms},
       joint(problem, model.phi, about_.terms, about_.terms.size()) {
   const auto count = static_cast<Eigen::Index>(columns_of(about_.terms));
-  effect_mm = contribution(about_.scene, about_.terms, joint.solution.coefficients.tail(count));
-  add(effect_mm, about_.known_mm, -1.0);
-  extended = extended_fit(about_.moved ? *about_.moved : given.stream, given.options, joint,
-                          effect_mm, given.masked);
+  taken_off_mm_ = contribution(about_.scene, about_.terms, joint.solution.coefficients.tail(count));
+  add(taken_off_mm_, about_.known_mm, -1.0);
+  effect_mm = taken_off_mm_;
   if (about_.moved) add(effect_mm, about_.turned_mm);
+  widen(given, {});
+}
+
+void Refined::widen(const Given& given, const Eigen::MatrixXd& between) {
+  extended = extended_fit(about_.moved ? *about_.moved : given.stream, given.options, joint,
+                          taken_off_mm_, given.masked, between);
 }
 
 std::unique_ptr<Refined> refine_model(const Given& given, const Problem& whole, Model& model,
