@@ -24,11 +24,10 @@ Scenario one_pass_over_a_cone(bool barrel) {
   scenario.part.x0_mm = 0.2, scenario.part.y0_mm = 0.1;
   scenario.noise.sigma_mm = 0.002;
   scenario.plan.passes[0].readings_per_revolution = 24.3;
-  scenario.effects = {barrel ? Effect{"part.barrel", {{"amplitude_mm", 0.004}}}
-                             : Effect{"probe.nonlinearity",
-                                      {{"quadratic_mm", 0.005},
-                                       {"range_mm", 3.0},
-                                       {"reference_mm", 35.5}}}};
+  scenario.effects = {
+      barrel ? Effect{"part.barrel", {{"amplitude_mm", 0.004}}}
+             : Effect{"probe.nonlinearity",
+                      {{"quadratic_mm", 0.005}, {"range_mm", 3.0}, {"reference_mm", 35.5}}}};
   return scenario;
 }
 
