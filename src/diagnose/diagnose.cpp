@@ -10,6 +10,7 @@
 #include "diagnose/gain.hpp"
 #include "diagnose/noise.hpp"
 #include "diagnose/refined.hpp"
+#include "diagnose/rival_axes.hpp"
 #include "diagnose/sought.hpp"
 #include "diagnose/sources.hpp"
 #include "diagnose/spectrum.hpp"
@@ -99,7 +100,6 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const Problem& problem = refined->problem;
   const Scene& second = problem.scene;
   const Joint& joint = refined->joint;
-  out.extended = refined->extended;
   out.effect_mm = refined->effect_mm;
   out.residual_before_mm = out.baseline.residual_mm;
   out.residual_after_mm =
@@ -121,6 +121,9 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     finding.rms_mm = rms_of(contribution(second, {joint.terms[t]}, joint.of(t)));
     out.findings.push_back(std::move(finding));
   }
+  const Eigen::MatrixXd between = between_causes(problem, joint, questions);
+  if (!between.isZero(0.0)) refined->widen(given, between);
+  out.extended = refined->extended;
   const std::vector<Hidden> hidden = hidden_effects(problem, model, joint.sigma_mm);
   Advice advice = advise(problem, model, stream, clampings_of(out.extended, ball_mm), questions,
                          hidden, joint.sigma_mm);
@@ -142,7 +145,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       report_noise(stream, joint, out.residual_after_mm, std::move(masked), options.fit.noise_mm);
   out.checks = check_quality(stream, joint, out.residual_after_mm, out.noise);
   out.remarks = off_centre_remark(problem, model);
-  out.gain = measure_gain(problem, joint, out.noise.sigma_mm);
+  out.gain = measure_gain(problem, joint, between, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
   out.threshold = model.family.threshold(options.false_alarm);
   out.effective_hypotheses = options.false_alarm / std::exp(-0.5 * out.threshold);

@@ -118,7 +118,8 @@ std::vector<double> contribution(const Scene& scene, const std::vector<Hypothesi
 }
 
 FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
-                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked) {
+                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked,
+                       const Eigen::MatrixXd& between) {
   const Scene& scene = joint.evidence.scene();
   const ProbeStream clean = cleaned(stream, joint.evidence.rows(), effect_mm);
   FitResult result = fit(clean, options);
@@ -137,15 +138,19 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
   for (Eigen::Index j = 0; j < per; ++j) place[static_cast<std::size_t>(j)] = from + j;
   place[4] = shared;
   if (scene.base.tapers) place[5] = shared + 1;
-  const Eigen::MatrixXd base = joint.base_covariance();
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(6, 6);
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    for (Eigen::Index j = 0; j < 6; ++j) {
-      const Eigen::Index a = place[static_cast<std::size_t>(i)],
-                         b = place[static_cast<std::size_t>(j)];
-      if (a >= 0 && b >= 0) covariance(i, j) = base(a, b);
+  const auto of_last = [&](const Eigen::MatrixXd& base) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6, 6);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        const Eigen::Index a = place[static_cast<std::size_t>(i)],
+                           b = place[static_cast<std::size_t>(j)];
+        if (a >= 0 && b >= 0 && base.size() > 0) out(i, j) = base(a, b);
+      }
     }
-  }
+    return out;
+  };
+  const Eigen::MatrixXd of_noise = of_last(joint.base_covariance()), of_causes = of_last(between);
+  const Eigen::MatrixXd covariance = of_noise + of_causes;
   const double z_mid = scene.z_mid_mm;
   const std::size_t n = result.parameters.size();
   Eigen::MatrixXd slope(static_cast<Eigen::Index>(n), 6);
@@ -153,6 +158,11 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
     slope.row(static_cast<Eigen::Index>(p)) =
         reported_slope(result.parameters[p].name, result.shape, z_mid);
   const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
+  const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal(),
+                        from_causes = (slope * of_causes * slope.transpose()).diagonal();
+  const auto root = [](const Eigen::VectorXd& variance, std::size_t i) {
+    return std::sqrt(std::max(0.0, variance(static_cast<Eigen::Index>(i))));
+  };
   for (std::size_t p = 0; p < n; ++p) {
     for (std::size_t q = 0; q < n; ++q) {
       double& c = result.covariance[p * n + q];
@@ -160,9 +170,12 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
            noise_only.covariance[p * n + q];
     }
     result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance[p * n + p]));
-    if (!result.budget.empty())
-      result.budget[0].u[p] = std::sqrt(std::max(
-          0.0, joint_covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(p))));
+    if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
+  }
+  if (from_causes.maxCoeff() > 0.0) {
+    BudgetLine line{"causes that the readings cannot tell", 'B', {}};
+    for (std::size_t p = 0; p < n; ++p) line.u.push_back(root(from_causes, p));
+    result.budget.push_back(std::move(line));
   }
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);
   at.leftCols(4).setIdentity();

@@ -25,7 +25,9 @@ std::vector<double> contribution(const Scene& scene, const std::vector<Hypothesi
 /// The surface fitted to the readings less what the terms contribute, masked readings left out; u
 /// of axis and parameters from the joint covariance, so that what a term takes from the axis widens
 /// it.
+/// @param between covariance of the base that other causes add, or nothing
 FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
-                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked);
+                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked,
+                       const Eigen::MatrixXd& between = {});
 
 }  // namespace trueaxis::diagnose_detail

@@ -55,7 +55,8 @@ double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const
   return fold(0, 0) - 2.0 * s.coefficients.dot(right) + s.coefficients.dot(left * s.coefficients);
 }
 
-Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor_mm) {
+Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
+                  double noise_floor_mm) {
   Gain out;
   out.noise_floor_mm = noise_floor_mm;
   // In the readings' own units: not whitened.
@@ -92,7 +93,7 @@ Gain measure_gain(const Problem& problem, const Joint& joint, double noise_floor
   const Eigen::MatrixXd difference = extended - joint.sigma_mm * joint.sigma_mm * bare.inverse;
   const AxisShift shift = axis_shift(problem.scene, joint.base() - bare.coefficients, difference);
   out.axis_shift = {shift.value_mm, shift.u_mm, "mm", ""};
-  const AxisUncertainty u = axis_uncertainty(problem.scene, extended);
+  const AxisUncertainty u = axis_uncertainty(problem.scene, extended + between);
   const double from_extended = 2.0 * u.rms_mm;
   out.coaxiality_after = {from_extended, 2.0 * u.u_mm, "mm", ""};
   const AxisUncertainty u_bare =

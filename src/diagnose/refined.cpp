@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <variant>
 
 #include "trueaxis/math/statistics.hpp"
@@ -17,39 +18,68 @@ const char* other_of(const Hypothesis& h) {
                                            : nullptr;
 }
 
-/// By how much the spindle angle of the readings was another than recorded; empty: by nothing.
-std::vector<double> turned_by(const std::vector<Hypothesis>& terms, const Scene& recorded,
-                              const Eigen::VectorXd& coefficients) {
-  std::vector<double> by_rad;
-  Eigen::Index at = 0;
-  for (const Hypothesis& h : terms) {
-    const auto* shift = h.effect ? std::get_if<ArgumentShift>(&h.effect->term) : nullptr;
-    if (shift != nullptr && shift->by != ArgumentShift::By::backlash) {  // X is straight in Z
-      by_rad.resize(recorded.size(), 0.0);
-      for (std::size_t i = 0; i < by_rad.size(); ++i)
-        by_rad[i] += shift->by == ArgumentShift::By::delay ? -coefficients(at) * recorded.speed[i]
-                                                           : coefficients(at);
-    }
-    at += static_cast<Eigen::Index>(h.columns());
-  }
-  return by_rad;
+bool is_lag(const Hypothesis& h) { return h.effect && h.effect->id == "probe.lag"; }
+
+/// Whether a term moves the spindle angle that a reading tells of. (A backlash moves Z, in which X
+/// is straight.)
+bool turns(const Hypothesis& h) {
+  const auto* shift = h.effect ? std::get_if<ArgumentShift>(&h.effect->term) : nullptr;
+  return is_lag(h) || (shift != nullptr && shift->by != ArgumentShift::By::backlash);
+}
+
+/// By how much, per unit of the term.
+double turn_per_unit(const Hypothesis& h, const Scene& recorded, std::size_t reading) {
+  const auto* shift = std::get_if<ArgumentShift>(&h.effect->term);
+  const bool constant = shift != nullptr && shift->by == ArgumentShift::By::angle;
+  return constant ? 1.0 : -recorded.speed[reading];
 }
 
 void add(std::vector<double>& to, const std::vector<double>& values, double factor = 1.0) {
   for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * values[i];
 }
 
-/// T ∂X/∂T at T less the integral of ∂X/∂T from 0 to T (Simpson): what a lag's column has too much.
-std::vector<double> known_of_lag(const Hypothesis& lag, const Scene& scene) {
+/// What a lag does to X: the integral of its column from 0 to T (Simpson).
+std::vector<double> response_of(const Hypothesis& lag, const Scene& scene) {
   const double T = lag.shape.time_constant_s;
   std::vector<double> out(scene.size(), 0.0);
-  for (const auto& [share, weight] :
-       {std::pair{0.0, -1.0 / 6.0}, {0.5, -4.0 / 6.0}, {1.0, 5.0 / 6.0}}) {
+  for (const auto& [share, weight] : {std::pair{0.0, 1.0}, {0.5, 4.0}, {1.0, 1.0}}) {
     Hypothesis at = lag;
     at.shape.time_constant_s = share * T;
-    add(out, contribution(scene, {at}, Eigen::VectorXd::Constant(1, T)), weight);
+    add(out, contribution(scene, {at}, Eigen::VectorXd::Constant(1, T)), weight / 6.0);
   }
   return out;
+}
+
+/// Moves what all terms are about to the angles that delays and lags make true, and notes what is
+/// known of X: X(a) = X(a') + (a − a') ∂X/∂a.
+void turn(const Given& given, const Scene& first, const Eigen::VectorXd& found,
+          const std::function<Scene(const ProbeStream&)>& scene_of, About& out) {
+  out.moved = given.stream;
+  Eigen::Index at = 0;
+  for (Hypothesis& h : out.terms) {
+    const double by = found(at);
+    if (is_lag(h)) h.shape.time_constant_s = by;
+    for (std::size_t i = 0; turns(h) && i < first.size(); ++i)
+      out.moved->c_rad[i] += by * turn_per_unit(h, first, i);
+    at += static_cast<Eigen::Index>(h.columns());
+  }
+  const Scene recorded = scene_of(given.stream);
+  out.scene = scene_of(*out.moved);
+  out.turned_mm = out.scene.x;
+  add(out.turned_mm, recorded.x, -1.0);
+  at = 0;
+  for (const Hypothesis& h : out.terms) {
+    const Eigen::VectorXd by = found.segment(at, static_cast<Eigen::Index>(h.columns()));
+    at += by.size();
+    if (is_lag(h)) {
+      add(out.known_mm, contribution(out.scene, {h}, by));
+      add(out.known_mm, response_of(h, recorded), -1.0);
+      add(out.known_mm, out.turned_mm);
+    } else if (turns(h)) {
+      for (std::size_t i = 0; i < first.size(); ++i)
+        out.known_mm[i] += by(0) * turn_per_unit(h, first, i) * out.scene.dx_dc[i];
+    }
+  }
 }
 
 About about(const Given& given, const Problem& whole, const Model& model) {
@@ -71,29 +101,14 @@ About about(const Given& given, const Problem& whole, const Model& model) {
     out.deviation_mm = deviation_from(given.stream, first);
     return out;
   }
-  const std::vector<double> by_rad = turned_by(model.terms, first, found);
-  if (!by_rad.empty()) {
-    out.moved = given.stream;
-    add(out.moved->c_rad, by_rad);
-  }
-  out.scene = scene_of(out.moved ? *out.moved : given.stream);
-  out.known_mm.assign(out.scene.size(), 0.0);
-  // X(a) = X(a') + (a − a') ∂X/∂a.
-  for (std::size_t i = 0; i < by_rad.size(); ++i) out.known_mm[i] = by_rad[i] * out.scene.dx_dc[i];
-  Eigen::Index at = 0;
-  for (Hypothesis& h : out.terms) {
-    if (h.effect && h.effect->id == "probe.lag") {
-      h.shape.time_constant_s = std::max(0.0, found(at));
-      add(out.known_mm, known_of_lag(h, out.scene));
-    }
-    at += static_cast<Eigen::Index>(h.columns());
+  out.known_mm.assign(first.size(), 0.0);
+  if (std::ranges::any_of(out.terms, turns)) {
+    turn(given, first, found, scene_of, out);
+  } else {
+    out.scene = scene_of(given.stream);
   }
   out.deviation_mm = deviation_from(given.stream, out.scene);
   add(out.deviation_mm, out.known_mm);
-  if (!by_rad.empty()) {
-    out.turned_mm = out.scene.x;
-    add(out.turned_mm, scene_of(given.stream).x, -1.0);
-  }
   return out;
 }
 
@@ -114,11 +129,16 @@ Refined::Refined(const Given& given, const Problem& whole, const Model& model)
               whole.false_alarm, whole.threads, whole.most_terms},
       joint(problem, model.phi, about_.terms, about_.terms.size()) {
   const auto count = static_cast<Eigen::Index>(columns_of(about_.terms));
-  effect_mm = contribution(about_.scene, about_.terms, joint.solution.coefficients.tail(count));
-  add(effect_mm, about_.known_mm, -1.0);
-  extended = extended_fit(about_.moved ? *about_.moved : given.stream, given.options, joint,
-                          effect_mm, given.masked);
+  taken_off_mm_ = contribution(about_.scene, about_.terms, joint.solution.coefficients.tail(count));
+  add(taken_off_mm_, about_.known_mm, -1.0);
+  effect_mm = taken_off_mm_;
   if (about_.moved) add(effect_mm, about_.turned_mm);
+  widen(given, {});
+}
+
+void Refined::widen(const Given& given, const Eigen::MatrixXd& between) {
+  extended = extended_fit(about_.moved ? *about_.moved : given.stream, given.options, joint,
+                          taken_off_mm_, given.masked, between);
 }
 
 std::unique_ptr<Refined> refine_model(const Given& given, const Problem& whole, Model& model,

@@ -41,8 +41,12 @@ class Refined {
   Refined(const Refined&) = delete;
   Refined& operator=(const Refined&) = delete;
 
+  /// The extended surface again, with what other causes would make of its base.
+  void widen(const Given& given, const Eigen::MatrixXd& between);
+
  private:
   About about_;
+  std::vector<double> taken_off_mm_;  ///< of the readings, for the extended surface
 
  public:
   const Problem problem;

@@ -14,11 +14,14 @@ constexpr double most_second = 0.3;  // of a jaw's second harmonic; ring theory 
 constexpr double surprise = 2.0;     // of ln(size/(generous × typical))², in units of 2 ln L
 
 /// Largest typical size of the catalogue's parameter that a linear one is the factor of; 0: none.
-double typical_high(const Effect& effect, std::string_view linear) {
+/// Of a sensor that is not linear it is a share of the range that the term is written over.
+double typical_high(const Effect& effect, const TermShape& shape, std::string_view linear) {
+  constexpr double of_range = 0.01;
   for (const EffectParameter& p : effect.parameters) {
     if (linear == p.name || (linear.starts_with(p.name) && linear.size() > p.name.size() &&
                              linear[p.name.size()] == '_'))
-      return p.high;
+      return effect.id == "probe.nonlinearity" ? std::min(p.high, of_range * shape.range_mm)
+                                               : p.high;
   }
   return 0.0;
 }
@@ -65,7 +68,7 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
     const std::size_t place = hypothesis.keep.empty()
                                   ? static_cast<std::size_t>(j)
                                   : hypothesis.keep[static_cast<std::size_t>(j)];
-    const double high = typical_high(*hypothesis.effect, names[place].name);
+    const double high = typical_high(*hypothesis.effect, hypothesis.shape, names[place].name);
     const bool second = names[place].name.ends_with("_sin");
     pair = second ? std::hypot(pair, coefficients(j)) : std::abs(coefficients(j));
     if (high > 0.0 && pair > generous * high)

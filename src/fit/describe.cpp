@@ -288,6 +288,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   check_rival(model, set_ups, association, noise, result);
   if (model.indication() == Indication::relative) {
     withdraw(result, "radius", "a relative gauge does not show it; the nominal radius was used");
+    withdraw(result, "k", "a relative gauge does not show it: the nominal radius places the apex");
   }
   if (!result.not_determined.empty()) {
     result.status = FitStatus::rank_deficient;

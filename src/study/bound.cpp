@@ -68,6 +68,20 @@ void append_gauge_zeros(const Estimable& model, Eigen::MatrixXd& jacobian) {
     jacobian(static_cast<Eigen::Index>(i), before + static_cast<Eigen::Index>(zero_of[i])) = -1.0;
 }
 
+/// Whether the levers are known well enough for derivatives to say anything: to a tenth of the
+/// radius, as a fit demands of itself.
+bool is_determined(Estimable model, const Eigen::MatrixXd& covariance) {
+  constexpr double coverage_factor = 2.0, size_share = 0.1;
+  const Part& part = model.scenario().part;
+  if (part.kind == PartKind::face) return true;
+  Eigen::Index j = 0;
+  return std::ranges::all_of(model.levers(), [&](const Lever& lever) {
+    const double scale_mm = lever.is_length ? 1.0 : part.radius_mm;
+    const double u_mm = std::sqrt(covariance(j, j)) * scale_mm;
+    return ++j, coverage_factor * u_mm < size_share * part.radius_mm;
+  });
+}
+
 /// Fisher information of one reading of Student's t over that of a Gaussian of its variance.
 double information_of(const Noise& noise) {
   const double v = noise.student_dof;
@@ -115,7 +129,7 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
   append_gauge_zeros(*model, jacobian);
   if (!whiten(clean, scenario.noise, jacobian)) return bound;
   const Eigen::MatrixXd inverse = inverse_information(jacobian);
-  if (inverse.size() == 0) return bound;
+  if (inverse.size() == 0 || !is_determined(*model, inverse)) return bound;
   const Probed probed = probed_length(clean.stream);
   const Eigen::MatrixXd of_quantities = derivatives(*model, [&](const Scenario& moved) {
     return vector_of(true_values(moved, probed, surface));
@@ -123,7 +137,8 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
   Rows covariance = of_quantities * inverse.topLeftCorner(levers, levers) *
                     of_quantities.transpose() / information_of(scenario.noise);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!scenario.probe.relative_zero_mm || !all[i].name.starts_with("radius")) continue;
+    const bool by_nominal = all[i].name.starts_with("radius") || all[i].name == "k";
+    if (!scenario.probe.relative_zero_mm || !by_nominal) continue;
     covariance.row(static_cast<Eigen::Index>(i)).setConstant(none);
     covariance.col(static_cast<Eigen::Index>(i)).setConstant(none);
   }

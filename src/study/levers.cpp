@@ -90,7 +90,7 @@ std::vector<Lever> Estimable::levers() {
   const bool tilts = surface_ != "section", is_face = part.kind == PartKind::face;
   for (const std::vector<int>& numbers : set_ups_) {
     const auto move = [&](double step, const auto& number_of) {
-      Lever& lever = out.emplace_back(Lever{{}, step});
+      Lever& lever = out.emplace_back(Lever{{}, step, step == length_step});
       for (const int number : numbers)
         lever.numbers.push_back(&number_of(written_out(scenario_, number)));
     };
@@ -109,7 +109,7 @@ std::vector<Lever> Estimable::levers() {
   if (tilts && part.kind == PartKind::cone) {
     const double size = std::abs(part.half_angle_rad);
     const double room = std::min(size, 90.0 * rad_per_deg - size);
-    out.push_back({{&part.half_angle_rad}, std::min(angle_step, 0.25 * room)});
+    out.push_back({{&part.half_angle_rad}, std::min(angle_step, 0.25 * room), false});
   }
   return out;
 }

@@ -16,6 +16,7 @@ namespace trueaxis::study {
 struct Lever {
   std::vector<double*> numbers;
   double step;
+  bool is_length = true;  ///< mm; else an angle or a direction cosine
 };
 
 /// A scenario written so that everything that is estimated is a number of its own: every clamping
