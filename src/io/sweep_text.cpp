@@ -31,6 +31,8 @@ std::string cell_note(const Sweep& sweep, const CellSummary& cell) {
     text += format(", named in %.1f %%", 100.0 * cell.named.value);
   if (cell.failures > 0)
     text += format(", %zu of %zu failed (%s)", cell.failures, sweep.repeats, cell.why.c_str());
+  if (cell.bound.missing != Bound::Missing::nothing)
+    return text + ", no bound: " + to_string(cell.bound.missing) + '\n';
   if (cell.bound.kind == Bound::Kind::gauss_markov) text += ", bound of linear estimates";
   return text + '\n';
 }
@@ -81,9 +83,12 @@ std::string short_text(const Sweep& sweep, const Summary& summary) {
       if (std::isfinite(row.coverage.value)) least = std::min(least, row.coverage.value);
     }
     text += "  " + cell_title(sweep, cell) + ": ";
-    text += std::isfinite(low) ? format("%.3f to %.3f", low, high) : "no bound";
-    if (std::isfinite(least)) text += format(", at least %.1f %%", 100.0 * least);
     const CellSummary& of = summary.cells[cell];
+    const std::string why = to_string(of.bound.missing);
+    text += std::isfinite(low) ? format("%.3f to %.3f", low, high)
+            : why.empty()      ? "no result"
+                               : "no bound (" + why + ")";
+    if (std::isfinite(least)) text += format(", at least %.1f %%", 100.0 * least);
     if (of.failures > 0) text += format(", %zu failed", of.failures);
     if (std::isfinite(of.found.value)) text += format(", found %.1f %%", 100.0 * of.found.value);
     if (std::isfinite(of.named.value)) text += format(", named %.1f %%", 100.0 * of.named.value);

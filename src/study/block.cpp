@@ -86,6 +86,7 @@ Bound mean_bound(const Sweep& sweep, std::size_t cell, std::vector<double>& spre
   for (std::size_t repeat = 0; repeat < count; ++repeat) {
     const Bound one = bound_of(scenario_of(sweep, cell, repeat), fitted_surface(sweep));
     mean.kind = one.kind;
+    if (mean.missing == Bound::Missing::nothing) mean.missing = one.missing;
     mean.covariance.resize(one.covariance.size(), 0.0);
     for (std::size_t i = 0; i < one.covariance.size(); ++i)
       mean.covariance[i] += one.covariance[i] / static_cast<double>(count);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/levers.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/study/quantities.hpp"
@@ -135,7 +136,9 @@ HarmRow harm_of(const Scenario& scenario, const HarmCase& of) {
   FitOptions options;
   options.surface = surface_of(ideal.part.kind);
   options.bore = ideal.part.bore;
-  const EffectOnAxis linearised = effect_on_axis(simulate_clean(ideal).stream, options, of.known);
+  const ProbeStream probed = simulate_clean(ideal).stream;
+  refuse_moving_axis(ideal, probed, "harm");
+  const EffectOnAxis linearised = effect_on_axis(probed, options, of.known);
   if (linearised.alone.status != FitStatus::converged)
     throw InputError(of.effect, "the surface cannot be fitted: " + linearised.alone.message);
   ideal.u_start_mm = linearised.z_mid_mm - linearised.z_half_mm;  // the same u in both

@@ -42,11 +42,7 @@ void check(const PlanningTask& task) {
   const virtual_lathe::Probe& probe = task.base.probe;
   if (probe.relative_zero_mm && !probe.nominal_radius_mm)
     refuse("a relative gauge does not show the radius: give nominal_radius_mm");
-  const ProbeStream probed = virtual_lathe::simulate_clean(task.base).stream;
-  if (!Estimable::of(task.base, probed, surface_of(task.base.part.kind)))
-    refuse(
-        "the axis moves between set-ups of one clamping: say in the set-up what moved the part "
-        "(reindex, z_shift or clamp_force_ratio)");
+  refuse_moving_axis(task.base, virtual_lathe::simulate_clean(task.base).stream, "plan");
 }
 
 /// The probe's rate as a limit on the readings per revolution.

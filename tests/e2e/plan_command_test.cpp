@@ -17,6 +17,13 @@ const char* const scenario =
     "[noise]\nsigma_um = 3\n[[pass]]\nz_start_mm = 0\nz_end_mm = 40\nfeed_mm_per_rev = 1\n"
     "readings_per_revolution = 10.3\nspeed_rpm = 60\n";
 
+/// Two axes in what the set-ups' metadata call one clamping.
+const char* const moved =
+    "[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.05\n[noise]\nsigma_um = 3\n"
+    "[[setup]]\nnumber = 2\nx0_mm = -0.05\n"
+    "[[pass]]\nz_start_mm = 0\nz_end_mm = 20\nreadings_per_revolution = 10.3\n"
+    "[[pass]]\nz_start_mm = 0\nz_end_mm = 20\nreadings_per_revolution = 10.3\nsetup = 2\n";
+
 // U = k σ √(8/N) of a cylinder (40 turns: 1/40); the goal 0.6 µm needs N = 8 (k σ/U)² = 800.
 TEST_F(PlanCommand, AnswersAndConfirms) {
   file("seat.toml", scenario);
@@ -186,6 +193,13 @@ TEST_F(HarmCommand, AFaceHasNoAxis) {
        "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 20\nx_end_mm = 40\n"
        "feed_mm_per_rev = 1\nreadings_per_revolution = 10.3\n");
   expect_input_error("harm face.toml", "needs a cone or cylinder");
+}
+
+TEST_F(HarmCommand, AnAxisThatMovesWithinAClampingIsRefusedAsByAPlan) {
+  file("moved.toml", moved);
+  const std::string why = "the axis moves between set-ups of one clamping: say in the set-up";
+  expect_input_error("plan moved.toml", why);
+  expect_input_error("harm moved.toml", why);
 }
 
 }  // namespace

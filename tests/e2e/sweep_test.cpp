@@ -175,6 +175,29 @@ TEST_F(SweepCommand, KeepsGoingWhereACellCannotBeProbed) {
   EXPECT_TRUE(contains(cells[2]["why"].get<std::string>(), "apex"));
 }
 
+TEST_F(SweepCommand, SaysWhyThereIsNoBound) {
+  int number = 0;
+  const auto expect_why = [&](const std::string& sweep, const std::string& why) {
+    const std::string out = "out" + std::to_string(number++);
+    file("sweep.toml", sweep);
+    const CommandStreams done = command("sweep sweep.toml -o " + out);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_TRUE(contains(done.out, "no bound: " + why)) << done.out;
+    EXPECT_EQ(result(out + "/sweep.json")["cells"][0]["why_no_bound"], why);
+    EXPECT_TRUE(contains(text(out + "/report.html"), why));
+  };
+  const std::string part = "repeats = 3\n[part]\nkind = \"cylinder\"\nradius_mm = 30\n",
+                    pass =
+                        "[[pass]]\nz_start_mm = 0\nz_end_mm = 20\nreadings_per_revolution = 9.3\n",
+                    noise = "[noise]\nsigma_um = 5\n";
+  expect_why(part + noise + pass + pass + "setup = 2\n[[setup]]\nnumber = 2\nx0_mm = 0.1\n",
+             "the axis moves between set-ups of one clamping");
+  expect_why(part + pass, "no noise");
+  expect_why(part + noise + "[[pass]]\nz_start_mm = 0\nz_end_mm = 0\nrevolutions = 9\n" +
+                 "readings_per_revolution = 9.3\n",
+             "the readings do not determine the parameters");
+}
+
 TEST_F(SweepCommand, StudiesADiagnosis) {
   std::string text =
       sweep_text(3) + "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n";
