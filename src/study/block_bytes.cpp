@@ -79,6 +79,7 @@ void pass_facts_through(Stream& stream, Facts& facts) {
   stream.list(facts.bound.sd);
   stream.list(facts.bound.covariance);
   stream.list(facts.bound_spread);
+  stream.number(facts.hidden);
 }
 
 }  // namespace

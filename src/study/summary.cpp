@@ -115,7 +115,7 @@ void fill(Row& row, Sample sample) {
   row.ratio = row.rmse / row.bound;
 }
 
-CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_hidden) {
+CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
   for (const BlockResult* block : blocks) {
@@ -130,8 +130,8 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_
     }
   }
   if (looked > 0.0) cell.found = share_of(found, looked);
-  if (looked > 0.0 && effects_hidden) cell.named = share_of(named, looked);
   const CellFacts& facts = blocks.front()->facts.at(0);
+  if (looked > 0.0 && facts.hidden > 0) cell.named = share_of(named, looked);
   cell.readings = facts.readings;
   cell.bound = facts.bound;
   return cell;
@@ -163,7 +163,7 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    summary.cells.push_back(cell_of(cells[cell], !scenario_of(sweep, cell).effects.empty()));
+    summary.cells.push_back(cell_of(cells[cell]));
     const CellFacts& facts = cells[cell].front()->facts.at(0);
     for (std::size_t i = 0; i < names.size(); ++i) {
       Row row;

@@ -210,5 +210,20 @@ TEST_F(SweepCommand, StudiesADiagnosis) {
   EXPECT_EQ(cells[0]["named"]["value"], 1.0);
 }
 
+// An effect of size 0 hides nothing: there is nothing to be named. Of two only the other counts.
+TEST_F(SweepCommand, NamesNothingWhereNothingIsHidden) {
+  std::string text = sweep_text(3) +
+                     "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n"
+                     "[[effect]]\nid = \"part.roundness\"\norder = 2\namplitude_um = 0\n"
+                     "[[axis]]\nkey = \"effect.0.amplitude_um\"\nvalues = [0, 8]\n";
+  text.replace(text.find("[\"fit\", \"tukey\"]"), 16, "[\"diagnosis\"]");
+  file("sweep.toml", text);
+  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  const nlohmann::json cells = result("out/sweep.json")["cells"];
+  EXPECT_TRUE(cells[0]["named"]["value"].is_null()) << cells[0];
+  EXPECT_FALSE(cells[0]["found"]["value"].is_null());
+  EXPECT_EQ(cells[1]["named"]["value"], 1.0);
+}
+
 }  // namespace
 }  // namespace trueaxis::testing
