@@ -38,8 +38,8 @@ Ends ratio_ends(double ratio, double n, double level) {
 
 /// Where numbers are drawn the errors of a cell have different spreads and there is no χ². Delta
 /// method on the logarithm: `spread` is the variance of mean(e²) over its square plus that of
-/// mean(bound²). The first draws are in both means; they count as independent, so that the interval
-/// is rather too wide.
+/// mean(bound²). Few draws of the bound do not represent a wide distribution: with σ log-uniform
+/// over 2 decades 92 % of the 95 % intervals cover, over 4 decades 88 %.
 Ends drawn_ratio_ends(double ratio, double n, double spread, double level) {
   if (n < least_estimates || !std::isfinite(ratio) || !std::isfinite(spread)) return {none, none};
   const boost::math::normal normal;
