@@ -97,6 +97,23 @@ std::string short_text(const Sweep& sweep, const Summary& summary) {
   return text;
 }
 
+/// "2 of 6 cells have no result: …", or nothing.
+std::string without_result_text(const Sweep& sweep, const Summary& summary) {
+  constexpr std::size_t most_named = 4;
+  std::size_t count = 0;
+  std::string which, why;
+  for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
+    if (summary.cells[cell].failures < sweep.repeats) continue;
+    if (count == 0) why = summary.cells[cell].why;
+    if (count < most_named) which += (count > 0 ? "; " : "") + cell_title(sweep, cell);
+    ++count;
+  }
+  if (count == 0) return "";
+  if (count > most_named) which += format("; and %zu more", count - most_named);
+  return format("\n%zu of %zu cells have no result: ", count, summary.cells.size()) + which + " (" +
+         why + ")\n";
+}
+
 }  // namespace
 
 std::string sweep_text(const Sweep& sweep, const Summary& summary) {
@@ -105,6 +122,7 @@ std::string sweep_text(const Sweep& sweep, const Summary& summary) {
                             sweep.repeats, static_cast<unsigned long long>(sweep.seed));
   text += summary.cells.size() <= cells_in_full ? full_text(sweep, summary)
                                                 : short_text(sweep, summary);
+  text += without_result_text(sweep, summary);
   const auto tested =
       std::ranges::count_if(summary.rows, [](const Row& row) { return row.at_bound.has_value(); });
   const auto off =

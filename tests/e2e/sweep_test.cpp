@@ -169,6 +169,7 @@ TEST_F(SweepCommand, KeepsGoingWhereACellCannotBeProbed) {
   text += "[[axis]]\nkey = \"part.k_mm\"\nvalues = [-150, 15]\n";  // 15: the apex is in the way
   file("sweep.toml", text);
   ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  EXPECT_TRUE(contains(command("sweep sweep.toml").out, "4 of 8 cells have no result: "));
   const nlohmann::json cells = result("out/sweep.json")["cells"];
   EXPECT_EQ(cells[0]["failures"], 0);
   EXPECT_EQ(cells[2]["failures"], 10);
