@@ -172,10 +172,21 @@ TEST_F(PlanCommand, SaysWhatAPlanCannotShow) {
 TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
   EXPECT_EQ(command("plan --free colour=1:2").exit_code, 2);
   EXPECT_EQ(command("plan --free sigma_um=1").exit_code, 2);
-  EXPECT_EQ(command("plan --goal-um 0").exit_code, 2);
+  const auto expect_usage = [&](const std::string& options, const std::string& why) {
+    const CommandStreams done = command("plan " + options);
+    EXPECT_EQ(done.exit_code, 2) << options;
+    EXPECT_TRUE(contains(done.err, why)) << options << '\n' << done.err;
+    EXPECT_LT(done.err.size(), 300U) << done.err;
+  };
+  expect_usage("--goal-um 0", "must be more than 0");
+  expect_usage("--time-s -1", "must be more than 0");
+  expect_usage("--free length_mm=100:10", "length_mm=100:10: LOW is more than HIGH");
+  expect_usage("--free length_mm=0:10", "LOW must be more than 0");
+  expect_usage("--free length_mm=nan:20", "must be finite");
+  expect_usage("--free length_mm=10:20 --free length_um=10:20", "has a range already");
   file("seat.toml", scenario);
   EXPECT_EQ(command("plan seat.toml --surface cone").exit_code, 2);
-  expect_input_error("plan seat.toml --free sigma_um=5:0.5", "a range goes from");
+  expect_usage("seat.toml --free sigma_um=5:0.5", "LOW is more than HIGH");
   expect_input_error("plan missing.toml", "missing.toml");
 }
 
