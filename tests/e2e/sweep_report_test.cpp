@@ -107,6 +107,17 @@ TEST_F(SweepReport, SaysWhichOfBoundRatioAndResultIsMissing) {
   EXPECT_EQ(log.find("No bound"), std::string::npos) << log;
 }
 
+// A window of 1400 px has room for the table of a cylinder and one axis; a phone has not.
+TEST_F(SweepReport, TheTableTakesTheWidthThatThereIs) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.repeats = 100;
+  sweep.axes = {testing::over("noise.sigma_mm", {0.001, 0.002})};
+  const std::string log = open_page(page_of(sweep), "width").log;
+  EXPECT_NE(log.find("wide: 0 wide tables scroll"), std::string::npos) << log;
+  EXPECT_EQ(log.find("phone: 0 wide tables scroll"), std::string::npos) << log;
+}
+
 TEST_F(SweepReport, ManyCells) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);

@@ -217,7 +217,8 @@ TEST(SweepToml, ARelativeGaugeNeedsItsNominalRadius) {
   EXPECT_EQ(complaints(gauge + "nominal_radius_mm = 20\n" + part), "");
   EXPECT_EQ(complaints(gauge + part + axis("probe.nominal_radius_mm", "19, 20")), "");
   EXPECT_EQ(
-      complaints(gauge + "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 10\nx_end_mm = 20\n"),
+      complaints(gauge +
+                 "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 10\nx_end_mm = 20\n"),
       "");
 }
 
