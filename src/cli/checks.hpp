@@ -18,6 +18,16 @@ inline CLI::Validator number_in(double low, bool open, double high, const std::s
           "", "number"};
 }
 
+inline CLI::Validator more_than_0() {
+  return {[](const std::string& text) -> std::string {
+            double value = 0.0;
+            if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
+              return text + " is no finite number";
+            return value > 0.0 ? "" : text + " must be more than 0";
+          },
+          "", "number"};
+}
+
 inline CLI::Validator a_length() { return number_in(0.0, false, 1e6, "a length of 0 to 1e6"); }
 inline CLI::Validator positive_length() {
   return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
 
+#include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
 #include "trueaxis/base/error.hpp"
@@ -86,7 +88,12 @@ int execute(Options options) {
   }
   task.goal_mm = options.goal_um * mm_per_um;
   try {
-    for (const std::string& text : options.free) task.free.push_back(parse_freedom(text));
+    for (const std::string& text : options.free) {
+      const study::Freedom free = parse_freedom(text);
+      if (std::ranges::find(task.free, free.choice, &study::Freedom::choice) != task.free.end())
+        throw InputError(text, "this choice has a range already: give it one");
+      task.free.push_back(free);
+    }
   } catch (const InputError& error) {
     throw CLI::ValidationError("--free", error.what());
   }
@@ -101,7 +108,7 @@ int execute(Options options) {
 void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
   const auto add = [&](const char* name, double& value, const char* what) {
     command.add_option(name, value, what)
-        ->check(CLI::PositiveNumber)
+        ->check(more_than_0())
         ->capture_default_str()
         ->excludes(scenario)
         ->group("Without a scenario");
@@ -128,18 +135,18 @@ void add_plan(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
   command->add_option("--goal-um", options->goal_um, "largest U of the axis over the length")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_0())
       ->capture_default_str();
   command->add_option("--k", options->task.coverage_factor, "coverage factor of U")
-      ->check(CLI::PositiveNumber)
+      ->check(more_than_0())
       ->capture_default_str();
   command->add_option("--free", options->free,
                       "what may be chosen, KEY=LOW:HIGH, each once: readings_per_revolution, "
                       "sigma_um, feed_mm_per_rev, length_mm");
   command->add_option("--time-s", options->task.time_s, "time that the measurement may take")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_0());
   command->add_option("--rate-hz", options->task.rate_hz, "readings a second that the probe gives")
-      ->check(CLI::PositiveNumber);
+      ->check(more_than_0());
   command->add_option("--repeats", options->task.repeats, "of each confirmation")
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();

@@ -2,7 +2,9 @@
 #include "trueaxis/io/effects_json.hpp"
 
 #include "io/json.hpp"
+#include "io/toml_units.hpp"
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/simulate/effects.hpp"
 
 namespace trueaxis {
 namespace {
@@ -19,6 +21,21 @@ Json parameter_object(const EffectParameter& parameter) {
   return json;
 }
 
+/// What a scenario's [[effect]] takes; a key without a default must be given.
+Json scenario_keys(std::string_view id) {
+  Json keys = Json::array();
+  for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
+    if (kind.id != id) continue;
+    for (const virtual_lathe::EffectParameter& key : kind.parameters) {
+      const KeySpelling usual = key_spellings(key.name).front();
+      Json one{{"key", usual.key}};
+      one["default"] = key.fallback ? Json(*key.fallback / usual.factor) : Json(nullptr);
+      keys.push_back(one);
+    }
+  }
+  return keys;
+}
+
 Json effect_object(const Effect& effect) {
   Json parameters = Json::array(), separations = Json::array();
   for (const EffectParameter& p : effect.parameters) parameters.push_back(parameter_object(p));
@@ -32,6 +49,7 @@ Json effect_object(const Effect& effect) {
             {"frame", to_string(effect.frame)},
             {"formula", effect.formula},
             {"parameters", parameters},
+            {"scenario_keys", scenario_keys(effect.id)},
             {"signature", effect.signature},
             {"confounders", effect.confounders},
             {"absorbed_by", effect.absorbed_by},

@@ -6,7 +6,9 @@
 #include <iomanip>
 #include <sstream>
 
+#include "io/toml_units.hpp"
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/simulate/effects.hpp"
 
 namespace trueaxis {
 namespace {
@@ -82,6 +84,26 @@ void line(std::ostream& out, std::string_view name, std::string_view value) {
   out << std::left << std::setw(16) << name << value << '\n';
 }
 
+/// What a scenario's [[effect]] takes of the virtual lathe's effect of this id.
+void scenario_keys(std::ostream& out, std::string_view id) {
+  for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
+    if (kind.id != id) continue;
+    for (const virtual_lathe::EffectParameter& key : kind.parameters) {
+      const std::vector<KeySpelling> spellings = key_spellings(key.name);
+      std::ostringstream text;
+      text << std::left << std::setw(22) << spellings.front().key;
+      if (key.fallback) {
+        text << '(' << *key.fallback / spellings.front().factor << ')';
+      } else {
+        text << "must be given";
+      }
+      for (std::size_t i = 1; i < spellings.size(); ++i)
+        text << (i > 1 ? ", " : "  or ") << spellings[i].key;
+      line(out, &key == kind.parameters.data() ? "[[effect]] keys" : " ", text.str());
+    }
+  }
+}
+
 }  // namespace
 
 std::string effects_list_text() {
@@ -109,6 +131,7 @@ std::string effect_text(const Effect& effect) {
       return text.str();
     }());
   }
+  scenario_keys(out, effect.id);
   line(out, "signature", effect.signature);
   std::string ids;
   for (const std::string_view id : effect.confounders) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <charconv>
+#include <cmath>
 
 #include "io/toml_units.hpp"
 #include "trueaxis/base/error.hpp"
@@ -16,6 +17,13 @@ double number_of(std::string_view text, std::string_view whole) {
   return value;
 }
 
+void check_range(double low, double high, std::string_view whole) {
+  const auto refuse = [&](const char* why) { throw InputError(std::string(whole), why); };
+  if (!std::isfinite(low) || !std::isfinite(high)) refuse("LOW and HIGH must be finite numbers");
+  if (!(low > 0.0)) refuse("LOW must be more than 0");
+  if (!(low <= high)) refuse("LOW is more than HIGH: exchange them");
+}
+
 }  // namespace
 
 study::Freedom parse_freedom(std::string_view text) {
@@ -28,9 +36,10 @@ study::Freedom parse_freedom(std::string_view text) {
     for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
       const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
       if (key == whole || key == shorter) {
-        return {choice,
-                number_of(text.substr(equals + 1, colon - equals - 1), text) * spelling.factor,
-                number_of(text.substr(colon + 1), text) * spelling.factor};
+        const double low = number_of(text.substr(equals + 1, colon - equals - 1), text),
+                     high = number_of(text.substr(colon + 1), text);
+        check_range(low, high, text);
+        return {choice, low * spelling.factor, high * spelling.factor};
       }
       if (spelling.key == key_spellings(study::path_of(choice)).front().key)
         known += (known.empty() ? "" : ", ") + std::string(shorter);

@@ -98,8 +98,11 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
              um(confirmed.stated_mm).c_str());
   text += confirmed.misses ? "misses the goal: the fit is not at the bound"
           : confirmed.interval_95_mm.high <= goal_mm ? "within the goal"
+          : confirmed.interval_95_mm.low > goal_mm   ? "above the goal"
                                                      : "at the goal";
-  if (confirmed.at_bound) text += ", as the bound says";
+  const bool above = confirmed.interval_95_mm.low > goal_mm;
+  if (confirmed.at_bound)
+    text += above ? ", yet the bound is still within chance" : ", as the bound says";
   if (confirmed.failures > 0) text += format(", %zu failed", confirmed.failures);
   return text + '\n';
 }

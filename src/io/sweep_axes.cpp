@@ -36,7 +36,16 @@ std::vector<double> spaced(TomlTable& table) {
   return values;
 }
 
-bool is_autoregression(const std::string& path) { return path.starts_with("noise.autoregression"); }
+/// rho is an autoregression of the first order.
+bool is_autoregression(const std::string& path) {
+  return path.starts_with("noise.autoregression") || path == "noise.rho";
+}
+
+bool sets_rho(const GridAxis& axis) {
+  return std::ranges::any_of(axis.points, [](const AxisPoint& point) {
+    return std::ranges::find(point.settings, "noise.rho", &Setting::path) != point.settings.end();
+  });
+}
 
 /// The part of a point that sets the autoregression, and words for it.
 AxisPoint autoregression_of(const std::string& axis, const AxisPoint& point) {
@@ -75,6 +84,7 @@ SweepAxes::SweepAxes(TomlDocument& document, TomlTable root, Sweep& sweep) : swe
   if (readable_) keys_ = SweepKeys(sweep.base, lists_but_of(nullptr), "");
   for (Axis& axis : axes_) read_axis(axis);
   if (document.ok()) check_autoregression(document);
+  if (document.ok()) check_gauge(root);
 }
 
 void SweepAxes::read_lists(Axis& axis) {
@@ -162,6 +172,10 @@ void SweepAxes::read_axis(Axis& axis) {
     return;
   }
   TomlTable table = axis.table;
+  if (table.has("name") && !table.has("key")) {
+    table.complain("name", "names an axis without a case: give it [[axis.case]]");
+    return;
+  }
   const std::string key = table.required_text("key");
   axis.name = key;
   const std::optional<KnownKey> known = key.empty() ? std::nullopt : keys_.find(table, "key", key);
@@ -256,6 +270,34 @@ void SweepAxes::read_distribution(TomlTable table, const std::string& key,
   sweep_.drawn.push_back(std::move(drawn));
 }
 
+/// A relative gauge does not show the radius, and without one no repeat has a fit.
+void SweepAxes::check_gauge(TomlTable root) const {
+  const std::string zero = "probe.relative_zero_mm", nominal = "probe.nominal_radius_mm";
+  const virtual_lathe::Scenario& base = sweep_.base;
+  if (base.part.kind == virtual_lathe::PartKind::face || base.probe.nominal_radius_mm ||
+      taken_by(nominal, taken_))
+    return;
+  const std::string what = "a relative gauge that does not show the radius: give `" + nominal +
+                           "` too, in [probe] or by an axis";
+  if (base.probe.relative_zero_mm) {
+    if (root.has("scenario")) {
+      root.complain("scenario", "has `relative_zero_mm` in [probe], " + what);
+    } else if (std::optional<TomlTable> probe = root.maybe_table("probe")) {
+      probe->ignore_rest();
+      probe->complain("relative_zero_mm", "makes " + what);
+    }
+    return;
+  }
+  const WrittenKey* axis = taken_by(zero, taken_);
+  if (axis == nullptr) return;
+  for (const Axis& one : axes_) {
+    if (one.name != axis->key && one.cases.empty()) continue;
+    TomlTable table = one.table;
+    table.complain(one.cases.empty() ? "key" : "name", "sets `" + zero + "`, " + what);
+    return;
+  }
+}
+
 /// Looks at the grid of those axes alone that set the autoregression.
 void SweepAxes::check_autoregression(TomlDocument& document) const {
   Sweep grid;
@@ -274,7 +316,15 @@ void SweepAxes::check_autoregression(TomlDocument& document) const {
   }
   if (grid.axes.empty() || cell_count(grid) > most_autoregressions) return;
   for (std::size_t cell = 0; cell < cell_count(grid); ++cell) {
-    if (virtual_lathe::is_stationary(scenario_of(grid, cell).noise.autoregression)) continue;
+    const virtual_lathe::Noise noise = scenario_of(grid, cell).noise;
+    if (noise.rho != 0.0 && !noise.autoregression.empty()) {
+      const auto rho = std::ranges::find_if(grid.axes, sets_rho);
+      const auto axis = std::ranges::find(axes_, rho->name, &Axis::name);
+      document.add(axis->table.here(
+          "sets noise.rho of a scenario that has an `autoregression`: keep one of them"));
+      return;
+    }
+    if (virtual_lathe::is_stationary(noise.autoregression)) continue;
     std::string where;
     const Cell at = cell_at(grid, cell);
     for (std::size_t a = 0; a < grid.axes.size(); ++a)

@@ -46,6 +46,7 @@ class SweepAxes {
   void read_distribution(TomlTable table, const std::string& key,
                          const std::optional<KnownKey>& known);
   void check_autoregression(TomlDocument& document) const;
+  void check_gauge(TomlTable root) const;
 };
 
 }  // namespace trueaxis

@@ -85,6 +85,8 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
              {"failures", of.failures}};
     if (!of.why.empty()) one["why"] = of.why;
     one["bound_kind"] = to_string(of.bound.kind);
+    if (of.bound.missing != Bound::Missing::nothing)
+      one["why_no_bound"] = to_string(of.bound.missing);
     if (at.method == Method::diagnosis) {
       one["found"] = share_json(of.found);
       one["named"] = share_json(of.named);

@@ -44,7 +44,7 @@ void SweepKeys::add(Variant variant) {
     const std::vector<KeySpelling> spellings = key_spellings(parameter.path);
     for (const KeySpelling& spelling : spellings)
       variant.known[spelling.key] = {parameter, spelling.factor};
-    variant.usual += (variant.usual.empty() ? "" : ", ") + spellings.front().key;
+    variant.usual.push_back(spellings.front().key);
   }
   variants_.push_back(std::move(variant));
 }
@@ -62,6 +62,17 @@ std::vector<const SweepKeys::Variant*> SweepKeys::that_matter_for(const std::str
   return out;
 }
 
+/// The keys of the same table, as "noise.sigma_mm, noise.rho"; empty where there is no such table.
+static std::string keys_beside(const std::string& key, const std::vector<std::string>& usual) {
+  const std::string table = key.substr(0, key.rfind('.') + 1);
+  std::string out;
+  for (const std::string& one : usual) {
+    const bool beside = one.substr(0, one.rfind('.') + 1) == table;
+    if (beside && !table.empty()) out += (out.empty() ? "" : ", ") + one;
+  }
+  return out;
+}
+
 std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,
                                         const std::string& key) const {
   const std::vector<const Variant*> all = that_matter_for(key);
@@ -73,9 +84,10 @@ std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,
   for (const auto& [word, known] : (*lacking)->known) words.push_back(word);
   const std::string near = nearest_word(key, words);
   const std::string who = (*lacking)->of.empty() ? "the scenario" : (*lacking)->of;
+  const std::string there = keys_beside(key, (*lacking)->usual);
   table.complain(at, "names \"" + key + "\", which " + who + " does not have" +
                          (near.empty() ? "." : ": did you mean \"" + near + "\"?") +
-                         " It has: " + (*lacking)->usual);
+                         (there.empty() ? "" : " It has: " + there));
   return std::nullopt;
 }
 

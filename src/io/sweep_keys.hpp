@@ -52,7 +52,7 @@ class SweepKeys {
     std::string of;
     bool passes = false, setups = false, effects = false;  ///< lists that its axis replaces
     std::map<std::string, KnownKey, std::less<>> known;
-    std::string usual;  ///< the keys in their usual spelling
+    std::vector<std::string> usual;  ///< the keys in their usual spelling
   };
   std::vector<Variant> variants_;  ///< the scenario without lists first
   mutable std::map<std::pair<std::string, std::string>, bool> same_;

@@ -31,6 +31,8 @@ std::string cell_note(const Sweep& sweep, const CellSummary& cell) {
     text += format(", named in %.1f %%", 100.0 * cell.named.value);
   if (cell.failures > 0)
     text += format(", %zu of %zu failed (%s)", cell.failures, sweep.repeats, cell.why.c_str());
+  if (cell.bound.missing != Bound::Missing::nothing)
+    return text + ", no bound: " + to_string(cell.bound.missing) + '\n';
   if (cell.bound.kind == Bound::Kind::gauss_markov) text += ", bound of linear estimates";
   return text + '\n';
 }
@@ -81,15 +83,35 @@ std::string short_text(const Sweep& sweep, const Summary& summary) {
       if (std::isfinite(row.coverage.value)) least = std::min(least, row.coverage.value);
     }
     text += "  " + cell_title(sweep, cell) + ": ";
-    text += std::isfinite(low) ? format("%.3f to %.3f", low, high) : "no bound";
-    if (std::isfinite(least)) text += format(", at least %.1f %%", 100.0 * least);
     const CellSummary& of = summary.cells[cell];
+    const std::string why = to_string(of.bound.missing);
+    text += std::isfinite(low) ? format("%.3f to %.3f", low, high)
+            : why.empty()      ? "no result"
+                               : "no bound (" + why + ")";
+    if (std::isfinite(least)) text += format(", at least %.1f %%", 100.0 * least);
     if (of.failures > 0) text += format(", %zu failed", of.failures);
     if (std::isfinite(of.found.value)) text += format(", found %.1f %%", 100.0 * of.found.value);
     if (std::isfinite(of.named.value)) text += format(", named %.1f %%", 100.0 * of.named.value);
     text += '\n';
   }
   return text;
+}
+
+/// "2 of 6 cells have no result: …", or nothing.
+std::string without_result_text(const Sweep& sweep, const Summary& summary) {
+  constexpr std::size_t most_named = 4;
+  std::size_t count = 0;
+  std::string which, why;
+  for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
+    if (summary.cells[cell].failures < sweep.repeats) continue;
+    if (count == 0) why = summary.cells[cell].why;
+    if (count < most_named) which += (count > 0 ? "; " : "") + cell_title(sweep, cell);
+    ++count;
+  }
+  if (count == 0) return "";
+  if (count > most_named) which += format("; and %zu more", count - most_named);
+  return format("\n%zu of %zu cells have no result: ", count, summary.cells.size()) + which + " (" +
+         why + ")\n";
 }
 
 }  // namespace
@@ -100,6 +122,7 @@ std::string sweep_text(const Sweep& sweep, const Summary& summary) {
                             sweep.repeats, static_cast<unsigned long long>(sweep.seed));
   text += summary.cells.size() <= cells_in_full ? full_text(sweep, summary)
                                                 : short_text(sweep, summary);
+  text += without_result_text(sweep, summary);
   const auto tested =
       std::ranges::count_if(summary.rows, [](const Row& row) { return row.at_bound.has_value(); });
   const auto off =

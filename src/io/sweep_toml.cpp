@@ -54,8 +54,14 @@ std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Sce
   }
   const std::string path = root.required_path("scenario");
   if (path.empty()) return {};
+  std::string content;
   try {
-    std::string content = read_file(path);
+    content = read_file(path);
+  } catch (const InputError& error) {
+    root.complain("scenario", std::string("cannot be used: ") + error.what());
+    return {};
+  }
+  try {
     base = parse_scenario_toml(content, path);
     return content;
   } catch (const InputError& error) {

@@ -18,6 +18,25 @@ const trueText = (value, unit) => isNumber(value) ? `${tick(Number(value.toPreci
 
 const range = (low, high, digits, factor = 1) => isNumber(low) ? ` (${fixed(low * factor, digits)} … ${fixed(high * factor, digits)})` : '';
 
+/** Why cells have no bound: reasons with the number of cells that each holds for. */
+function whyNoBound() {
+  const count = new Map();
+  for (const {why_no_bound: why} of data.cells) if (why) count.set(why, (count.get(why) ?? 0) + 1);
+  return [...count].map(([why, cells]) => `${why}${cells < data.cells.length ? ` (${cells} of ${data.cells.length} cells)` : ''}`).join('; ');
+}
+
+/** Word and line of the banner. */
+function verdict(rows, tested, good) {
+  const leastForAnInterval = 100;
+  if (tested) return [`${good} of ${tested} ratios at the bound`, 'RMSE over the Cramér-Rao bound is 1 within what the number of repeats leaves (1 % over all ratios together).'];
+  if (data.cells.every((cell) => cell.failures === data.repeats)) return ['No result', 'Every repeat failed; below the table stands why.'];
+  if (!rows.some((row) => isNumber(row.bound))) return ['No bound', `There is no bound to compare with: ${whyNoBound() || 'none is known here'}.`];
+  if (!rows.some((row) => isNumber(row.ratio))) return ['No ratio', 'No parameter has both an error and a bound.'];
+  return ['Ratios without an interval', data.drawn.length && data.repeats < leastForAnInterval
+    ? `There are bounds, but where numbers are drawn a ratio has an interval from ${leastForAnInterval} repeats on: whether it is 1 within chance is not known.`
+    : 'There are bounds, but too few repeats to say whether a ratio is 1 within chance.'];
+}
+
 function summary() {
   const rows = data.cells.flatMap((cell) => cell.rows);
   const tested = rows.filter((row) => row.at_bound !== null);
@@ -26,11 +45,10 @@ function summary() {
   const covers = rows.map((row) => row.coverage).filter(isNumber);
   const failures = data.cells.reduce((sum, cell) => sum + cell.failures, 0);
   const all = tested.length > 0 && good === tested.length;
-  const word = tested.length ? `${good} of ${tested.length} ratios at the bound` : 'No bound';
+  const [word, line] = verdict(rows, tested.length, good);
   const ends = (list, show) => list.length ? `${show(list.reduce((a, b) => Math.min(a, b)))} to ${show(list.reduce((a, b) => Math.max(a, b)))}` : 'none';
   return element('div', {class: `banner ${all ? 'good' : 'neutral'}`, role: 'status'}, element('div', {class: 'word'}, word),
-    paragraph(tested.length ? 'RMSE over the Cramér-Rao bound is 1 within what the number of repeats leaves (1 % over all ratios together).'
-      : 'The readings do not determine the parameters, or no bound is known for this noise.', 'line'),
+    paragraph(line, 'line'),
     facts([['RMSE / bound', ends(ratios, (r) => fixed(r, 3))], ['U (k = 2) covers', ends(covers, (c) => `${fixed(100 * c, 1)}${nbsp}%`)],
       ['Repeats that failed', `${failures} of ${data.cells.length * data.repeats}`]], 'numbers'));
 }
@@ -65,10 +83,11 @@ function tableSection() {
       ...(diagnosed ? [share(cell.found), share(cell.named)] : [])];
   }));
   const failed = data.cells.filter((cell) => cell.why).map((cell) => paragraph(`${cell.failures} failed: ${cell.why}`, 'quiet')).slice(0, 12);
-  return section('table', 'Table', rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
-    table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
+  const without = whyNoBound();
+  return section('table', 'Table', without ? paragraph(`No bound: ${without}.`, 'quiet') : null, rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
+    element('div', {class: 'wide'}, table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
       ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed', ...(diagnosed ? ['Found', 'Named'] : [])],
-      rows.slice(0, mostRows)), ...failed);
+      rows.slice(0, mostRows))), ...failed);
 }
 
 function build() {

@@ -87,6 +87,7 @@ json cells_data(const Sweep& sweep, const Summary& summary) {
                      {"readings", of.readings},
                      {"failures", of.failures},
                      {"why", of.why},
+                     {"why_no_bound", to_string(of.bound.missing)},
                      {"linear", of.bound.kind == Bound::Kind::gauss_markov},
                      {"found", share_data(of.found)},
                      {"named", share_data(of.named)},

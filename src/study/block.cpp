@@ -49,30 +49,57 @@ Outcome outcome_of(FitStatus status) {
   return Outcome::too_few;
 }
 
+bool differ(const std::vector<double>& a, const std::vector<double>& b) {
+  constexpr double rounding = 1e-9;  // mm: a picometre; rad
+  return !std::ranges::equal(a, b, [](double x, double y) { return std::abs(x - y) <= rounding; });
+}
+
+/// Effects without which the clean readings would be others.
+std::vector<virtual_lathe::Effect> hidden_effects(const Scenario& scenario,
+                                                  const CleanStream& with) {
+  std::vector<virtual_lathe::Effect> out;
+  for (std::size_t i = 0; i < scenario.effects.size(); ++i) {
+    Scenario less = scenario;
+    less.effects.erase(less.effects.begin() + static_cast<std::ptrdiff_t>(i));
+    const CleanStream without = virtual_lathe::simulate_clean(less);
+    if (differ(with.value_mm, without.value_mm) || !(with.sensor == without.sensor) ||
+        differ(with.stream.c_rad, without.stream.c_rad) ||
+        differ(with.stream.position_mm, without.stream.position_mm))
+      out.push_back(scenario.effects[i]);
+  }
+  return out;
+}
+
 /// A scenario probed without noise, and what its readings are compared with.
 struct Prepared {
   Scenario scenario;
   CleanStream clean;
   std::vector<double> truth;
-  std::optional<RepeatedFit> fit;  ///< none for a diagnosis
+  std::optional<RepeatedFit> fit;             ///< none for a diagnosis
+  std::vector<virtual_lathe::Effect> hidden;  ///< of a diagnosis
 
   Prepared(const Sweep& sweep, std::size_t cell, std::size_t repeat, Method method)
       : scenario(scenario_of(sweep, cell, repeat)),
         clean(virtual_lathe::simulate_clean(scenario)),
         truth(true_values(scenario, probed_length(clean.stream), fitted_surface(sweep))) {
-    if (method != Method::diagnosis)
+    if (method == Method::diagnosis) {
+      hidden = hidden_effects(scenario, clean);
+    } else {
       fit.emplace(clean.stream, fit_options(sweep, scenario, method));
+    }
   }
 };
 
-std::uint8_t found_by(const Diagnosis& diagnosis, const Scenario& scenario) {
+/// Bit 1: something was found; 2: all that is hidden is in the class of a finding.
+std::uint8_t found_by(const Diagnosis& diagnosis,
+                      const std::vector<virtual_lathe::Effect>& hidden) {
   const auto in_a_class = [&](const virtual_lathe::Effect& effect) {
     return std::ranges::any_of(diagnosis.findings, [&](const Finding& finding) {
       return finding.effect == effect.id ||
              std::ranges::find(finding.members, effect.id) != finding.members.end();
     });
   };
-  const bool all = std::ranges::all_of(scenario.effects, in_a_class);
+  const bool all = std::ranges::all_of(hidden, in_a_class);
   return static_cast<std::uint8_t>((diagnosis.verdict != DiagnosisVerdict::ideal ? 1 : 0) +
                                    (all ? 2 : 0));
 }
@@ -86,6 +113,7 @@ Bound mean_bound(const Sweep& sweep, std::size_t cell, std::vector<double>& spre
   for (std::size_t repeat = 0; repeat < count; ++repeat) {
     const Bound one = bound_of(scenario_of(sweep, cell, repeat), fitted_surface(sweep));
     mean.kind = one.kind;
+    if (mean.missing == Bound::Missing::nothing) mean.missing = one.missing;
     mean.covariance.resize(one.covariance.size(), 0.0);
     for (std::size_t i = 0; i < one.covariance.size(); ++i)
       mean.covariance[i] += one.covariance[i] / static_cast<double>(count);
@@ -114,6 +142,10 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
     const CleanStream clean = virtual_lathe::simulate_clean(scenario);
     facts.readings = clean.value_mm.size();
     facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
+    if (cell_at(sweep, cell).method == Method::diagnosis) {
+      const Scenario first = scenario_of(sweep, cell, 0);
+      facts.hidden = hidden_effects(first, virtual_lathe::simulate_clean(first)).size();
+    }
     facts.bound = mean_bound(sweep, cell, facts.bound_spread);
   } catch (const InputError&) {  // its repeats say why
   }
@@ -148,7 +180,7 @@ struct CellRunner {
     options.fit = fit_options(sweep, prepared.scenario, method);
     options.threads = 1;
     const Diagnosis diagnosis = diagnose(stream, options);
-    out.found.back() = found_by(diagnosis, prepared.scenario);
+    out.found.back() = found_by(diagnosis, prepared.hidden);
     note(diagnosis.extended, prepared.truth, out);
   }
 

@@ -75,9 +75,11 @@ void pass_facts_through(Stream& stream, Facts& facts) {
   stream.number(facts.readings);
   stream.list(facts.truth);
   stream.number(facts.bound.kind);
+  stream.number(facts.bound.missing);
   stream.list(facts.bound.sd);
   stream.list(facts.bound.covariance);
   stream.list(facts.bound_spread);
+  stream.number(facts.hidden);
 }
 
 }  // namespace

@@ -111,25 +111,32 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
   Bound bound;
   bound.sd.assign(count, none);
   bound.covariance.assign(count * count, none);
-  if (scenario.part.kind == PartKind::cone && scenario.part.half_angle_rad == 0.0) return bound;
+  const auto without = [&](Bound::Missing why) {
+    bound.missing = why;
+    return bound;
+  };
+  if (scenario.part.kind == PartKind::cone && scenario.part.half_angle_rad == 0.0)
+    return without(Bound::Missing::no_cone);
   const CleanStream clean = simulate_clean(scenario);
+  if (!has_noise(clean, scenario.noise)) return without(Bound::Missing::no_noise);
   if (scenario.noise.uniform_mm > 0.0 || clean.sensor.quantisation_mm > 0.0)
     bound.kind = Bound::Kind::gauss_markov;
   const std::optional<Estimable> model = Estimable::of(scenario, clean.stream, surface);
-  if (!model) return bound;
+  if (!model) return without(Bound::Missing::axis_moves);
   Eigen::MatrixXd jacobian;
   try {
     jacobian = derivatives(
         *model, [](const Scenario& moved) { return vector_of(simulate_clean(moved).value_mm); });
-  } catch (const InputError&) {  // a step leaves what can be probed
-    return bound;
+  } catch (const InputError&) {
+    return without(Bound::Missing::at_a_limit);
   }
-  if (!all_move_readings(*model, jacobian)) return bound;
+  if (!all_move_readings(*model, jacobian)) return without(Bound::Missing::not_determined);
   const Eigen::Index levers = jacobian.cols();
   append_gauge_zeros(*model, jacobian);
-  if (!whiten(clean, scenario.noise, jacobian)) return bound;
+  if (!whiten(clean, scenario.noise, jacobian)) return without(Bound::Missing::not_stationary);
   const Eigen::MatrixXd inverse = inverse_information(jacobian);
-  if (inverse.size() == 0 || !is_determined(*model, inverse)) return bound;
+  if (inverse.size() == 0 || !is_determined(*model, inverse))
+    return without(Bound::Missing::not_determined);
   const Probed probed = probed_length(clean.stream);
   const Eigen::MatrixXd of_quantities = derivatives(*model, [&](const Scenario& moved) {
     return vector_of(true_values(moved, probed, surface));
@@ -149,6 +156,26 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
 
 const char* to_string(Bound::Kind kind) {
   return kind == Bound::Kind::cramer_rao ? "cramer_rao" : "gauss_markov";
+}
+
+const char* to_string(Bound::Missing missing) {
+  switch (missing) {
+    case Bound::Missing::nothing:
+      break;
+    case Bound::Missing::axis_moves:
+      return "the axis moves between set-ups of one clamping";
+    case Bound::Missing::not_determined:
+      return "the readings do not determine the parameters";
+    case Bound::Missing::no_noise:
+      return "no noise";
+    case Bound::Missing::not_stationary:
+      return "the noise is not stationary";
+    case Bound::Missing::at_a_limit:
+      return "a little more of a parameter could not be probed";
+    case Bound::Missing::no_cone:
+      return "a cone without an angle";
+  }
+  return "";
 }
 
 }  // namespace trueaxis::study

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/levers.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/study/quantities.hpp"
@@ -66,28 +67,47 @@ AxisEnds true_ends(const Scenario& scenario, const FitResult& fit) {
   return out;
 }
 
+AxisEnds difference(const AxisEnds& a, const AxisEnds& b) {
+  AxisEnds out{};
+  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] - b[i];
+  return out;
+}
+
+/// Distance of the identified axis from the true one.
+struct AxisError {
+  AxisEnds alone{}, extended{};
+};
+
+AxisError axis_error(const Scenario& scenario, const EffectOnAxis& found) {
+  const AxisEnds truth = true_ends(scenario, found.alone);
+  return {difference(found.alone_ends, truth), difference(ends_of(found.extended), truth)};
+}
+
 /// Lathe, fit and extended fit at one size.
 struct AtSize {
   Moves alone, extended;
   bool separable = true;
 };
 
-AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase& of, double size) {
+/// @param without error of the same fits of the same readings without the effect: 0 of an absolute
+/// probe, while a relative gauge's nominal radius is never quite that of the part
+AtSize at_size(const Scenario& ideal, const FitOptions& options, const HarmCase& of,
+               const AxisError& without, double size) {
   AtSize out;
   for (std::size_t d = 0; d < of.directions.size(); ++d) {
     const EffectOnAxis found = effect_on_axis(probed_with(ideal, of, d, size), options, of.known);
     if (found.alone.status != FitStatus::converged)
       throw InputError(of.effect, "the surface cannot be fitted: " + found.alone.message);
-    const AxisEnds truth = true_ends(ideal, found.alone);
-    const auto per_unit = [&](const AxisEnds& ends) {
-      AxisEnds moved{};
-      for (std::size_t i = 0; i < 4; ++i) moved[i] = (ends[i] - truth[i]) / size;
+    const AxisError with = axis_error(ideal, found);
+    const auto per_unit = [&](const AxisEnds& error, const AxisEnds& error_without) {
+      AxisEnds moved = difference(error, error_without);
+      for (double& one : moved) one /= size;
       return moved;
     };
-    out.alone.push_back(per_unit(found.alone_ends));
-    AxisEnds extended = per_unit(ends_of(found.extended));
-    for (std::size_t i = 0; i < 4; ++i) extended[i] -= of.directions[d].rigid[i];
-    out.extended.push_back(extended);
+    out.alone.push_back(per_unit(with.alone, without.alone));
+    out.extended.push_back(
+        difference(per_unit(with.extended, found.separable ? without.extended : AxisEnds{}),
+                   of.directions[d].rigid));
     out.separable = out.separable && found.separable;
   }
   return out;
@@ -116,13 +136,17 @@ HarmRow harm_of(const Scenario& scenario, const HarmCase& of) {
   FitOptions options;
   options.surface = surface_of(ideal.part.kind);
   options.bore = ideal.part.bore;
-  const EffectOnAxis linearised = effect_on_axis(simulate_clean(ideal).stream, options, of.known);
+  const ProbeStream probed = simulate_clean(ideal).stream;
+  refuse_moving_axis(ideal, probed, "harm");
+  const EffectOnAxis linearised = effect_on_axis(probed, options, of.known);
   if (linearised.alone.status != FitStatus::converged)
     throw InputError(of.effect, "the surface cannot be fitted: " + linearised.alone.message);
   ideal.u_start_mm = linearised.z_mid_mm - linearised.z_half_mm;  // the same u in both
   ideal.u_end_mm = linearised.z_mid_mm + linearised.z_half_mm;
-  const AtSize whole = at_size(ideal, options, of, of.size),
-               half = at_size(ideal, options, of, 0.5 * of.size);
+  const AxisError without =
+      ideal.probe.relative_zero_mm ? axis_error(ideal, linearised) : AxisError{};
+  const AtSize whole = at_size(ideal, options, of, without, of.size),
+               half = at_size(ideal, options, of, without, 0.5 * of.size);
   const Moves predicted = predicted_moves(linearised, of),
               limit = combined(half.alone, 2.0, whole.alone, -1.0);
   const auto apart = [&](const Moves& a, const Moves& b) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "study/levers.hpp"
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/effect/catalogue.hpp"
 #include "trueaxis/simulate/clean_stream.hpp"
@@ -32,6 +33,7 @@ struct Where {
 
 Where where_of(const virtual_lathe::Scenario& scenario) {
   const ProbeStream stream = virtual_lathe::simulate_clean(scenario).stream;
+  refuse_moving_axis(scenario, stream, "harm");
   FitOptions options;
   options.surface = surface_of(scenario.part.kind);
   options.bore = scenario.part.bore;

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
+#include "trueaxis/base/error.hpp"
 #include "trueaxis/base/units.hpp"
+#include "trueaxis/study/bound.hpp"
+#include "trueaxis/study/quantities.hpp"
 
 namespace trueaxis::study {
 
@@ -62,6 +66,13 @@ std::optional<Estimable> Estimable::of(const Scenario& scenario, const ProbeStre
         static_cast<std::size_t>(std::ranges::find_if(out.set_ups_, holds) - out.set_ups_.begin()));
   }
   return out;
+}
+
+void refuse_moving_axis(const Scenario& scenario, const ProbeStream& probed, const char* who) {
+  if (Estimable::of(scenario, probed, surface_of(scenario.part.kind))) return;
+  throw InputError(who, std::string(to_string(Bound::Missing::axis_moves)) +
+                            ": say in the set-up what moved the part (reindex, z_shift or "
+                            "clamp_force_ratio)");
 }
 
 void Estimable::place_radius(const ProbeStream& probed) {

@@ -11,6 +11,10 @@
 /// What a fit estimates, as numbers of the virtual lathe.
 namespace trueaxis::study {
 
+/// @throws InputError of `who` where set-ups of one clamping have axes of their own.
+void refuse_moving_axis(const virtual_lathe::Scenario& scenario, const ProbeStream& probed,
+                        const char* who);
+
 /// Numbers of a scenario that one parameter of the fit moves together, and a step of it that moves
 /// readings by some µm.
 struct Lever {

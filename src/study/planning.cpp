@@ -10,6 +10,7 @@
 #include "study/levers.hpp"
 #include "study/planning_search.hpp"
 #include "trueaxis/base/error.hpp"
+#include "trueaxis/base/units.hpp"
 #include "trueaxis/simulate/clean_stream.hpp"
 #include "trueaxis/study/quantities.hpp"
 #include "trueaxis/study/scenario_parameters.hpp"
@@ -42,11 +43,7 @@ void check(const PlanningTask& task) {
   const virtual_lathe::Probe& probe = task.base.probe;
   if (probe.relative_zero_mm && !probe.nominal_radius_mm)
     refuse("a relative gauge does not show the radius: give nominal_radius_mm");
-  const ProbeStream probed = virtual_lathe::simulate_clean(task.base).stream;
-  if (!Estimable::of(task.base, probed, surface_of(task.base.part.kind)))
-    refuse(
-        "the axis moves between set-ups of one clamping: say in the set-up what moved the part "
-        "(reindex, z_shift or clamp_force_ratio)");
+  refuse_moving_axis(task.base, virtual_lathe::simulate_clean(task.base).stream, "plan");
 }
 
 /// The probe's rate as a limit on the readings per revolution.
@@ -293,6 +290,23 @@ std::vector<Alone> each_alone(const PlanningTask& task, const Search& search) {
   return alone;
 }
 
+/// The fits' own U is what a user will see.
+void remark_on_stated(const PlanningTask& task, PlanningAnswer& out) {
+  constexpr double noticeable = 1.05;  // of the goal: more than an estimated sigma scatters by
+  double most_mm = 0.0;
+  for (const Recommendation& one : out.recommended) {
+    if (one.confirmed.repeats > 0) most_mm = std::max(most_mm, one.confirmed.stated_mm);
+  }
+  if (!(most_mm > noticeable * task.goal_mm)) return;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "the bound meets the goal of %.3g µm, but the U that the fits state does not (up "
+                "to %.3g µm): they take for noise what the bound takes as known, as effects and "
+                "correlation",
+                task.goal_mm / mm_per_um, most_mm / mm_per_um);
+  out.remarks.emplace_back(text);
+}
+
 }  // namespace
 
 PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgress& progress) {
@@ -340,6 +354,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   steps.begin(PlanningStage::simulation, out.recommended.size() * task.repeats);
   for (Recommendation& one : out.recommended)
     one.confirmed = search.confirm(one.plan, out.recommended.size());
+  remark_on_stated(task, out);
   out.confirmed = std::ranges::any_of(
       out.recommended, [](const Recommendation& one) { return !one.confirmed.misses; });
   return out;

@@ -38,8 +38,8 @@ Ends ratio_ends(double ratio, double n, double level) {
 
 /// Where numbers are drawn the errors of a cell have different spreads and there is no χ². Delta
 /// method on the logarithm: `spread` is the variance of mean(e²) over its square plus that of
-/// mean(bound²). The first draws are in both means; they count as independent, so that the interval
-/// is rather too wide.
+/// mean(bound²). Few draws of the bound do not represent a wide distribution: with σ log-uniform
+/// over 2 decades 92 % of the 95 % intervals cover, over 4 decades 88 %.
 Ends drawn_ratio_ends(double ratio, double n, double spread, double level) {
   if (n < least_estimates || !std::isfinite(ratio) || !std::isfinite(spread)) return {none, none};
   const boost::math::normal normal;
@@ -115,7 +115,7 @@ void fill(Row& row, Sample sample) {
   row.ratio = row.rmse / row.bound;
 }
 
-CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_hidden) {
+CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
   for (const BlockResult* block : blocks) {
@@ -130,8 +130,8 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks, bool effects_
     }
   }
   if (looked > 0.0) cell.found = share_of(found, looked);
-  if (looked > 0.0 && effects_hidden) cell.named = share_of(named, looked);
   const CellFacts& facts = blocks.front()->facts.at(0);
+  if (looked > 0.0 && facts.hidden > 0) cell.named = share_of(named, looked);
   cell.readings = facts.readings;
   cell.bound = facts.bound;
   return cell;
@@ -163,7 +163,7 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   const std::vector<Quantity> names = quantities(fitted_surface(sweep));
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    summary.cells.push_back(cell_of(cells[cell], !scenario_of(sweep, cell).effects.empty()));
+    summary.cells.push_back(cell_of(cells[cell]));
     const CellFacts& facts = cells[cell].front()->facts.at(0);
     for (std::size_t i = 0; i < names.size(); ++i) {
       Row row;

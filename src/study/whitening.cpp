@@ -43,13 +43,22 @@ std::optional<StateSpace> state_space(const Noise& noise) {
   return std::nullopt;
 }
 
+/// Of the uniform part and of rounding, mm².
+double white_variance(const CleanStream& clean, const Noise& noise) {
+  return (noise.uniform_mm * noise.uniform_mm +
+          0.25 * clean.sensor.quantisation_mm * clean.sensor.quantisation_mm) /
+         3.0;
+}
+
 }  // namespace
 
+bool has_noise(const CleanStream& clean, const Noise& noise) {
+  return noise.sigma_mm > 0.0 || white_variance(clean, noise) > 0.0;
+}
+
 bool whiten(const CleanStream& clean, const Noise& noise, Eigen::MatrixXd& rows) {
-  const double white = (noise.uniform_mm * noise.uniform_mm +
-                        0.25 * clean.sensor.quantisation_mm * clean.sensor.quantisation_mm) /
-                       3.0;
-  if (!(noise.sigma_mm > 0.0 || white > 0.0)) return false;
+  const double white = white_variance(clean, noise);
+  if (!has_noise(clean, noise)) return false;
   std::optional<StateSpace> space = state_space(noise);
   if (!space) return false;
   const Eigen::MatrixXd& transition = space->transition;

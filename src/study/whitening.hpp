@@ -7,6 +7,9 @@
 
 namespace trueaxis::study {
 
+/// Whether anything of the noise, or the sensor's rounding, moves a reading.
+bool has_noise(const virtual_lathe::CleanStream& clean, const virtual_lathe::Noise& noise);
+
 /// Divides rows (one a reading) by the standard deviation of the reading given all before it, after
 /// taking off what those predict: Kalman's innovations of y = s x + v, x the autoregression of
 /// standard deviation 1, s that of the reading, v white (uniform part and rounding). Information

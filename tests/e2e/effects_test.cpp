@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/simulate/effects.hpp"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -6,6 +8,7 @@
 
 #include "support/command.hpp"
 #include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/io/scenario_toml.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -37,6 +40,31 @@ TEST(EffectsCommand, ExplainsEachWithAllThatTheEntrySays) {
   // 5-20 seconds of arc, the unit of the page.
   EXPECT_NE(trueaxis_command("effects encoder.eccentricity").output.find("24 to 97 urad"),
             std::string::npos);
+}
+
+// A scenario written from what is listed, every key at 1, is read.
+TEST(EffectsCommand, ListsTheKeysOfAScenariosEffect) {
+  std::size_t keys = 0;
+  for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
+    const std::string id(kind.id);
+    if (find_effect(id) == nullptr) continue;
+    const auto json = nlohmann::json::parse(trueaxis_command("effects " + id + " --json").output);
+    const std::string page = trueaxis_command("effects " + id).output;
+    std::string text = "[[effect]]\nid = \"" + id + "\"\n";
+    for (const auto& key : json.at("effects").at(0).at("scenario_keys")) {
+      const std::string name = key.at("key");
+      EXPECT_NE(page.find(name), std::string::npos) << id << ' ' << name;
+      text += name + " = 1\n";
+      ++keys;
+    }
+    EXPECT_NO_THROW(
+        parse_scenario_toml("[part]\nkind = \"cylinder\"\nradius_mm = 9\n[[pass]]\n"
+                            "z_start_mm = 0\nz_end_mm = 1\n" +
+                                text,
+                            id))
+        << text;
+  }
+  EXPECT_GT(keys, 50U);
 }
 
 TEST(EffectsCommand, JsonIsInTheUnitsOfTheContract) {

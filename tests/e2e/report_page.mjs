@@ -88,6 +88,9 @@ async function look(browser, {name, width, height}) {
     if (charts.count === 0) problems.push('there is no chart');
     problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText));
     console.log(`${name}: ${charts.count} charts at ${width} px`);
+    const cut = await page.evaluate(() => [...document.querySelectorAll('.wide .scroll')].filter((box) => box.scrollWidth > box.clientWidth).length);
+    console.log(`${name}: ${cut} wide tables scroll`);
+    console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
   }

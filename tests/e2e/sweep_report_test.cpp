@@ -83,6 +83,41 @@ TEST_F(SweepReport, WithoutABoundAndWithFailures) {
   expect_sound(sweep, "failures");
 }
 
+// Of a drawn sweep's 10 repeats no ratio has an interval; of a plan in front of a cone's apex no
+// repeat has a stream; without noise there is no bound.
+TEST_F(SweepReport, SaysWhichOfBoundRatioAndResultIsMissing) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
+  sweep.repeats = 10;
+  const auto banner = [&](const std::string& name) {
+    return open_page(page_of(sweep), "banner_" + name).log;
+  };
+  sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
+  std::string log = banner("drawn");
+  EXPECT_NE(log.find("a ratio has an interval from 100 repeats on"), std::string::npos) << log;
+  EXPECT_EQ(log.find("No bound"), std::string::npos) << log;
+  sweep.drawn.clear();
+  sweep.base.noise = {};
+  log = banner("noiseless");
+  EXPECT_NE(log.find("There is no bound to compare with: no noise."), std::string::npos) << log;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
+  sweep.base.part.apex_mm = 25.0;
+  log = banner("failed");
+  EXPECT_NE(log.find("Every repeat failed"), std::string::npos) << log;
+  EXPECT_EQ(log.find("No bound"), std::string::npos) << log;
+}
+
+// A window of 1400 px has room for the table of a cylinder and one axis; a phone has not.
+TEST_F(SweepReport, TheTableTakesTheWidthThatThereIs) {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.repeats = 100;
+  sweep.axes = {testing::over("noise.sigma_mm", {0.001, 0.002})};
+  const std::string log = open_page(page_of(sweep), "width").log;
+  EXPECT_NE(log.find("wide: 0 wide tables scroll"), std::string::npos) << log;
+  EXPECT_EQ(log.find("phone: 0 wide tables scroll"), std::string::npos) << log;
+}
+
 TEST_F(SweepReport, ManyCells) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);

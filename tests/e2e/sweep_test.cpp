@@ -169,10 +169,34 @@ TEST_F(SweepCommand, KeepsGoingWhereACellCannotBeProbed) {
   text += "[[axis]]\nkey = \"part.k_mm\"\nvalues = [-150, 15]\n";  // 15: the apex is in the way
   file("sweep.toml", text);
   ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  EXPECT_TRUE(contains(command("sweep sweep.toml").out, "4 of 8 cells have no result: "));
   const nlohmann::json cells = result("out/sweep.json")["cells"];
   EXPECT_EQ(cells[0]["failures"], 0);
   EXPECT_EQ(cells[2]["failures"], 10);
   EXPECT_TRUE(contains(cells[2]["why"].get<std::string>(), "apex"));
+}
+
+TEST_F(SweepCommand, SaysWhyThereIsNoBound) {
+  int number = 0;
+  const auto expect_why = [&](const std::string& sweep, const std::string& why) {
+    const std::string out = "out" + std::to_string(number++);
+    file("sweep.toml", sweep);
+    const CommandStreams done = command("sweep sweep.toml -o " + out);
+    ASSERT_EQ(done.exit_code, 0) << done.err;
+    EXPECT_TRUE(contains(done.out, "no bound: " + why)) << done.out;
+    EXPECT_EQ(result(out + "/sweep.json")["cells"][0]["why_no_bound"], why);
+    EXPECT_TRUE(contains(text(out + "/report.html"), why));
+  };
+  const std::string part = "repeats = 3\n[part]\nkind = \"cylinder\"\nradius_mm = 30\n",
+                    pass =
+                        "[[pass]]\nz_start_mm = 0\nz_end_mm = 20\nreadings_per_revolution = 9.3\n",
+                    noise = "[noise]\nsigma_um = 5\n";
+  expect_why(part + noise + pass + pass + "setup = 2\n[[setup]]\nnumber = 2\nx0_mm = 0.1\n",
+             "the axis moves between set-ups of one clamping");
+  expect_why(part + pass, "no noise");
+  expect_why(part + noise + "[[pass]]\nz_start_mm = 0\nz_end_mm = 0\nrevolutions = 9\n" +
+                 "readings_per_revolution = 9.3\n",
+             "the readings do not determine the parameters");
 }
 
 TEST_F(SweepCommand, StudiesADiagnosis) {
@@ -185,6 +209,21 @@ TEST_F(SweepCommand, StudiesADiagnosis) {
   EXPECT_EQ(cells[0]["found"]["value"],
             1.0);  // 8 µm at σ = 2 µm over 1395 readings: λ of thousands
   EXPECT_EQ(cells[0]["named"]["value"], 1.0);
+}
+
+// An effect of size 0 hides nothing: there is nothing to be named. Of two only the other counts.
+TEST_F(SweepCommand, NamesNothingWhereNothingIsHidden) {
+  std::string text = sweep_text(3) +
+                     "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 8\n"
+                     "[[effect]]\nid = \"part.roundness\"\norder = 2\namplitude_um = 0\n"
+                     "[[axis]]\nkey = \"effect.0.amplitude_um\"\nvalues = [0, 8]\n";
+  text.replace(text.find("[\"fit\", \"tukey\"]"), 16, "[\"diagnosis\"]");
+  file("sweep.toml", text);
+  ASSERT_EQ(command("sweep sweep.toml -o out").exit_code, 0);
+  const nlohmann::json cells = result("out/sweep.json")["cells"];
+  EXPECT_TRUE(cells[0]["named"]["value"].is_null()) << cells[0];
+  EXPECT_FALSE(cells[0]["found"]["value"].is_null());
+  EXPECT_EQ(cells[1]["named"]["value"], 1.0);
 }
 
 }  // namespace

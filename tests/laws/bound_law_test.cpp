@@ -156,7 +156,20 @@ TEST(Bound, IsReachedByASection) {
 TEST(Bound, IsNotThereWhereTheAxisMovedUnsaid) {
   Scenario scenario = clamped_twice(PartKind::cylinder);
   scenario.plan.setups[0].reindex_rad = scenario.plan.setups[0].z_shift_mm = 0.0;
-  for (const double sd : bound_of(scenario, "cylinder").sd) EXPECT_TRUE(std::isnan(sd));
+  const Bound bound = bound_of(scenario, "cylinder");
+  for (const double sd : bound.sd) EXPECT_TRUE(std::isnan(sd));
+  EXPECT_EQ(bound.missing, Bound::Missing::axis_moves);
+}
+
+TEST(Bound, IsNotThereWithoutNoise) {
+  Scenario scenario = probed_part(PartKind::cylinder);
+  EXPECT_EQ(bound_of(scenario, "cylinder").missing, Bound::Missing::nothing);
+  scenario.noise = {};
+  const Bound bound = bound_of(scenario, "cylinder");
+  EXPECT_TRUE(std::isnan(bound.sd.front()));
+  EXPECT_EQ(bound.missing, Bound::Missing::no_noise);
+  scenario.noise.quantisation_mm = 1e-3;  // rounding is noise
+  EXPECT_EQ(bound_of(scenario, "cylinder").missing, Bound::Missing::nothing);
 }
 
 TEST(Bound, KnowsTheKindOfNoise) {
@@ -233,7 +246,8 @@ TEST(Bound, WhitensAsTheInverseCovarianceDoes) {
   const std::vector<double> by_rho = bound_of(scenario, "plane").sd;
   scenario.noise.autoregression = {0.7}, scenario.noise.rho = 0.0;
   EXPECT_EQ(by_rho, bound_of(scenario, "plane").sd);
-  scenario.noise.autoregression = {1.2, -0.1};  // not stationary
+  scenario.noise.autoregression = {1.2, -0.1};
+  EXPECT_EQ(bound_of(scenario, "plane").missing, Bound::Missing::not_stationary);
   for (const double sd : bound_of(scenario, "plane").sd) EXPECT_TRUE(std::isnan(sd));
 }
 
@@ -252,8 +266,9 @@ TEST(Bound, IsNotThereWhereTheReadingsDoNotDetermineTheParameters) {
   scenario.part.l = scenario.part.m = 0.0;
   scenario.plan.passes[0].end_mm = scenario.plan.passes[0].start_mm;  // one section: no tilt
   scenario.plan.passes[0].revolutions = 20.0;
-  for (const double sd : bound_of(scenario, surface_of(scenario.part.kind)).sd)
-    EXPECT_TRUE(std::isnan(sd));
+  const Bound bound = bound_of(scenario, surface_of(scenario.part.kind));
+  for (const double sd : bound.sd) EXPECT_TRUE(std::isnan(sd));
+  EXPECT_EQ(bound.missing, Bound::Missing::not_determined);
 }
 
 }  // namespace

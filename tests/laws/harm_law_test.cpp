@@ -63,6 +63,26 @@ TEST_P(HarmLaw, TheExtendedModelHasNoFirstOrderLeft) {
   }
 }
 
+// A gauge whose nominal radius is off by 0.137 mm (a whole period of the cyclic case) misses the
+// axis by some nm without any effect, which is no harm of one. What is left is that the prediction
+// is about a part of another radius: proportional to the radius' error, 10 times that is wide.
+TEST_P(HarmLaw, ARelativeGaugesOwnErrorIsNoHarm) {
+  Scenario scenario = reference(GetParam());
+  const double radius_mm = GetParam() == PartKind::cone ? 43.0 : 40.0,
+               off_mm = 0.137;  // in the middle
+  scenario.probe.relative_zero_mm = radius_mm;
+  scenario.probe.nominal_radius_mm = radius_mm + off_mm;
+  for (const HarmCase& one : harm_cases(scenario)) {
+    SCOPED_TRACE(one.effect + " " + one.form);
+    const HarmRow row = harm_of(scenario, one);
+    const double share = 10.0 * off_mm / radius_mm;
+    const double least = 1e-3 / one.edge;
+    EXPECT_LE(row.off, row.second_order + row.rounding + share * std::max(row.predicted, least));
+    EXPECT_LE(row.off_half,
+              0.55 * row.off_whole + row.rounding + share * std::max(row.predicted, least));
+  }
+}
+
 TEST_P(HarmLaw, EveryEffectOfTheCatalogueHasACase) {
   std::set<std::string_view> covered;
   const std::vector<HarmCase> cases = harm_cases(reference(GetParam()));

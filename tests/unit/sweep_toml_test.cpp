@@ -192,6 +192,46 @@ TEST(SweepToml, AReadingSetsWhatNoAxisSets) {
                    "keep one of them");
 }
 
+// Not every key that there is, on one line.
+TEST(SweepToml, AnUnknownKeyIsToldTheNearestAndItsTable) {
+  const std::string said = complaints(part + axis("noise.sigam_um", "2"));
+  EXPECT_NE(said.find("noise.rho"), std::string::npos) << said;
+  EXPECT_EQ(said.find("part.x0_mm"), std::string::npos) << said;
+}
+
+TEST(SweepToml, AnAxisWithANameNeedsCases) {
+  expect_complaint(part + "[[axis]]\nname = \"noise kind\"\n", "give it [[axis.case]]");
+}
+
+TEST(SweepToml, AScenarioThatCannotBeReadHasAPlace) {
+  expect_complaint("seed = 1\nscenario = \"nix.toml\"\n", "sweep.toml:2:12: `scenario`");
+}
+
+TEST(SweepToml, ARelativeGaugeNeedsItsNominalRadius) {
+  const std::string gauge = "[probe]\nrelative_zero_mm = 20\n";
+  const std::string why = "give `probe.nominal_radius_mm` too";
+  expect_complaint(gauge + part, why);
+  expect_complaint(gauge + part, "sweep.toml:2:");
+  expect_complaint(part + axis("probe.relative_zero_mm", "20"), why);
+  expect_complaint(part + one_case("\"probe.relative_zero_mm\" = 20"), why);
+  EXPECT_EQ(complaints(gauge + "nominal_radius_mm = 20\n" + part), "");
+  EXPECT_EQ(complaints(gauge + part + axis("probe.nominal_radius_mm", "19, 20")), "");
+  EXPECT_EQ(
+      complaints(gauge +
+                 "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 10\nx_end_mm = 20\n"),
+      "");
+}
+
+TEST(SweepToml, RhoAndAnAutoregressionContradict) {
+  std::string ar = part;
+  ar.replace(ar.find("sigma_um = 5"), 12, "sigma_um = 5\nautoregression = [0.5, 0.3]");
+  const std::string why = "keep one of them";
+  expect_complaint(ar + axis("noise.rho", "0, 0.6"), why);
+  expect_complaint(ar + one_case("\"noise.rho\" = 0.6"), why);
+  EXPECT_EQ(complaints(ar + axis("noise.rho", "0")), "");
+  EXPECT_EQ(complaints(part + axis("noise.rho", "0, 0.6")), "");
+}
+
 TEST(SweepToml, TheHashIsThatOfAllBytes) {
   EXPECT_EQ(parse(part).input_hash, parse(part).input_hash);
   EXPECT_NE(parse(part).input_hash, parse(part + "# a remark\n").input_hash);

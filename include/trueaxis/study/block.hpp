@@ -33,6 +33,9 @@ struct CellFacts {
   /// Of every quantity's mean square bound: its variance over its square, as far as it comes from
   /// the draws; NaN of a single draw, empty where nothing is drawn.
   std::vector<double> bound_spread{};
+  /// Of a diagnosis: effects that change the clean readings (where numbers are drawn, of repeat 0);
+  /// one of size 0 hides nothing.
+  std::uint64_t hidden = 0;
 };
 
 struct BlockResult {

@@ -17,6 +17,16 @@ struct Bound {
   } kind = Kind::cramer_rao;
   std::vector<double> sd;          ///< in the order of quantities(); NaN: none (see bound_of)
   std::vector<double> covariance;  ///< of all quantities, row-major
+  /// Why there is none of any quantity.
+  enum class Missing {
+    nothing,         ///< there is one
+    axis_moves,      ///< the metadata tell one clamping, but the axis moved
+    not_determined,  ///< the readings do not determine the parameters
+    no_noise,
+    not_stationary,  ///< the noise's autoregression
+    at_a_limit,      ///< a step of a parameter leaves what can be probed
+    no_cone          ///< a cone whose half angle is 0
+  } missing = Missing::nothing;
 };
 
 /// σ²(JᵀJ)⁻¹ with J the derivatives of the virtual lathe's clean readings with respect to the
@@ -31,5 +41,8 @@ Bound bound_of(const virtual_lathe::Scenario& scenario, std::string_view surface
 
 /// "cramer_rao" or "gauss_markov".
 const char* to_string(Bound::Kind kind);
+
+/// "the readings do not determine the parameters"; empty where there is a bound.
+const char* to_string(Bound::Missing missing);
 
 }  // namespace trueaxis::study

@@ -57,7 +57,8 @@ struct HarmRow {
 };
 
 /// Fits noise-free readings of the virtual lathe. The scenario's noise and effects are left out.
-/// @throws InputError when the part cannot be probed, or the surface not be fitted.
+/// @throws InputError when the part cannot be probed, the surface not be fitted, or the axis moves
+/// between set-ups of one clamping.
 HarmRow harm_of(const virtual_lathe::Scenario& scenario, const HarmCase& of);
 
 /// The plan of the catalogue's figures: cone of R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad,
