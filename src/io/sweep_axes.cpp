@@ -290,12 +290,16 @@ void SweepAxes::check_gauge(TomlTable root) const {
   }
   const WrittenKey* axis = taken_by(zero, taken_);
   if (axis == nullptr) return;
-  for (const Axis& one : axes_) {
-    if (one.name != axis->key && one.cases.empty()) continue;
-    TomlTable table = one.table;
-    table.complain(one.cases.empty() ? "key" : "name", "sets `" + zero + "`, " + what);
-    return;
-  }
+  const auto sets_zero = [&](const GridAxis& grid) {
+    return std::ranges::any_of(grid.points, [&](const AxisPoint& point) {
+      return std::ranges::find(point.settings, zero, &Setting::path) != point.settings.end();
+    });
+  };
+  const auto grid = std::ranges::find_if(sweep_.axes, sets_zero);
+  const std::string& name = grid == sweep_.axes.end() ? axis->key : grid->name;
+  const auto at = std::ranges::find(axes_, name, &Axis::name);
+  TomlTable table = at->table;
+  table.complain(at->cases.empty() ? "key" : "name", "sets `" + zero + "`, " + what);
 }
 
 /// Looks at the grid of those axes alone that set the autoregression.

@@ -214,6 +214,12 @@ TEST(SweepToml, ARelativeGaugeNeedsItsNominalRadius) {
   expect_complaint(gauge + part, "sweep.toml:2:");
   expect_complaint(part + axis("probe.relative_zero_mm", "20"), why);
   expect_complaint(part + one_case("\"probe.relative_zero_mm\" = 20"), why);
+  expect_complaint(part + drawn("probe.relative_zero_mm"), why);
+  expect_complaint(part +
+                       "[[axis]]\nname = \"first\"\n[[axis.case]]\nlabel = \"a\"\nset = { "
+                       "\"noise.rho\" = 0 }\n" +
+                       one_case("\"probe.relative_zero_mm\" = 20"),
+                   "sweep.toml:20:8: `name` sets `probe.relative_zero_mm`");
   EXPECT_EQ(complaints(gauge + "nominal_radius_mm = 20\n" + part), "");
   EXPECT_EQ(complaints(gauge + part + axis("probe.nominal_radius_mm", "19, 20")), "");
   EXPECT_EQ(
