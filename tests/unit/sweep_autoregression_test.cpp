@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/sweep_examples.hpp"
+#include "support/sweep_text.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/scenario_toml.hpp"
 #include "trueaxis/io/sweep_toml.hpp"
@@ -12,6 +13,9 @@
 namespace trueaxis {
 namespace {
 
+using testing::complaints_of_sweep;
+using testing::expect_complaint;
+
 std::string part(const std::string& autoregression) {
   return "[part]\nkind = \"cylinder\"\nradius_mm = 20\n[noise]\nsigma_um = 5\nautoregression = " +
          autoregression + "\n[[pass]]\nz_start_mm = 0\nz_end_mm = -30\n";
@@ -19,21 +23,6 @@ std::string part(const std::string& autoregression) {
 
 std::string axis(int j, const std::string& rest) {
   return "[[axis]]\nkey = \"noise.autoregression." + std::to_string(j) + "\"\n" + rest + "\n";
-}
-
-std::string complaints(const std::string& text) {
-  try {
-    parse_sweep_toml(text, "sweep.toml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_complaint(const std::string& text, const std::string& expected) {
-  const std::string said = complaints(text);
-  EXPECT_NE(said.find(expected), std::string::npos)
-      << "expected: " << expected << "\nsaid: " << said;
 }
 
 TEST(SweepAutoregression, IsReadAndSet) {
@@ -53,7 +42,7 @@ TEST(SweepAutoregression, IsReadAndSet) {
 // Order 2 is stationary inside the triangle φ2 < 1 − φ1, φ2 < 1 + φ1, φ2 > −1 (Box and Jenkins).
 TEST(SweepAutoregression, IsStationaryOrRefused) {
   expect_complaint(part("[0.6, 0.41]"), "is not stationary");
-  EXPECT_EQ(complaints(part("[0.6, 0.39]")), "");
+  EXPECT_EQ(complaints_of_sweep(part("[0.6, 0.39]")), "");
   expect_complaint(part("[1.0]"), "is not stationary");
   expect_complaint(part("[0, 0]") + axis(1, "values = [-0.99, -1.01]"),
                    "not stationary at noise.autoregression.1 = -1.01");
@@ -61,10 +50,11 @@ TEST(SweepAutoregression, IsStationaryOrRefused) {
   expect_complaint(part("[0, 0]") + both,
                    "not stationary at noise.autoregression.0 = 0.9, noise.autoregression.1 = 0.3");
   expect_complaint(part("[0, 0]") + both, "sweep.toml:13:");
-  EXPECT_EQ(complaints(part("[0, 0]") + axis(0, "values = [0, 0.9]") + axis(1, "values = [-0.9]")),
+  EXPECT_EQ(complaints_of_sweep(part("[0, 0]") + axis(0, "values = [0, 0.9]") +
+                                axis(1, "values = [-0.9]")),
             "");
   const std::string drawn = "distribution = \"uniform\"\nlow = -0.5\nhigh = ";
-  EXPECT_EQ(complaints(part("[0]") + axis(0, drawn + "0.9")), "");
+  EXPECT_EQ(complaints_of_sweep(part("[0]") + axis(0, drawn + "0.9")), "");
   expect_complaint(part("[0]") + axis(0, drawn + "1.1"),
                    "not stationary at noise.autoregression.0 = 1.1");
   expect_complaint(part("[0]") + axis(1, "values = [0.1]"), "which the scenario does not have");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "support/sweep_text.hpp"
 #include "trueaxis/base/error.hpp"
 #include "trueaxis/io/sweep_toml.hpp"
 
@@ -11,6 +12,8 @@ namespace trueaxis {
 namespace {
 
 using study::scenario_of;
+using testing::expect_complaint;
+using testing::parse_sweep;
 using virtual_lathe::Scenario;
 
 const std::string part = R"(
@@ -65,23 +68,6 @@ amplitude_um = 1
 
 const std::string length = "[[axis]]\nkey = \"pass.length_mm\"\nvalues = [10]\n";
 
-study::Sweep parse(const std::string& text) { return parse_sweep_toml(text, "sweep.toml"); }
-
-std::string complaints(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_complaint(const std::string& text, const std::string& expected) {
-  const std::string said = complaints(text);
-  EXPECT_NE(said.find(expected), std::string::npos)
-      << "expected: " << expected << "\nsaid: " << said;
-}
-
 /// "sweep.toml:LINE:" of the first line that holds `words`.
 std::string line_of(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
@@ -90,7 +76,7 @@ std::string line_of(const std::string& text, const std::string& words) {
 }
 
 TEST(SweepLists, ReplaceThoseOfTheScenario) {
-  const study::Sweep sweep = parse(part + plans + effects);
+  const study::Sweep sweep = parse_sweep(part + plans + effects);
   ASSERT_EQ(study::cell_count(sweep), 4U);
   const Scenario given = scenario_of(sweep, 1);  // as given, oval
   EXPECT_EQ(given.plan.passes.size(), 1U);
@@ -111,7 +97,7 @@ TEST(SweepLists, ReplaceThoseOfTheScenario) {
 // Lists first, then the numbers, wherever the axes stand; a travel keeps the way of its pass.
 TEST(SweepLists, ComeBeforeAllNumbers) {
   for (const std::string& text : {part + plans + length, part + length + plans}) {
-    const study::Sweep sweep = parse(text);
+    const study::Sweep sweep = parse_sweep(text);
     EXPECT_EQ(scenario_of(sweep, 0).plan.passes[0].end_mm, -10.0);
     const Scenario back = scenario_of(sweep, 1);
     EXPECT_EQ(back.plan.passes[0].end_mm, 15.0);
@@ -133,7 +119,7 @@ TEST(SweepLists, KeysExistInEveryCase) {
   const std::string all_have =
       "[[axis]]\nname = \"n\"\n[[axis.case]]\nlabel = \"a\"\n[[axis.case.effect]]\n"
       "id = \"part.taper\"\namplitude_um = 1\n";
-  EXPECT_EQ(scenario_of(parse(part + all_have + axis("effect.0.amplitude_mm")), 0)
+  EXPECT_EQ(scenario_of(parse_sweep(part + all_have + axis("effect.0.amplitude_mm")), 0)
                 .effects[0]
                 .parameters.at("amplitude_mm"),
             3.0);
@@ -183,7 +169,8 @@ name = "slower"
 )";
 
 TEST(SweepLists, ReadingsOfPaperSetWhatEveryCaseHas) {
-  const study::Sweep sweep = parse(part + plans + paper + "set = { \"pass.0.pause_s\" = 9 }\n");
+  const study::Sweep sweep =
+      parse_sweep(part + plans + paper + "set = { \"pass.0.pause_s\" = 9 }\n");
   ASSERT_TRUE(sweep.published.has_value());
   study::Sweep read = sweep;
   read.settings = sweep.published->readings[0].settings;

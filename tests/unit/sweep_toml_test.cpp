@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/sweep_text.hpp"
 #include "trueaxis/base/error.hpp"
 
 namespace trueaxis {
@@ -13,6 +14,9 @@ namespace {
 
 using study::Drawn;
 using study::Method;
+using testing::complaints_of_sweep;
+using testing::expect_complaint;
+using testing::parse_sweep;
 
 const std::string part = R"(
 [part]
@@ -29,27 +33,9 @@ order = 3
 amplitude_um = 2
 )";
 
-study::Sweep parse(const std::string& text) { return parse_sweep_toml(text, "sweep.toml"); }
-
-/// All that is said of a wrong sweep.
-std::string complaints(const std::string& text) {
-  try {
-    parse(text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_complaint(const std::string& text, const std::string& expected) {
-  const std::string said = complaints(text);
-  EXPECT_NE(said.find(expected), std::string::npos)
-      << "expected: " << expected << "\nsaid: " << said;
-}
-
 TEST(SweepToml, ReadsAxesInAnyUnit) {
   const study::Sweep sweep =
-      parse("seed = 7\nrepeats = 50\nmethods = [\"fit\", \"tukey\"]\n" + part + R"(
+      parse_sweep("seed = 7\nrepeats = 50\nmethods = [\"fit\", \"tukey\"]\n" + part + R"(
 [[axis]]
 key = "noise.sigma_um"
 values = [2, 5]
@@ -89,7 +75,7 @@ set = { "noise.rho" = 0.1, "noise.uniform_um" = 5 }
 
 TEST(SweepToml, SaysEverythingThatIsWrongAtOnce) {
   const std::string said =
-      complaints("repeats = 0\nmethods = [\"guess\"]\nlenght = 3\n" + part + R"(
+      complaints_of_sweep("repeats = 0\nmethods = [\"guess\"]\nlenght = 3\n" + part + R"(
 [[axis]]
 key = "noise.sigam_um"
 values = [2]
@@ -160,8 +146,9 @@ TEST(SweepToml, ANumberIsWrittenOnce) {
                      "keep one of them");
   }
   const std::string second = "[[pass]]\nz_start_mm = 5\nz_end_mm = 9\n";
-  EXPECT_EQ(
-      complaints(part + second + axis("pass.0.length_mm", "1") + axis("pass.1.z_end_mm", "3")), "");
+  EXPECT_EQ(complaints_of_sweep(part + second + axis("pass.0.length_mm", "1") +
+                                axis("pass.1.z_end_mm", "3")),
+            "");
 }
 
 // The travel starts where the start was set, and keeps its way, whatever the order.
@@ -169,11 +156,12 @@ TEST(SweepToml, AStartAndATravelGoTogether) {
   const std::string start = axis("pass.z_start_mm", "-50, 20"),
                     travel = axis("pass.length_mm", "10");
   for (const std::string& text : {part + start + travel, part + travel + start}) {
-    const study::Sweep sweep = parse(text);
+    const study::Sweep sweep = parse_sweep(text);
     EXPECT_EQ(study::scenario_of(sweep, 0).plan.passes[0].end_mm, -60.0);
     EXPECT_EQ(study::scenario_of(sweep, 1).plan.passes[0].end_mm, 10.0);
   }
-  const study::Sweep sweep = parse(part + axis("pass.length_mm", "10") + drawn("pass.z_start_mm"));
+  const study::Sweep sweep =
+      parse_sweep(part + axis("pass.length_mm", "10") + drawn("pass.z_start_mm"));
   EXPECT_EQ(study::scenario_of(sweep, 0).plan.passes[0].end_mm, 1.5 - 10.0);
 }
 
@@ -185,7 +173,8 @@ TEST(SweepToml, AReadingSetsWhatNoAxisSets) {
            "values = [\"0.1\"]\n[[paper.reading]]\nname = \"r\"\nset = { " +
            set + " }\n";
   };
-  EXPECT_EQ(complaints(part + reading("\"pass.z_end_mm\" = 5")), "");  // the way of the travel
+  EXPECT_EQ(complaints_of_sweep(part + reading("\"pass.z_end_mm\" = 5")),
+            "");  // the way of the travel
   expect_complaint(part + reading("\"noise.sigma_um\" = 5"), "sets afterwards: take it out");
   expect_complaint(part + reading("\"pass.0.length_mm\" = 5"), "sets afterwards: take it out");
   expect_complaint(part + reading("\"pass.feed_mm_per_rev\" = 5, \"pass.0.feed_mm_per_rev\" = 1"),
@@ -194,7 +183,7 @@ TEST(SweepToml, AReadingSetsWhatNoAxisSets) {
 
 // Not every key that there is, on one line.
 TEST(SweepToml, AnUnknownKeyIsToldTheNearestAndItsTable) {
-  const std::string said = complaints(part + axis("noise.sigam_um", "2"));
+  const std::string said = complaints_of_sweep(part + axis("noise.sigam_um", "2"));
   EXPECT_NE(said.find("noise.rho"), std::string::npos) << said;
   EXPECT_EQ(said.find("part.x0_mm"), std::string::npos) << said;
 }
@@ -220,11 +209,11 @@ TEST(SweepToml, ARelativeGaugeNeedsItsNominalRadius) {
                        "\"noise.rho\" = 0 }\n" +
                        one_case("\"probe.relative_zero_mm\" = 20"),
                    "sweep.toml:20:8: `name` sets `probe.relative_zero_mm`");
-  EXPECT_EQ(complaints(gauge + "nominal_radius_mm = 20\n" + part), "");
-  EXPECT_EQ(complaints(gauge + part + axis("probe.nominal_radius_mm", "19, 20")), "");
+  EXPECT_EQ(complaints_of_sweep(gauge + "nominal_radius_mm = 20\n" + part), "");
+  EXPECT_EQ(complaints_of_sweep(gauge + part + axis("probe.nominal_radius_mm", "19, 20")), "");
   EXPECT_EQ(
-      complaints(gauge +
-                 "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 10\nx_end_mm = 20\n"),
+      complaints_of_sweep(
+          gauge + "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 10\nx_end_mm = 20\n"),
       "");
 }
 
@@ -234,13 +223,13 @@ TEST(SweepToml, RhoAndAnAutoregressionContradict) {
   const std::string why = "keep one of them";
   expect_complaint(ar + axis("noise.rho", "0, 0.6"), why);
   expect_complaint(ar + one_case("\"noise.rho\" = 0.6"), why);
-  EXPECT_EQ(complaints(ar + axis("noise.rho", "0")), "");
-  EXPECT_EQ(complaints(part + axis("noise.rho", "0, 0.6")), "");
+  EXPECT_EQ(complaints_of_sweep(ar + axis("noise.rho", "0")), "");
+  EXPECT_EQ(complaints_of_sweep(part + axis("noise.rho", "0, 0.6")), "");
 }
 
 TEST(SweepToml, TheHashIsThatOfAllBytes) {
-  EXPECT_EQ(parse(part).input_hash, parse(part).input_hash);
-  EXPECT_NE(parse(part).input_hash, parse(part + "# a remark\n").input_hash);
+  EXPECT_EQ(parse_sweep(part).input_hash, parse_sweep(part).input_hash);
+  EXPECT_NE(parse_sweep(part).input_hash, parse_sweep(part + "# a remark\n").input_hash);
 }
 
 }  // namespace

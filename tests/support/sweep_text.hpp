@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "trueaxis/base/error.hpp"
+#include "trueaxis/io/sweep_toml.hpp"
+
+namespace trueaxis::testing {
+
+inline study::Sweep parse_sweep(const std::string& text) {
+  return parse_sweep_toml(text, "sweep.toml");
+}
+
+/// All that is said of a wrong sweep.
+inline std::string complaints_of_sweep(const std::string& text) {
+  try {
+    parse_sweep(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+inline void expect_complaint(const std::string& text, const std::string& expected) {
+  const std::string said = complaints_of_sweep(text);
+  EXPECT_NE(said.find(expected), std::string::npos)
+      << "expected: " << expected << "\nsaid: " << said;
+}
+
+}  // namespace trueaxis::testing
