@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "trueaxis/base/units.hpp"
 #include "trueaxis/math/statistics.hpp"
@@ -107,6 +108,21 @@ std::vector<Eigen::Index> independent(const Matrix& gram) {
     left.noalias() -= column * column.transpose();
   }
   return keep;
+}
+
+/// Whether an autoregression of the second order rings with the spindle: nothing random does, but
+/// what turns with it and is not explained yet looks so.
+bool rings_with_spindle(const Scene& scene, double phi1, double phi2) {
+  constexpr double lasting = 0.8, off_order = 0.1;  // radius of the poles; of an order
+  if (phi1 * phi1 + 4.0 * phi2 >= 0.0 || std::sqrt(-phi2) < lasting) return false;
+  std::vector<double> step_rad;
+  for (std::size_t i = 1; i < scene.size(); ++i) {
+    const double step = std::abs(scene.c[i] - scene.c[i - 1]);
+    if (step > 0.0 && step < std::numbers::pi) step_rad.push_back(step);
+  }
+  if (step_rad.empty()) return false;
+  const double order = std::acos(0.5 * phi1 / std::sqrt(-phi2)) / median(step_rad);
+  return std::round(order) >= 1.0 && std::abs(order - std::round(order)) < off_order;
 }
 
 }  // namespace
@@ -223,7 +239,9 @@ std::vector<double> autoregression(const Scene& scene, const Rows& rows,
     a1 = maximise([&](double p) { return lagged.likelihood2(p * (1.0 - a2), a2); }, -0.99, 0.995);
   }
   const double two = lagged.likelihood2(a1 * (1.0 - a2), a2);
-  if (two - one > five_percent && two - white > 2.0 * five_percent) return {a1 * (1.0 - a2), a2};
+  if (two - one > five_percent && two - white > 2.0 * five_percent &&
+      !rings_with_spindle(scene, a1 * (1.0 - a2), a2))
+    return {a1 * (1.0 - a2), a2};
   if (one - white > five_percent) return {first};
   return {};
 }
