@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 #include <utility>
 

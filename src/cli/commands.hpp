@@ -17,7 +17,7 @@ void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
-void add_harm(CLI::App& app, int& exit_code);
+void add_axis_bias(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli

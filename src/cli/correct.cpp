@@ -6,11 +6,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/fit_json.hpp"
-#include "trueaxis/io/job_toml.hpp"
-#include "trueaxis/io/table_csv.hpp"
+#include "trueaxis/error.hpp"
+#include "format/file.hpp"
+#include "fit/files/fit_json.hpp"
+#include "job/files/job_toml.hpp"
+#include "correct/files/table_csv.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 

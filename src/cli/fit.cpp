@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/fit_json.hpp"
-#include "trueaxis/io/fit_text.hpp"
-#include "trueaxis/io/residuals_csv.hpp"
+#include "trueaxis/error.hpp"
+#include "format/file.hpp"
+#include "fit/files/fit_json.hpp"
+#include "fit/files/fit_text.hpp"
+#include "job/files/residuals_csv.hpp"
 
 namespace trueaxis::cli {
 namespace {

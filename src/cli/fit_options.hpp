@@ -8,8 +8,8 @@
 
 #include "cli/checks.hpp"
 #include "cli/stream_options.hpp"
-#include "trueaxis/fit/fit.hpp"
-#include "trueaxis/surface/surface.hpp"
+#include "trueaxis/fit.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis::cli {
 

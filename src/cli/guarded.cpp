@@ -6,7 +6,7 @@
 #include <new>
 
 #include "cli/commands.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 

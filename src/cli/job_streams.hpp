@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/stream_csv.hpp"
-#include "trueaxis/job/job.hpp"
+#include "trueaxis/error.hpp"
+#include "measure/files/stream_csv.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {
 

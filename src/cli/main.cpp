@@ -5,7 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace {
 
@@ -27,7 +27,7 @@ int run(int argc, char** argv) {
   add_simulate(app, code);
   add_sweep(app, code);
   add_plan(app, code);
-  add_harm(app, code);
+  add_axis_bias(app, code);
   add_effects(app, code);
   try {
     app.parse(argc, argv);

@@ -7,11 +7,11 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/planning_results.hpp"
-#include "trueaxis/io/scenario_toml.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "format/file.hpp"
+#include "study/planning/files/planning_results.hpp"
+#include "simulate/files/scenario_toml.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -89,8 +89,8 @@ int execute(Options options) {
   task.goal_mm = options.goal_um * mm_per_um;
   try {
     for (const std::string& text : options.free) {
-      const study::Freedom free = parse_freedom(text);
-      if (std::ranges::find(task.free, free.choice, &study::Freedom::choice) != task.free.end())
+      const study::DesignVariable free = parse_freedom(text);
+      if (std::ranges::find(task.free, free.choice, &study::DesignVariable::choice) != task.free.end())
         throw InputError(text, "this choice has a range already: give it one");
       task.free.push_back(free);
     }

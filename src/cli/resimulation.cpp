@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/resimulation.hpp"
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/resimulate.hpp"
 
 namespace trueaxis::cli {
 

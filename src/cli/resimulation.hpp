@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/io/diagnosis_scenario.hpp"
-#include "trueaxis/job/job.hpp"
+#include "resimulate/diagnosis_scenario.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 #include <cstdint>
 #include <iostream>
@@ -8,13 +8,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/simulate_from.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/cut_table_csv.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/scenario_toml.hpp"
-#include "trueaxis/io/stream_csv.hpp"
-#include "trueaxis/io/truth_json.hpp"
-#include "trueaxis/simulate/cut.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/files/cut_table_csv.hpp"
+#include "format/file.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "measure/files/stream_csv.hpp"
+#include "simulate/files/truth_json.hpp"
+#include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::cli {
 namespace {

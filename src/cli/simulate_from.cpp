@@ -7,12 +7,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/resimulation.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/comparison_json.hpp"
-#include "trueaxis/io/diagnosis_scenario.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/truth_json.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "resimulate/files/comparison_json.hpp"
+#include "resimulate/diagnosis_scenario.hpp"
+#include "format/file.hpp"
+#include "simulate/files/truth_json.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::cli {
 namespace {

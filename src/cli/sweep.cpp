@@ -4,8 +4,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/sweep_run.hpp"
-#include "trueaxis/io/sweep_toml.hpp"
-#include "trueaxis/study/run.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
+#include "study/sweep/run.hpp"
 
 namespace trueaxis::cli {
 

@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "cli/progress.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/published_results.hpp"
-#include "trueaxis/io/sweep_journal.hpp"
-#include "trueaxis/io/sweep_results.hpp"
-#include "trueaxis/report/sweep_report.hpp"
-#include "trueaxis/study/placement.hpp"
-#include "trueaxis/study/summary.hpp"
+#include "format/file.hpp"
+#include "study/published/files/published_results.hpp"
+#include "study/sweep/files/sweep_journal.hpp"
+#include "study/sweep/files/sweep_results.hpp"
+#include "report/sweep_report.hpp"
+#include "study/published/placement.hpp"
+#include "study/sweep/summary.hpp"
 
 namespace trueaxis::cli {
 

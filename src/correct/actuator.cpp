@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correct/actuator.hpp"
+#include "trueaxis/correction.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correct/correction.hpp"
+#include "trueaxis/correction.hpp"
 
 #include <algorithm>
 #include <utility>

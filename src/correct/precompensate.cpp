@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,8 +5,8 @@
 #include <sstream>
 #include <utility>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

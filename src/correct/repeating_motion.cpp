@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correct/repeating_motion.hpp"
+#include "correct/repeating_motion.hpp"
 
 #include <array>
 #include <cmath>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correct/target_axis.hpp"
+#include "trueaxis/correction.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -3,20 +3,20 @@
 #include <cmath>
 #include <thread>
 
-#include "diagnose/advise.hpp"
-#include "diagnose/describe.hpp"
-#include "diagnose/distinguish.hpp"
-#include "diagnose/extended.hpp"
-#include "diagnose/gain.hpp"
-#include "diagnose/noise.hpp"
-#include "diagnose/refined.hpp"
-#include "diagnose/rival_axes.hpp"
-#include "diagnose/sought.hpp"
-#include "diagnose/sources.hpp"
-#include "diagnose/spectrum.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/diagnose/diagnosis.hpp"
-#include "trueaxis/math/statistics.hpp"
+#include "diagnose/advise/advise.hpp"
+#include "diagnose/explain/describe.hpp"
+#include "diagnose/explain/confounder_set.hpp"
+#include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/explain/gain.hpp"
+#include "diagnose/regression/noise.hpp"
+#include "diagnose/refit/relinearised_fit.hpp"
+#include "diagnose/explain/rival_axes.hpp"
+#include "diagnose/search/coarse_to_fine_search.hpp"
+#include "diagnose/explain/sources.hpp"
+#include "diagnose/explain/spectrum.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 
@@ -29,7 +29,7 @@ double ball_of(const ProbeStream& stream, const FitOptions& options) {
 }
 
 Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
-                   const Class& found, const Resolution& resolution, std::size_t term) {
+                   const ConfounderSet& found, const Resolution& resolution, std::size_t term) {
   const Hypothesis& h = model.terms[term];
   Finding out;
   out.effect = h.id();
@@ -45,16 +45,16 @@ Finding finding_of(const Problem& problem, const Model& model, const Joint& join
   return out;
 }
 
-void add_harm(const Joint& joint, std::size_t term, Estimate& shift, bool& cosmetic) {
+void add_axis_bias(const Joint& joint, std::size_t term, Estimate& shift, bool& cosmetic) {
   const Solution without = joint.without(term);
-  const auto n = static_cast<Eigen::Index>(joint.evidence.base().size());
+  const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
   const double variance = joint.sigma_mm * joint.sigma_mm;
   const AxisShift moved =
-      axis_shift(joint.evidence.scene(), joint.base() - without.coefficients.head(n),
+      axis_shift(joint.equations.point(), joint.base() - without.coefficients.head(n),
                  variance * (joint.solution.inverse.topLeftCorner(n, n) -
                              without.inverse.topLeftCorner(n, n)));
   shift = {moved.value_mm, moved.u_mm, "mm", ""};
-  const double u = axis_uncertainty(joint.evidence.scene(), joint.base_covariance()).u_mm;
+  const double u = axis_uncertainty(joint.equations.point(), joint.base_covariance()).u_mm;
   cosmetic = moved.value_mm < 2.0 * u;
 }
 
@@ -85,20 +85,20 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const double ball_mm = ball_of(stream, options.fit);
   const std::vector<Clamping> clampings = clampings_of(out.baseline, ball_mm);
   const BaseKind base = base_of(stream, out.baseline, clampings);
-  const Scene first = make_scene(stream, clampings, base, options.fit.bore);
-  Rows rows = make_rows(first);
+  const LinearisationPoint first = linearise_at(stream, clampings, base, options.fit.bore);
+  ObservationMask mask = make_observation_mask(first);
   const Resolution resolution = resolution_of(first, rows);
   const std::vector<double> deviation = deviation_from(stream, first);
   std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows, threads);
   const auto most = static_cast<std::size_t>(options.max_findings);
   const Problem whole{first, rows, resolution, deviation, options.false_alarm, threads, most};
-  Sought sought(whole);
+  CoarseToFineSearch coarse_to_fine(whole);
   const Given given{stream, options.fit, ball_mm, masked};
   std::optional<Timing> timing;
-  const std::unique_ptr<Refined> refined = refine_model(given, whole, sought.model, timing);
-  const Model& model = sought.model;
+  const std::unique_ptr<RelinearisedFit> refined = relinearise(given, whole, coarse_to_fine.model, timing);
+  const Model& model = coarse_to_fine.model;
   const Problem& problem = refined->problem;
-  const Scene& second = problem.scene;
+  const LinearisationPoint& second = problem.point;
   const Joint& joint = refined->joint;
   out.effect_mm = refined->effect_mm;
   out.residual_before_mm = out.baseline.residual_mm;
@@ -106,7 +106,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       remainder(second, problem.deviation_mm, joint.terms, joint.solution.coefficients);
   out.z_mid_mm = second.z_mid_mm, out.z_half_mm = second.z_half_mm;
 
-  std::vector<Question> questions;
+  std::vector<AmbiguousFinding> questions;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {
       Unexplained left = unexplained_of(joint, t);
@@ -114,17 +114,17 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       out.unexplained.push_back(std::move(left));
       continue;
     }
-    questions.push_back({t, sought.distinguish(t)});
+    questions.push_back({t, coarse_to_fine.distinguish(t)});
     if (timing && timing->term == t) narrow(questions.back().found, timing->likelihood_ratio);
     Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
-    add_harm(joint, t, finding.axis_shift, finding.cosmetic);
+    add_axis_bias(joint, t, finding.axis_shift, finding.cosmetic);
     finding.rms_mm = rms_of(contribution(second, {joint.terms[t]}, joint.of(t)));
     out.findings.push_back(std::move(finding));
   }
   const Eigen::MatrixXd between = between_causes(problem, joint, questions);
   if (!between.isZero(0.0)) refined->widen(given, between);
   out.extended = refined->extended;
-  const std::vector<Hidden> hidden = hidden_effects(problem, model, joint.sigma_mm);
+  const std::vector<Unobservable> hidden = unobservable_effects(problem, model, joint.sigma_mm);
   Advice advice = advise(problem, model, stream, clampings_of(out.extended, ball_mm), questions,
                          hidden, joint.sigma_mm);
   for (std::size_t k = 0; k < out.findings.size(); ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect.hpp"
 
 /// The catalogue by family; texts are those of ISO terms where there is one.
 namespace trueaxis::entries {

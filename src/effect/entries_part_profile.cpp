@@ -19,7 +19,7 @@ std::vector<Effect> part_profile() {
                         "from the rear a barrel has the same sign in radius, a bent guide "
                         "the opposite one"},
                        {"OZ", "the barrel moves with the part"}},
-       .harm = Harm{0.022, "mm/mm", "P2: 0.022 of the amplitude"},
+       .axis_bias = AxisBias{0.022, "mm/mm", "P2: 0.022 of the amplitude"},
        .source = "ISO 12180-1 (cylindricity: generatrix)"},
       {.id = "part.taper",
        .title = "taper of a cylinder",
@@ -51,7 +51,7 @@ std::vector<Effect> part_profile() {
                         "shifted by lambda/2 the waviness turns its sign, a screw error "
                         "does not"},
                        {"2W", "another speed leaves its wavelength, a vibration's changes"}},
-       .harm = Harm{0.024, "mm/mm", "0.024 of the amplitude"},
+       .axis_bias = AxisBias{0.024, "mm/mm", "0.024 of the amplitude"},
        .source = "ISO 21920-2 (profile, waviness)"},
   };
 }

@@ -16,7 +16,7 @@ std::vector<Effect> slide() {
        .confounders = {"part.barrel", "thermal.drift", "probe.nonlinearity"},
        .separations = {{"RE", "from the rear it has the opposite sign in radius"},
                        {"OZ", "it stays with the machine when the part moves"}},
-       .harm = Harm{0.022, "mm/mm", "P2: 0.022 of the amplitude"},
+       .axis_bias = AxisBias{0.022, "mm/mm", "P2: 0.022 of the amplitude"},
        .source = "ISO 230-1 (straightness deviation EXZ)"},
       {.id = "slide.xz_parallelism",
        .title = "Z slide not parallel to the spindle, in X",

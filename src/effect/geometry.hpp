@@ -7,7 +7,7 @@
 #include <span>
 
 #include "effect/kinds.hpp"
-#include "trueaxis/math/sincos.hpp"
+#include "math/sincos.hpp"
 
 /// The contact, from X(C, Z) and its slopes alone: seen by the machine, the surface is a height X
 /// over (Y, Z) whatever its kind. Its gradient along Y follows from turning it:

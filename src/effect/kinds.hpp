@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/effect/term.hpp"
+#include "trueaxis/effect.hpp"
 
 /// The kinds of term, a file each: names of the linear and of the shape parameters, columns.
 namespace trueaxis::kind {

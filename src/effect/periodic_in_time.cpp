@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effect/geometry.hpp"
 #include "effect/kinds.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
 

@@ -3,7 +3,7 @@
 
 #include "effect/geometry.hpp"
 #include "effect/kinds.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
 namespace {

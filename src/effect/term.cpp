@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/effect/term.hpp"
+#include "trueaxis/effect.hpp"
 
 #include <algorithm>
 #include <type_traits>
 
 #include "effect/kinds.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <utility>
 
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/math/statistics.hpp"
+#include "trueaxis/units.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 namespace {
 
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr const char* no_redundancy =
     "no uncertainty: as many readings as parameters, and no sensor noise given";
@@ -20,8 +20,8 @@ constexpr double cylinder_sds =
     3.0;  // a half angle within 3 u of zero cannot be told from a cylinder
 constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
 
-Rows as_rows(const std::vector<double>& values, Eigen::Index columns) {
-  return Eigen::Map<const Rows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns,
+ObservationMask as_rows(const std::vector<double>& values, Eigen::Index columns) {
+  return Eigen::Map<const ObservationMask>(values.data(), static_cast<Eigen::Index>(values.size()) / columns,
                                 columns);
 }
 
@@ -32,8 +32,8 @@ Eigen::Index index_of(const std::vector<std::string>& names, std::string_view na
 
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
 std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
-                                            const std::vector<double>& value, const Rows& jacobian,
-                                            const Rows& edge, const Determination& determination) {
+                                            const std::vector<double>& value, const ObservationMask& jacobian,
+                                            const ObservationMask& edge, const Determination& determination) {
   std::vector<FitParameter> parameters;
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -133,7 +133,7 @@ struct Standing {
   const Surface& surface;
   std::vector<double> working;
   Eigen::MatrixXd covariance;  ///< of `working`
-  Rows report_jacobian;        ///< of the reported parameters with respect to the joint ones
+  ObservationMask report_jacobian;        ///< of the reported parameters with respect to the joint ones
 };
 
 SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
@@ -141,9 +141,9 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   const Surface& surface = standing.surface;
   SetUpFit out{placed.set_up, placed.root, parameters, {}, surface.shape(standing.working)};
   out.axis.axis = surface.axis(standing.working);
-  const Rows jacobian = as_rows(surface.axis_jacobian(standing.working),
+  const ObservationMask jacobian = as_rows(surface.axis_jacobian(standing.working),
                                 static_cast<Eigen::Index>(standing.working.size()));
-  const Rows axis = jacobian * standing.covariance * jacobian.transpose();
+  const ObservationMask axis = jacobian * standing.covariance * jacobian.transpose();
   std::copy_n(axis.data(), 16, out.axis.covariance.begin());
   return out;
 }
@@ -170,7 +170,7 @@ void report_derived(const Standing& last, FitResult& result) {
     result.derived.push_back(
         length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
-  const Rows axis = Eigen::Map<const Rows>(result.axis.covariance.data(), 4, 4);
+  const ObservationMask axis = Eigen::Map<const ObservationMask>(result.axis.covariance.data(), 4, 4);
   const Axis& line = result.axis.axis;
   const auto offset = [&](const char* name, double z) {
     Eigen::Matrix<double, 2, 4> at;
@@ -261,14 +261,14 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     const JointPart& part = model.part_of(placed);
     const Eigen::MatrixXd a = model.working_jacobian(joint, part);
     std::vector<double> working = model.working(joint, part);
-    const Rows report =
+    const ObservationMask report =
         as_rows(part.surface->report(working).jacobian, static_cast<Eigen::Index>(working.size()));
     return Standing{*part.surface, std::move(working), a * covariance * a.transpose(), report * a};
   };
   for (const PlacedSetUp& placed : set_ups) {
     const Standing standing = stand(placed);
-    const Rows& jacobian = standing.report_jacobian;
-    const Rows edge = jacobian * covariance * jacobian.transpose();
+    const ObservationMask& jacobian = standing.report_jacobian;
+    const ObservationMask edge = jacobian * covariance * jacobian.transpose();
     result.set_ups.push_back(
         report_set_up(placed, standing,
                       report_parameters(surface_info(result.surface),

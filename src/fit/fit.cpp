@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -8,9 +8,8 @@
 #include "fit/describe.hpp"
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/fit/repeated_fit.hpp"
-#include "trueaxis/surface/surface.hpp"
+#include "trueaxis/error.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/measure/set_up.hpp"
-#include "trueaxis/model/normal_matrix.hpp"
+#include "trueaxis/probe_stream.hpp"
+#include "model/normal_matrix.hpp"
 
 namespace trueaxis {
 

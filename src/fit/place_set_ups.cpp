@@ -4,8 +4,8 @@
 #include <string>
 
 #include "fit/joint_model.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/math/statistics.hpp"
+#include "trueaxis/error.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "fit/starts.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/math/statistics.hpp"
+#include "trueaxis/units.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 namespace {
@@ -72,15 +72,15 @@ Association associate(const JointModel& model, Loss loss, int max_iterations) {
   return association;
 }
 
-Influence1 influence(const LossScale& loss, double residual_mm) {
+psi_and_derivative influence(const LossScale& loss, double residual_mm) {
   const double c = loss.threshold_mm, r = residual_mm;
   switch (loss.kind) {
     case LossScale::Kind::huber:
-      return std::abs(r) <= c ? Influence1{r, 1.0} : Influence1{std::copysign(c, r), 0.0};
+      return std::abs(r) <= c ? psi_and_derivative{r, 1.0} : psi_and_derivative{std::copysign(c, r), 0.0};
     case LossScale::Kind::tukey: {
       const double v = (r / c) * (r / c);
-      return v >= 1.0 ? Influence1{0.0, 0.0}
-                      : Influence1{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
+      return v >= 1.0 ? psi_and_derivative{0.0, 0.0}
+                      : psi_and_derivative{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
     }
     case LossScale::Kind::plain:
       break;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/minimise.hpp"
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 
@@ -24,10 +24,10 @@ struct Association {
 Association associate(const JointModel& model, Loss loss, int max_iterations);
 
 /// ψ and ψ' of a loss at a residual.
-struct Influence1 {
+struct psi_and_derivative {
   double psi, slope;
 };
-Influence1 influence(const LossScale& loss, double residual_mm);
+psi_and_derivative influence(const LossScale& loss, double residual_mm);
 
 /// The readings without weight (Tukey), or beyond 6 σ (Huber).
 std::vector<Rejected> list_rejected(const Association& association);

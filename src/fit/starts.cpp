@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "trueaxis/math/statistics.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/minimise.hpp"
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 

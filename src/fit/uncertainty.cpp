@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-#include "trueaxis/math/statistics.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis {
 namespace {
@@ -61,8 +61,8 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
         sums(static_cast<Eigen::Index>(j)) += a * block.column[j][i];
     }
   }
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const Rows>(transform.data(), static_cast<Eigen::Index>(p),
+  using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const ObservationMask>(transform.data(), static_cast<Eigen::Index>(p),
                                 static_cast<Eigen::Index>(columns)) *
          sums;
 }

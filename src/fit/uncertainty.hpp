@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fit/robust.hpp"
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {

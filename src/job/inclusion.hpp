@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "trueaxis/correct/repeating_motion.hpp"
-#include "trueaxis/job/job.hpp"
+#include "correct/repeating_motion.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 

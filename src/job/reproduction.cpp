@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/job/job.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "job/inclusion.hpp"
 #include "job/slip.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/job/job.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

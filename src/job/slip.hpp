@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "trueaxis/job/job.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/math/fourier_sums.hpp"
+#include "math/fourier_sums.hpp"
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
@@ -9,9 +9,9 @@
 
 #include "math/fast_fourier.hpp"
 #include "math/fourier_spread.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/math/sincos.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "math/sincos.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/math/sincos.hpp"
+#include "math/sincos.hpp"
 
 #include <cstddef>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "math/sincos.cpp"  // compiled once for every instruction set

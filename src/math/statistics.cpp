@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/math/statistics.hpp"
+#include "math/statistics.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

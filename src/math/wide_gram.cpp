@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/math/wide_gram.hpp"
+#include "math/wide_gram.hpp"
 
 #include <algorithm>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/math/gram.hpp"
+#include "trueaxis/error.hpp"
+#include "math/gram.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "math/wide_gram.cpp"  // compiled once for every instruction set

@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

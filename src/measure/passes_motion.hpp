@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 

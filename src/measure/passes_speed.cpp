@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

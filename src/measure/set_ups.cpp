@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/math/gram.hpp"
+#include "math/gram.hpp"
 
 namespace trueaxis {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "trueaxis/model/normal_matrix.hpp"
+#include "model/normal_matrix.hpp"
 
 namespace trueaxis {
 

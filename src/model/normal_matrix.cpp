@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/model/normal_matrix.hpp"
+#include "model/normal_matrix.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include "model/loss.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/math/gram.hpp"
+#include "trueaxis/error.hpp"
+#include "math/gram.hpp"
 
 namespace trueaxis {
 namespace {

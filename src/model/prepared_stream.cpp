@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "model/column_buffer.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/math/sincos.hpp"
-#include "trueaxis/model/normal_matrix.hpp"
+#include "trueaxis/error.hpp"
+#include "math/sincos.hpp"
+#include "model/normal_matrix.hpp"
 
 namespace trueaxis {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/study/block.hpp"
+#include "study/sweep/block.hpp"
 
 namespace trueaxis::mpi {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "report/report_data.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "trueaxis/fit/fit.hpp"
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 

@@ -102,7 +102,7 @@ function simulationBlock(reference) {
   return block('Measured against simulated, before and after', ...parts);
 }
 
-const harmUnit = ({value, unit, why_not: why}) => {
+const axisBiasUnit = ({value, unit, why_not: why}) => {
   if (!isNumber(value)) return why || 'not known';
   const per = unit.startsWith('mm/') ? unit.slice(3).replace(/[()]/g, '') : null;
   if (per === null) return `${significant(value, 3)} ${unit}`;
@@ -120,7 +120,7 @@ const harmlessMm = 1e-5;
 
 function notObservableTable({not_observable: all}) {
   if (!all.length) return null;
-  const isHarmless = (n) => isNumber(n.harm_typical?.value) && n.harm_typical.value < harmlessMm;
+  const isHarmless = (n) => isNumber(n.axis_bias_typical?.value) && n.axis_bias_typical.value < harmlessMm;
   const list = all.filter((n) => !isHarmless(n)), harmless = all.filter(isHarmless);
   const rest = harmless.length
     ? paragraph(`Unseen too, but shifting the axis by less than 0.01 µm: ${harmless.map((n) => n.effect).join(', ')}.`, 'quiet') : null;
@@ -129,7 +129,7 @@ function notObservableTable({not_observable: all}) {
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
       element('span', {}, n.effect, element('small', {}, n.title)), n.why,
       n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
-      harmUnit(n.harm), seenFrom(n)]), 3), rest);
+      axisBiasUnit(n.axis_bias), seenFrom(n)]), 3), rest);
 }
 
 function noiseBlock({noise, checks, remarks, k}) {

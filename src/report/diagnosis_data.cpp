@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "report/report_data.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {
@@ -70,8 +70,8 @@ json not_observable_data(const NotObservable& n) {
   json data{{"effect", n.effect},
             {"title", title_of(n.effect)},
             {"why", n.why},
-            {"harm", estimate(n.harm_per_unit)},
-            {"harm_typical", estimate(n.harm_typical)},
+            {"axis_bias", estimate(n.axis_bias_per_unit)},
+            {"axis_bias_typical", estimate(n.axis_bias_typical)},
             {"detectable", n.detectable},
             {"detectable_unit", n.detectable_unit}};
   if (n.separate_with) data["separate_with"] = separating(*n.separate_with);

@@ -2,7 +2,7 @@
 #include <cstdio>
 
 #include "report/report_data.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 

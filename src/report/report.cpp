@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/report/report.hpp"
+#include "report/report.hpp"
 
 #include "report/assets.hpp"
 #include "report/page.hpp"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "trueaxis/job/job.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 

@@ -5,7 +5,7 @@
 #include "report/chart_readings.hpp"
 #include "report/report_data.hpp"
 #include "report/thinning.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "trueaxis/study/quantities.hpp"
+#include "study/bound/quantities.hpp"
 
 namespace trueaxis {
 namespace {

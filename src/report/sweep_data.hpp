@@ -3,8 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trueaxis/study/placement.hpp"
-#include "trueaxis/study/sweep.hpp"
+#include "study/published/placement.hpp"
+#include "study/sweep/sweep.hpp"
 
 namespace trueaxis {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/report/sweep_report.hpp"
+#include "report/sweep_report.hpp"
 
 #include "report/assets.hpp"
 #include "report/page.hpp"

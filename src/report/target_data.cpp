@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "report/report_data.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::virtual_lathe {
 

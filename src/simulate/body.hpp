@@ -3,7 +3,7 @@
 
 #include "simulate/chain.hpp"
 #include "simulate/geometry.hpp"
-#include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "simulate/geometry.hpp"
-#include "trueaxis/simulate/effects.hpp"
-#include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/simulate/cut.hpp"
+#include "trueaxis/virtual_cut.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include "simulate/contact.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/tool_path.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 

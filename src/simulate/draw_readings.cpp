@@ -4,8 +4,8 @@
 
 #include "simulate/recorder.hpp"
 #include "simulate/variates.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/clean_stream.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

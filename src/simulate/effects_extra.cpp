@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "simulate/chain.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

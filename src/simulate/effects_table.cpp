@@ -3,7 +3,7 @@
 #include <string>
 
 #include "simulate/chain.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

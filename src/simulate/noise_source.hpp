@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

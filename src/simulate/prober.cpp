@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "simulate/contact.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

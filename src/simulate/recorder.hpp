@@ -12,8 +12,8 @@
 #include "simulate/noise_source.hpp"
 #include "simulate/prober.hpp"
 #include "simulate/timeline.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "simulate/clean_stream.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

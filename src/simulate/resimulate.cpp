@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/simulate/resimulate.hpp"
+#include "simulate/resimulate.hpp"
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -5,7 +5,7 @@
 #include <complex>
 #include <numbers>
 
-#include "trueaxis/simulate/cut_program.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

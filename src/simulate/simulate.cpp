@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
 #include "simulate/recorder.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

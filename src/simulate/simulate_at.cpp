@@ -2,10 +2,10 @@
 #include <map>
 
 #include "simulate/recorder.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/measure/passes.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "measure/passes.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

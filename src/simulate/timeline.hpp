@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulate/chain.hpp"
-#include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

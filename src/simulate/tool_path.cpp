@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "simulate/servo.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

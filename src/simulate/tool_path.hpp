@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trueaxis/simulate/cut.hpp"
+#include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/surface/axis.hpp"
+#include "trueaxis/surface.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

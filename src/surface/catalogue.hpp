@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "trueaxis/surface/surface.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis {
 

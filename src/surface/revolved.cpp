@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/surface/revolved.hpp"
+#include "trueaxis/surface.hpp"
 
 #include <cmath>
 #include <limits>

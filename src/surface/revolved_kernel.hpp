@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "trueaxis/surface/surface.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "surface/revolved_kernel.hpp"
-#include "trueaxis/surface/surface.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis {
 

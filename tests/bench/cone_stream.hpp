@@ -9,8 +9,8 @@
 #include <random>
 
 #include "bench/cone_peer.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis::peer {
 

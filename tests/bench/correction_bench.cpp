@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <benchmark/benchmark.h>
 
-#include "trueaxis/correct/correction.hpp"
+#include "trueaxis/correction.hpp"
 
 namespace trueaxis {
 namespace {

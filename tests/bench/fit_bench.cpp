@@ -2,7 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/cone_stream.hpp"
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 namespace {

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string>
 
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/stream_csv.hpp"
-#include "trueaxis/measure/passes.hpp"
+#include "trueaxis/units.hpp"
+#include "measure/files/stream_csv.hpp"
+#include "measure/passes.hpp"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "bench/cone_stream.hpp"
 #include "bench/peers_ceres.hpp"
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::peer {
 namespace {

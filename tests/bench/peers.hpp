@@ -4,7 +4,7 @@
 #include <array>
 #include <span>
 
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 /// Fits of one cone stream by the engine and by what a user would reach for otherwise. All minimise
 /// Eq. 12 of Constantin et al. from raw columns (C, Z, X_M): sin and cos, the solver's set-up and

@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "bench/cone_peer.hpp"
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 /// One residual per reading, as a Ceres tutorial does it: Eq. 12 of Constantin et al. by AutoDiff.
 namespace trueaxis::peer {

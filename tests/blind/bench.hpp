@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "blind/subspace.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::blind {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "blind/families.hpp"
-#include "trueaxis/simulate/effects.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::blind {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::blind {
 namespace {

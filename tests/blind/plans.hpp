@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/simulate/scenario.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::blind {
 

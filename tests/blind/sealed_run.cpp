@@ -4,7 +4,7 @@
 #include <chrono>
 
 #include "support/command.hpp"
-#include "trueaxis/io/stream_csv.hpp"
+#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis::blind {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/simulate/effects.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <string>
 
 #include "support/command.hpp"
-#include "trueaxis/effect/catalogue.hpp"
-#include "trueaxis/io/scenario_toml.hpp"
+#include "trueaxis/effect.hpp"
+#include "simulate/files/scenario_toml.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -35,7 +35,7 @@ TEST(EffectsCommand, ExplainsEachWithAllThatTheEntrySays) {
     for (const std::string_view id : effect.confounders) says(id);
     for (const EffectParameter& parameter : effect.parameters) says(parameter.meaning);
     for (const Separation& separation : effect.separations) says(separation.how);
-    if (effect.harm) says(effect.harm->text);
+    if (effect.axis_bias) says(effect.axis_bias->text);
   }
   // 5-20 seconds of arc, the unit of the page.
   EXPECT_NE(trueaxis_command("effects encoder.eccentricity").output.find("24 to 97 urad"),

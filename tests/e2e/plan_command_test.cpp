@@ -10,7 +10,7 @@ namespace trueaxis::testing {
 namespace {
 
 using PlanCommand = CommandTest;
-using HarmCommand = CommandTest;
+using AxisBiasCommand = CommandTest;
 
 const char* const scenario =
     "name = \"seat\"\nseed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.05\n"
@@ -190,14 +190,14 @@ TEST_F(PlanCommand, WrongRangesAreUsageAndWrongPlansAreInput) {
   expect_input_error("plan missing.toml", "missing.toml");
 }
 
-TEST_F(HarmCommand, WritesEveryEffectWithLatheAndPrediction) {
+TEST_F(AxisBiasCommand, WritesEveryEffectWithLatheAndPrediction) {
   file("seat.toml", scenario);
-  const CommandStreams done = command("harm seat.toml -o harm");
+  const CommandStreams done = command("axis-bias seat.toml -o axis_bias");
   ASSERT_EQ(done.exit_code, 0) << done.err;
-  const nlohmann::json harm = result("harm/harm.json");
-  EXPECT_EQ(harm.at("schema"), "trueaxis.harm/1");
+  const nlohmann::json axis_bias = result("axis_bias/axis_bias.json");
+  EXPECT_EQ(axis_bias.at("schema"), "trueaxis.axis_bias/1");
   std::set<std::string> ids;
-  for (const nlohmann::json& one : harm.at("effects")) {
+  for (const nlohmann::json& one : axis_bias.at("effects")) {
     ids.insert(one.at("effect"));
     const nlohmann::json& alone = one.at("alone");
     EXPECT_TRUE(alone.at("agrees")) << one;
@@ -206,25 +206,25 @@ TEST_F(HarmCommand, WritesEveryEffectWithLatheAndPrediction) {
         << one;
   }
   EXPECT_EQ(ids.size(), 29U);  // the catalogue without its checks
-  std::istringstream csv(read_text(folder_ / "harm" / "harm.csv"));
+  std::istringstream csv(read_text(folder_ / "axis_bias" / "axis_bias.csv"));
   std::size_t lines = 0;
   for (std::string line; std::getline(csv, line);) ++lines;
-  EXPECT_EQ(lines, harm.at("effects").size() + 1);
-  EXPECT_TRUE(there("harm/harm.md"));
+  EXPECT_EQ(lines, axis_bias.at("effects").size() + 1);
+  EXPECT_TRUE(there("axis_bias/axis_bias.md"));
 }
 
-TEST_F(HarmCommand, AFaceHasNoAxis) {
+TEST_F(AxisBiasCommand, AFaceHasNoAxis) {
   file("face.toml",
        "[part]\nkind = \"face\"\nd_mm = 0\n[[pass]]\nx_start_mm = 20\nx_end_mm = 40\n"
        "feed_mm_per_rev = 1\nreadings_per_revolution = 10.3\n");
-  expect_input_error("harm face.toml", "needs a cone or cylinder");
+  expect_input_error("axis-bias face.toml", "needs a cone or cylinder");
 }
 
-TEST_F(HarmCommand, AnAxisThatMovesWithinAClampingIsRefusedAsByAPlan) {
+TEST_F(AxisBiasCommand, AnAxisThatMovesWithinAClampingIsRefusedAsByAPlan) {
   file("moved.toml", moved);
   const std::string why = "the axis moves between set-ups of one clamping: say in the set-up";
   expect_input_error("plan moved.toml", why);
-  expect_input_error("harm moved.toml", why);
+  expect_input_error("axis-bias moved.toml", why);
 }
 
 }  // namespace

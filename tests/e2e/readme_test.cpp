@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "support/command.hpp"
-#include "trueaxis/io/stream_csv.hpp"
+#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis::testing {
 namespace {

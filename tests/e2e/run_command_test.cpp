@@ -22,7 +22,7 @@ class RunCommand : public CommandTest {
 const std::vector<std::string> all_results{"diagnosis_1_cylinder.json", "readings_1_cylinder.csv",
                                            "report.html", "result.json", "table.csv"};
 
-/// Rows of a table without its header, whose numbers may be rounded otherwise.
+/// ObservationMask of a table without its header, whose numbers may be rounded otherwise.
 std::string rows_of(const std::string& table) { return table.substr(table.find("\nrev,")); }
 
 TEST_F(RunCommand, GoWithTableResultAndReport) {

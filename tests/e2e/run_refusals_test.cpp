@@ -88,7 +88,7 @@ TEST_F(RunRefusals, FindingsThatTheLatheRefutes) {
   const json again = simulated_again();
   const double share = again.at("after").at("share_of_variance").get<double>();
   ASSERT_GT(share, 1.0) << "another stream is needed: " << done.out;
-  const json& back = again.at("way_back");
+  const json& back = again.at("j_test_lambda");
   ASSERT_GT(back.at("value").get<double>(), 2.33 * back.at("u").get<double>());
   expect_refusal(done, "what was found does not reproduce the readings: ");
   char figures[64];
@@ -104,7 +104,7 @@ TEST_F(RunRefusals, FindingsThatItReproduces) {
   EXPECT_EQ(done.out.rfind("GO: ", 0), 0u) << done.out;
   // The lathe agrees with the model, which left less than the ideal surface: λ is 0 but for what
   // the terms' linearisation leaves, far below its u.
-  const json back = simulated_again().at("way_back");
+  const json back = simulated_again().at("j_test_lambda");
   EXPECT_LT(std::abs(back.at("value").get<double>()), 0.2 * back.at("u").get<double>());
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/report/sweep_report.hpp"
+#include "report/sweep_report.hpp"
 
 #include <gtest/gtest.h>
 
 #include "support/open_page.hpp"
 #include "support/sweep_examples.hpp"
-#include "trueaxis/io/sweep_toml.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 namespace trueaxis {
 namespace {

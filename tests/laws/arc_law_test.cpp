@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::laws {
 namespace {

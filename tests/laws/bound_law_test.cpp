@@ -10,9 +10,9 @@
 #include <iostream>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
-#include "trueaxis/study/quantities.hpp"
+#include "trueaxis/units.hpp"
+#include "simulate/clean_stream.hpp"
+#include "study/bound/quantities.hpp"
 
 /// The bound of what can be known, and that fits reach it.
 namespace trueaxis::study {

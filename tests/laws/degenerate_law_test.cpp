@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::laws {
 namespace {

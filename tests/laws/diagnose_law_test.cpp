@@ -8,11 +8,11 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/extended.hpp"
+#include "diagnose/refit/extended_fit.hpp"
 #include "laws/lathe_cases.hpp"
 #include "support/diagnose_bench.hpp"
 #include "support/diagnose_lathe.hpp"
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -59,7 +59,7 @@ Eigen::MatrixXd surface_columns(const virtual_lathe::Scenario& scenario) {
   const FitResult ideal = fit(stream, on_one_core(scenario).fit);
   const auto clampings = diagnose_detail::clampings_of(ideal, 0.0);
   return explicit_columns(
-      diagnose_detail::make_scene(stream, clampings,
+      diagnose_detail::linearise_at(stream, clampings,
                                   diagnose_detail::base_of(stream, ideal, clampings), false),
       {});
 }

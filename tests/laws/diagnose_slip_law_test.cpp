@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/diagnose/diagnosis.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 namespace {

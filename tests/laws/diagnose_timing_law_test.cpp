@@ -5,10 +5,10 @@
 #include <string>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/diagnose/diagnosis.hpp"
-#include "trueaxis/simulate/simulate.hpp"
-#include "trueaxis/study/quantities.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+#include "study/bound/quantities.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {

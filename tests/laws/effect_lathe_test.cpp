@@ -9,8 +9,8 @@
 
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis::testing {
 namespace {

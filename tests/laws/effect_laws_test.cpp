@@ -8,10 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/effect/catalogue.hpp"
-#include "trueaxis/effect/term.hpp"
-#include "trueaxis/simulate/effects.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

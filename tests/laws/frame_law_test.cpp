@@ -10,7 +10,7 @@
 #include <map>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::laws {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::laws {
 namespace {

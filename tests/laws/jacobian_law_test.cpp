@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/model/normal_matrix.hpp"
+#include "model/normal_matrix.hpp"
 
 namespace trueaxis::laws {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "laws/law_case.hpp"
 #include "laws/targets.hpp"
-#include "trueaxis/model/normal_matrix.hpp"
+#include "model/normal_matrix.hpp"
 
 namespace trueaxis::laws {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/effect/term.hpp"
-#include "trueaxis/simulate/simulate.hpp"
-#include "trueaxis/surface/revolved.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis::testing {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/effect/term.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis::testing {
 

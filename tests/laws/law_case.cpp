@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <limits>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::laws {
 namespace {

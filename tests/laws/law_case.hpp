@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/fit/fit.hpp"
-#include "trueaxis/measure/probe_stream.hpp"
-#include "trueaxis/simulate/scenario.hpp"
-#include "trueaxis/surface/surface.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/probe_stream.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+#include "surface/surface.hpp"
 
 namespace trueaxis::laws {
 

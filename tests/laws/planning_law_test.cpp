@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include "study/planning_bound.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
-#include "trueaxis/study/planning.hpp"
-#include "trueaxis/study/quantities.hpp"
-#include "trueaxis/study/scenario_parameters.hpp"
+#include "study/planning/planning_bound.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/clean_stream.hpp"
+#include "study/planning/planning.hpp"
+#include "study/bound/quantities.hpp"
+#include "study/sweep/scenario_parameters.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -156,7 +156,7 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   int met = 0;
   for (int i = 0; i < 150; ++i) {
     virtual_lathe::Scenario scenario = task.base;
-    for (const Freedom& free : task.free) {
+    for (const DesignVariable& free : task.free) {
       const double share = static_cast<double>(draw() >> 11) * 0x1p-53;
       set_parameter(scenario, path_of(free.choice),
                     free.low * std::pow(free.high / free.low, share));

@@ -4,9 +4,9 @@
 #include <cstring>
 #include <iostream>
 
-#include "trueaxis/fit/repeated_fit.hpp"
-#include "trueaxis/simulate/clean_stream.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/fit.hpp"
+#include "simulate/clean_stream.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

@@ -9,11 +9,11 @@
 
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/diagnosis_json.hpp"
-#include "trueaxis/io/diagnosis_scenario.hpp"
-#include "trueaxis/job/comparison.hpp"
-#include "trueaxis/simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
+#include "resimulate/diagnosis_scenario.hpp"
+#include "trueaxis/job.hpp"
+#include "simulate/resimulate.hpp"
 
 namespace trueaxis::testing {
 namespace {

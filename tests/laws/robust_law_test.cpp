@@ -8,7 +8,7 @@
 #include <set>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::laws {
 namespace {

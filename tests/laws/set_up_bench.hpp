@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "laws/law_case.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::laws {
 

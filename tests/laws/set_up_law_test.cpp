@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "laws/set_up_bench.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::laws {
 namespace {

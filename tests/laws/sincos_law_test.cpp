@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "laws/targets.hpp"
-#include "trueaxis/math/sincos.hpp"
+#include "math/sincos.hpp"
 
 namespace trueaxis::laws {
 namespace {

@@ -5,9 +5,9 @@
 #include <set>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/study/quantities.hpp"
-#include "trueaxis/study/scenario_parameters.hpp"
+#include "trueaxis/units.hpp"
+#include "study/bound/quantities.hpp"
+#include "study/sweep/scenario_parameters.hpp"
 
 /// What must hold of any sweep.
 namespace trueaxis::study {

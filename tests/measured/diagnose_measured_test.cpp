@@ -11,8 +11,8 @@
 #include <set>
 
 #include "support/diagnose_lathe.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/stream_csv.hpp"
+#include "trueaxis/units.hpp"
+#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
 namespace {

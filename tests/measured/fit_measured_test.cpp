@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "support/command_fixture.hpp"
-#include "trueaxis/fit/fit.hpp"
-#include "trueaxis/io/stream_csv.hpp"
+#include "trueaxis/fit.hpp"
+#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis::testing {
 namespace {

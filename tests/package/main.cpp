@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "trueaxis/fit/fit.hpp"
+#include "trueaxis/fit.hpp"
 
 int main() {
   trueaxis::ProbeStream stream;

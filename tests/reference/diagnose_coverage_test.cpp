@@ -11,7 +11,7 @@
 #include <optional>
 
 #include "support/diagnose_lathe.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/search.hpp"
+#include "diagnose/search/search.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -28,17 +28,17 @@ struct Point {
 };
 
 struct Bench {
-  Scene scene = testing::bench_scene(HelixPlan{}, 0.1);
-  Rows rows = make_rows(scene);
+  LinearisationPoint point = testing::bench_point(HelixPlan{}, 0.1);
+  ObservationMask mask = make_observation_mask(point);
   std::vector<Hypothesis> lobes{testing::roundness(3)};
 
   std::vector<double> deviation(double amplitude_mm, double phase, int stream) const {
-    auto y = testing::white_noise(scene.size(), sigma_mm,
+    auto y = testing::white_noise(point.size(), sigma_mm,
                                   seed + 100003u * static_cast<std::uint64_t>(stream));
     // Along the normal: on a cone of tan α = 0.1 the probe sees secα of it.
     const double along = std::sqrt(1.01);
     for (std::size_t i = 0; i < y.size(); ++i)
-      y[i] += along * amplitude_mm * std::cos(3.0 * scene.theta[i] - phase);
+      y[i] += along * amplitude_mm * std::cos(3.0 * point.theta[i] - phase);
     return y;
   }
 };
@@ -51,19 +51,19 @@ TEST(PowerOfOneCause, IsTheTable) {
   const Bench b;
   const Point table[] = {{0.0, level}, {0.81, 0.5},  {1.14, 0.8},
                          {1.30, 0.9},  {1.44, 0.95}, {1.69, 0.99}};
-  const auto n = static_cast<double>(b.scene.size());
+  const auto n = static_cast<double>(b.point.size());
   int number = 0;
   for (const Point& point : table) {
     int found = 0;
     for (int s = 0; s < streams; ++s, ++number) {
       const auto y = b.deviation(point.amplitude_um * 1e-3, 0.01 * number, number);
-      Evidence evidence(b.scene, b.rows, y, {}, 1);
-      const Columns own = evidence.append(b.lobes).front();
-      const Projection left = project(evidence.total(), evidence.base());
+      NormalEquations equations(b.point, b.mask, y, {}, 1);
+      const Columns own = equations.append(b.lobes).front();
+      const Projection left = project(equations.total(), equations.base());
       const Score gained = score(left, own);
       ASSERT_EQ(gained.rank, 2u);
       found += log_p_value(gained.gain, 2.0, left.rss,
-                           static_cast<double>(evidence.count() - left.rank)) < std::log(level);
+                           static_cast<double>(equations.count() - left.rank)) < std::log(level);
     }
     const double a = point.amplitude_um / 10.0, lambda = n * a * a * 1.01 / 2.0;
     const boost::math::fisher_f central(2.0, n - 8.0);
@@ -84,17 +84,17 @@ TEST(PowerOfOneCause, IsTheTable) {
 TEST(AmplitudeOfOneCause, ReachesCramerRao) {
   std::cout << "seed " << seed << ", " << streams << " streams\n";
   const Bench b;
-  const double bound = sigma_mm * std::sqrt(2.0 / static_cast<double>(b.scene.size()));
+  const double bound = sigma_mm * std::sqrt(2.0 / static_cast<double>(b.point.size()));
   EXPECT_NEAR(bound, 0.365e-3, 0.0005e-3);
   constexpr double truth = 0.02;
   double sum = 0.0, u_sum = 0.0;
   for (int s = 0; s < streams; ++s) {
     const auto y = b.deviation(truth, 0.02 * s, 5000 + s);
-    Evidence evidence(b.scene, b.rows, y, {}, 1);
-    Columns all = evidence.base();
-    const Columns own = evidence.append(b.lobes).front();
+    NormalEquations equations(b.point, b.mask, y, {}, 1);
+    Columns all = equations.base();
+    const Columns own = equations.append(b.lobes).front();
     all.insert(all.end(), own.begin(), own.end());
-    const Solution solution = solve(evidence.total(), all);
+    const Solution solution = solve(equations.total(), all);
     const auto n = solution.coefficients.size();
     sum += std::pow(solution.coefficients.tail(2).norm() - truth, 2);
     u_sum += sigma_mm * std::sqrt(solution.inverse(n - 1, n - 1));

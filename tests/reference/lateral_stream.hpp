@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/peers_ceres.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/measure/probe_stream.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis::reference {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "diagnose/evidence.hpp"
-#include "trueaxis/base/units.hpp"
+#include "diagnose/regression/normal_equations.hpp"
+#include "trueaxis/units.hpp"
 
 /// Streams, scenes and explicit matrices for tests of the diagnosis' parts. The matrices are of one
 /// row a reading, so that QR on them shares nothing with Gram matrices.
@@ -55,8 +55,8 @@ inline diagnose_detail::BaseKind bench_base(double tangent) {
   return base;
 }
 
-inline diagnose_detail::Scene bench_scene(const HelixPlan& plan, double tangent) {
-  return make_scene(arguments(plan), {bench_clamping(tangent)}, bench_base(tangent), false);
+inline diagnose_detail::LinearisationPoint bench_point(const HelixPlan& plan, double tangent) {
+  return linearise_at(arguments(plan), {bench_clamping(tangent)}, bench_base(tangent), false);
 }
 
 inline std::vector<double> white_noise(std::size_t count, double sigma_mm, std::uint64_t seed) {
@@ -77,21 +77,21 @@ inline std::vector<double> correlated_noise(std::size_t count, double sigma_mm, 
 }
 
 /// Base and hypotheses, a row a reading.
-inline Eigen::MatrixXd explicit_columns(const diagnose_detail::Scene& scene,
+inline Eigen::MatrixXd explicit_columns(const diagnose_detail::LinearisationPoint& point,
                                         std::span<const diagnose_detail::Hypothesis> list) {
-  const std::size_t base = scene.base.columns();
-  Eigen::MatrixXd out(static_cast<Eigen::Index>(scene.size()),
+  const std::size_t base = point.base.columns();
+  Eigen::MatrixXd out(static_cast<Eigen::Index>(point.size()),
                       static_cast<Eigen::Index>(base + diagnose_detail::columns_of(list)));
-  for (std::size_t begin = 0; begin < scene.size();) {
+  for (std::size_t begin = 0; begin < point.size();) {
     std::size_t end = begin + 1;
-    while (end < scene.size() && scene.rear[end] == scene.rear[begin]) ++end;
+    while (end < point.size() && point.rear[end] == point.rear[begin]) ++end;
     std::vector<double*> column;
     for (Eigen::Index j = 0; j < out.cols(); ++j)
       column.push_back(out.col(j).data() + static_cast<long>(begin));
-    scene.fill_base(begin, end, {column.data(), base});
+    point.fill_base(begin, end, {column.data(), base});
     std::size_t next = base;
     for (const diagnose_detail::Hypothesis& h : list) {
-      fill(h, scene, begin, end, {column.data() + next, h.columns()});
+      fill(h, point, begin, end, {column.data() + next, h.columns()});
       next += h.columns();
     }
     begin = end;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/diagnose/diagnosis.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 

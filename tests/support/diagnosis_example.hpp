@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "support/report_example.hpp"
-#include "trueaxis/diagnose/diagnosis.hpp"
+#include "trueaxis/diagnosis.hpp"
 
 /// A diagnosis for the tests of what shows it, made by formulas of this file and not by the engine:
 /// three lobes and a wandering pattern are added to the noise of report_example.hpp.
@@ -100,7 +100,7 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   NotObservable height;
   height.effect = "probe.height";
   height.why = "absorbed by x0, y0 and the radius";
-  height.harm_per_unit = {0.005, 0.0, "mm/mm", ""};
+  height.axis_bias_per_unit = {0.005, 0.0, "mm/mm", ""};
   height.detectable = std::numeric_limits<double>::infinity();
   height.detectable_unit = "mm";
   height.separate_with = Separating{"RE", "probed from the rear side", 0.0, 1.0, 15.0, "", {}};

@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "trueaxis/study/run.hpp"
-#include "trueaxis/study/summary.hpp"
+#include "study/sweep/run.hpp"
+#include "study/sweep/summary.hpp"
 
 namespace trueaxis::testing {
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 namespace trueaxis::testing {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/file.hpp"
-#include "trueaxis/io/stream_csv.hpp"
+#include "trueaxis/error.hpp"
+#include "format/file.hpp"
+#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
 namespace {

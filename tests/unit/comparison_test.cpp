@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured against simulated: discrepancies whose RMS, share and spectrum follow from a formula.
-#include "trueaxis/job/comparison.hpp"
+#include "trueaxis/job.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/comparison_json.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "resimulate/files/comparison_json.hpp"
 
 namespace trueaxis {
 namespace {
 
-constexpr double lobes_mm = 0.006, left_mm = 0.001, offset_mm = 0.002, sigma_mm = 0.0005;
+constexpr double lobes_mm = 0.006, residual_mm = 0.001, offset_mm = 0.002, sigma_mm = 0.0005;
 constexpr std::size_t turns = 20, per_turn = 40;
 
 struct Example {
@@ -30,7 +30,7 @@ Example example() {
     out.measured.c_rad.push_back(c);
     out.measured.reading_mm.push_back(x);
     out.simulated.before_mm.push_back(x - offset_mm - lobes_mm * std::cos(3.0 * c - 0.4));
-    out.simulated.after_mm.push_back(x - left_mm * std::cos(7.0 * c));
+    out.simulated.after_mm.push_back(x - residual_mm * std::cos(7.0 * c));
   }
   out.masked.assign(out.measured.size(), false);
   return out;
@@ -45,7 +45,7 @@ TEST(Comparison, RmsAndShareOfHarmonics) {
   EXPECT_EQ(c.masked, 0u);
   // A harmonic has the variance A²/2; the RMS has the offset in it, the variance has not.
   EXPECT_NEAR(c.before.rms_mm, std::hypot(offset_mm, lobes_mm / std::sqrt(2.0)), rounding_mm);
-  EXPECT_NEAR(c.after.rms_mm, left_mm / std::sqrt(2.0), rounding_mm);
+  EXPECT_NEAR(c.after.rms_mm, residual_mm / std::sqrt(2.0), rounding_mm);
   EXPECT_NEAR(c.before.share, 1.0, 1e-12);
   EXPECT_NEAR(c.after.share, 1.0 / 36.0, 1e-9);
   EXPECT_NEAR(c.noise.share, 2.0 * sigma_mm * sigma_mm / (lobes_mm * lobes_mm), 1e-9);
@@ -68,7 +68,7 @@ TEST(Comparison, LinesOfTheSpectrum) {
     return SpectrumBin{};
   };
   EXPECT_NEAR(at(0.0).before_mm, offset_mm, sums_mm);
-  EXPECT_NEAR(at(7.0).after_mm, left_mm, sums_mm);
+  EXPECT_NEAR(at(7.0).after_mm, residual_mm, sums_mm);
   EXPECT_NEAR(at(7.0).before_mm, 0.0, sums_mm);
   EXPECT_NEAR(c.spectrum.back().order, 15.0, 1e-12);
   // Half a cell is 1/(2 · 20 turns).
@@ -105,13 +105,13 @@ TEST(Comparison, WayBackIsWhereTheReadingsLie) {
       const double c = e.measured.c_rad[i], after = e.simulated.after_mm[i];
       e.simulated.before_mm[i] = after - lobes_mm * std::cos(3.0 * c - 0.4);
       e.measured.reading_mm[i] = after + share * (e.simulated.before_mm[i] - after) + offset_mm +
-                                 left_mm * std::sin(11.0 * c);
+                                 residual_mm * std::sin(11.0 * c);
     }
     const Comparison c = compare(e.measured, e.simulated, e.masked, sigma_mm);
-    EXPECT_NEAR(c.way_back.value, share, 1e-9);
+    EXPECT_NEAR(c.j_test_lambda.value, share, 1e-9);
     EXPECT_EQ(c.after.share > 1.0, share > 0.5);
     // Least squares of one factor of a harmonic: σ/√(n A²/2).
-    EXPECT_NEAR(c.way_back.u, sigma_mm / (lobes_mm * std::sqrt(turns * per_turn / 2.0)), 1e-9);
+    EXPECT_NEAR(c.j_test_lambda.u, sigma_mm / (lobes_mm * std::sqrt(turns * per_turn / 2.0)), 1e-9);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(Comparison, WayBackKnowsCorrelatedNoise) {
         pairs += way[i] * way[j] * std::pow(phi, i > j ? i - j : j - i);
     }
     const double u = sigma_mm * std::sqrt(pairs) / squares;
-    EXPECT_NEAR(compare(e.measured, e.simulated, e.masked, sigma_mm, {phi}).way_back.u, u, 1e-9 * u)
+    EXPECT_NEAR(compare(e.measured, e.simulated, e.masked, sigma_mm, {phi}).j_test_lambda.u, u, 1e-9 * u)
         << phi;
   }
 }
@@ -145,8 +145,8 @@ TEST(Comparison, TwoSimulationsAlikeHaveNoWayBack) {
   Example e = example();
   e.simulated.before_mm = e.simulated.after_mm;
   const Comparison c = compare(e.measured, e.simulated, e.masked, sigma_mm);
-  EXPECT_FALSE(c.way_back.determined());
-  EXPECT_FALSE(c.way_back.why_not.empty());
+  EXPECT_FALSE(c.j_test_lambda.determined());
+  EXPECT_FALSE(c.j_test_lambda.why_not.empty());
 }
 
 TEST(Comparison, LessThanHalfATurnHasNoSpectrum) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correct/correction.hpp"
+#include "trueaxis/correction.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "correct/profile.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/surface/revolved.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/condense.hpp"
+#include "diagnose/geometry/condense.hpp"
 #include "support/diagnose_bench.hpp"
 #include "support/diagnose_lathe.hpp"
 
@@ -17,60 +17,60 @@ constexpr std::uint64_t seed = 6;
 const testing::HelixPlan dense{.readings = 3000, .per_turn = 333.3, .passes = 2};
 
 struct Dense {
-  Scene scene = testing::bench_scene(dense, 0.1);
-  Rows rows = make_rows(scene);
-  std::vector<double> deviation = testing::white_noise(scene.size(), 5e-3, seed);
+  LinearisationPoint point = testing::bench_point(dense, 0.1);
+  ObservationMask mask = make_observation_mask(point);
+  std::vector<double> deviation = testing::white_noise(point.size(), 5e-3, seed);
 };
 
 TEST(Condense, MeansKeepSumsPassesAndBlocks) {
   const Dense d;
-  const Condensed means = condense(d.scene, d.rows, d.deviation, 8);
-  EXPECT_EQ(means.scene.size(), 2u * 375u);
+  const Condensed means = condense(d.point, d.mask, d.deviation, 8);
+  EXPECT_EQ(means.point.size(), 2u * 375u);
   double whole = 0.0, parts = 0.0;
   for (const double v : d.deviation) whole += v;
   for (const double v : means.deviation_mm) parts += 8.0 * v;
   EXPECT_NEAR(parts, whole, 1e-12);  // 6000 roundings of 5e-3
-  ASSERT_EQ(means.scene.passes.size(), 2u);
-  EXPECT_EQ(means.scene.passes[1].begin, 375u);
-  EXPECT_NEAR(means.scene.passes[0].readings_per_revolution, 333.3 / 8.0, 0.05);
-  EXPECT_EQ(means.rows.fold_begin.front(), 0u);
-  EXPECT_EQ(means.rows.fold_begin.back(), 750u);
+  ASSERT_EQ(means.point.passes.size(), 2u);
+  EXPECT_EQ(means.point.passes[1].begin, 375u);
+  EXPECT_NEAR(means.point.passes[0].readings_per_revolution, 333.3 / 8.0, 0.05);
+  EXPECT_EQ(means.mask.fold_begin.front(), 0u);
+  EXPECT_EQ(means.mask.fold_begin.back(), 750u);
   // The middle of eight neighbours is 3.5 steps on, in C and along the part.
-  EXPECT_NEAR(means.scene.c[10], d.scene.c[80] + 3.5 * two_pi / 333.3, 1e-9);
+  EXPECT_NEAR(means.point.c[10], d.point.c[80] + 3.5 * two_pi / 333.3, 1e-9);
   // The tilt moves s by 40 mm × 1 mrad a turn; its curvature over eight steps is below 4e-5 mm.
-  EXPECT_NEAR(means.scene.s[10], 0.5 * (d.scene.s[83] + d.scene.s[84]), 4e-5);
+  EXPECT_NEAR(means.point.s[10], 0.5 * (d.point.s[83] + d.point.s[84]), 4e-5);
 }
 
 TEST(Condense, AnglesAreMeantAcrossTheTurn) {
   const Dense d;
-  const Condensed means = condense(d.scene, d.rows, d.deviation, 8);
-  for (std::size_t g = 0; g < means.scene.size(); ++g) {
+  const Condensed means = condense(d.point, d.mask, d.deviation, 8);
+  for (std::size_t g = 0; g < means.point.size(); ++g) {
     const std::size_t middle = 8 * g + 4;  // half a step on
-    EXPECT_LT(std::abs(std::remainder(means.scene.theta[g] - d.scene.theta[middle], two_pi)),
+    EXPECT_LT(std::abs(std::remainder(means.point.theta[g] - d.point.theta[middle], two_pi)),
               two_pi / 333.3);
   }
 }
 
 TEST(Condense, MaskedReadingsDoNotCount) {
   Dense d;
-  for (const std::size_t i : {800, 801, 802, 803, 804, 1600}) d.rows.mask(i);
+  for (const std::size_t i : {800, 801, 802, 803, 804, 1600}) d.mask.mask(i);
   d.deviation[800] = d.deviation[1600] = 1.0;
-  d.rows.find_runs(d.scene);
-  const Condensed means = condense(d.scene, d.rows, d.deviation, 8);
+  d.mask.find_runs(d.point);
+  const Condensed means = condense(d.point, d.mask, d.deviation, 8);
   for (const double v : means.deviation_mm) EXPECT_LT(std::abs(v), 0.02);
   // Of the group of 800 three are left: less than half. It starts anew behind them or not at all.
   std::size_t unused = 0;
-  for (const char used : means.rows.used) unused += used == 0;
+  for (const char used : means.mask.used) unused += used == 0;
   EXPECT_EQ(unused, 1u);
 }
 
 TEST(Condense, OnlyDenseLongStreams) {
-  const Scene few = testing::bench_scene({.readings = 3000, .per_turn = 333.3}, 0.1);
-  EXPECT_EQ(condensation(few, resolution_of(few, make_rows(few))), 1u);
-  const Scene many = testing::bench_scene({.readings = 70000, .per_turn = 333.3}, 0.1);
-  EXPECT_EQ(condensation(many, resolution_of(many, make_rows(many))), 8u);
-  const Scene sparse = testing::bench_scene({.readings = 70000, .per_turn = 23.7}, 0.1);
-  EXPECT_EQ(condensation(sparse, resolution_of(sparse, make_rows(sparse))), 1u);
+  const LinearisationPoint few = testing::bench_point({.readings = 3000, .per_turn = 333.3}, 0.1);
+  EXPECT_EQ(condensation(few, resolution_of(few, make_observation_mask(few))), 1u);
+  const LinearisationPoint many = testing::bench_point({.readings = 70000, .per_turn = 333.3}, 0.1);
+  EXPECT_EQ(condensation(many, resolution_of(many, make_observation_mask(many))), 8u);
+  const LinearisationPoint sparse = testing::bench_point({.readings = 70000, .per_turn = 23.7}, 0.1);
+  EXPECT_EQ(condensation(sparse, resolution_of(sparse, make_observation_mask(sparse))), 1u);
 }
 
 /// λ = N A²/(2σ²) = 170 either way (threshold 28): what is slow is found in the means, what is

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "diagnose/evidence.hpp"
+#include "diagnose/regression/normal_equations.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -23,8 +23,8 @@ std::vector<Hypothesis> some_hypotheses() {
 /// Out in front and back at the rear, with masked readings and a gap in the sampling.
 struct Bench {
   ProbeStream stream;
-  Scene scene;
-  Rows rows;
+  LinearisationPoint point;
+  ObservationMask mask;
   std::vector<double> deviation;
 
   explicit Bench(std::size_t readings) {
@@ -33,11 +33,11 @@ struct Bench {
     for (std::size_t i = readings / 2; i < stream.size(); ++i) stream.time_s[i] += 7.0;
     std::vector<Clamping> clampings(2, testing::bench_clamping(0.1));
     clampings[1].number = 2, clampings[1].root = Root::rear;
-    scene = make_scene(stream, clampings, testing::bench_base(0.1), false);
-    rows = make_rows(scene);
+    point = linearise_at(stream, clampings, testing::bench_base(0.1), false);
+    rows = make_observation_mask(point);
     for (const std::size_t i : {std::size_t{0}, readings / 3, readings / 3 + 2, readings + 1})
-      rows.mask(i);
-    rows.find_runs(scene);
+      mask.mask(i);
+    mask.find_runs(point);
     deviation = testing::white_noise(stream.size(), 0.01, 8);
   }
 
@@ -45,20 +45,20 @@ struct Bench {
   std::size_t before(std::size_t i) const {
     const std::size_t pass = stream.size() / 2, gap = pass / 2;
     std::size_t count = 0;
-    while (i > count && i - count != pass && i - count != gap && rows.used[i - count - 1]) ++count;
+    while (i > count && i - count != pass && i - count != gap && mask.used[i - count - 1]) ++count;
     return count;
   }
 
   /// [deviation | base | list], whitened, dropped rows gone; `from`, `to` choose readings.
   MatrixXd dense(const std::vector<Hypothesis>& list, const std::vector<double>& phi,
                  std::size_t from, std::size_t to) const {
-    const MatrixXd columns = testing::explicit_columns(scene, list);
+    const MatrixXd columns = testing::explicit_columns(point, list);
     MatrixXd raw(columns.rows(), columns.cols() + 1);
     raw << testing::as_vector(deviation), columns;
     MatrixXd out(static_cast<Index>(to - from), raw.cols());
     Index kept = 0;
     for (std::size_t i = from; i < to; ++i) {
-      if (!rows.used[i] || before(i) < phi.size()) continue;
+      if (!mask.used[i] || before(i) < phi.size()) continue;
       out.row(kept) = raw.row(static_cast<Index>(i));
       for (std::size_t j = 0; j < phi.size(); ++j)
         out.row(kept) -= phi[j] * raw.row(static_cast<Index>(i - j - 1));
@@ -89,22 +89,22 @@ class EvidenceOf : public ::testing::TestWithParam<std::vector<double>> {};
 
 TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
   const Bench b(1301);
-  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1, with_blocks);
+  NormalEquations equations(b.point, b.mask, b.deviation, GetParam(), 1, with_blocks);
   const std::vector<Hypothesis> list = some_hypotheses();
-  const auto places = evidence.append(list);
+  const auto places = equations.append(list);
   ASSERT_EQ(places.size(), list.size());
   EXPECT_EQ(places[0], (Columns{7, 8}));
   EXPECT_EQ(places[1], (Columns{9}));
   EXPECT_EQ(places[3], (Columns{12, 13}));
   const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
-  EXPECT_EQ(evidence.count(), static_cast<std::size_t>(all.rows()));
-  expect_same_gram(evidence.total(), all, "total");
-  ASSERT_GE(evidence.folds().size(), 25u);  // about thirty blocks
-  for (std::size_t f = 0; f < evidence.folds().size(); f += 5)
-    expect_same_gram(evidence.folds()[f],
-                     b.dense(list, GetParam(), b.rows.fold_begin[f], b.rows.fold_begin[f + 1]),
+  EXPECT_EQ(equations.count(), static_cast<std::size_t>(all.rows()));
+  expect_same_gram(equations.total(), all, "total");
+  ASSERT_GE(equations.folds().size(), 25u);  // about thirty blocks
+  for (std::size_t f = 0; f < equations.folds().size(); f += 5)
+    expect_same_gram(equations.folds()[f],
+                     b.dense(list, GetParam(), b.mask.fold_begin[f], b.mask.fold_begin[f + 1]),
                      "a block");
-  Evidence alone(b.scene, b.rows, b.deviation, GetParam(), 1, sum_alone);
+  NormalEquations alone(b.point, b.mask, b.deviation, GetParam(), 1, sum_alone);
   alone.append(list);
   expect_same_gram(alone.total(), all, "the sum alone");
 }
@@ -113,19 +113,19 @@ TEST_P(EvidenceOf, AppendsAndShrinks) {
   const Bench b(700);
   const std::vector<Hypothesis> list = some_hypotheses();
   const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
-  Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), 1, with_blocks);
-  const MatrixXd bare = evidence.total();
-  evidence.append(std::span(list).first(2));
-  const MatrixXd two = evidence.total();
-  evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), all, "in two steps");
-  evidence.shrink(static_cast<std::size_t>(two.rows()));
-  EXPECT_EQ(evidence.total(), two);
-  evidence.append(std::span(list).last(2));
-  expect_same_gram(evidence.total(), all, "again");
-  evidence.shrink(static_cast<std::size_t>(bare.rows()));
-  EXPECT_EQ(evidence.total(), bare);
-  for (const MatrixXd& fold : evidence.folds()) EXPECT_EQ(fold.rows(), bare.rows());
+  NormalEquations equations(b.point, b.mask, b.deviation, GetParam(), 1, with_blocks);
+  const MatrixXd bare = equations.total();
+  equations.append(std::span(list).first(2));
+  const MatrixXd two = equations.total();
+  equations.append(std::span(list).last(2));
+  expect_same_gram(equations.total(), all, "in two steps");
+  equations.shrink(static_cast<std::size_t>(two.rows()));
+  EXPECT_EQ(equations.total(), two);
+  equations.append(std::span(list).last(2));
+  expect_same_gram(equations.total(), all, "again");
+  equations.shrink(static_cast<std::size_t>(bare.rows()));
+  EXPECT_EQ(equations.total(), bare);
+  for (const MatrixXd& fold : equations.folds()) EXPECT_EQ(fold.rows(), bare.rows());
 }
 
 TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
@@ -134,13 +134,13 @@ TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
   for (const bool blocks : {with_blocks, sum_alone}) {
     MatrixXd first;
     for (const int threads : {1, 2, 5}) {
-      Evidence evidence(b.scene, b.rows, b.deviation, GetParam(), threads, blocks);
-      evidence.append(list);
-      if (threads == 1) first = evidence.total();
+      NormalEquations equations(b.point, b.mask, b.deviation, GetParam(), threads, blocks);
+      equations.append(list);
+      if (threads == 1) first = equations.total();
       if (blocks) {
-        EXPECT_GE(evidence.folds().size(), 25u);
+        EXPECT_GE(equations.folds().size(), 25u);
       }
-      EXPECT_EQ(evidence.total(), first) << threads;  // every bit
+      EXPECT_EQ(equations.total(), first) << threads;  // every bit
     }
   }
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/observable.hpp"
+#include "diagnose/explain/observable.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnose/gain.hpp"
+#include "diagnose/explain/gain.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -117,11 +117,11 @@ TEST(ScoreOfColumns, IsTheDecreaseOfTheSumOfSquares) {
 // integral to one part in its turns.
 TEST(ScoreOfColumns, NaiveRegressionShrinksByRhoSquared) {
   const testing::HelixPlan plan;
-  const Scene scene = testing::bench_scene(plan, 0.0);
-  const MatrixXd base = testing::explicit_columns(scene, {});
+  const LinearisationPoint point = testing::bench_point(plan, 0.0);
+  const MatrixXd base = testing::explicit_columns(point, {});
   VectorXd bow(base.rows());
-  for (std::size_t i = 0; i < scene.size(); ++i)
-    bow(static_cast<Index>(i)) = std::cos(scene.c[i]) * std::pow(scene.z[i] / plan.length_mm, 2);
+  for (std::size_t i = 0; i < point.size(); ++i)
+    bow(static_cast<Index>(i)) = std::cos(point.c[i]) * std::pow(point.z[i] / plan.length_mm, 2);
   constexpr double amplitude = 0.02;
   MatrixXd all(base.rows(), base.cols() + 2);
   all << amplitude * bow + base * VectorXd::Constant(base.cols(), 0.01), base, bow;
@@ -137,22 +137,22 @@ TEST(ScoreOfColumns, NaiveRegressionShrinksByRhoSquared) {
 
 // To the floor of a sum of squares: (5e-4)² of the readings' mean square a row.
 TEST(HeldOut, IsTheRefitWithoutTheBlock) {
-  const Scene scene = testing::bench_scene({.readings = 900}, 0.1);
-  const Rows rows = make_rows(scene);
-  const std::vector<double> y = testing::white_noise(scene.size(), 0.01, 5);
+  const LinearisationPoint point = testing::bench_point({.readings = 900}, 0.1);
+  const ObservationMask mask = make_observation_mask(point);
+  const std::vector<double> y = testing::white_noise(point.size(), 0.01, 5);
   constexpr bool blocks = true;
-  Evidence evidence(scene, rows, y, {}, 1, blocks);
+  NormalEquations equations(point, rows, y, {}, 1, blocks);
   const std::vector<Hypothesis> terms{testing::roundness(2)};
-  evidence.append(terms);
-  Columns columns = evidence.base();
+  equations.append(terms);
+  Columns columns = equations.base();
   columns.insert(columns.end(), {7, 8});
-  const MatrixXd x = testing::explicit_columns(scene, terms);
+  const MatrixXd x = testing::explicit_columns(point, terms);
   const VectorXd all = testing::as_vector(y);
-  ASSERT_GE(rows.folds(), 25u);
-  ASSERT_EQ(evidence.folds().size(), rows.folds());
-  for (std::size_t f = 0; f < rows.folds(); ++f) {
-    const auto begin = static_cast<Index>(rows.fold_begin[f]);
-    const auto end = static_cast<Index>(rows.fold_begin[f + 1]);
+  ASSERT_GE(mask.folds(), 25u);
+  ASSERT_EQ(equations.folds().size(), mask.folds());
+  for (std::size_t f = 0; f < mask.folds(); ++f) {
+    const auto begin = static_cast<Index>(mask.fold_begin[f]);
+    const auto end = static_cast<Index>(mask.fold_begin[f + 1]);
     MatrixXd rest(x.rows() - (end - begin), x.cols());
     VectorXd rest_y(rest.rows());
     rest << x.topRows(begin), x.bottomRows(x.rows() - end);
@@ -160,7 +160,7 @@ TEST(HeldOut, IsTheRefitWithoutTheBlock) {
     const VectorXd fitted = rest.colPivHouseholderQr().solve(rest_y);
     const double expected =
         (all.segment(begin, end - begin) - x.middleRows(begin, end - begin) * fitted).squaredNorm();
-    EXPECT_NEAR(held_out(evidence.total(), evidence.folds()[f], columns), expected,
+    EXPECT_NEAR(held_out(equations.total(), equations.folds()[f], columns), expected,
                 1e-6 * expected);
   }
 }

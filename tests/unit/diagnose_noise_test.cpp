@@ -7,7 +7,7 @@
 #include <iostream>
 #include <set>
 
-#include "diagnose/noise.hpp"
+#include "diagnose/regression/noise.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -19,14 +19,14 @@ constexpr double sigma_mm = 0.01;
 constexpr std::uint64_t seed = 77;
 
 struct Bench {
-  Scene scene = testing::bench_scene({}, 0.1);
-  Rows rows = make_rows(scene);
-  Resolution resolution = resolution_of(scene, rows);
+  LinearisationPoint point = testing::bench_point({}, 0.1);
+  ObservationMask mask = make_observation_mask(point);
+  Resolution resolution = resolution_of(point, rows);
 
   /// Noise with three lobes of fifty times its size.
   std::vector<double> with_lobes(std::vector<double> noise) const {
     for (std::size_t i = 0; i < noise.size(); ++i)
-      noise[i] += 50.0 * sigma_mm * std::cos(3.0 * scene.theta[i] - 0.4);
+      noise[i] += 50.0 * sigma_mm * std::cos(3.0 * point.theta[i] - 0.4);
     return noise;
   }
 };
@@ -40,14 +40,14 @@ TEST_P(Correlation, IsFoundBesideAStrongHarmonic) {
   const double rho = GetParam();
   std::cout << "seed " << seed << '\n';
   const Bench b;
-  const std::vector<Hypothesis> cells = small_atlas(b.scene, b.resolution);
-  const auto n = static_cast<double>(b.scene.size());
+  const std::vector<Hypothesis> basis = small_fourier_legendre_basis(b.point, b.resolution);
+  const auto n = static_cast<double>(b.point.size());
   const double error = std::sqrt((1.0 - rho * rho) / n);
   double sum = 0.0;
   for (int s = 0; s < streams; ++s) {
-    const auto y = b.with_lobes(testing::correlated_noise(b.scene.size(), sigma_mm, rho,
+    const auto y = b.with_lobes(testing::correlated_noise(b.point.size(), sigma_mm, rho,
                                                           seed + static_cast<std::uint64_t>(s)));
-    const std::vector<double> found = autoregression(b.scene, b.rows, y, cells);
+    const std::vector<double> found = autoregression(b.point, b.mask, y, basis);
     ASSERT_FALSE(found.empty()) << s;
     // Of a second order φ₁/(1 − φ₂) is the correlation of neighbours.
     const double neighbours = found.size() == 1 ? found[0] : found[0] / (1.0 - found[1]);
@@ -69,12 +69,12 @@ TEST(Autoregression, FindsNothingInWhiteNoise) {
   for (double x = 0.0; x < 3.84; x += 1e-3)
     level += (cdf(one, x + 1e-3) - cdf(one, x)) * cdf(complement(one, 7.68 - x));
   const Bench b;
-  const std::vector<Hypothesis> cells = small_atlas(b.scene, b.resolution);
+  const std::vector<Hypothesis> basis = small_fourier_legendre_basis(b.point, b.resolution);
   int found = 0;
   for (int s = 0; s < streams; ++s) {
-    const auto y = b.with_lobes(testing::white_noise(b.scene.size(), sigma_mm,
+    const auto y = b.with_lobes(testing::white_noise(b.point.size(), sigma_mm,
                                                      1000 + seed + static_cast<std::uint64_t>(s)));
-    found += !autoregression(b.scene, b.rows, y, cells).empty();
+    found += !autoregression(b.point, b.mask, y, basis).empty();
   }
   const boost::math::binomial hits(streams, level);
   std::cout << "level " << level << ", found in " << found << '\n';
@@ -83,10 +83,10 @@ TEST(Autoregression, FindsNothingInWhiteNoise) {
 }
 
 std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) {
-  Rows rows = b.rows;
+  ObservationMask mask = b.mask;
   std::set<std::size_t> out;
-  for (const Rejected& r : mask_outliers(b.scene, b.resolution, y, rows)) out.insert(r.row - 1);
-  for (std::size_t i = 0; i < rows.used.size(); ++i) EXPECT_EQ(rows.used[i] == 0, out.contains(i));
+  for (const Rejected& r : mask_outliers(b.point, b.resolution, y, rows)) out.insert(r.row - 1);
+  for (std::size_t i = 0; i < mask.used.size(); ++i) EXPECT_EQ(mask.used[i] == 0, out.contains(i));
   return out;
 }
 
@@ -94,7 +94,7 @@ std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) 
 // 1500 white readings none comes near 8 σ.
 TEST(MaskOutliers, MasksChipsAndNothingElse) {
   const Bench b;
-  std::vector<double> y = b.with_lobes(testing::white_noise(b.scene.size(), sigma_mm, seed));
+  std::vector<double> y = b.with_lobes(testing::white_noise(b.point.size(), sigma_mm, seed));
   EXPECT_TRUE(masked_rows(b, y).empty());
   std::set<std::size_t> chips;
   for (std::size_t i = 31; i < y.size(); i += 97) {
@@ -103,9 +103,9 @@ TEST(MaskOutliers, MasksChipsAndNothingElse) {
   }
   EXPECT_EQ(masked_rows(b, y), chips);
   const std::vector<double> six = [&] {
-    std::vector<double> v = testing::white_noise(b.scene.size(), 0.1 * sigma_mm, seed);
+    std::vector<double> v = testing::white_noise(b.point.size(), 0.1 * sigma_mm, seed);
     const std::vector<double> alternating =
-        testing::white_noise(b.scene.size(), sigma_mm, seed + 1);
+        testing::white_noise(b.point.size(), sigma_mm, seed + 1);
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += alternating[i];
     for (std::size_t i = 31; i < v.size(); i += 97) v[i] = 5.5 * sigma_mm;
     return v;
@@ -116,11 +116,11 @@ TEST(MaskOutliers, MasksChipsAndNothingElse) {
 // A dent whose peak is 4.5 σ is a form and stays, noise and all.
 TEST(MaskOutliers, KeepsALocalDent) {
   const Bench b;
-  std::vector<double> y = testing::white_noise(b.scene.size(), sigma_mm, seed);
+  std::vector<double> y = testing::white_noise(b.point.size(), sigma_mm, seed);
   std::size_t touched = 0;
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const double v = std::remainder(b.scene.theta[i] - 1.0, two_pi) / 0.15;
-    const double w = (b.scene.z[i] - 30.0) / 4.0;
+    const double v = std::remainder(b.point.theta[i] - 1.0, two_pi) / 0.15;
+    const double w = (b.point.z[i] - 30.0) / 4.0;
     const double dent = 4.5 * sigma_mm * std::exp(-0.5 * (v * v + w * w));
     touched += dent > sigma_mm;
     y[i] -= dent;

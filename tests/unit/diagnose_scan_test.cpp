@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/scan.hpp"
+#include "diagnose/search/scan.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -21,21 +21,21 @@ struct LineCase {
   const char* id;  ///< nullptr: a pattern
   Pattern pattern;
   double frequency;                   ///< cycles per rad of C, s, mm
-  std::vector<double> Scene::*along;  ///< what it is periodic in
+  std::vector<double> LinearisationPoint::*along;  ///< what it is periodic in
 };
 
 void PrintTo(const LineCase& c, std::ostream* out) { *out << (c.id ? c.id : "pattern"); }
 
 /// A cone. Of two passes, at 60 and 151 rpm, C, Z and t are three variables.
 struct Bench {
-  Scene scene;
-  Rows rows;
+  LinearisationPoint point;
+  ObservationMask mask;
   Resolution resolution;
 
   explicit Bench(const testing::HelixPlan& plan)
-      : scene(testing::bench_scene(plan, 0.1)),
-        rows(make_rows(scene)),
-        resolution(resolution_of(scene, rows)) {}
+      : point(testing::bench_point(plan, 0.1)),
+        rows(make_observation_mask(point)),
+        resolution(resolution_of(point, rows)) {}
 };
 const testing::HelixPlan out_and_back{.readings = 900, .passes = 2};
 
@@ -49,14 +49,14 @@ Hypothesis hypothesis_of(const LineCase& c, double frequency) {
 /// Decrease of the whitened sum of squares by the two columns, by QR on the explicit matrix.
 double exact_gain(const Bench& b, const Hypothesis& h, const std::vector<double>& y,
                   const std::vector<double>& phi) {
-  const Eigen::MatrixXd all = testing::explicit_columns(b.scene, std::vector<Hypothesis>{h});
+  const Eigen::MatrixXd all = testing::explicit_columns(b.point, std::vector<Hypothesis>{h});
   const Eigen::MatrixXd raw = all.rightCols(2);
   const Eigen::VectorXd readings = testing::as_vector(y);
   Eigen::MatrixXd x = raw;
   Eigen::VectorXd left = readings;
   for (Index i = 0; i < raw.rows(); ++i) {
     const bool counts = i >= static_cast<Index>(phi.size()) &&
-                        b.rows.run[static_cast<std::size_t>(i)] >= phi.size();
+                        b.mask.run[static_cast<std::size_t>(i)] >= phi.size();
     for (std::size_t j = 0; j < phi.size() && counts; ++j) {
       x.row(i) -= phi[j] * raw.row(i - static_cast<Index>(j) - 1);
       left(i) -= phi[j] * readings(i - static_cast<Index>(j) - 1);
@@ -70,27 +70,27 @@ class ScannedLine : public ::testing::TestWithParam<std::tuple<LineCase, double>
 
 // A line of 20 σ²-units per reading's worth: λ = N/2 (0.5)² ≈ 225, the tallest of its own scan.
 // - peak: within half a cell 1/T of the truth, of which a quarter is the bins' and the rest of what
-//   noise moves it (√6/(π √λ) cells, 0.05);
+//   noise moves it (√6/(π √λ) basis, 0.05);
 // - gain: the two sums of a scan forget what cos and sin share, of order 1/(cycles), and the ends
 // of
 //   whitening: within 5 % of QR at the same frequency;
-// - a bin of 0.4 cells misses at most 1 − sinc²(0.2) = 12.5 % of the best gain.
+// - a bin of 0.4 basis misses at most 1 − sinc²(0.2) = 12.5 % of the best gain.
 TEST_P(ScannedLine, IsFoundWithItsGain) {
   const auto& [c, rho] = GetParam();
   std::cout << "seed " << seed << '\n';
   const Bench b(out_and_back);
   const std::vector<double> phi = rho == 0.0 ? std::vector<double>{} : std::vector<double>{rho};
-  std::vector<double> y = testing::correlated_noise(b.scene.size(), sigma_mm, rho, seed);
+  std::vector<double> y = testing::correlated_noise(b.point.size(), sigma_mm, rho, seed);
   const Hypothesis truth = hypothesis_of(c, c.frequency);
   const Eigen::MatrixXd columns =
-      testing::explicit_columns(b.scene, std::vector<Hypothesis>{truth}).rightCols(2);
+      testing::explicit_columns(b.point, std::vector<Hypothesis>{truth}).rightCols(2);
   const double size =
-      0.5 * sigma_mm * std::sqrt(0.5 * static_cast<double>(b.scene.size())) / columns.col(0).norm();
+      0.5 * sigma_mm * std::sqrt(0.5 * static_cast<double>(b.point.size())) / columns.col(0).norm();
   for (std::size_t i = 0; i < y.size(); ++i)
     y[i] +=
         size * (0.8 * columns(static_cast<Index>(i), 0) - 0.6 * columns(static_cast<Index>(i), 1));
-  const Evidence evidence(b.scene, b.rows, y, phi, 1);
-  const Scans scans = scan_lines(evidence, b.resolution, y);
+  const NormalEquations equations(b.point, b.mask, y, phi, 1);
+  const Scans scans = scan_lines(equations, b.resolution, y);
   const Peak* best = nullptr;
   for (const Peak& p : c.id ? scans.causes : scans.patterns) {
     const bool same = c.id ? p.hypothesis.id() == c.id
@@ -101,7 +101,7 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
     if (same && (!best || p.gain > best->gain)) best = &p;
   }
   ASSERT_NE(best, nullptr);
-  const auto [low, high] = std::ranges::minmax(b.scene.*c.along);
+  const auto [low, high] = std::ranges::minmax(b.point.*c.along);
   const double cell = 1.0 / (high - low);
   EXPECT_NEAR(frequency_of(best->hypothesis), c.frequency, 0.5 * cell);
   EXPECT_NEAR(best->frequency, frequency_of(best->hypothesis), 1e-12);
@@ -115,19 +115,19 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, ScannedLine,
     ::testing::Combine(
-        ::testing::Values(LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &Scene::c},
-                          LineCase{"environment.vibration", {}, 7.31, &Scene::time},
-                          LineCase{"part.waviness", {}, 1.0 / 7.3, &Scene::s},
-                          LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &Scene::z},
-                          LineCase{"part.feed_marks", {}, 1.0 / 0.87, &Scene::s},
+        ::testing::Values(LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &LinearisationPoint::c},
+                          LineCase{"environment.vibration", {}, 7.31, &LinearisationPoint::time},
+                          LineCase{"part.waviness", {}, 1.0 / 7.3, &LinearisationPoint::s},
+                          LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &LinearisationPoint::z},
+                          LineCase{"part.feed_marks", {}, 1.0 / 0.87, &LinearisationPoint::s},
                           LineCase{nullptr,
                                    {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
                                    0.057,
-                                   &Scene::s},
+                                   &LinearisationPoint::s},
                           LineCase{nullptr,
                                    {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
                                    0.083,
-                                   &Scene::s}),
+                                   &LinearisationPoint::s}),
         ::testing::Values(0.0, 0.5)));
 
 // Σ W over the scans that count, W = Δf √(4π var x): of one pass C, Z and t are one variable and
@@ -136,7 +136,7 @@ TEST(ScanLines, CountTheSameLinesOnce) {
   const Bench two(out_and_back), one({.readings = 1800});
   const std::vector<double> y = testing::white_noise(1800, sigma_mm, seed);
   const auto bandwidth = [&](const Bench& b) {
-    return scan_lines(Evidence(b.scene, b.rows, y, {}, 1), b.resolution, y).bandwidth;
+    return scan_lines(NormalEquations(b.point, b.mask, y, {}, 1), b.resolution, y).bandwidth;
   };
   // Orders 0.3 to half of 23.7 over 1800/23.7 turns, and the probe's scale over its swing.
   const double turns = 1800.0 / 23.7;

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "diagnose/scene.hpp"
+#include "diagnose/geometry/linearisation_point.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -31,10 +31,10 @@ struct Bench {
     clampings[1].x_jog_mm = 0.1, clampings[1].clamp_force_ratio = 0.6;
     stream.setup = stream.pass;
   }
-  Scene scene() const {
+  LinearisationPoint point() const {
     BaseKind base = testing::bench_base(tangent);
     base.axes = 2;
-    return make_scene(stream, clampings, base, false);
+    return linearise_at(stream, clampings, base, false);
   }
   const Clamping& of(std::size_t i) const {
     return clampings[static_cast<std::size_t>(stream.setup[i] - 1)];
@@ -54,9 +54,9 @@ Revolved about(const Revolved& from, double z_mm) {
 
 /// Parameter j of an axis' own (x, y, slopes), then radius and tangent about s_ref. Slopes turn the
 /// part rigidly about the spindle's point at z_mid: its axis' point there then moves along Z.
-Revolved nudged(const Revolved& shape, const Clamping& clamping, const Scene& scene, std::size_t j,
+Revolved nudged(const Revolved& shape, const Clamping& clamping, const LinearisationPoint& point, std::size_t j,
                 double by) {
-  Revolved out = about(shape, scene.z_mid_mm);
+  Revolved out = about(shape, point.z_mid_mm);
   double* const own[] = {&out.axis.x_mm, &out.axis.y_mm, &out.axis.slope_x, &out.axis.slope_y,
                          &out.radius_mm};
   if (j < 5) {
@@ -73,7 +73,7 @@ Revolved nudged(const Revolved& shape, const Clamping& clamping, const Scene& sc
       std::sqrt(1.0 + out.axis.slope_x * out.axis.slope_x + out.axis.slope_y * out.axis.slope_y);
   out.tan_half_angle += by;
   // s of the part is 0 at z_shift beyond the axis' point at z = 0.
-  out.radius_mm += by * (scene.z_mid_mm * secant - clamping.z_shift_mm - scene.s_ref_mm);
+  out.radius_mm += by * (point.z_mid_mm * secant - clamping.z_shift_mm - point.s_ref_mm);
   return out;
 }
 
@@ -89,16 +89,16 @@ class SceneOf : public ::testing::TestWithParam<std::tuple<double, Root, Root>> 
 // is the square of the tilt, 2e-5: slopes are tangents, s runs along the axis.
 TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
   const Bench b = bench();
-  const Scene scene = b.scene();
-  const Eigen::MatrixXd columns = testing::explicit_columns(scene, {});
+  const LinearisationPoint point = b.point();
+  const Eigen::MatrixXd columns = testing::explicit_columns(point, {});
   const std::size_t shared = 8;
   ASSERT_EQ(static_cast<std::size_t>(columns.cols()), b.tangent == 0.0 ? 9u : 10u);
-  for (std::size_t i = 0; i < scene.size(); i += 7) {
+  for (std::size_t i = 0; i < point.size(); i += 7) {
     const Clamping& clamping = b.of(i);
     for (std::size_t j = 0; j < (b.tangent == 0.0 ? 5u : 6u); ++j) {
       const double h = j == 2 || j == 3 || j == 5 ? 1e-6 : 1e-4;
       const auto at = [&](double by) {
-        return intersect(nudged(clamping.shape, clamping, scene, j, by), scene.c[i], scene.z[i],
+        return intersect(nudged(clamping.shape, clamping, point, j, by), point.c[i], point.z[i],
                          0.0, clamping.root)
             .x_mm;
       };
@@ -119,40 +119,40 @@ TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
 // The least rotation from the axis to the spindle takes the contact to the part's frame.
 TEST_P(SceneOf, ContactsAreInThePartsFrame) {
   const Bench b = bench();
-  const Scene scene = b.scene();
-  for (std::size_t i = 0; i < scene.size(); i += 7) {
+  const LinearisationPoint point = b.point();
+  for (std::size_t i = 0; i < point.size(); i += 7) {
     const Clamping& clamping = b.of(i);
     const Axis& axis = clamping.shape.axis;
-    const double x = intersect(clamping.shape, scene.c[i], scene.z[i], 0.0, clamping.root).x_mm;
+    const double x = intersect(clamping.shape, point.c[i], point.z[i], 0.0, clamping.root).x_mm;
     const Eigen::Vector3d along = Eigen::Vector3d(axis.slope_x, axis.slope_y, 1.0).normalized();
-    const Eigen::Vector3d contact(x * std::cos(scene.c[i]), x * std::sin(scene.c[i]), scene.z[i]);
+    const Eigen::Vector3d contact(x * std::cos(point.c[i]), x * std::sin(point.c[i]), point.z[i]);
     const Eigen::Vector3d own =
         Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ()) *
         (contact - Eigen::Vector3d(axis.x_mm, axis.y_mm, 0.0));
     const double theta = std::atan2(own.y(), own.x());
-    EXPECT_NEAR(std::remainder(scene.chuck[i] - theta, two_pi), 0.0, 1e-12);
-    EXPECT_NEAR(std::remainder(scene.theta[i] - theta + clamping.reindex_rad, two_pi), 0.0, 1e-12);
-    EXPECT_NEAR(scene.s[i], own.z() - clamping.z_shift_mm, 1e-11);
+    EXPECT_NEAR(std::remainder(point.chuck[i] - theta, two_pi), 0.0, 1e-12);
+    EXPECT_NEAR(std::remainder(point.theta[i] - theta + clamping.reindex_rad, two_pi), 0.0, 1e-12);
+    EXPECT_NEAR(point.s[i], own.z() - clamping.z_shift_mm, 1e-11);
     EXPECT_NEAR(own.head<2>().norm(),
                 clamping.shape.radius_mm + clamping.shape.tan_half_angle * own.z(), 1e-10);
-    EXPECT_NEAR(scene.sensed[i], x - clamping.x_jog_mm, 1e-12);
-    EXPECT_EQ(scene.clamp[i], clamping.clamp_force_ratio);
-    EXPECT_EQ(scene.rear[i] != 0, clamping.root == Root::rear);
-    EXPECT_GT(scene.rear[i] ? -x : x, 0.0);
+    EXPECT_NEAR(point.sensed[i], x - clamping.x_jog_mm, 1e-12);
+    EXPECT_EQ(point.clamp[i], clamping.clamp_force_ratio);
+    EXPECT_EQ(point.rear[i] != 0, clamping.root == Root::rear);
+    EXPECT_GT(point.rear[i] ? -x : x, 0.0);
   }
 }
 
 // 151 rpm back and 60 rpm out; a third of the stream's length in Z per 101 readings of 23.7 a turn.
 TEST_P(SceneOf, MotionIsThatOfThePlan) {
   const Bench b = bench();
-  const Scene scene = b.scene();
-  EXPECT_TRUE(scene.reindexed && scene.jogged && scene.shifted && scene.reclamped);
-  EXPECT_EQ(scene.two_sided, b.first_side != b.second_side);
+  const LinearisationPoint point = b.point();
+  EXPECT_TRUE(point.reindexed && point.jogged && point.shifted && point.reclamped);
+  EXPECT_EQ(point.two_sided, b.first_side != b.second_side);
   const double feed = 60.0 * 23.7 / 100.0;
-  EXPECT_NEAR(scene.speed[50], two_pi, 1e-9 * two_pi);
-  EXPECT_NEAR(scene.speed[150], 151.0 / 60.0 * two_pi, 1e-9 * two_pi);
-  EXPECT_NEAR(scene.velocity[50], feed, 1e-9 * feed);
-  EXPECT_NEAR(scene.velocity[150], -feed * 151.0 / 60.0, 1e-9 * feed);
+  EXPECT_NEAR(point.speed[50], two_pi, 1e-9 * two_pi);
+  EXPECT_NEAR(point.speed[150], 151.0 / 60.0 * two_pi, 1e-9 * two_pi);
+  EXPECT_NEAR(point.velocity[50], feed, 1e-9 * feed);
+  EXPECT_NEAR(point.velocity[150], -feed * 151.0 / 60.0, 1e-9 * feed);
 }
 
 INSTANTIATE_TEST_SUITE_P(SidesAndAngles, SceneOf,

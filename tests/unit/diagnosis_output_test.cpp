@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/diagnosis_noise_json.hpp"
-#include "io/text_layout.hpp"
+#include "diagnose/files/diagnosis_noise_json.hpp"
+#include "format/text_layout.hpp"
 #include "support/diagnosis_example.hpp"
-#include "trueaxis/effect/catalogue.hpp"
-#include "trueaxis/io/diagnosis_json.hpp"
-#include "trueaxis/io/diagnosis_text.hpp"
-#include "trueaxis/io/residuals_csv.hpp"
+#include "trueaxis/effect.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
+#include "job/files/residuals_csv.hpp"
 
 namespace trueaxis {
 namespace {
@@ -46,14 +46,14 @@ TEST(DiagnosisJson, HasTheFieldsOfTheSchema) {
   EXPECT_EQ(f.at("parameters").at("amplitude").at("unit"), "mm");
   EXPECT_EQ(f.at("parameters").at("phase").at("unit"), "deg");
   for (const char* key : {"p_value", "probability"}) EXPECT_TRUE(f.at(key).is_number()) << key;
-  EXPECT_EQ(f.at("harm").at("axis_shift").at("unit"), "mm");
-  EXPECT_TRUE(f.at("harm").at("cosmetic").get<bool>());
+  EXPECT_EQ(f.at("axis_bias").at("axis_shift").at("unit"), "mm");
+  EXPECT_TRUE(f.at("axis_bias").at("cosmetic").get<bool>());
   EXPECT_EQ(f.at("separate_with").at("plan"), "RC");
   EXPECT_EQ(f.at("separate_with").at("power"), 0.993);
   EXPECT_EQ(f.at("separate_with").at("minutes"), 12.0);
   for (const char* key : {"harmonic", "dependence", "amplitude"})
     EXPECT_TRUE(d.at("unexplained").at(0).contains(key)) << key;
-  for (const char* key : {"effect", "why", "harm_per_unit", "separate_with"})
+  for (const char* key : {"effect", "why", "axis_bias_per_unit", "separate_with"})
     EXPECT_TRUE(d.at("not_observable").at(0).contains(key)) << key;
   for (const char* key : {"sigma", "source", "autocorrelation"})
     EXPECT_TRUE(d.at("noise").contains(key)) << key;
@@ -77,7 +77,7 @@ TEST(DiagnosisJson, WhatIsNotFiniteIsNullWithAReason) {
   const json& detectable = d.at("not_observable").at(0).at("detectable");
   EXPECT_TRUE(detectable.at("value").is_null());
   EXPECT_EQ(detectable.at("why"), "no size of it would be found");
-  EXPECT_EQ(d.at("findings").at(1).at("harm").at("axis_shift").at("why"),
+  EXPECT_EQ(d.at("findings").at(1).at("axis_bias").at("axis_shift").at("why"),
             "the extended axis is not determined");
 }
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fast Fourier sums against the sums as they are written, in extended precision.
-#include "trueaxis/math/fourier_sums.hpp"
+#include "math/fourier_sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "laws/targets.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "correct/profile.hpp"
 #include "support/diagnosis_example.hpp"
-#include "trueaxis/effect/catalogue.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {

@@ -117,11 +117,11 @@ TEST(Margin, ARearTurretInReverseFollowsAsWell) {
     const Correction correction =
         make_correction({{0.25, -0.1, 2e-3, 3e-3, 60.0}, {}}, target, tool, actuator);
     const Profile profile(correction.axis.axis, target, tool);
-    const double left_mm =
+    const double residual_mm =
         ServoSimulation(actuator).following_mm(profile, correction.rows.command_mm, tool.speed_rpm);
     EXPECT_GT(correction.margin.following_uncompensated_mm, 1e-3);
-    EXPECT_NEAR(correction.margin.following_mm, left_mm, 0.05 * left_mm + 1e-7);
-    EXPECT_LT(left_mm, 1e-5);
+    EXPECT_NEAR(correction.margin.following_mm, residual_mm, 0.05 * residual_mm + 1e-7);
+    EXPECT_LT(residual_mm, 1e-5);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(Margin, StrokeAndSlewAreThoseOfTheCommand) {
   for (std::size_t i = 1; i < x.size(); ++i) {
     slew = std::max(slew, std::abs(x[i] - x[i - 1]) * rows_per_s);
   }
-  // Rows and grid each miss a peak by (π/180)²/2; the margin takes the extremes at their worst
+  // ObservationMask and grid each miss a peak by (π/180)²/2; the margin takes the extremes at their worst
   // place.
   EXPECT_NEAR(correction.margin.stroke_used_mm, *high - *low, 5e-4 * (*high - *low));
   EXPECT_NEAR(correction.margin.slew_used_mm_per_s, slew, 5e-4 * slew);

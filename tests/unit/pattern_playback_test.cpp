@@ -6,12 +6,12 @@
 #include <cmath>
 #include <functional>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/diagnosis_json.hpp"
-#include "trueaxis/io/diagnosis_scenario.hpp"
-#include "trueaxis/simulate/resimulate.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
+#include "resimulate/diagnosis_scenario.hpp"
+#include "simulate/resimulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

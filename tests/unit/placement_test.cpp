@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/study/placement.hpp"
+#include "study/published/placement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "study/printed_run.hpp"
-#include "study/profile.hpp"
+#include "study/published/printed_run.hpp"
+#include "study/published/likelihood_profile.hpp"
 #include "support/sweep_examples.hpp"
-#include "trueaxis/study/quantities.hpp"
+#include "study/bound/quantities.hpp"
 
 namespace trueaxis::study {
 namespace {

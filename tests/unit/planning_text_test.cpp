@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/io/planning_results.hpp"
+#include "study/planning/files/planning_results.hpp"
 
 namespace trueaxis {
 namespace {

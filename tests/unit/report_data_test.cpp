@@ -11,8 +11,8 @@
 #include "report/page.hpp"
 #include "report/thinning.hpp"
 #include "support/diagnosis_example.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/report/report.hpp"
+#include "trueaxis/error.hpp"
+#include "report/report.hpp"
 
 namespace trueaxis {
 namespace {

@@ -66,7 +66,7 @@ TEST(Reproduction, AnEarlierReasonStands) {
 TEST(Reproduction, HalfWayBackAndBeyondChance) {
   const auto at = [](double value, double u) {
     Comparison c;
-    c.way_back = {value, u, "1", ""};
+    c.j_test_lambda = {value, u, "1", ""};
     return refuted(c);
   };
   EXPECT_TRUE(at(0.51, 0.1));
@@ -108,7 +108,7 @@ TEST(Reproduction, ChanceRefutesWhatIsRightInOneOfAHundred) {
         noise_mm = phi * noise_mm + std::sqrt(1.0 - phi * phi) * sigma_mm * gaussian(bits);
       }
       const Comparison c = compare(measured, simulated, none, sigma_mm, autoregression);
-      EXPECT_EQ(c.way_back.value > 0.5, c.after.share > 1.0) << draw;
+      EXPECT_EQ(c.j_test_lambda.value > 0.5, c.after.share > 1.0) << draw;
       if (refuted(c)) ++count;
     }
     // Binomial, five standard deviations.

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/resimulate.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/resimulate.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

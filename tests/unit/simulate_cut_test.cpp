@@ -7,10 +7,10 @@
 #include <complex>
 #include <numbers>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/cut_table_csv.hpp"
-#include "trueaxis/simulate/cut.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "simulate/files/cut_table_csv.hpp"
+#include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

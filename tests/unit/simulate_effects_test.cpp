@@ -7,9 +7,8 @@
 #include <numbers>
 #include <string>
 
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/simulate/effects.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

@@ -3,12 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/scenario_toml.hpp"
-#include "trueaxis/io/truth_json.hpp"
-#include "trueaxis/simulate/effects.hpp"
-#include "trueaxis/simulate/simulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/truth_json.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/diagnosis_example.hpp"
-#include "trueaxis/io/diagnosis_text.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/io/stream_csv.hpp"
+#include "measure/files/stream_csv.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 #include <random>
 #include <string>
 
-#include "io/stream_csv_number.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/base/units.hpp"
-#include "trueaxis/io/file.hpp"
+#include "measure/files/stream_csv_number.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "format/file.hpp"
 
 namespace trueaxis {
 namespace {

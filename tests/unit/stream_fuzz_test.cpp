@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/stream_csv.hpp"
-#include "trueaxis/measure/passes.hpp"
+#include "trueaxis/error.hpp"
+#include "measure/files/stream_csv.hpp"
+#include "measure/passes.hpp"
 
 namespace trueaxis {
 namespace {

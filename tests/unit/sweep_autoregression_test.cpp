@@ -5,9 +5,9 @@
 
 #include "support/sweep_examples.hpp"
 #include "support/sweep_text.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/scenario_toml.hpp"
-#include "trueaxis/io/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 /// The kind of noise as an axis: φ of an autoregression.
 namespace trueaxis {

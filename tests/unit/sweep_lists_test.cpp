@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "support/sweep_text.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 /// Cases of an axis that replace whole lists of the scenario, and the order in which a cell is set.
 namespace trueaxis {

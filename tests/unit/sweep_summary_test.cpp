@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "support/sweep_examples.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/io/sweep_results.hpp"
-#include "trueaxis/study/summary.hpp"
+#include "trueaxis/error.hpp"
+#include "study/sweep/files/sweep_results.hpp"
+#include "study/sweep/summary.hpp"
 
 namespace trueaxis::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/io/sweep_toml.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "support/sweep_text.hpp"
-#include "trueaxis/base/error.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

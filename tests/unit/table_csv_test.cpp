@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/io/table_csv.hpp"
+#include "correct/files/table_csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/toml_reader.hpp"
+#include "format/toml_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Products of wide blocks against a plain loop, on every instruction set.
-#include "trueaxis/math/wide_gram.hpp"
+#include "math/wide_gram.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "laws/targets.hpp"
-#include "trueaxis/base/error.hpp"
-#include "trueaxis/math/gram.hpp"
+#include "trueaxis/error.hpp"
+#include "math/gram.hpp"
 
 namespace trueaxis {
 namespace {

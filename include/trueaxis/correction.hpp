@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "correct/repeating_motion.hpp"
+#include "trueaxis/surface.hpp"
+
+namespace trueaxis {
+
+/// One point of a measured frequency response.
+struct ResponsePoint {
+  double frequency_hz = 0.0;
+  double gain = 1.0;
+  double phase_rad = 0.0;
+};
+
+/// A fast tool servo. Defaults: the 600 µm, 600 Hz piezo of Constantin et al. (section 3.3).
+struct Actuator {
+  double stroke_mm = 0.6;  ///< full travel; the correction uses it about its middle
+  double natural_frequency_hz = 600.0;
+  double damping = 0.7;               ///< ζ: −3 dB then falls on the natural frequency
+  double delay_s = 0.0;               ///< pure transport delay of drive and bus
+  double slew_mm_per_s = 200.0;       ///< amplifier current: full stroke as a sine at about 100 Hz
+  double sampling_hz = 20000.0;       ///< set-points a second, held between (zero-order hold)
+  double stroke_reserve = 0.1;        ///< share of the stroke kept free for what was not modelled
+  double following_limit_mm = 0.001;  ///< predicted following error that is still accepted
+  bool precompensate = true;          ///< invert the response per harmonic
+  std::vector<ResponsePoint>
+      measured;  ///< replaces the second-order model when there (ascending frequency)
+
+  /// Position over set-point at a frequency ≥ 0 (e^{+iωt} convention): second order or measured
+  /// response, delay, and the hold of the sampling: H = ω_n²/(ω_n² − ω² + 2iζω_nω) e^{−iωτ} sinc
+  /// e^{−iωT/2}.
+  std::complex<double> response(double frequency_hz) const;
+
+  /// Lowest frequency at which |response| falls to −3 dB, Hz.
+  double bandwidth_hz() const;
+
+  void validate() const;  ///< @throws ContractViolation naming quantity, value and limit
+};
+
+
+/// One reference surface as the target axis sees it.
+struct Reference {
+  std::string name;
+  AxisEstimate axis;
+  double weight = 1.0;
+  double face_radius_mm = 0.0;  ///< > 0: a plane; only its tilt counts, × this radius
+};
+
+/// What is left at one reference when the part is cut about the target axis.
+struct Remainder {
+  std::string name;
+  double offset_start_mm = 0.0,
+         offset_end_mm = 0.0;  ///< distance of the axes at both ends of the cut
+  double tilt_rad = 0.0;
+  double coaxiality_mm = 0.0;  ///< ISO 1101: a diameter; for a plane the axial run-out 2 R tilt
+  /// Of the part cut about the target axis: the target is a number by then, so it is the reference
+  /// that is known no better than this (twice its u at the worse end, in the worse direction).
+  double u_coaxiality_mm = 0.0;
+};
+
+struct TargetAxis {
+  AxisEstimate axis;
+  std::vector<Remainder> remainders;
+};
+
+/// The axis that minimises Σ w_i ∫ |Δ_i(Z)|² dZ over [z_start, z_end] (key idea 4 of Constantin et
+/// al.), Δ_i the vector from reference axis i; a plane enters as tilt × face radius. Closed form.
+/// @throws Refusal if the references leave it open (planes alone fix no position).
+/// A face asks for a direction only: with `needs_position` false, planes alone are enough and the
+/// axis then passes the spindle axis at mid length.
+TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
+                             double z_end_mm, bool needs_position = true);
+
+/// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
+/// diameter, mm.
+double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm, double z_end_mm);
+
+
+enum class TargetKind { cylinder, cone, face };
+
+/// The surface to be cut, coaxial with the target axis.
+struct TargetSurface {
+  TargetKind kind = TargetKind::cylinder;
+  bool bore = false;
+  double z_start_mm = 0.0,
+         z_end_mm = 0.0;        ///< where the cut starts and ends, in the order of the feed
+  double radius_mm = 0.0;       ///< at z_start (cylinder, cone)
+  double tan_half_angle = 0.0;  ///< cone: signed, positive where the radius grows with Z
+  double z_face_mm = 0.0;       ///< face: where the target axis meets it
+  double radius_start_mm = 0.0, radius_end_mm = 0.0;  ///< face: X where the cut starts and ends
+};
+
+/// Tool and cutting motion.
+struct ToolSetup {
+  double nose_radius_mm = 0.0;
+  double height_mm = 0.0;  ///< Y of the cutting edge
+  double angle_from_probe_rad =
+      0.0;                   ///< about the spindle from the probe to the tool; a turret behind: π
+  double speed_rpm = 600.0;  ///< > 0
+  int sense = 1;             ///< sense of C while cutting: +1 or −1
+  double feed_mm_per_rev = 0.1;   ///< > 0; the direction follows from the target's start and end
+  double c_start_rad = 0.0;       ///< spindle angle at the first row
+  int rows_per_revolution = 360;  ///< linear interpolation then errs by 4e-5 of a 1-UPR amplitude
+};
+
+/// The rows of a correction table, in the order in which they are run. For a face the actuator
+/// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
+/// Positions are those of the centre of the tool's nose. The rows are the fewest whole revolutions
+/// whose last row reaches the end.
+struct CorrectionRows {
+  std::vector<int> revolution;
+  std::vector<double> position_mm;
+  std::vector<double> c_rad;       ///< running, in the sense of rotation when cutting
+  std::vector<double> wanted_mm;   ///< X_fts = X − X programmed, positive away from the spindle
+                                   ///< axis; a face: Z_fts = Z − Z programmed, positive along +Z
+  std::vector<double> command_mm;  ///< precompensated for the actuator
+};
+
+/// One harmonic of the correction, cos convention A cos(nC − φ), at both ends of the cut. Orders 0
+/// to 8 above 1 nm; order 0 is the signed mean.
+struct CorrectionHarmonic {
+  int order = 0;
+  double amplitude_start_mm = 0.0, phase_start_rad = 0.0;
+  double amplitude_end_mm = 0.0, phase_end_rad = 0.0;
+  double gain = 1.0, lag_rad = 0.0;  ///< actuator at this order and speed
+};
+
+/// What the actuator has to do and has left.
+struct ActuatorMargin {
+  double stroke_used_mm = 0.0, stroke_available_mm = 0.0;  ///< peak to peak; after the reserve
+  double slew_used_mm_per_s = 0.0, slew_available_mm_per_s = 0.0;
+  double highest_frequency_hz = 0.0, bandwidth_hz = 0.0;  ///< highest harmonic above 10 nm
+  double set_points_per_revolution = 0.0;
+  double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
+  double following_mm = 0.0;                ///< peak, with what X_command holds; steady run
+  double following_limit_mm = 0.0;
+  bool follows = false;
+  std::string breaks;          ///< the numbers that break, empty when it follows
+  double max_speed_rpm = 0.0;  ///< highest speed at which it would run (at most the bandwidth in
+                               ///< revolutions a minute); 0: at none
+};
+
+struct Correction {
+  TargetSurface target;
+  ToolSetup tool;
+  Actuator actuator;
+  AxisEstimate axis;                     ///< the target axis
+  std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
+  CorrectionRows rows;
+  std::vector<CorrectionHarmonic> harmonics;
+  ActuatorMargin margin;
+};
+
+/// The correction profile, its precompensation and its margin. An actuator that cannot follow is
+/// reported in `margin`, not thrown: the caller refuses.
+/// @throws Refusal where the tool does not meet the target surface (past its apex, height beyond
+/// its
+///         radius); ContractViolation for quantities that cannot be.
+Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
+                           const ToolSetup& tool, const Actuator& actuator,
+                           std::vector<RepeatingMotion> motions = {});
+
+}  // namespace trueaxis

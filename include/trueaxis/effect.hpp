@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace trueaxis {
+
+/// The geometry of every reading, one entry each, as the ideal surface predicts it; lengths mm.
+/// Pass a block of the stream at a time: nothing here depends on the other readings.
+struct TermContext {
+  std::span<const double> c_rad, z_mm, time_s;        ///< as recorded
+  std::span<const double> speed_rad_per_s;            ///< of the spindle, signed like C
+  std::span<const double> velocity_mm_per_s;          ///< of Z, signed
+  std::span<const double> x_mm;                       ///< predicted X
+  std::span<const double> sensed_mm;                  ///< predicted X without the jogs of the slide
+  std::span<const double> dx_dc, dx_dz;               ///< mm per rad, mm per mm
+  std::span<const double> d2x_dc2;                    ///< mm per rad², for probe.lag only
+  std::span<const double> theta_rad, theta_chuck_rad; /**< polar angle of the contact about the
+      part's axis, fixed to the part and to the chuck (θ_chuck = θ + re-indexing) */
+  std::span<const double> s_mm;                       ///< of the contact, along the part's axis
+  std::span<const double> clamp_force_ratio;          ///< against the first set-up
+
+  double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half, −1 … 1 when probed
+  double height_mm = 0.0;                  ///< of the probe line
+  double tan_half_angle = 0.0;             ///< signed like the surface's
+  bool bore = false, rear = false;         ///< inside a bore; at the smaller X
+
+  std::size_t size() const { return c_rad.size(); }
+};
+
+/// Parameters in which a term is not linear. A term reads those that its kind names.
+struct TermShape {
+  double order = 2.0;              ///< of a harmonic; jaws of a chuck; κ of an asynchronous motion
+  double lever_from_mm = 0.0;      ///< Z of the bearing, s of the jaws
+  double decay_length_mm = 100.0;  ///< L of exp(−|s − s_jaw|/L)
+  int degree = 2;                  ///< highest Legendre degree of slide.z_straightness
+  double period_mm = 1.0;          ///< wavelength, feed, pitch, period of the scale
+  double frequency_hz = 50.0;
+  double time_constant_s = 600.0;  ///< of thermal.drift; of probe.lag the T to linearise at
+  double onset_s = 0.0;            ///< instant of a slip
+  double reference_x_mm = 0.0;     ///< X_ref of the sensor
+  double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
+};
+
+/// What a term's value moves. The derivative of X along it is the chain rule's other factor.
+enum class Port {
+  x,       ///< machine X: 1
+  normal,  ///< the surface along its normal, away from the part's axis: ∂X/∂ρ
+  c,       ///< argument C: ∂X/∂C
+  z        ///< argument Z: ∂X/∂Z
+};
+
+/// cos, sin (n angle) × envelope along Z.
+struct Harmonic {
+  enum class Angle { part, chuck, spindle };
+  enum class Envelope {
+    constant,  ///< 1
+    growing,   ///< 1 and u
+    lever,     ///< Z − Z_bearing
+    jaws,      ///< exp(−|s − s_jaw|/L) × force; orders n and 2n
+    parabola   ///< u² cos α: a bent axis, for n = 1 along the normal
+  };
+  Angle angle = Angle::spindle;
+  Envelope envelope = Envelope::constant;
+  Port port = Port::x;
+  double fixed_order = 0.0;  ///< 0: the shape's
+};
+
+/// P_first … P_last(u); last 0: up to the shape's degree. `plain`: Z itself instead.
+struct PolynomialInZ {
+  int first = 1, last = 1;
+  Port port = Port::x;
+  bool plain = false;
+};
+
+/// cos, sin (2π z/period − turns θ).
+struct PeriodicInZ {
+  Port port = Port::normal;
+  double turns = 0.0;
+};
+
+/// cos, sin (2π f t), in X.
+struct PeriodicInTime {};
+
+/// t and 1 − exp(−t/τ), in X.
+struct GrowthInTime {};
+
+/// From an instant on: the part moved by x, y of the spindle frame, and turned.
+struct PartStep {};
+
+/// Constant shifts of the arguments.
+struct ArgumentShift {
+  enum class By {
+    angle,    ///< C' = C + c
+    delay,    ///< C' = C − ω τ, Z' = Z − v τ
+    backlash  ///< Z' = Z − sign(v) b/2; X + sign(v) c/2
+  };
+  By by = By::angle;
+};
+
+/// Geometry of the probe: line Y = h, its tilt in X-Z, its ball.
+struct ProbeLine {
+  enum class Of { height, tilt, ball };
+  Of of = Of::height;
+};
+
+/// Functions of what the sensor meets.
+struct Response {
+  enum class Of {
+    gain,          ///< X − X_ref
+    nonlinearity,  ///< v², v³ with v = (X − X_ref)/range
+    cyclic,        ///< cos, sin (2π X/period)
+    pretravel,     ///< into the material: 1; and cos, sin (n ψ) × tilt of the normal
+    lag            ///< first order, at T
+  };
+  Of of = Of::gain;
+};
+
+using Term = std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime,
+                          GrowthInTime, PartStep, ArgumentShift, ProbeLine, Response>;
+
+/// A parameter in which X_M is linear, near zero.
+struct LinearParameter {
+  std::string name;
+  std::string unit;
+};
+
+/// The linear parameters of a term, in the order of its columns. A pair NAME_cos, NAME_sin are the
+/// factors of cos and sin: a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ) (a cos φ, −a sin
+/// φ).
+std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape);
+
+/// Writes ∂X_M/∂(linear parameter) at zero amplitude over the readings of `context`;
+/// `columns[j]` has room for context.size() values. What a term needs of the context must be there.
+/// @throws ContractViolation when a column is missing or their number is not that of
+/// linear_parameters.
+void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
+                  std::span<double* const> columns);
+
+/// The names of the shape parameters that a term reads.
+std::vector<std::string> shape_parameters(const Term& term);
+
+
+/// Where an effect enters the measuring chain (C, Z, t) → A → B → C → D → E → X_M.
+enum class Slot {
+  arguments,   ///< A: C' = C + δC, Z' = Z + δZ
+  probe_line,  ///< B: height, tilt, ball
+  part,        ///< C: the part's surface, along its normal
+  machine,     ///< D: added to X
+  sensor,      ///< E: response
+  noise        ///< ε
+};
+
+/// What an effect is fixed to: it decides what re-chucking, reversal, another speed or a return
+/// pass does to it.
+enum class Frame { part, chuck, spindle, machine, probe, time };
+
+/// A parameter with the sizes that machines show: priors, not limits. Both 0: no typical size.
+struct EffectParameter {
+  std::string_view name;
+  std::string_view unit;  ///< mm, rad, s, Hz, 1 and quotients of them
+  double low = 0.0, high = 0.0;
+  std::string_view meaning;
+};
+
+/// A measurement that tells causes apart.
+struct Separator {
+  std::string_view code, what;
+};
+
+/// How a measurement separates this effect from its confounders.
+struct Separation {
+  std::string_view code, how;
+};
+
+/// Largest shift of the identified axis over Z when the effect is left out, per unit of its
+/// parameter; R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad, Z 0-60 mm. Depends on the plan.
+struct AxisBias {
+  double value = 0.0;
+  std::string_view unit, text;
+};
+
+/// An entry of the catalogue: data that the engine, the report and the command line read.
+struct Effect {
+  std::string_view id = {};
+  std::string_view title = {};
+  Slot slot = Slot::part;
+  Frame frame = Frame::part;
+  Term term = {};                 ///< how it is computed; monostate for a check
+  std::string_view formula = {};  ///< the term as text
+  std::vector<EffectParameter> parameters = {};
+  std::string_view signature = {};
+  std::vector<std::string_view> confounders = {};  ///< ids
+  std::string_view absorbed_by = {};               ///< parameters of the surface that take it in
+  std::vector<Separation> separations = {};
+  std::optional<AxisBias> axis_bias = {};
+  std::string_view source = {};
+  bool check = false;  ///< quality of the data: handled and reported, never a name for a form
+};
+
+/// All effects and checks, family by family.
+std::span<const Effect> effect_catalogue();
+
+/// nullptr when there is none with this id.
+const Effect* find_effect(std::string_view id);
+
+/// The known ids most like a misspelt one, best first.
+std::vector<std::string_view> nearest_effects(std::string_view id, std::size_t count = 3);
+
+std::span<const Separator> separators();
+
+std::string_view to_string(Slot slot);
+std::string_view to_string(Frame frame);
+
+}  // namespace trueaxis

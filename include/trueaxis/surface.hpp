@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+
+namespace trueaxis {
+
+/// A line nearly along the spindle: part frame, mm; passes (x, y, z_ref) with slopes dx/dz, dy/dz.
+/// Direction cosines (Constantin et al. Eq. 1): l = slope_x n, m = slope_y n, n = 1/sqrt(1 +
+/// slope²).
+struct Axis {
+  double x_mm = 0.0, y_mm = 0.0;        ///< where it pierces the plane z = z_ref
+  double slope_x = 0.0, slope_y = 0.0;  ///< dx/dz and dy/dz, mm per mm
+  double z_ref_mm = 0.0;
+
+  std::array<double, 2> at(double z_mm) const {
+    return {x_mm + slope_x * (z_mm - z_ref_mm), y_mm + slope_y * (z_mm - z_ref_mm)};
+  }
+};
+
+/// An axis with the covariance of (x, y, slope_x, slope_y), row-major 4 × 4 (mm², mm, 1).
+struct AxisEstimate {
+  Axis axis;
+  std::array<double, 16> covariance{};
+
+  /// Standard uncertainty of the axis point at z in its worse direction, mm: the square root of the
+  /// largest eigenvalue of the 2 × 2 covariance of (x(z), y(z)).
+  double u_at(double z_mm) const;
+};
+
+
+/// A right circular cone (or, with tan_half_angle = 0, a cylinder) about an axis. s runs along the
+/// axis with s = 0 at (axis.x, axis.y, axis.z_ref); radius(s) = radius_mm + tan_half_angle · s.
+struct Revolved {
+  Axis axis;
+  double radius_mm = 0.0;
+  double tan_half_angle = 0.0;  ///< signed: positive where the radius grows with s
+};
+
+/// Where a line parallel to X meets a surface.
+struct Intersection {
+  double x_mm = 0.0;   ///< machine X, a radius
+  double dx_dz = 0.0;  ///< along Z at fixed C, mm per mm
+  double dx_dc = 0.0;  ///< along C at fixed Z, mm per rad
+  bool hit = false;    ///< false: the line passes the surface by, only touches it, or meets
+                       ///< the mirrored nappe only; the numbers are then NaN
+};
+
+enum class Root {
+  front,
+  rear
+};  ///< front: the larger X, where a tool in front works; rear: the smaller
+
+/// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
+/// (effects.md's quadratic with K = 1 + tan²(half angle), no tilt of the line).
+Intersection intersect(const Revolved& surface, double c_rad, double z_mm, double height_mm = 0.0,
+                       Root root = Root::front);
+
+}  // namespace trueaxis

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "trueaxis/units.hpp"
+#include "correct/files/table_csv.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double um = 1.0 / mm_per_um;
+
+/// `value` with `decimals`, without the sign of a negative zero.
+std::string fixed(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  const bool zero =
+      text[0] == '-' && std::string(text).find_first_of("123456789") == std::string::npos;
+  return zero ? text + 1 : text;
+}
+
+std::string significant(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+class Lines {
+ public:
+  void add(const std::string& key, const std::string& value) {
+    text_ += "# " + key + ": " + value + '\n';
+  }
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+std::string actuator_text(const Actuator& actuator) {
+  std::string text = "stroke " + significant(actuator.stroke_mm * um) + " µm, ";
+  text += actuator.measured.empty() ? significant(actuator.natural_frequency_hz) + " Hz, damping " +
+                                          significant(actuator.damping)
+                                    : "frequency response measured at " +
+                                          std::to_string(actuator.measured.size()) + " frequencies";
+  return text + ", delay " + significant(actuator.delay_s * 1e3) + " ms, slew " +
+         significant(actuator.slew_mm_per_s) + " mm/s, sampling " +
+         significant(actuator.sampling_hz) + " Hz";
+}
+
+std::string target_text(const TargetSurface& target) {
+  if (target.kind == TargetKind::face) {
+    return "face at Z " + fixed(target.z_face_mm, 6) + " mm, X from " +
+           fixed(target.radius_start_mm, 6) + " to " + fixed(target.radius_end_mm, 6) + " mm";
+  }
+  std::string text = target.kind == TargetKind::cone ? "cone" : "cylinder";
+  if (target.bore) text += " (bore)";
+  text += ", radius " + fixed(target.radius_mm, 6) + " mm at Z " + fixed(target.z_start_mm, 6) +
+          " mm, to Z " + fixed(target.z_end_mm, 6) + " mm";
+  if (target.kind == TargetKind::cone) {
+    text += ", half angle " + fixed(std::atan(target.tan_half_angle) / rad_per_deg, 6) +
+            " deg (positive: radius grows with Z)";
+  }
+  return text;
+}
+
+std::string axis_text(const AxisEstimate& estimate) {
+  const Axis& axis = estimate.axis;
+  return "x " + fixed(axis.x_mm, 7) + " mm, y " + fixed(axis.y_mm, 7) + " mm at Z " +
+         fixed(axis.z_ref_mm, 6) + " mm, dx/dz " + fixed(axis.slope_x, 9) + ", dy/dz " +
+         fixed(axis.slope_y, 9) + ", u " + fixed(estimate.u_at(axis.z_ref_mm) * um, 4) +
+         " µm there (k = 1)";
+}
+
+std::string following_text(const ActuatorMargin& margin) {
+  return fixed(margin.following_mm * um, 4) + " µm peak (" +
+         fixed(margin.following_uncompensated_mm * um, 4) +
+         " µm if the wanted profile were sent), steady run";
+}
+
+}  // namespace
+
+std::string correction_header(const Correction& correction) {
+  const ToolSetup& tool = correction.tool;
+  const ActuatorMargin& margin = correction.margin;
+  const bool face = correction.target.kind == TargetKind::face;
+  Lines lines;
+  lines.add("schema", "trueaxis.correction/1");
+  lines.add("version", TRUEAXIS_VERSION);
+  lines.add("units", "mm, deg; X is a radius");
+  lines.add(face ? "Z_fts" : "X_fts",
+            face ? "Z commanded - Z programmed at this X, positive along +Z"
+                 : "X commanded - X programmed at this Z, positive away from the spindle axis");
+  lines.add(face ? "Z_command" : "X_command", correction.actuator.precompensate
+                                                  ? "precompensated for the actuator"
+                                                  : "as wanted, no precompensation");
+  lines.add("c_zero", "that of the probe stream");
+  lines.add("c_sense", tool.sense > 0 ? "+1 while cutting" : "-1 while cutting");
+  lines.add(face ? "x_datum" : "z_datum",
+            face ? "spindle axis; the centre of the tool's nose"
+                 : "that of the probe stream; the centre of the tool's nose");
+  lines.add("target", target_text(correction.target));
+  lines.add("tool_height", fixed(tool.height_mm, 6) + " mm");
+  lines.add("tool_angle_from_probe", fixed(tool.angle_from_probe_rad / rad_per_deg, 6) + " deg");
+  lines.add("nose_radius", fixed(tool.nose_radius_mm, 6) + " mm");
+  lines.add("speed", significant(tool.speed_rpm) + " rpm");
+  lines.add("feed", significant(tool.feed_mm_per_rev) + " mm/rev");
+  lines.add("rows_per_revolution",
+            std::to_string(tool.rows_per_revolution) + ", linear in between");
+  lines.add("actuator", actuator_text(correction.actuator));
+  lines.add("stroke_used", fixed(margin.stroke_used_mm * um, 3) + " µm of " +
+                               fixed(margin.stroke_available_mm * um, 3) + " µm");
+  lines.add("following_error", following_text(margin));
+  lines.add("target_axis", axis_text(correction.axis));
+  return lines.take();
+}
+
+std::string correction_preview(const Correction& correction) {
+  const bool face = correction.target.kind == TargetKind::face;
+  const CorrectionRows& rows = correction.rows;
+  const ActuatorMargin& margin = correction.margin;
+  const auto range = [](const std::vector<double>& values) {
+    if (values.empty()) return std::string("none");
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return fixed(*low * um, 3) + " to " + fixed(*high * um, 3) + " µm";
+  };
+  std::string text = "target      " + target_text(correction.target) + '\n';
+  text += "rows        " + std::to_string(rows.wanted_mm.size()) + " in " +
+          std::to_string(rows.revolution.empty() ? 0 : rows.revolution.back() + 1) +
+          " revolutions\n";
+  text += std::string(face ? "Z_fts       " : "X_fts       ") + range(rows.wanted_mm) + '\n';
+  text += std::string(face ? "Z_command   " : "X_command   ") + range(rows.command_mm) + '\n';
+  text += "harmonics   A cos(nC - phase), at the start and the end of the cut\n";
+  for (const CorrectionHarmonic& h : correction.harmonics) {
+    char line[200];
+    std::snprintf(line, sizeof line,
+                  "  n = %d   %10.4f µm %9.3f deg   %10.4f µm %9.3f deg   actuator gain %.5f, lag "
+                  "%.3f deg\n",
+                  h.order, h.amplitude_start_mm * um, h.phase_start_rad / rad_per_deg,
+                  h.amplitude_end_mm * um, h.phase_end_rad / rad_per_deg, h.gain,
+                  h.lag_rad / rad_per_deg);
+    text += line;
+  }
+  if (correction.harmonics.empty()) text += "  none above 1 nm\n";
+  text += "stroke      " + fixed(margin.stroke_used_mm * um, 3) + " of " +
+          fixed(margin.stroke_available_mm * um, 3) + " µm\n";
+  text += "slew        " + fixed(margin.slew_used_mm_per_s, 3) + " of " +
+          fixed(margin.slew_available_mm_per_s, 3) + " mm/s\n";
+  text += "frequency   " + fixed(margin.highest_frequency_hz, 2) + " Hz, bandwidth " +
+          fixed(margin.bandwidth_hz, 2) + " Hz\n";
+  text += "following   " + following_text(margin) + '\n';
+  text += margin.follows ? "follows     yes" : "follows     no: " + margin.breaks;
+  text += ", highest speed " + fixed(margin.max_speed_rpm, 1) + " rpm\n";
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/advise/advise.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "diagnose/search/causes.hpp"
+#include "diagnose/advise/candidate_measurements.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double share_of_best = 0.8;  // of the largest rise: among these the fastest is taken
+constexpr double worth_taking = 0.02;
+constexpr double told_for_sure = 0.98;  // d = 4.1: a rival so far is behind by 7 in 2 ln L in 90 %
+constexpr double found_for_sure = 0.9;
+constexpr double shape_step = 0.06;  // what a rival may give way in its shape
+
+double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
+
+/// What a set of readings would tell: for every question the least Φ(d/2) over its rivals, for
+/// every hidden effect the power of finding it.
+struct Outlook {
+  std::vector<double> told;
+  std::vector<double> found;
+};
+
+class Predictor {
+ public:
+  Predictor(const Problem& problem, const Model& model, const std::vector<AmbiguousFinding>& questions,
+            const std::vector<Unobservable>& hidden, double sigma_mm)
+      : problem_(problem),
+        model_(model),
+        questions_(questions),
+        hidden_(hidden),
+        sigma_mm_(sigma_mm) {
+    // What is slow against the correlation of the noise sees this σ.
+    double correlated = 1.0;
+    for (const double phi : model.phi) correlated -= phi;
+    sigma_mm_ /= std::clamp(correlated, 0.05, 1.0);
+    list_ = model.terms;
+    for (const AmbiguousFinding& q : questions) {
+      for (std::size_t r = 1; r < q.found.members.size(); ++r) {
+        const Hypothesis& rival = q.found.members[r].hypothesis;
+        list_.push_back(rival);
+        const std::vector<Hypothesis> giving = neighbours(rival, problem.point, shape_step);
+        list_.insert(list_.end(), giving.begin(), giving.end());
+        ways_.push_back(1 + giving.size());
+      }
+    }
+    for (const Unobservable& h : hidden) list_.push_back(h.typical.hypothesis);
+    const Joint joint(problem, model.phi, model.terms, model.terms.size());
+    for (std::size_t t = 0; t < model.terms.size(); ++t) sizes_.push_back(joint.of(t));
+  }
+
+  Outlook of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+             double weight) const {
+    BaseKind base = problem_.point.base;
+    base.axes = clampings.back().axis + 1;
+    const LinearisationPoint point = linearise_at(stream, clampings, base, problem_.point.bore);
+    const ObservationMask mask = make_observation_mask(point);
+    const std::vector<double> nothing(point.size(), 0.0);
+    NormalEquations equations(point, rows, nothing, {}, 1);
+    const std::vector<Columns> places = equations.append(list_);
+    const Eigen::MatrixXd gram = weight * equations.total();
+    Outlook out;
+    std::size_t next = model_.terms.size(), rival = 0;
+    for (const AmbiguousFinding& q : questions_) {
+      Columns others = equations.base();
+      for (std::size_t t = 0; t < model_.terms.size(); ++t)
+        if (t != q.term) others.insert(others.end(), places[t].begin(), places[t].end());
+      double least = 1.0;
+      for (std::size_t r = 1; r < q.found.members.size(); ++r, ++rival) {
+        Columns taken = others;
+        for (std::size_t way = 0; way < ways_[rival]; ++way, ++next)
+          taken.insert(taken.end(), places[next].begin(), places[next].end());
+        const Projection p = project(gram, taken);
+        double d2 = 0.0;
+        for (std::size_t a = 0; a < places[q.term].size(); ++a) {
+          for (std::size_t b = 0; b < places[q.term].size(); ++b)
+            d2 += sizes_[q.term](static_cast<Eigen::Index>(a)) *
+                  sizes_[q.term](static_cast<Eigen::Index>(b)) *
+                  p.gram(static_cast<Eigen::Index>(places[q.term][a]),
+                         static_cast<Eigen::Index>(places[q.term][b]));
+        }
+        least = std::min(least, phi_half(std::sqrt(std::max(0.0, d2)) / sigma_mm_));
+      }
+      out.told.push_back(least);
+    }
+    Columns taken = equations.base();
+    for (std::size_t t = 0; t < model_.terms.size(); ++t)
+      taken.insert(taken.end(), places[t].begin(), places[t].end());
+    const Projection p = project(gram, taken);
+    for (const Unobservable& h : hidden_) {
+      const double lambda = typical_lambda(p, places[next], h.typical.size, sigma_mm_);
+      out.found.push_back(detection_power(lambda, std::min<std::size_t>(places[next].size(), 2),
+                                          model_.family, problem_.false_alarm));
+      ++next;
+    }
+    return out;
+  }
+
+ private:
+  const Problem& problem_;
+  const Model& model_;
+  const std::vector<AmbiguousFinding>& questions_;
+  const std::vector<Unobservable>& hidden_;
+  double sigma_mm_;
+  std::vector<Hypothesis> list_;
+  std::vector<std::size_t> ways_;  ///< of each rival: itself and its neighbours in shape
+  std::vector<Eigen::VectorXd> sizes_;
+};
+
+Separating nothing_helps(double before, const std::string& why) {
+  return {"", "", before, before, 0.0, why, {}};
+}
+
+/// The plan to take for something that each plan raises from `before` to `after[plan]`: among those
+/// that raise it nearly as much as any, the fastest; none where none makes sure of it.
+Separating choose(const std::vector<CandidateMeasurement>& plans, double before, const std::vector<double>& after,
+                  double sure, const std::string& nothing) {
+  const auto top = std::ranges::max_element(after);
+  const double most = std::max(0.0, (top == after.end() ? before : *top) - before);
+  if (most < worth_taking) return nothing_helps(before, nothing);
+  if (*top < sure) {
+    const CandidateMeasurement& p = plans[static_cast<std::size_t>(top - after.begin())];
+    char text[160];
+    std::snprintf(text, sizeof text, "%s for sure: the best, %s, raises the probability to %.2f",
+                  nothing.c_str(), p.code.c_str(), *top);
+    return nothing_helps(before, text);
+  }
+  const CandidateMeasurement* best = nullptr;
+  double power = 0.0;
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    if (after[p] < sure || after[p] - before < share_of_best * most) continue;
+    if (best && plans[p].minutes >= best->minutes) continue;
+    best = &plans[p], power = after[p];
+  }
+  Separating out{best->code, best->what, before, power, best->minutes, "", {}};
+  for (std::size_t p = 0; p < plans.size(); ++p) {
+    if (&plans[p] == best || after[p] < sure || after[p] - before < share_of_best * most) continue;
+    out.others.push_back({plans[p].code, plans[p].what, after[p], plans[p].minutes});
+  }
+  std::ranges::stable_sort(out.others, {}, &Separating::Other::minutes);
+  return out;
+}
+
+double longest_wave(const std::vector<AmbiguousFinding>& questions) {
+  for (const AmbiguousFinding& q : questions)
+    for (const Candidate& c : q.found.members)
+      if (c.hypothesis.effect && c.hypothesis.effect->id == "part.waviness")
+        return c.hypothesis.shape.period_mm;
+  return 0.0;
+}
+
+}  // namespace
+
+Advice advise(const Problem& problem, const Model& model, const ProbeStream& stream,
+              const std::vector<Clamping>& clampings, const std::vector<AmbiguousFinding>& questions,
+              const std::vector<Unobservable>& hidden, double sigma_mm) {
+  Advice out;
+  const std::vector<CandidateMeasurement> plans =
+      candidate_measurements(stream, problem.point, clampings, longest_wave(questions));
+  const Predictor predictor(problem, model, questions, hidden, sigma_mm);
+  std::vector<Outlook> after;
+  for (const CandidateMeasurement& p : plans) after.push_back(predictor.of(p.stream, p.clampings, p.weight));
+
+  std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
+  double weight_sum = 0.0, before_sum = 0.0;
+  // More readings never tell less, also where a rival was given no way to bend before.
+  const auto column = [&](auto member, std::size_t k, double before) {
+    std::vector<double> values;
+    for (const Outlook& o : after) values.push_back(std::max(before, (o.*member)[k]));
+    return values;
+  };
+  const auto count = [&](double before, const std::vector<double>& values, double sure,
+                         double weight) {
+    weight_sum += weight, before_sum += weight * before;
+    for (std::size_t p = 0; p < plans.size(); ++p) {
+      if (values[p] >= sure) gains[p] += weight * (values[p] - before);
+      total_after[p] += weight * values[p];
+    }
+  };
+  bool open = false;
+  for (std::size_t k = 0; k < questions.size(); ++k) {
+    if (questions[k].found.rivals.empty()) {
+      out.questions.emplace_back();
+      continue;
+    }
+    double nearest = 1e9;
+    for (const Rival& r : questions[k].found.rivals) nearest = std::min(nearest, r.distance);
+    const double before = phi_half(nearest);
+    const std::vector<double> values = column(&Outlook::told, k, before);
+    out.questions.push_back(choose(plans, before, values, told_for_sure,
+                                   "no single measurement of this part tells them apart"));
+    open |= !out.questions.back()->plan.empty();
+    if (!out.questions.back()->plan.empty()) count(before, values, told_for_sure, 1.0);
+  }
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    const std::vector<double> values = column(&Outlook::found, k, hidden[k].power);
+    const bool master = std::ranges::any_of(hidden[k].typical.hypothesis.effect->separations,
+                                            [](const Separation& s) { return s.code == "MS"; });
+    out.hidden.push_back(choose(plans, hidden[k].power, values, found_for_sure,
+                                master ? "no measurement of this part shows it, a master does (MS),"
+                                       : "no single measurement of this part shows it"));
+    if (!open && !out.hidden.back()->plan.empty())
+      count(hidden[k].power, values, found_for_sure, hidden[k].axis_bias_mm);
+  }
+  std::vector<std::size_t> order(plans.size());
+  for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
+  double most = 0.0;
+  for (const double g : gains) most = std::max(most, g);
+  const auto rank = [&](std::size_t p) {
+    return std::pair(gains[p] < share_of_best * most,
+                     gains[p] < share_of_best * most ? -gains[p] : plans[p].minutes);
+  };
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+  for (const std::size_t p : order) {
+    out.plans.push_back({plans[p].code,
+                         plans[p].what,
+                         weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
+                         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0,
+                         plans[p].minutes,
+                         "",
+                         {}});
+  }
+  if (!(most > 0.0) || order.empty()) {
+    out.next.why_not = questions.empty() && hidden.empty()
+                           ? "nothing is left to tell apart"
+                           : "no single measurement of this part tells for sure";
+    return out;
+  }
+  const Separating& best = out.plans.front();
+  out.next = {best.plan, best.what, {}, best.power_before, best.power, best.minutes, ""};
+  for (std::size_t k = 0; k < questions.size(); ++k) {
+    if (questions[k].found.rivals.empty()) continue;
+    if (after[order[0]].told[k] < told_for_sure) continue;
+    for (const Candidate& c : questions[k].found.members)
+      if (std::ranges::find(out.next.separates, c.hypothesis.id()) == out.next.separates.end())
+        out.next.separates.push_back(c.hypothesis.id());
+  }
+  if (!open) {
+    for (std::size_t k = 0; k < hidden.size(); ++k)
+      if (after[order[0]].found[k] >= found_for_sure)
+        out.next.separates.push_back(hidden[k].entry.effect);
+  }
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

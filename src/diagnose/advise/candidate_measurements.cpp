@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/advise/candidate_measurements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t thinned_to = 600;   // readings of what was measured
+constexpr double most_readings = 2000.0;  // of a plan, thinned likewise
+constexpr double golden = 0.6180339887498949;
+constexpr double second_speed = 151.0 / 60.0;  // no simple ratio: no order meets a line
+constexpr double jog_mm = 0.1, reindex_rad = 70.0 * rad_per_deg, less_force = 0.5;
+constexpr double minutes_to_clamp = 5.0, minutes_to_turn_probe = 2.0, minutes_between = 0.2;
+
+/// How the longest pass ran.
+struct Manner {
+  double z_start = 0.0, z_end = 0.0, feed = 1.0, speed = two_pi, per_turn = 24.0, seconds = 60.0;
+  int sign = 1;
+};
+Manner manner_of(const LinearisationPoint& point) {
+  const Pass* best = nullptr;
+  for (const Pass& p : point.passes)
+    if (p.c_sign != 0 && (!best || p.end - p.begin > best->end - best->begin)) best = &p;
+  Manner m;
+  const auto [low, high] = std::ranges::minmax(point.z);
+  m.z_start = low, m.z_end = high;
+  if (!best) return m;
+  m.sign = best->c_sign;
+  if (best->feed_sign != 0) {
+    m.z_start = point.z[best->begin], m.z_end = point.z[best->end - 1];
+    m.feed = std::max(std::abs(best->feed_mm_per_rev), 1e-6);
+  } else {
+    m.feed = std::max((high - low) / 30.0, 1e-6);
+  }
+  if (best->speed_rad_per_s != 0.0) m.speed = std::abs(best->speed_rad_per_s);
+  if (best->readings_per_revolution > 1.0) m.per_turn = best->readings_per_revolution;
+  m.seconds = std::abs(m.z_end - m.z_start) / m.feed * two_pi / m.speed;
+  return m;
+}
+
+/// A run of the probe, C and Z linear in time.
+struct Motion {
+  double z_from, z_to, turns, seconds;
+  double turned = 0.37;  ///< C from the run before, rad
+};
+void append(ProbeStream& stream, const Motion& motion, double readings, int pass, int setup) {
+  const auto count = static_cast<std::size_t>(std::clamp(std::round(readings), 2.0, most_readings));
+  const double t0 = stream.time_s.empty() ? 0.0 : stream.time_s.back() + 2.0;
+  const double c0 = stream.c_rad.empty() ? 0.0 : stream.c_rad.back() + motion.turned;
+  for (std::size_t k = 0; k < count; ++k) {
+    // A golden sequence, sorted within its own cell: dense, and no order an alias of another.
+    const double jitter = std::fmod(golden * static_cast<double>(k), 1.0);
+    const double part = (static_cast<double>(k) + jitter) / static_cast<double>(count);
+    stream.reading_mm.push_back(0.0);
+    stream.c_rad.push_back(c0 + two_pi * motion.turns * part);
+    stream.position_mm.push_back(motion.z_from + (motion.z_to - motion.z_from) * part);
+    stream.time_s.push_back(t0 + motion.seconds * part);
+    stream.pass.push_back(pass);
+    stream.setup.push_back(setup);
+  }
+}
+
+ProbeStream thinned(const ProbeStream& stream, const LinearisationPoint& point) {
+  ProbeStream out;
+  out.indication = stream.indication;
+  int number = 0;
+  for (const Pass& pass : point.passes) {
+    ++number;
+    const auto size = pass.end - pass.begin;
+    const std::size_t share = std::max<std::size_t>(4, thinned_to * size / point.size());
+    const std::size_t count = std::min(size, share);
+    std::size_t last = point.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const double jitter = std::fmod(golden * static_cast<double>(k), 1.0);
+      const auto i = std::min(size - 1, static_cast<std::size_t>((static_cast<double>(k) + jitter) *
+                                                                 static_cast<double>(size) /
+                                                                 static_cast<double>(count)));
+      if (pass.begin + i == last) continue;
+      last = pass.begin + i;
+      out.reading_mm.push_back(0.0);
+      out.c_rad.push_back(point.c[last]);
+      out.position_mm.push_back(point.z[last]);
+      out.time_s.push_back(point.time[last]);
+      out.pass.push_back(number);
+      out.setup.push_back(stream.setup.empty() ? 1 : stream.setup[last]);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream, const LinearisationPoint& point,
+                                  const std::vector<Clamping>& clampings, double wave_mm) {
+  const Manner m = manner_of(point);
+  const ProbeStream before = thinned(stream, point);
+  const double weight = static_cast<double>(point.size()) / static_cast<double>(before.size());
+  const int pass = before.pass.back() + 1;
+  const Clamping& now = clampings.back();
+  int setup = now.number;
+  for (const Clamping& c : clampings) setup = std::max(setup, c.number);
+  const double turns = std::abs(m.z_end - m.z_start) / m.feed * m.sign;
+  const double rpm = m.speed * 60.0 / two_pi;
+  std::vector<CandidateMeasurement> list;
+  char text[200];
+
+  const auto add = [&](const char* code, const std::string& what, double minutes,
+                       const std::vector<Motion>& motions,
+                       const std::function<void(Clamping&)>& change) {
+    CandidateMeasurement p{code, what, minutes + minutes_between, before, clampings, weight};
+    int number = now.number;
+    if (change) {
+      Clamping next = now;
+      next.number = number = setup + 1;
+      change(next);
+      p.clampings.push_back(next);
+    }
+    int own = pass;
+    for (const Motion& motion : motions) {
+      const double run =
+          motion.turns != 0.0 ? std::abs(motion.turns) : motion.seconds * m.speed / two_pi;
+      append(p.stream, motion, run * m.per_turn / weight, own++, number);
+    }
+    list.push_back(std::move(p));
+  };
+  const std::vector<Motion> same{{m.z_start, m.z_end, turns, m.seconds}};
+  const double pass_minutes = m.seconds / 60.0;
+  const bool timed = point.has_time;
+  const bool along = point.has_position && m.z_start != m.z_end;
+  if (along) {
+    std::snprintf(text, sizeof text, "probe back from Z %.4g to %.4g mm at %.4g rpm", m.z_end,
+                  m.z_start, rpm);
+    add("RZ", text, pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
+  }
+  if (timed) {
+    std::snprintf(text, sizeof text, "probe back at %.4g rpm, the same feed a turn",
+                  rpm * second_speed);
+    add("2W", text, pass_minutes / second_speed,
+        {{m.z_end, m.z_start, turns, m.seconds / second_speed}}, nullptr);
+    std::snprintf(text, sizeof text, "probe again with the spindle reversed, %.4g rpm",
+                  -rpm * m.sign);
+    add("RV", text, pass_minutes, {{m.z_start, m.z_end, -turns, m.seconds}}, nullptr);
+  }
+  const double middle = 0.5 * (m.z_start + m.z_end),
+               dwell = std::max(10.0, std::min(60.0, m.seconds));
+  std::snprintf(text, sizeof text, "dwell %.3g s at Z %.4g mm, %.4g rpm", dwell, middle, rpm);
+  add("DW", text, dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}},
+      nullptr);
+  if (timed) {
+    std::snprintf(text, sizeof text,
+                  "10 s at Z %.4g mm with the spindle standing still, and 10 s a quarter turn on",
+                  middle);
+    add("ST", text, 20.0 / 60.0,
+        {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}}, nullptr);
+  }
+  add("RC", "turn the part by 70° against the spindle, clamp it again and probe it again",
+      pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
+        c.reindex_rad += reindex_rad, c.axis += 1;
+        // Clamped again the part runs out otherwise: what goes with the eccentricity shows.
+        c.shape.axis.x_mm = -c.shape.axis.x_mm + 0.05;
+      });
+  const bool behind = now.root == Root::rear;
+  add("RE", behind ? "probe again from the front side" : "probe again from the rear side",
+      pass_minutes + minutes_to_turn_probe, same,
+      [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
+  if (along) {
+    const double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
+    std::snprintf(text, sizeof text,
+                  "shift the part by %.3g mm along Z, clamp it again and probe it again", shift);
+    add("OZ", text, pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
+      c.z_shift_mm += shift, c.axis += 1;
+      c.shape.axis.z_ref_mm += shift;
+    });
+  }
+  add("RM", "clamp the part again with half the force and probe it again",
+      pass_minutes + minutes_to_clamp, same,
+      [&](Clamping& c) { c.clamp_force_ratio *= less_force, c.axis += 1; });
+  add("XJ", "jog X by a known 100 µm and probe again", pass_minutes + minutes_between, same,
+      [&](Clamping& c) { c.x_jog_mm += jog_mm; });
+  return list;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/confounder_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/regression/joint.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double told_apart = 3.2897;     // d with Φ(d/2) = 0.95
+constexpr double likelihood_tells = 7.0;  // a true cause is farther behind in 0.4 % of cases
+constexpr double structural = 0.999;
+constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
+
+/// ‖(I − P_rival) μ‖² and ‖μ‖² beside base and the other terms; μ: columns × coefficients.
+struct Distance {
+  double left2 = 0.0, all2 = 0.0;
+};
+Distance distance(const NormalEquations& equations, const Columns& others, const Columns& named,
+                  const Eigen::VectorXd& coefficients, const Columns& rival) {
+  const auto square = [&](const Columns& taken) {
+    const Projection p = project(equations.total(), taken);
+    double sum = 0.0;
+    for (std::size_t a = 0; a < named.size(); ++a) {
+      for (std::size_t b = 0; b < named.size(); ++b)
+        sum += coefficients(static_cast<Eigen::Index>(a)) *
+               coefficients(static_cast<Eigen::Index>(b)) *
+               p.gram(static_cast<Eigen::Index>(named[a]), static_cast<Eigen::Index>(named[b]));
+    }
+    return std::max(sum, 0.0);
+  };
+  Columns with = others;
+  with.insert(with.end(), rival.begin(), rival.end());
+  return {square(with), square(others)};
+}
+
+}  // namespace
+
+ConfounderSet distinguish(const Problem& problem, const Model& model, std::size_t term) {
+  std::vector<Hypothesis> others = model.terms;
+  others.erase(others.begin() + static_cast<long>(term));
+  const Hypothesis& named = model.terms[term];
+  Proposal proposal = propose(problem, model.phi, others, &named);
+  std::erase_if(proposal.causes, [](const Candidate& c) { return c.rank == 0; });
+  // The search has weighed the named one against all others jointly; its own refined form leads.
+  const auto own = std::ranges::find_if(
+      proposal.causes, [&](const Candidate& c) { return c.hypothesis.effect == named.effect; });
+  if (own != proposal.causes.end()) std::rotate(proposal.causes.begin(), own, own + 1);
+
+  std::vector<Hypothesis> list = others;
+  list.push_back(named);
+  for (const Candidate& c : proposal.causes) list.push_back(c.hypothesis);
+  const Joint joint(problem, model.phi, list, others.size() + 1);
+  Columns base = joint.equations.base();
+  for (std::size_t t = 0; t < others.size(); ++t)
+    base.insert(base.end(), joint.places[t].begin(), joint.places[t].end());
+  const Eigen::VectorXd coefficients = joint.of(others.size());
+  const double variance = joint.sigma_mm * joint.sigma_mm;
+  const auto freedom = static_cast<double>(joint.equations.count() - joint.solution.rank);
+  const Projection beside = project(joint.equations.total(), base);
+  const Score best = score(beside, joint.places[others.size()]);
+
+  ConfounderSet out;
+  for (std::size_t k = 0; k < proposal.causes.size(); ++k) {
+    const Candidate& c = proposal.causes[k];
+    if (c.hypothesis.effect == named.effect) {
+      if (out.members.empty()) out.members.push_back(c);
+      continue;
+    }
+    const Columns& columns = joint.places[others.size() + 1 + k];
+    const Distance d =
+        distance(joint.equations, base, joint.places[others.size()], coefficients, columns);
+    Rival rival;
+    rival.effect = c.hypothesis.id();
+    rival.distance = std::sqrt(d.left2 / variance);
+    rival.likelihood_ratio =
+        freedom * std::log(std::max(beside.rss - c.gain, 1e-300) / (beside.rss - best.gain)) +
+        2.0 * (static_cast<double>(c.rank) - static_cast<double>(best.rank));
+    const auto listed = std::ranges::find_if(out.members, [&](const Candidate& m) {
+      return m.hypothesis.effect == c.hypothesis.effect;
+    });
+    if (listed != out.members.end()) continue;  // another variant of it, which is the better one
+    rival.structural = d.all2 > 0.0 && 1.0 - d.left2 / d.all2 > structural * structural;
+    if (rival.distance >= told_apart && rival.likelihood_ratio >= likelihood_tells) continue;
+    out.members.push_back(c);
+    out.rivals.push_back(rival);
+  }
+  if (out.members.empty()) out.members.push_back({named, best.gain, best.rank, 0.0, 0.0});
+  double sum = 0.0;
+  const double lead = out.members.front().criterion;
+  for (const Candidate& c : out.members)
+    sum += std::exp(-0.5 * std::min(c.criterion - lead, 1400.0));
+  out.probability = 1.0 / sum;
+  for (std::size_t r = 0; r < out.rivals.size(); ++r)
+    out.rivals[r].probability = std::exp(-0.5 * (out.members[r + 1].criterion - lead)) / sum;
+  // Most probable first, behind the named one.
+  std::vector<std::size_t> order(out.rivals.size());
+  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return out.rivals[a].probability > out.rivals[b].probability;
+  });
+  ConfounderSet sorted{{out.members.front()}, {}, out.probability};
+  for (const std::size_t r : order) {
+    if (out.rivals[r].probability < implausible && !out.members[r + 1].hypothesis.with_radial)
+      continue;
+    sorted.members.push_back(out.members[r + 1]);
+    sorted.rivals.push_back(out.rivals[r]);
+  }
+  return sorted;
+}
+
+void narrow(ConfounderSet& found, double likelihood_ratio) {
+  const auto at = std::ranges::find_if(found.rivals, [](const Rival& r) {
+    return r.effect == "probe.lag" || r.effect == "probe.latency";
+  });
+  if (at == found.rivals.end()) return;
+  const double both = found.probability + at->probability;
+  const double other = both / (1.0 + std::exp(0.5 * likelihood_ratio));
+  at->likelihood_ratio = likelihood_ratio;
+  if (likelihood_ratio < likelihood_tells) {
+    found.probability = both - other;
+    at->probability = other;
+    return;
+  }
+  found.members.erase(found.members.begin() + 1 + (at - found.rivals.begin()));
+  const double rest = 1.0 - at->probability;
+  found.probability /= rest;
+  found.rivals.erase(at);
+  for (Rival& rival : found.rivals) rival.probability /= rest;
+}
+
+}  // namespace trueaxis::diagnose_detail

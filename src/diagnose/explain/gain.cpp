@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/gain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr int resamplings = 999;
+
+struct Block {
+  double before = 0.0, after = 0.0, rows = 0.0;
+};
+
+double root_mean(double sum, double rows) { return rows > 0.0 ? std::sqrt(sum / rows) : 0.0; }
+
+/// Percentiles of a statistic over resampled blocks (block bootstrap, Efron and Tibshirani 1993).
+template <typename Statistic>
+Interval interval(const std::vector<Block>& blocks, Statistic statistic) {
+  const auto sum = [](const std::vector<Block>& list) {
+    Block all;
+    for (const Block& b : list) all.before += b.before, all.after += b.after, all.rows += b.mask;
+    return all;
+  };
+  Interval out;
+  out.value = statistic(sum(blocks));
+  std::mt19937_64 random(20261121);
+  std::vector<double> values;
+  std::vector<Block> drawn(blocks.size());
+  for (int r = 0; r < resamplings; ++r) {
+    for (Block& b : drawn) b = blocks[random() % blocks.size()];
+    values.push_back(statistic(sum(drawn)));
+  }
+  std::ranges::sort(values);
+  out.low = values[static_cast<std::size_t>(0.025 * resamplings)];
+  out.high = values[static_cast<std::size_t>(0.975 * resamplings)];
+  return out;
+}
+
+}  // namespace
+
+double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns) {
+  const Solution s = solve(total - fold, columns);
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Eigen::VectorXd right(n);
+  Eigen::MatrixXd left(n, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
+    right(i) = fold(a, 0);
+    for (Eigen::Index j = 0; j < n; ++j)
+      left(i, j) = fold(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
+  }
+  return fold(0, 0) - 2.0 * s.coefficients.dot(right) + s.coefficients.dot(left * s.coefficients);
+}
+
+Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
+                  double noise_floor_mm) {
+  Gain out;
+  out.noise_floor_mm = noise_floor_mm;
+  // In the readings' own units: not whitened.
+  const Joint plain(problem, {}, joint.terms, joint.terms.size(), true);
+  const NormalEquations& equations = plain.equations;
+  const Columns& before = equations.base();
+  const Columns& after = plain.solution.columns;
+  const auto rows = static_cast<double>(equations.count());
+  out.rms_before_mm = root_mean(solve(equations.total(), before).rss, rows);
+  out.rms_after_mm = root_mean(plain.solution.rss, rows);
+  std::vector<Block> blocks;
+  for (std::size_t f = 0; f < equations.folds().size(); ++f) {
+    Block b;
+    for (std::size_t i = problem.mask.fold_begin[f]; i < problem.mask.fold_begin[f + 1]; ++i)
+      b.rows += problem.mask.used[i] != 0;
+    if (b.rows == 0.0) continue;
+    b.before = std::max(0.0, held_out(equations.total(), equations.folds()[f], before));
+    b.after = joint.terms.empty()
+                  ? b.before
+                  : std::max(0.0, held_out(equations.total(), equations.folds()[f], after));
+    blocks.push_back(b);
+  }
+  out.held_out_before_mm =
+      interval(blocks, [](const Block& b) { return root_mean(b.before, b.mask); });
+  out.held_out_after_mm =
+      interval(blocks, [](const Block& b) { return root_mean(b.after, b.mask); });
+  out.held_out_ratio = interval(
+      blocks, [](const Block& b) { return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0; });
+  out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;
+
+  const Solution bare = solve(joint.equations.total(), before);
+  const Eigen::MatrixXd extended = joint.base_covariance();
+  // Of nested least squares Cov(difference) = Cov(larger) − Cov(smaller), at the same σ.
+  const Eigen::MatrixXd difference = extended - joint.sigma_mm * joint.sigma_mm * bare.inverse;
+  const AxisShift shift = axis_shift(problem.point, joint.base() - bare.coefficients, difference);
+  out.axis_shift = {shift.value_mm, shift.u_mm, "mm", ""};
+  const AxisUncertainty u = axis_uncertainty(problem.point, extended + between);
+  const double from_extended = 2.0 * u.rms_mm;
+  out.coaxiality_after = {from_extended, 2.0 * u.u_mm, "mm", ""};
+  const AxisUncertainty u_bare =
+      axis_uncertainty(problem.point, joint.sigma_mm * joint.sigma_mm * bare.inverse);
+  out.coaxiality_before = {std::max(2.0 * shift.value_mm, 2.0 * u_bare.rms_mm),
+                           2.0 * std::hypot(shift.u_mm, u_bare.u_mm), "mm", ""};
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

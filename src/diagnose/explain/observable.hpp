@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/regression/joint.hpp"
+#include "trueaxis/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// One typical form of an effect and the largest size it typically has.
+struct Typical {
+  Hypothesis hypothesis;
+  double size = 0.0;  ///< of its first linear parameter, inside units
+  std::string unit;   ///< of that parameter at the edge
+  double edge = 1.0;  ///< edge value of one inside unit
+  std::string form;   ///< which of its forms, where it has several
+};
+
+/// Every effect of the catalogue that is a form and not a check, once; a few in two forms.
+std::vector<Typical> typical_effects(const LinearisationPoint& point);
+
+/// Probability that a statistic with `columns` degrees of freedom and noncentrality λ passes the
+/// threshold of a family of tests.
+double detection_power(double lambda, std::size_t columns, const Family& family, double level);
+
+/// λ of a typical size beside columns taken out of a Gram matrix: averaged over its phase.
+double typical_lambda(const Projection& projection, const Columns& columns, double size,
+                      double sigma_mm);
+
+/// The effects that would not be found at their typical size, with what they do to the axis.
+struct Unobservable {
+  Typical typical;
+  NotObservable entry;
+  double axis_bias_mm = 0.0;  ///< at the typical size
+  double power = 0.0;
+};
+std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model, double sigma_mm);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "diagnose/explain/sources.hpp"
+#include "trueaxis/units.hpp"
+#include "math/statistics.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+template <typename... Values>
+QualityCheck result(const char* id, bool found, const char* format, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, format, values...);
+  return {id, found, text};
+}
+
+/// Readings at the very extreme, more than noise puts there.
+QualityCheck saturation(const ProbeStream& stream) {
+  const auto [low, high] = range_of(stream.reading_mm);
+  const auto top = std::ranges::count(stream.reading_mm, high);
+  const auto bottom = std::ranges::count(stream.reading_mm, low);
+  std::vector<double> sorted(stream.reading_mm);
+  std::ranges::sort(sorted);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  const double repeats = static_cast<double>(stream.size()) / static_cast<double>(sorted.size());
+  const bool found = static_cast<double>(std::max(top, bottom)) > std::max(5.0, 12.0 * repeats);
+  return result("probe.saturation", found, "%ld readings at the largest value, %ld at the smallest",
+                static_cast<long>(top), static_cast<long>(bottom));
+}
+
+/// The step of a rounded indication: the smallest distance of values, when nearly all are
+/// multiples.
+QualityCheck quantisation(const ProbeStream& stream, double sigma) {
+  std::vector<double> sorted(stream.reading_mm);
+  std::ranges::sort(sorted);
+  double step = 0.0;
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    const double d = sorted[i] - sorted[i - 1];
+    if (d > 1e-9 && (step == 0.0 || d < step)) step = d;
+  }
+  std::size_t on = 0;
+  for (const double v : sorted)
+    on += step > 0.0 && std::abs(std::remainder(v - sorted[0], step)) < 0.02 * step;
+  const bool found = step > 0.5 * sigma && on * 100 > 95 * sorted.size();
+  return result("probe.quantisation", found, "smallest step %.3g µm, σ %.3g µm", step / mm_per_um,
+                sigma / mm_per_um);
+}
+
+}  // namespace
+
+std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,
+                                        const std::vector<double>& residual_mm,
+                                        const NoiseReport& noise) {
+  const LinearisationPoint& point = joint.equations.point();
+  const ObservationMask& mask = joint.equations.rows();
+  std::vector<QualityCheck> list{saturation(stream), quantisation(stream, noise.sigma_mm)};
+  list.push_back(result(
+      "probe.outliers", !noise.masked.empty() && noise.interruptions.empty(),
+      "%zu of %zu readings masked (%.2g %%)", noise.masked.size(), stream.size(),
+      100.0 * static_cast<double>(noise.masked.size()) / static_cast<double>(stream.size())));
+  list.push_back(result("part.interruption", !noise.interruptions.empty(),
+                        "%zu sectors are far off on every turn", noise.interruptions.size()));
+  // Variance against tan² of the angle between probe and normal, in units of the mean variance.
+  double sum_t = 0.0, sum_v = 0.0, sum_tt = 0.0, sum_tv = 0.0, n = 0.0;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    if (!mask.used[i]) continue;
+    const double dx_dy = point.dx_dc[i] / point.x[i];
+    const double t = dx_dy * dx_dy + point.dx_dz[i] * point.dx_dz[i], v = residual_mm[i] * residual_mm[i];
+    sum_t += t, sum_v += v, sum_tt += t * t, sum_tv += t * v, n += 1.0;
+  }
+  const double mean = sum_v / n, spread = sum_tt - sum_t * sum_t / n;
+  const double slope = spread > 0.0 ? (sum_tv - sum_t * sum_v / n) / spread / mean : 0.0;
+  const double u = spread > 0.0 ? std::sqrt(2.0 / spread) : 0.0;  // Gaussian: var(v) = 2 mean²
+  list.push_back(result("probe.incidence_noise",
+                        u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
+                        "variance grows by %.3g ± %.2g per tan² of the incidence", slope, 2.0 * u));
+  const auto& phi = noise.autoregression;
+  list.push_back(result("probe.correlated_noise", !phi.empty(),
+                        phi.empty()
+                            ? "neighbouring readings do not correlate"
+                            : "autoregression of order %zu, φ1 = %.3f: readings are whitened",
+                        phi.size(), phi.empty() ? 0.0 : phi[0]));
+  return list;
+}
+
+std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model) {
+  const LinearisationPoint& point = problem.point;
+  double e2 = 0.0, radius = 0.0;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    e2 += 2.0 * point.d2x_dc2[i] * point.d2x_dc2[i];
+    radius += std::abs(point.x[i]);
+  }
+  const double second = e2 / (4.0 * radius);
+  for (const Hypothesis& h : model.terms) {
+    const auto* harmonic = h.effect ? std::get_if<Harmonic>(&h.effect->term) : nullptr;
+    const double order = !h.effect  ? h.pattern.order
+                         : harmonic ? std::max(harmonic->fixed_order, h.shape.order)
+                                    : 0.0;
+    if (order == 2.0) return {};
+  }
+  std::vector<Hypothesis> terms = model.terms;
+  TermShape shape;
+  shape.order = 2.0;
+  terms.push_back(of_effect("part.roundness", shape, {0, 1}));
+  const Joint joint(problem, model.phi, terms, terms.size());
+  const Eigen::Index at = joint.solution.coefficients.size() - 2;
+  const double left = joint.solution.coefficients.tail(2).norm();
+  const double u =
+      joint.sigma_mm *
+      std::sqrt(0.5 * joint.solution.inverse.block(at, at, 2, 2).trace());  // of either component
+  if (!(second > 3.0 * u)) return {};
+  char text[256];
+  std::snprintf(
+      text, sizeof text,
+      "X has a second harmonic of %.2g µm because the circle is off centre (e²/4R, in the "
+      "geometry of the surface); beside it %.2g ± %.2g µm (U, k = 2) of two undulations "
+      "are left: no ovality is found",
+      second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um);
+  return {text};
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/files/diagnosis_json.hpp"
+
+#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_noise_json.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr const char* unknown = "not determined";
+
+Json length(double value_mm) { return quantity_object(value_mm, "mm", unknown); }
+
+Json interval(const Interval& i, const char* unit) {
+  return {
+      {"value", number(i.value)}, {"low", number(i.low)}, {"high", number(i.high)}, {"unit", unit}};
+}
+
+Json separating_object(const Separating& s) {
+  Json others = Json::array();
+  for (const Separating::Other& o : s.others)
+    others.push_back({{"plan", o.plan},
+                      {"what", o.what},
+                      {"power", number(o.power)},
+                      {"minutes", number(o.minutes)}});
+  return {{"plan", s.plan},
+          {"others", others},
+          {"what", s.what},
+          {"power", number(s.power)},
+          {"power_before", number(s.power_before)},
+          {"minutes", number(s.minutes)},
+          {"why_not", s.why_not}};
+}
+
+Json maybe(const std::optional<Separating>& separating) {
+  return separating ? separating_object(*separating) : Json(nullptr);
+}
+
+Json finding_object(const Finding& finding) {
+  Json json = finding_summary(finding);
+  json["alias"] = finding.alias;
+  json["frame"] = finding.frame;
+  json["rms"] = length(finding.rms_mm);
+  Json rivals = Json::array();
+  for (const Rival& rival : finding.rivals) {
+    rivals.push_back({{"effect", rival.effect},
+                      {"distance", number(rival.distance)},
+                      {"likelihood_ratio", number(rival.likelihood_ratio)},
+                      {"probability", number(rival.probability)},
+                      {"structural", rival.structural}});
+  }
+  json["rivals"] = rivals;
+  json["separate_with"] = maybe(finding.separate_with);
+  json["term"] = term_object(finding);
+  return json;
+}
+
+Json unexplained_object(const Unexplained& u) {
+  Json json{{"harmonic", u.harmonic},
+            {"dependence", u.dependence},
+            {"amplitude", estimate_object(u.amplitude)},
+            {"p_value", number(u.p_value)},
+            {"order", number(u.order)},
+            {"z_frequency", quantity_object(u.z_frequency, "1/mm", unknown)},
+            {"degree", u.degree},
+            {"along", u.in_time ? "time" : "z"},
+            {"frame", u.part_frame ? "part" : "spindle"}};
+  Json linear = Json::array();
+  for (const double value : u.linear) linear.push_back(length(value));
+  json["linear"] = linear;
+  return json;
+}
+
+Json not_observable_object(const NotObservable& n) {
+  return {{"effect", n.effect},
+          {"why", n.why},
+          {"axis_bias_per_unit", estimate_object(n.axis_bias_per_unit)},
+          {"axis_bias_typical", estimate_object(n.axis_bias_typical)},
+          {"detectable", quantity_object(n.detectable, n.detectable_unit.c_str(),
+                                         "no size of it would be found")},
+          {"separate_with", maybe(n.separate_with)}};
+}
+
+Json gain_object(const Gain& gain) {
+  return {{"rms_before", length(gain.rms_before_mm)},
+          {"rms_after", length(gain.rms_after_mm)},
+          {"held_out_rms_before", interval(gain.held_out_before_mm, "mm")},
+          {"held_out_rms_after", interval(gain.held_out_after_mm, "mm")},
+          {"held_out_ratio", interval(gain.held_out_ratio, "1")},
+          {"blocks", gain.blocks},
+          {"noise_floor", length(gain.noise_floor_mm)},
+          {"axis_shift", estimate_object(gain.axis_shift)},
+          {"coaxiality_before", estimate_object(gain.coaxiality_before)},
+          {"coaxiality_after", estimate_object(gain.coaxiality_after)}};
+}
+
+Json next_object(const NextMeasurement& next) {
+  return {{"plan", next.plan},
+          {"what", next.what},
+          {"separates", next.separates},
+          {"power_before", number(next.power_before)},
+          {"power_after", number(next.power_after)},
+          {"minutes", number(next.minutes)},
+          {"why_not", next.why_not}};
+}
+
+Json spectrum_object(const std::vector<SpectrumBin>& spectrum) {
+  Json order = Json::array(), before = Json::array(), after = Json::array();
+  for (const SpectrumBin& bin : spectrum) {
+    order.push_back(number(bin.order));
+    before.push_back(number(bin.before_mm));
+    after.push_back(number(bin.after_mm));
+  }
+  return {{"order", order}, {"before", before}, {"after", after}, {"unit", "mm"}};
+}
+
+Json options_object(const Diagnosis& d) {
+  return {{"surface", d.baseline.surface},
+          {"feature", d.baseline.bore ? "bore" : "shaft"},
+          {"loss", to_string(d.baseline.loss)},
+          {"coverage_factor", number(d.baseline.coverage_factor)},
+          {"false_alarm", number(d.false_alarm)}};
+}
+
+template <class T>
+Json list_of(const std::vector<T>& items, Json (*write)(const T&)) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(write(item));
+  return list;
+}
+
+}  // namespace
+
+Json quantity_object(double value, const char* unit, const char* why) {
+  Json json = with_unit(value, unit);
+  if (!std::isfinite(value)) json["why"] = why;
+  return json;
+}
+
+Json estimate_object(const Estimate& estimate) {
+  Json json = to_json(estimate);
+  const bool complete = std::isfinite(estimate.value) && std::isfinite(estimate.u);
+  if (!complete && estimate.why_not.empty()) {
+    json["why"] = estimate.determined() ? "its uncertainty is not determined" : unknown;
+  }
+  return json;
+}
+
+Json finding_summary(const Finding& finding) {
+  Json parameters = Json::object();
+  for (const FitParameter& p : finding.parameters) {
+    parameters[p.name] = estimate_object(p.estimate);
+  }
+  return {{"effect", finding.effect},
+          {"class", finding.members},
+          {"parameters", parameters},
+          {"p_value", number(finding.p_value)},
+          {"probability", number(finding.probability)},
+          {"axis_bias",
+           {{"axis_shift", estimate_object(finding.axis_shift)}, {"cosmetic", finding.cosmetic}}}};
+}
+
+Json diagnosis_object(const Diagnosis& d) {
+  Json json;
+  json["schema"] = "trueaxis.diagnosis/1";
+  json["version"] = TRUEAXIS_VERSION;
+  json["input"] = {{"file", d.baseline.source}, {"hash", d.baseline.input_hash}};
+  json["options"] = options_object(d);
+  json["verdict"] = to_string(d.verdict);
+  json["baseline"] = fit_object(d.baseline);
+  json["extended"] = fit_object(d.extended);
+  json["u_frame"] = {{"z_mid", length(d.z_mid_mm)}, {"z_half", length(d.z_half_mm)}};
+  json["findings"] = list_of(d.findings, finding_object);
+  json["unexplained"] = list_of(d.unexplained, unexplained_object);
+  json["not_observable"] = list_of(d.not_observable, not_observable_object);
+  json["remarks"] = d.remarks;
+  json["noise"] = noise_object(d.noise);
+  json["checks"] = list_of(d.checks, check_object);
+  json["gain"] = gain_object(d.gain);
+  json["next_measurement"] = next_object(d.next);
+  json["plans"] = list_of(d.plans, separating_object);
+  json["false_alarm"] = number(d.false_alarm);
+  json["hypotheses"] = d.hypotheses;
+  json["effective_hypotheses"] = number(d.effective_hypotheses);
+  json["threshold"] = number(d.threshold);
+  json["spectrum"] = spectrum_object(d.spectrum);
+  return json;
+}
+
+std::string diagnosis_json(const Diagnosis& diagnosis) {
+  return json_text(diagnosis_object(diagnosis));
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/files/diagnosis_text.hpp"
+
+#include <cmath>
+
+#include "diagnose/files/diagnosis_limits_text.hpp"
+#include "diagnose/files/finding_text.hpp"
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace layout;
+
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+std::string held_out(const Gain& gain) {
+  const double before = gain.held_out_before_mm.value, after = gain.held_out_after_mm.value;
+  const Interval& ratio = gain.held_out_ratio;
+  std::string text;
+  if (before > 0.0 && std::isfinite(after)) {
+    text += format("; held-out RMS %.3g → %.3g µm (ratio %.2f, 95 %% %.2f-%.2f)",
+                   before / mm_per_um, after / mm_per_um, ratio.value, ratio.low, ratio.high);
+  } else {
+    text += format("; RMS %.3g → %.3g µm", gain.rms_before_mm / mm_per_um,
+                   gain.rms_after_mm / mm_per_um);
+  }
+  if (gain.noise_floor_mm > 0.0) text += ", noise floor " + um(gain.noise_floor_mm);
+  return text;
+}
+
+std::string origin(const Diagnosis& d) {
+  std::string text = d.baseline.surface + " of " + d.baseline.source + ": " +
+                     std::to_string(d.baseline.points) + " readings";
+  if (d.hypotheses > 0) {
+    text += format(", %zu hypotheses tried, false alarm %.3g %% over all of them", d.hypotheses,
+                   100.0 * d.false_alarm);
+  }
+  return wrapped("", text);
+}
+
+/// What a slip does to the meaning of the axis; empty for any other finding.
+std::string axis_note(const Finding& finding) {
+  return finding.effect == "part.slip" ? "that of before the slip; the part stands there no longer"
+                                       : "";
+}
+
+std::string finding_block(const Finding& finding, std::size_t number, double k) {
+  std::string text = "\n";
+  text += wrapped(format("%2zu  ", number), finding.effect + "  " + finding_parameters(finding, k));
+  if (finding.members.size() > 1) text += wrapped("    cause    ", finding_class(finding));
+  text += wrapped("    axis_bias     ", finding_axis_bias(finding, k) + "; RMS of its part of the readings " +
+                                       um(finding.rms_mm));
+  const std::string axis = axis_note(finding);
+  if (!axis.empty()) text += wrapped("    axis     ", axis);
+  text += wrapped("    sure     ", "family-wise p " + probability(finding.p_value));
+  if (finding.separate_with)
+    text += wrapped("    to tell  ", separating_text(*finding.separate_with));
+  return text;
+}
+
+std::string unexplained_block(const Unexplained& u, double k) {
+  return wrapped(" ?  ", u.harmonic + ", " + u.dependence + ", amplitude " +
+                             plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm") +
+                             ": no catalogued cause explains it; it stays in the model so that "
+                             "the axis is protected; family-wise p " +
+                             probability(u.p_value));
+}
+
+std::string gain_block(const Diagnosis& d) {
+  const Gain& gain = d.gain;
+  const double k = d.baseline.coverage_factor, um_per_mm = 1.0 / mm_per_um;
+  if (d.findings.empty() && d.unexplained.empty()) return "";
+  std::string text = "\nGain\n";
+  text +=
+      wrapped("  axis        ", "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
+  text +=
+      wrapped("  coaxiality  ", "of the part that the correction would cut: " +
+                                    plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " +
+                                    plus_minus(gain.coaxiality_after, k, um_per_mm, "µm"));
+  if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);
+  return text;
+}
+
+}  // namespace
+
+std::string diagnosis_line(const Diagnosis& d) {
+  if (d.baseline.status != FitStatus::converged)
+    return std::string("NOT DIAGNOSED: ") + to_string(d.baseline.status) + ": " +
+           d.baseline.message;
+  const std::string causes = counted(d.findings.size(), "cause", "causes") + " found";
+  std::string text;
+  switch (d.verdict) {
+    case DiagnosisVerdict::ideal:
+      return "IDEAL: nothing that the ideal " + d.baseline.surface + " misses was found; RMS " +
+             um(d.baseline.rms_mm) + ", noise of a reading " + um(d.noise.sigma_mm);
+    case DiagnosisVerdict::effects:
+      text = "EFFECTS: " + causes;
+      break;
+    case DiagnosisVerdict::unexplained:
+      text = "UNEXPLAINED: " + counted(d.unexplained.size(), "pattern", "patterns") +
+             " without a catalogued cause" + (d.findings.empty() ? "" : ", " + causes);
+      break;
+  }
+  return text + held_out(d.gain);
+}
+
+std::string findings_text(const Diagnosis& d) {
+  const double k = d.baseline.coverage_factor;
+  std::string text = wrapped("diagnosis   ", diagnosis_line(d));
+  for (const Finding& f : d.findings) {
+    text += wrapped("  ", f.effect + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
+    if (f.members.size() > 1) text += wrapped("    ", finding_class(f));
+    const std::string axis = axis_note(f);
+    if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
+  }
+  for (const Unexplained& u : d.unexplained) {
+    text += wrapped("  ", "unexplained: " + u.harmonic + ", " + u.dependence + ", amplitude " +
+                              plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm"));
+  }
+  return text;
+}
+
+std::string diagnosis_text(const Diagnosis& d) {
+  const double k = d.baseline.coverage_factor;
+  std::string text = wrapped("", diagnosis_line(d)) + "\n" + origin(d);
+  if (d.baseline.status != FitStatus::converged) return text;
+  if (d.extended.status != FitStatus::converged) {
+    text += wrapped("the extended model: ",
+                    std::string(to_string(d.extended.status)) + ": " + d.extended.message);
+  }
+  if (!d.findings.empty()) {
+    text += format("\nFindings, the most harmful first; ± U (k = %.3g)\n", k);
+    for (std::size_t i = 0; i < d.findings.size(); ++i)
+      text += finding_block(d.findings[i], i + 1, k);
+  }
+  if (!d.unexplained.empty()) text += "\nUnexplained\n";
+  for (const Unexplained& u : d.unexplained) text += unexplained_block(u, k);
+  return text + gain_block(d) + not_observable_text(d) + noise_text(d.noise) +
+         checks_text(d.checks) + remarks_text(d.remarks) + next_text(d.next);
+}
+
+}  // namespace trueaxis

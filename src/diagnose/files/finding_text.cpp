@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/files/finding_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/effect.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace layout;
+
+/// Lengths whose typical size is below half a millimetre are shown in µm.
+bool is_small_length(const std::string& effect, const FitParameter& parameter) {
+  if (parameter.estimate.unit != "mm") return false;
+  const Effect* known = find_effect(effect);
+  if (known != nullptr) {
+    for (const EffectParameter& p : known->parameters) {
+      if (p.name == parameter.name && p.high > 0.0) return p.high < 0.5;
+    }
+  }
+  return std::abs(parameter.estimate.value) < 0.5;
+}
+
+std::string parameter_text(const std::string& effect, const FitParameter& p, double k) {
+  const Estimate& e = p.estimate;
+  std::string name = p.name;
+  for (std::size_t i = 0; i + 1 < name.size(); ++i) {  // amplitude_2 keeps its number
+    if (name[i] == '_' && (name[i + 1] < '0' || name[i + 1] > '9')) name[i] = ' ';
+  }
+  const bool exact = e.determined() && e.u == 0.0;
+  if (exact) return name + format(" %.6g", e.value) + (e.unit == "1" ? "" : " " + e.unit);
+  const bool small = is_small_length(effect, p);
+  return name + " " + plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
+}
+
+double probability_of(const Finding& finding, const std::string& member) {
+  if (member == finding.effect) return finding.probability;
+  for (const Rival& rival : finding.rivals) {
+    if (rival.effect == member) return rival.probability;
+  }
+  return std::nan("");
+}
+
+}  // namespace
+
+std::string finding_parameters(const Finding& finding, double coverage_factor) {
+  std::string text;
+  for (const bool order : {true, false}) {  // the order first
+    for (const FitParameter& p : finding.parameters) {
+      if ((p.name == "order") != order) continue;
+      if (!text.empty()) text += ", ";
+      text += parameter_text(finding.effect, p, coverage_factor);
+    }
+  }
+  if (!finding.alias.empty()) text += "; the sampling cannot tell it from " + finding.alias;
+  return text;
+}
+
+std::string finding_class(const Finding& finding) {
+  if (finding.members.size() < 2) return finding.effect;
+  std::string text;
+  for (const std::string& member : finding.members) {
+    if (!text.empty()) text += " or ";
+    text += member;
+    const double p = probability_of(finding, member);
+    if (std::isfinite(p)) text += " (" + probability(p) + ")";
+  }
+  return text + ": the data cannot tell";
+}
+
+std::string finding_axis_bias(const Finding& finding, double coverage_factor) {
+  constexpr double nothing_mm = 1e-6;
+  const bool nothing =
+      finding.axis_shift.value + coverage_factor * finding.axis_shift.u < nothing_mm;
+  const std::string shift =
+      nothing ? "less than 0.001 µm"
+              : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
+  return "left out it moves the axis by " + shift +
+         (finding.cosmetic ? ": cosmetic for coaxiality" : "");
+}
+
+std::string separating_text(const Separating& s) {
+  if (s.plan.empty()) return "none of the plans: " + s.why_not;
+  std::string text = s.plan + (s.what.empty() ? "" : ", " + s.what);
+  text += ": right name " + probability(s.power_before) + " → " + probability(s.power);
+  text += format(", %.3g min", s.minutes);
+  for (const Separating::Other& o : s.others)
+    text += "; or " + o.plan + " (→ " + probability(o.power) + format(", %.3g min)", o.minutes);
+  return text;
+}
+
+std::string axis_bias_per_unit_text(const Estimate& axis_bias) {
+  if (!axis_bias.determined()) return axis_bias.why_not.empty() ? "not known" : axis_bias.why_not;
+  if (axis_bias.unit.rfind("mm/", 0) != 0) return format("%.2g ", axis_bias.value) + axis_bias.unit;
+  std::string per = axis_bias.unit.substr(3);
+  std::erase_if(per, [](char c) { return c == '(' || c == ')'; });
+  if (per == "mm") return format("%.2g µm per µm", axis_bias.value);
+  return format("%.3g µm per ", axis_bias.value / mm_per_um) + (per == "1" ? "unit" : per);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/geometry/hypothesis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "math/sincos.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t most_parameters = 8;
+
+double legendre(int degree, double u) {
+  double before = 1.0, now = u;
+  if (degree == 0) return 1.0;
+  for (int l = 1; l < degree; ++l) {
+    const double next = ((2.0 * l + 1.0) * u * now - l * before) / (l + 1.0);
+    before = now, now = next;
+  }
+  return now;
+}
+
+void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_t begin, std::size_t end,
+                  std::span<double* const> columns) {
+  const double first = point.time.front(), lasted = point.time.back() - first;
+  const std::size_t count = end - begin;
+  std::vector<double> angle(count), sine(count), cosine(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = begin + k;
+    angle[k] = of.order * (of.spindle ? point.c[i] : point.theta[i]);
+    if (of.kind == Pattern::Kind::line)
+      angle[k] -= two_pi * of.frequency * (of.in_time ? point.time[i] : point.s[i]);
+  }
+  if (of.kind != Pattern::Kind::bump) sincos(angle, sine, cosine);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = begin + k;
+    double size = of.spindle ? 1.0 : point.dx_dnormal[i];
+    if (of.kind == Pattern::Kind::bump) {
+      const double v = std::remainder(point.theta[i] - of.angle_rad, two_pi) / of.width_rad;
+      const double w = point.has_position && of.length_mm > 0.0
+                           ? (point.s[i] - of.position_mm) / of.length_mm
+                           : 0.0;
+      columns[0][k] = size * std::exp(-0.5 * (v * v + w * w));
+      continue;
+    }
+    if (of.kind == Pattern::Kind::cell) {
+      const double u = of.in_time
+                           ? (lasted > 0.0 ? 2.0 * (point.time[i] - first) / lasted - 1.0 : 0.0)
+                           : (point.s[i] - point.z_mid_mm) / point.z_half_mm;
+      size *= legendre(of.degree, u);
+    }
+    columns[0][k] = size * cosine[k];
+    if (columns.size() > 1) columns[1][k] = size * sine[k];
+  }
+}
+
+}  // namespace
+
+void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin, std::size_t end,
+                  std::span<const double* const> constant, std::span<double* const> columns) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const double u = (point.s[i] - point.z_mid_mm) / point.z_half_mm;
+    const double size = legendre(cell.pattern.degree, u);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      columns[j][i - begin] = size * constant[j][i - begin];
+  }
+}
+
+std::size_t Hypothesis::columns() const {
+  if (!effect) {
+    const bool line = pattern.kind == Pattern::Kind::line;
+    return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
+  }
+  const std::size_t own =
+      free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
+  return own + (with_radial ? 2 : 0);
+}
+
+void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin, std::size_t end,
+          std::span<double* const> columns) {
+  if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
+  const Term& term = hypothesis.effect->term;
+  if (hypothesis.with_radial) {
+    static const Effect* const radial = find_effect("spindle.radial_synchronous");
+    fill_columns(radial->term, point.context(begin, end), hypothesis.shape, columns.last(2));
+    columns = columns.first(columns.size() - 2);
+  }
+  if (hypothesis.free.empty()) {
+    return fill_columns(term, point.context(begin, end), hypothesis.shape, columns);
+  }
+  const std::size_t all = linear_parameters(term, hypothesis.shape).size();
+  expects(all <= most_parameters, "a term has a few linear parameters");
+  std::vector<double> spare((end - begin) * all);
+  double* target[most_parameters];
+  for (std::size_t j = 0; j < all; ++j) target[j] = spare.data() + j * (end - begin);
+  for (std::size_t j = 0; j < hypothesis.free.size(); ++j) target[hypothesis.free[j]] = columns[j];
+  fill_columns(term, point.context(begin, end), hypothesis.shape, {target, all});
+}
+
+Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> free, double tests) {
+  Hypothesis made;
+  made.effect = find_effect(id);
+  expects(made.effect != nullptr, "an effect of the catalogue");
+  made.shape = shape;
+  made.free = std::move(free);
+  made.tests = tests;
+  return made;
+}
+
+std::size_t columns_of(std::span<const Hypothesis> list) {
+  std::size_t sum = 0;
+  for (const Hypothesis& h : list) sum += h.columns();
+  return sum;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/geometry/linearisation_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "math/sincos.hpp"
+#include "math/statistics.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double least_range_mm = 1e-3;
+
+const Clamping& clamping_of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                            std::size_t i) {
+  if (stream.setup.empty()) return clampings.front();
+  const auto found = std::ranges::find(clampings, stream.setup[i], &Clamping::number);
+  expects(found != clampings.end(), "a clamping for every set-up");
+  return *found;
+}
+
+// Without a clock the spindle's stated speed gives one, while C runs one way.
+void fill_time(const ProbeStream& stream, LinearisationPoint& point) {
+  if (!stream.time_s.empty()) {
+    point.time = stream.time_s;
+    point.has_time = true;
+  } else if (stream.spindle_rpm && point.passes.size() == 1 && point.passes[0].c_sign != 0) {
+    const double speed = std::abs(*stream.spindle_rpm) * two_pi / 60.0;
+    for (const double c : point.c) point.time.push_back(std::abs(c - point.c[0]) / speed);
+    point.passes[0].speed_rad_per_s = speed * point.passes[0].c_sign;
+    point.has_time = true;
+  } else {
+    point.time.assign(point.size(), 0.0);
+  }
+}
+
+void fill_motion(LinearisationPoint& point) {
+  point.speed.resize(point.size());
+  point.velocity.resize(point.size());
+  for (const Pass& pass : point.passes) {
+    double velocity = pass.feed_mm_per_rev * std::abs(pass.speed_rad_per_s) / two_pi;
+    const double lasted =
+        pass.end > pass.begin + 1 ? point.time[pass.end - 1] - point.time[pass.begin] : 0.0;
+    if (pass.c_sign == 0 && lasted > 0.0)
+      velocity = (point.z[pass.end - 1] - point.z[pass.begin]) / lasted;
+    std::fill(point.speed.begin() + static_cast<long>(pass.begin),
+              point.speed.begin() + static_cast<long>(pass.end), pass.speed_rad_per_s);
+    std::fill(point.velocity.begin() + static_cast<long>(pass.begin),
+              point.velocity.begin() + static_cast<long>(pass.end), velocity);
+  }
+}
+
+/// Coordinates of a point of the spindle frame in the frame of an axis, whose origin is the axis'
+/// point at z = 0: turned back by Rodrigues' rotation about the common normal of axis and spindle.
+struct PartFrame {
+  double x0, y0, kx, ky, n, sine;
+
+  explicit PartFrame(const Axis& axis) {
+    const double secant =
+        std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
+    const double l = axis.slope_x / secant, m = axis.slope_y / secant;
+    const auto origin = axis.at(0.0);
+    x0 = origin[0], y0 = origin[1], n = 1.0 / secant, sine = std::hypot(l, m);
+    kx = sine > 0.0 ? m / sine : 0.0, ky = sine > 0.0 ? -l / sine : 0.0;
+  }
+  struct Polar {
+    double theta, s;
+  };
+  Polar at(double px, double py, double pz) const {
+    const double qx = px - x0, qy = py - y0, along = (kx * qx + ky * qy) * (1.0 - n);
+    const double l = -ky * sine, m = kx * sine;
+    return {std::atan2(qy * n - sine * kx * pz + ky * along, qx * n + sine * ky * pz + kx * along),
+            l * qx + m * qy + n * pz};
+  }
+};
+
+void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                   LinearisationPoint& point) {
+  for (auto* column : {&point.x, &point.sensed, &point.dx_dc, &point.dx_dz, &point.d2x_dc2,
+                       &point.chuck, &point.theta, &point.s, &point.clamp, &point.dx_dnormal})
+    column->reserve(point.size());
+  const Clamping* last = nullptr;
+  PartFrame frame(clampings.front().shape.axis);
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    const Clamping& now = clamping_of(stream, clampings, i);
+    if (&now != last) frame = PartFrame((last = &now)->shape.axis);
+    const Intersection at = intersect(now.shape, point.c[i], point.z[i], 0.0, now.root);
+    expects(at.hit, "every probe line meets the fitted surface");
+    point.x.push_back(at.x_mm);
+    point.sensed.push_back(at.x_mm - now.x_jog_mm);
+    point.dx_dc.push_back(at.dx_dc);
+    point.dx_dz.push_back(at.dx_dz);
+    const double cosine = std::cos(point.c[i]), sine = std::sin(point.c[i]);
+    const auto centre = now.shape.axis.at(point.z[i]);
+    point.d2x_dc2.push_back(-(centre[0] * cosine + centre[1] * sine));
+    const auto polar = frame.at(at.x_mm * cosine, at.x_mm * sine, point.z[i]);
+    point.chuck.push_back(polar.theta);
+    point.theta.push_back(polar.theta - now.reindex_rad);
+    point.s.push_back(polar.s - now.z_shift_mm);
+    point.clamp.push_back(now.clamp_force_ratio);
+    point.axis.push_back(now.axis);
+    point.rear.push_back(now.root == Root::rear);
+    const double dx_dy = at.dx_dc / at.x_mm;
+    const double secant = std::sqrt(1.0 + dx_dy * dx_dy + at.dx_dz * at.dx_dz);
+    point.dx_dnormal.push_back(point.rear.back() ? -secant : secant);
+  }
+}
+
+}  // namespace
+
+LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                 const BaseKind& base, bool bore) {
+  expects(stream.kind == StreamKind::lateral && !stream.c_rad.empty(), "a lateral stream");
+  LinearisationPoint point;
+  point.base = base;
+  point.bore = bore;
+  point.c = stream.c_rad;
+  point.has_position = stream.has_position();
+  point.z = point.has_position ? stream.position_mm : std::vector<double>(stream.size(), 0.0);
+  point.passes = find_passes(stream);
+  point.tan_half_angle = clampings.front().shape.tan_half_angle;
+  fill_time(stream, point);
+  fill_motion(point);
+  fill_contacts(stream, clampings, point);
+  const auto [low, high] = range_of(point.s);
+  point.z_mid_mm = 0.5 * (low + high);
+  point.z_half_mm = std::max(0.5 * (high - low), 1e-9);
+  if (!point.has_position || point.z_half_mm < 1e-3) point.z_half_mm = 1.0;
+  point.s_ref_mm = point.z_mid_mm;
+  std::vector<double> outward(point.sensed);  // as the gauge sees it, which behind is turned round
+  double sum = 0.0;
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    if (point.rear[i]) outward[i] = -outward[i];
+    sum += outward[i];
+  }
+  point.reference_x_mm = sum / static_cast<double>(point.size());
+  const auto [least, most] = range_of(outward);
+  point.range_x_mm =
+      std::max({most - point.reference_x_mm, point.reference_x_mm - least, least_range_mm});
+  for (const Clamping& c : clampings) {
+    point.reindexed |= c.reindex_rad != clampings.front().reindex_rad;
+    point.jogged |= c.x_jog_mm != clampings.front().x_jog_mm;
+    point.shifted |= c.z_shift_mm != clampings.front().z_shift_mm;
+    point.two_sided |= c.root != clampings.front().root;
+    point.reclamped |= c.clamp_force_ratio != clampings.front().clamp_force_ratio;
+  }
+  return point;
+}
+
+TermContext LinearisationPoint::context(std::size_t begin, std::size_t end) const {
+  const auto part = [&](const std::vector<double>& column) {
+    return std::span<const double>(column).subspan(begin, end - begin);
+  };
+  TermContext at;
+  at.c_rad = part(c), at.z_mm = part(z), at.time_s = part(time);
+  at.speed_rad_per_s = part(speed), at.velocity_mm_per_s = part(velocity);
+  at.x_mm = part(x), at.sensed_mm = part(sensed);
+  at.dx_dc = part(dx_dc), at.dx_dz = part(dx_dz), at.d2x_dc2 = part(d2x_dc2);
+  at.theta_rad = part(theta), at.theta_chuck_rad = part(chuck), at.s_mm = part(s);
+  at.clamp_force_ratio = part(clamp);
+  at.z_mid_mm = z_mid_mm, at.z_half_mm = z_half_mm;
+  at.tan_half_angle = tan_half_angle;
+  at.bore = bore, at.rear = rear[begin] != 0;
+  return at;
+}
+
+void LinearisationPoint::fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const {
+  const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
+  const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
+  for (std::size_t j = 0; j < columns.size(); ++j) std::fill_n(columns[j], end - begin, 0.0);
+  std::vector<double> turn[2] = {std::vector<double>(end - begin),
+                                 std::vector<double>(end - begin)};
+  sincos(std::span(c).subspan(begin, end - begin), turn[0], turn[1]);
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t k = i - begin, own = axis[i] * per_axis;
+    const double cosine = turn[1][k], sine = turn[0][k], dx_dy = dx_dc[i] / x[i];
+    const double along_x = cosine + sine * dx_dy, along_y = sine - cosine * dx_dy;
+    const double normal = dx_dnormal[i];
+    columns[own][k] = along_x;
+    columns[own + 1][k] = along_y;
+    if (base.tilts) {
+      const double lever = z[i] - z_mid_mm;
+      columns[own + 2][k] = lever * along_x + dx_dz[i] * x[i] * cosine;
+      columns[own + 3][k] = lever * along_y + dx_dz[i] * x[i] * sine;
+    }
+    columns[shared][k] = base.offset ? 1.0 : normal * cos_half;
+    if (base.tapers) columns[shared + 1][k] = normal * cos_half * (s[i] - s_ref_mm);
+  }
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "trueaxis/effect.hpp"
+#include "measure/passes.hpp"
+#include "trueaxis/probe_stream.hpp"
+#include "trueaxis/surface.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// How the part is clamped, and where a fit has found it.
+struct Clamping {
+  int number = 1;
+  Revolved shape;  ///< where the ball's centre (or the contact) runs
+  Root root = Root::front;
+  double reindex_rad = 0.0, z_shift_mm = 0.0, x_jog_mm = 0.0, clamp_force_ratio = 1.0;
+  std::size_t axis = 0;  ///< which axis of the base it has: set-ups not moved share one
+};
+
+/// What the base of the model is: rigid motions of every axis, and the shape all share.
+struct BaseKind {
+  bool tilts = true;    ///< l, m are free (not of a section)
+  bool tapers = false;  ///< the half angle is free
+  bool offset = false;  ///< the zero of a gauge instead of the radius
+  std::size_t axes = 1;
+
+  std::size_t per_axis() const { return tilts ? 4 : 2; }
+  std::size_t columns() const { return axes * per_axis() + 1 + (tapers ? 1 : 0); }
+};
+
+/// What a point is as a whole; mm.
+struct LinearisationFacts {
+  BaseKind base;
+  double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
+  double tan_half_angle = 0.0;
+  double reference_x_mm = 0.0, range_x_mm = 1.0;  ///< middle of what is sensed, and how far it goes
+  bool bore = false;
+  bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
+       two_sided = false, reclamped = false;
+};
+
+/// The geometry of every reading about the fitted surface: what terms and base columns are made of.
+/// Columns of one entry a reading; mm, rad, s.
+struct LinearisationPoint : LinearisationFacts {
+  std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
+      s, clamp;
+  std::vector<double> dx_dnormal;  ///< of form along the normal
+  std::vector<std::size_t> axis;   ///< of every reading
+  std::vector<char> rear;          ///< of every reading
+  std::vector<Pass> passes;
+
+  std::size_t size() const { return c.size(); }
+  /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
+  TermContext context(std::size_t begin, std::size_t end) const;
+  /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
+  /// half angle. Rigid motions of the part: exact to first order.
+  void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
+};
+
+/// @param stream columns C, Z, t, set-up; its readings are not used.
+LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+                 const BaseKind& base, bool bore);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/geometry/observation_mask.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/units.hpp"
+#include "math/statistics.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t blocks_wanted = 30;  // effects.md: 30, not 5
+constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
+constexpr unsigned char longest_run = 8;
+
+/// Where Z stands still for a section and then steps: the first reading of every section.
+std::vector<std::size_t> section_starts(const LinearisationPoint& point) {
+  std::vector<std::size_t> starts{0};
+  std::size_t still = 0;
+  for (std::size_t i = 1; i < point.size(); ++i) {
+    if (std::abs(point.z[i] - point.z[i - 1]) > 1e-3 * point.z_half_mm)
+      starts.push_back(i);
+    else
+      ++still;
+  }
+  const bool sections = starts.size() >= 3 && starts.size() * 4 <= point.size() &&
+                        still + starts.size() == point.size();
+  return sections ? starts : std::vector<std::size_t>{};
+}
+
+}  // namespace
+
+void ObservationMask::find_runs(const LinearisationPoint& point) {
+  run.assign(point.size(), 0);
+  for (const Pass& pass : point.passes) {
+    std::vector<double> steps;
+    const auto clock = [&](std::size_t i) { return point.has_time ? point.time[i] : point.c[i]; };
+    for (std::size_t i = pass.begin + 1; i < pass.end; ++i)
+      steps.push_back(std::abs(clock(i) - clock(i - 1)));
+    if (steps.empty()) continue;
+    const double usual = median(steps);
+    for (std::size_t i = pass.begin + 1; i < pass.end; ++i) {
+      const bool regular = std::abs(clock(i) - clock(i - 1)) <= 1.8 * usual;
+      if (used[i] && used[i - 1] && regular)
+        run[i] = static_cast<unsigned char>(std::min<int>(run[i - 1] + 1, longest_run));
+    }
+  }
+}
+
+ObservationMask make_observation_mask(const LinearisationPoint& point) {
+  ObservationMask mask;
+  mask.used.assign(point.size(), 1);
+  mask.find_runs(point);
+  mask.fold_begin = section_starts(point);
+  if (!mask.fold_begin.empty()) {
+    mask.fold_begin.push_back(point.size());
+    mask.block = "a section";
+    return rows;
+  }
+  double turns = 0.0;
+  for (const Pass& pass : point.passes)
+    turns += std::abs(point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
+  if (turns < few_turns) {
+    const std::size_t blocks = std::min(blocks_wanted, point.size() / 2);
+    for (std::size_t b = 0; b <= blocks; ++b) mask.fold_begin.push_back(b * point.size() / blocks);
+    mask.block = "an arc";
+    return rows;
+  }
+  const double per_block = std::max(1.0, std::floor(turns / static_cast<double>(blocks_wanted)));
+  for (const Pass& pass : point.passes) {
+    const double own = std::abs(point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
+    const double share =
+        static_cast<double>(pass.end - pass.begin) / static_cast<double>(point.size());
+    const double blocks = own > 0.5 ? std::max(1.0, std::round(own / per_block))
+                                    : std::max(1.0, std::round(share * blocks_wanted));
+    for (double b = 0.0; b < blocks; ++b) {
+      const auto begin = pass.begin + static_cast<std::size_t>(
+                                          b / blocks * static_cast<double>(pass.end - pass.begin));
+      if (mask.fold_begin.empty() || begin > mask.fold_begin.back())
+        mask.fold_begin.push_back(begin);
+    }
+  }
+  mask.fold_begin.push_back(point.size());
+  mask.block = per_block == 1.0 ? "a revolution"
+                                : std::to_string(static_cast<int>(per_block)) + " revolutions";
+  return rows;
+}
+
+}  // namespace trueaxis::diagnose_detail

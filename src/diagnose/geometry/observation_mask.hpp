@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "diagnose/geometry/linearisation_point.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Which readings count, and in which blocks they are held out.
+struct ObservationMask {
+  std::vector<char> used;          ///< 0: masked
+  std::vector<unsigned char> run;  ///< used readings just before, in unbroken sampling; at most 8
+  std::vector<std::size_t> fold_begin;  ///< of contiguous blocks; one more than there are
+  std::string block;                    ///< what a block is
+
+  std::size_t folds() const { return fold_begin.size() - 1; }
+  void mask(std::size_t reading) { used[reading] = 0; }
+  /// Counts `run` anew after masking.
+  void find_runs(const LinearisationPoint& point);
+};
+
+/// All readings used; blocks are sections of constant Z where the probe steps from one to the next,
+/// else about thirty groups of whole revolutions, none across a pass.
+ObservationMask make_observation_mask(const LinearisationPoint& point);
+
+}  // namespace trueaxis::diagnose_detail

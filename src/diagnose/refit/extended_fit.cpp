@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/refit/extended_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t chunk = 512;
+
+/// The stream without masked readings, less the contribution of the terms.
+ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
+                    const std::vector<double>& effect_mm) {
+  ProbeStream out = stream;
+  for (std::size_t i = 0; i < stream.size(); ++i) out.reading_mm[i] -= effect_mm[i];
+  const auto free = [&](auto& column) {
+    if (column.empty()) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < mask.used.size(); ++i)
+      if (mask.used[i]) column[to++] = column[i];
+    column.resize(to);
+  };
+  free(out.reading_mm), free(out.c_rad), free(out.position_mm), free(out.time_s);
+  free(out.pass), free(out.setup);
+  return out;
+}
+
+/// ∂(reported parameter)/∂(x, y, slopes at mid length; radius; tan of the half angle), edge units.
+Eigen::RowVectorXd reported_slope(const std::string& name, const Revolved& shape, double z_mid) {
+  Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(6);
+  const double t = shape.tan_half_angle;
+  const auto [x, y] = shape.axis.at(z_mid);
+  if (name == "x0") g(0) = 1.0, g(2) = -z_mid;
+  if (name == "y0") g(1) = 1.0, g(3) = -z_mid;
+  if (name == "l") g(2) = 1.0;
+  if (name == "m") g(3) = 1.0;
+  if (name == "radius" || name == "radius_mid") g(4) = 1.0;
+  if (name == "half_angle") g(5) = std::copysign(1.0, t) / (1.0 + t * t) / rad_per_deg;
+  // The apex is radius/tan below the middle of the length.
+  const double radius = shape.radius_mm + t * (z_mid - shape.axis.z_ref_mm);
+  if (name == "k" && t != 0.0) g(4) = -1.0 / t, g(5) = radius / (t * t);
+  if (name == "tilt") {
+    const double slope = std::hypot(shape.axis.slope_x, shape.axis.slope_y);
+    if (slope > 0.0)
+      g(2) = shape.axis.slope_x / slope / rad_per_deg,
+      g(3) = shape.axis.slope_y / slope / rad_per_deg;
+  }
+  (void)x, (void)y;
+  return g;
+}
+
+}  // namespace
+
+bool is_diagnosable(const FitResult& fit) {
+  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+         (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
+         std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
+}
+
+std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
+  std::vector<Clamping> out;
+  const SetUp* before = nullptr;
+  for (const SetUpFit& s : fit.set_ups) {
+    Clamping c;
+    c.number = s.set_up.number;
+    c.shape = s.shape;
+    const double secant = std::hypot(1.0, s.shape.tan_half_angle);
+    c.shape.radius_mm += (fit.bore ? -ball_mm : ball_mm) * secant;
+    c.root = s.side;
+    c.reindex_rad = s.set_up.reindex_rad;
+    c.z_shift_mm = s.set_up.z_shift_mm;
+    c.x_jog_mm = s.set_up.x_jog_mm;
+    c.clamp_force_ratio = s.set_up.clamp_force_ratio;
+    c.axis = out.empty() ? 0 : out.back().axis + (s.set_up.clamped_as(*before) ? 0 : 1);
+    before = &s.set_up;
+    out.push_back(c);
+  }
+  return out;
+}
+
+BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
+                 const std::vector<Clamping>& clampings) {
+  BaseKind base;
+  base.tilts = fit.surface != "section";
+  base.tapers = fit.surface == "cone";
+  base.offset = stream.indication == Indication::relative;
+  base.axes = clampings.back().axis + 1;
+  return base;
+}
+
+std::vector<double> contribution(const LinearisationPoint& point, const std::vector<Hypothesis>& terms,
+                                 const Eigen::VectorXd& coefficients) {
+  std::vector<double> out(point.size(), 0.0);
+  const std::size_t count = columns_of(terms);
+  if (count == 0) return out;
+  std::vector<double> buffer(count * chunk);
+  std::vector<double*> column(count);
+  for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
+  for (std::size_t begin = 0; begin < point.size();) {
+    std::size_t end = std::min(begin + chunk, point.size());
+    for (std::size_t i = begin + 1; i < end; ++i)
+      if (point.rear[i] != point.rear[begin]) end = i;
+    std::size_t next = 0;
+    for (const Hypothesis& h : terms) {
+      fill(h, point, begin, end, {column.data() + next, h.columns()});
+      next += h.columns();
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+      const double c = coefficients(static_cast<Eigen::Index>(j));
+      for (std::size_t i = begin; i < end; ++i) out[i] += c * column[j][i - begin];
+    }
+    begin = end;
+  }
+  return out;
+}
+
+FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
+                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked,
+                       const Eigen::MatrixXd& between) {
+  const LinearisationPoint& point = joint.equations.point();
+  const ProbeStream clean = cleaned(stream, joint.equations.rows(), effect_mm);
+  FitResult result = fit(clean, options);
+  FitOptions bare = options;
+  bare.influences.clear();
+  const FitResult noise_only = options.influences.empty() ? result : fit(clean, bare);
+  result.points = stream.size();
+  result.rejected = masked;
+  if (result.status != FitStatus::converged || result.set_ups.empty()) return result;
+
+  // Base columns of the last axis with the shared shape, in this order.
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
+  const auto shared = static_cast<Eigen::Index>(point.base.axes * point.base.per_axis());
+  std::vector<Eigen::Index> place(6, -1);
+  for (Eigen::Index j = 0; j < per; ++j) place[static_cast<std::size_t>(j)] = from + j;
+  place[4] = shared;
+  if (point.base.tapers) place[5] = shared + 1;
+  const auto of_last = [&](const Eigen::MatrixXd& base) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6, 6);
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      for (Eigen::Index j = 0; j < 6; ++j) {
+        const Eigen::Index a = place[static_cast<std::size_t>(i)],
+                           b = place[static_cast<std::size_t>(j)];
+        if (a >= 0 && b >= 0 && base.size() > 0) out(i, j) = base(a, b);
+      }
+    }
+    return out;
+  };
+  const Eigen::MatrixXd of_noise = of_last(joint.base_covariance()), of_causes = of_last(between);
+  const Eigen::MatrixXd covariance = of_noise + of_causes;
+  const double z_mid = point.z_mid_mm;
+  const std::size_t n = result.parameters.size();
+  Eigen::MatrixXd slope(static_cast<Eigen::Index>(n), 6);
+  for (std::size_t p = 0; p < n; ++p)
+    slope.row(static_cast<Eigen::Index>(p)) =
+        reported_slope(result.parameters[p].name, result.shape, z_mid);
+  const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
+  const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal(),
+                        from_causes = (slope * of_causes * slope.transpose()).diagonal();
+  const auto root = [](const Eigen::VectorXd& variance, std::size_t i) {
+    return std::sqrt(std::max(0.0, variance(static_cast<Eigen::Index>(i))));
+  };
+  for (std::size_t p = 0; p < n; ++p) {
+    for (std::size_t q = 0; q < n; ++q) {
+      double& c = result.covariance[p * n + q];
+      c += joint_covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) -
+           noise_only.covariance[p * n + q];
+    }
+    result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance[p * n + p]));
+    if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
+  }
+  if (from_causes.maxCoeff() > 0.0) {
+    BudgetLine line{"causes that the readings cannot tell", 'B', {}};
+    for (std::size_t p = 0; p < n; ++p) line.u.push_back(root(from_causes, p));
+    result.budget.push_back(std::move(line));
+  }
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);
+  at.leftCols(4).setIdentity();
+  at(0, 2) = at(1, 3) = result.axis.axis.z_ref_mm - z_mid;
+  const Eigen::MatrixXd axis = at * covariance * at.transpose();
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = 0; j < 4; ++j)
+      result.axis.covariance[i * 4 + j] +=
+          axis(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -
+          noise_only.axis.covariance[i * 4 + j];
+  }
+  for (FitParameter& d : result.derived) {
+    if (d.name.starts_with("offset") || d.name.ends_with("offset") ||
+        d.name.find("offset") != std::string::npos) {
+      const double z =
+          d.name.find("start") != std::string::npos || d.name.find("min") != std::string::npos
+              ? result.position_min_mm
+              : result.position_max_mm;
+      d.estimate.u = std::max(d.estimate.u, result.axis.u_at(z));
+      continue;
+    }
+    const Eigen::RowVectorXd g = reported_slope(d.name, result.shape, z_mid);
+    const double variance = (g * covariance * g.transpose())(0, 0);
+    if (variance > 0.0) d.estimate.u = std::max(d.estimate.u, std::sqrt(variance));
+  }
+  if (!result.set_ups.empty()) {
+    result.set_ups.back().axis = result.axis;
+    result.set_ups.back().parameters = result.parameters;
+  }
+  result.sigma_mm = joint.sigma_mm;
+  result.u_factor = 1.0;
+  if (!joint.equations.autoregression().empty()) result.sigma_source = "residuals, whitened";
+  return result;
+}
+
+}  // namespace trueaxis::diagnose_detail

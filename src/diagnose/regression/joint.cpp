@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/regression/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+/// x and y of the last axis at height u of mid length, from its base coefficients.
+Eigen::MatrixXd position_at(const LinearisationPoint& point, double u) {
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  Eigen::MatrixXd at = Eigen::MatrixXd::Zero(2, per);
+  at(0, 0) = at(1, 1) = 1.0;
+  if (point.base.tilts) at(0, 2) = at(1, 3) = u * point.z_half_mm;
+  return at;
+}
+
+Eigen::Index last_axis(const LinearisationPoint& point) {
+  return static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
+}
+
+}  // namespace
+
+Joint::Joint(const Problem& problem, const std::vector<double>& phi,
+             std::vector<Hypothesis> hypotheses, std::size_t fitted_terms, bool blocks)
+    : equations(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads, blocks),
+      places(equations.append(hypotheses)),
+      terms(std::move(hypotheses)),
+      fitted(fitted_terms) {
+  Columns all = equations.base();
+  for (std::size_t t = 0; t < fitted; ++t)
+    all.insert(all.end(), places[t].begin(), places[t].end());
+  solution = solve(equations.total(), all);
+  const auto freedom = static_cast<double>(equations.count()) - static_cast<double>(solution.rank);
+  sigma_mm = freedom > 0.0 ? std::sqrt(std::max(solution.rss, 0.0) / freedom) : 0.0;
+}
+
+Eigen::VectorXd Joint::base() const {
+  return solution.coefficients.head(static_cast<Eigen::Index>(equations.base().size()));
+}
+
+Eigen::MatrixXd Joint::base_covariance() const {
+  const auto n = static_cast<Eigen::Index>(equations.base().size());
+  return sigma_mm * sigma_mm * solution.inverse.topLeftCorner(n, n);
+}
+
+Eigen::VectorXd Joint::of(std::size_t term) const {
+  auto at = static_cast<Eigen::Index>(equations.base().size());
+  for (std::size_t t = 0; t < term; ++t) at += static_cast<Eigen::Index>(places[t].size());
+  return solution.coefficients.segment(at, static_cast<Eigen::Index>(places[term].size()));
+}
+
+Solution Joint::without(std::size_t term) const {
+  Columns rest = equations.base();
+  for (std::size_t t = 0; t < fitted; ++t)
+    if (t != term) rest.insert(rest.end(), places[t].begin(), places[t].end());
+  return solve(equations.total(), rest);
+}
+
+AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& change,
+                     const Eigen::MatrixXd& covariance) {
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  const Eigen::Index from = last_axis(point);
+  AxisShift worst;
+  for (const double u : {-1.0, 1.0}) {  // the distance is convex along the axis
+    const Eigen::MatrixXd at = position_at(point, u);
+    const Eigen::VectorXd d = at * change.segment(from, per);
+    const Eigen::MatrixXd c = at * covariance.block(from, from, per, per) * at.transpose();
+    const double length = d.norm();
+    const Eigen::VectorXd along =
+        length > 0.0 ? Eigen::VectorXd(d / length) : Eigen::VectorXd::Unit(2, 0);
+    if (length >= worst.value_mm) worst = {length, std::sqrt(std::max(0.0, along.dot(c * along)))};
+  }
+  return worst;
+}
+
+AxisUncertainty axis_uncertainty(const LinearisationPoint& point, const Eigen::MatrixXd& base_covariance) {
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  const Eigen::Index from = last_axis(point);
+  AxisUncertainty worst;
+  for (const double u : {-1.0, 1.0}) {
+    const Eigen::MatrixXd at = position_at(point, u);
+    const Eigen::MatrixXd c = at * base_covariance.block(from, from, per, per) * at.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(c);
+    worst.u_mm = std::max(worst.u_mm, std::sqrt(std::max(0.0, eigen.eigenvalues()(1))));
+    worst.rms_mm = std::max(worst.rms_mm, std::sqrt(std::max(0.0, c.trace())));
+  }
+  return worst;
+}
+
+}  // namespace trueaxis::diagnose_detail

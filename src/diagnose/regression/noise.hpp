@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/regression/normal_equations.hpp"
+#include "trueaxis/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Deviation minus base and terms at a solution; the solution's columns are in the order base,
+/// terms.
+std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
+                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution);
+
+/// Masks readings farther than 8 robust σ from the surface with the small fourier_legendre_basis, and what clings to
+/// them, until nothing changes. @returns why, a line a reading.
+std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resolution& resolution,
+                                    std::span<const double> deviation_mm, ObservationMask& mask,
+                                    int threads = 1);
+
+/// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
+/// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,
+/// each one only where the likelihood ratio passes 5 %. Few readings: none.
+std::vector<double> autoregression(const LinearisationPoint& point, const ObservationMask& mask,
+                                   std::span<const double> deviation_mm,
+                                   std::span<const Hypothesis> terms);
+
+}  // namespace trueaxis::diagnose_detail

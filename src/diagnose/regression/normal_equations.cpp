@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/regression/normal_equations.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <thread>
+
+#include "trueaxis/error.hpp"
+#include "math/gram.hpp"
+#include "math/wide_gram.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t chunk_rows = 512;
+constexpr double least_floor_mm = 1e-6;  // readings are written to a nanometre
+constexpr double second_order = 5e-4;    // of what the terms take, their next order is left
+constexpr double undetermined = 1e-11;   // of a column's square: rounding of the Gram matrix and of
+                                         // the linearisation leave nothing to trust below
+
+using Matrix = Eigen::MatrixXd;
+
+/// Columns of some readings as computed and as whitened, in aligned memory padded with zeros.
+class Chunk {
+ public:
+  Chunk(std::size_t columns, std::size_t history)
+      : history_(history),
+        stride_((chunk_rows + history + 7) / 8 * 8),
+        raw_(columns * stride_ + 8),
+        white_(history > 0 ? columns * stride_ + 8 : 0) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      raw_column_.push_back(aligned(raw_) + j * stride_);
+      white_column_.push_back(history > 0 ? aligned(white_) + j * stride_ : raw_column_.back());
+    }
+    view_.assign(white_column_.begin(), white_column_.end());
+  }
+
+  std::span<double* const> raw() const { return raw_column_; }
+  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them behind `lead` others.
+  void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows) {
+    for (std::size_t c = 0; c < raw_column_.size() && history_ > 0; ++c) {
+      const double* from = raw_column_[c] + lead;
+      double* to = white_column_[c];
+      std::copy(from, from + rows, to);
+      for (std::size_t lag = 1; lag <= phi.size(); ++lag) {
+        const std::size_t skip = lag > lead ? lag - lead : 0;
+        for (std::size_t i = skip; i < rows; ++i)
+          to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
+      }
+    }
+  }
+  void drop(std::size_t row) {
+    for (double* column : white_column_) column[row] = 0.0;
+  }
+  std::span<const double* const> white(std::size_t rows) {
+    for (std::size_t row = rows; row < (rows + 7) / 8 * 8; ++row) drop(row);
+    return view_;
+  }
+
+ private:
+  static double* aligned(std::vector<double>& memory) {
+    void* at = memory.data();
+    std::size_t room = memory.size() * sizeof(double);
+    return memory.empty() ? nullptr : static_cast<double*>(std::align(64, 8, at, room));
+  }
+  std::size_t history_, stride_;
+  std::vector<double> raw_, white_;
+  std::vector<double*> raw_column_, white_column_;
+  std::vector<const double*> view_;
+};
+
+/// Beginnings of blocks, far apart: parts that threads share, none within a block.
+std::vector<std::size_t> whole_passes(const ObservationMask& mask, std::size_t size) {
+  constexpr std::size_t least = 20'000;
+  std::vector<std::size_t> begins{0};
+  for (const std::size_t b : mask.fold_begin)
+    if (b - begins.back() >= least && size - b >= least / 2) begins.push_back(b);
+  begins.push_back(size);
+  return begins;
+}
+
+}  // namespace
+
+NormalEquations::NormalEquations(const LinearisationPoint& point, const ObservationMask& mask, std::span<const double> deviation_mm,
+                   std::vector<double> autoregression, int threads, bool blocks)
+    : point_(&point),
+      mask_(&rows),
+      deviation_(deviation_mm),
+      autoregression_(std::move(autoregression)),
+      threads_(threads),
+      part_begin_(blocks ? mask.fold_begin : whole_passes(rows, point.size())),
+      folds_(part_begin_.size() - 1) {
+  for (std::size_t i = 0; i < point.size(); ++i)
+    count_ += mask.used[i] && mask.run[i] >= autoregression_.size();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < point.size(); ++i)
+    sum += mask.used[i] ? deviation_[i] * deviation_[i] : 0.0;
+  floor2_ = std::max(least_floor_mm * least_floor_mm,
+                     second_order * second_order * sum / static_cast<double>(point.size()));
+  base_.resize(point.base.columns());
+  std::iota(base_.begin(), base_.end(), 1U);
+  pass({});
+}
+
+const std::vector<Eigen::MatrixXd>& NormalEquations::folds() const {
+  expects(part_begin_ == mask_->fold_begin, "equations with blocks");
+  return folds_;
+}
+
+std::vector<Columns> NormalEquations::append(std::span<const Hypothesis> list) {
+  std::vector<Columns> places;
+  auto next = static_cast<std::size_t>(total_.rows());
+  for (const Hypothesis& h : list) {
+    Columns own(h.columns());
+    std::iota(own.begin(), own.end(), next);
+    next += own.size();
+    places.push_back(std::move(own));
+  }
+  if (!list.empty()) pass(list);
+  return places;
+}
+
+void NormalEquations::shrink(std::size_t columns) {
+  auto now = static_cast<std::size_t>(total_.rows());
+  while (now > columns) {
+    now -= list_.back().columns();
+    list_.pop_back();
+  }
+  const auto size = static_cast<Eigen::Index>(now);
+  total_.conservativeResize(size, size);
+  for (Matrix& fold : folds_) fold.conservativeResize(size, size);
+}
+
+void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
+                        std::span<double* const> columns) const {
+  std::copy(deviation_.begin() + static_cast<long>(begin),
+            deviation_.begin() + static_cast<long>(end), columns[0]);
+  point_->fill_base(begin, end, columns.subspan(1, base_.size()));
+  std::size_t next = 1 + base_.size();
+  for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
+    const Hypothesis* constant = nullptr;  // the cell of degree 0 whose order the next ones share
+    std::vector<const double*> constant_columns;
+    for (const Hypothesis& h : some) {
+      const std::span<double* const> own = columns.subspan(next, h.columns());
+      next += own.size();
+      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::cell && !h.pattern.in_time;
+      if (cell && h.pattern.degree > 0 && constant != nullptr &&
+          constant->pattern.order == h.pattern.order &&
+          constant->pattern.spindle == h.pattern.spindle) {
+        raise_degree(h, *point_, begin, end, constant_columns, own);
+        continue;
+      }
+      fill(h, *point_, begin, end, own);
+      constant = cell && h.pattern.degree == 0 ? &h : nullptr;
+      if (constant != nullptr) constant_columns.assign(own.begin(), own.end());
+    }
+  }
+}
+
+void NormalEquations::pass(std::span<const Hypothesis> fresh) {
+  const LinearisationPoint& point = *point_;
+  const bool first = total_.rows() == 0;
+  const std::size_t fixed = 1 + base_.size();
+  const std::size_t before = first ? 0 : static_cast<std::size_t>(total_.rows());
+  const std::size_t after = first ? fixed : before + columns_of(fresh);
+  const std::size_t history = autoregression_.size();
+  const auto k1 = static_cast<Eigen::Index>(after);
+
+  const auto work = [&](std::size_t f) {
+    Chunk chunk(after, history);
+    double counted = 0.0;
+    std::vector<double> own(gram_size(after - before), 0.0), cross((after - before) * before, 0.0);
+    for (std::size_t begin = part_begin_[f]; begin < part_begin_[f + 1];) {
+      std::size_t end = std::min(begin + chunk_rows, part_begin_[f + 1]);
+      for (std::size_t i = begin + 1; i < end; ++i) {
+        if (point.rear[i] != point.rear[begin]) end = i;
+      }
+      // Where the side changes a pass begins: nothing before it is then read.
+      std::size_t start = begin - std::min(begin, history);
+      if (point.rear[start] != point.rear[begin]) start = begin;
+      fill_raw(fresh, start, end, chunk.raw());
+      chunk.whiten(autoregression_, begin - start, end - begin);
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!mask_->used[i] || mask_->run[i] < history) chunk.drop(i - begin);
+      }
+      for (std::size_t i = begin; i < end; ++i)
+        counted += mask_->used[i] && mask_->run[i] >= history;
+      const std::span<const double* const> columns = chunk.white(end - begin);
+      const WideBlock left{columns.subspan(before), end - begin};
+      add_wide_products(left, own);
+      if (before > 0) add_cross_products(left, {columns.first(before), end - begin}, cross);
+      begin = end;
+    }
+    if (first) own[0] += floor2_ * counted;
+    Matrix& gram = folds_[f];
+    gram.conservativeResize(k1, k1);
+    for (std::size_t i = before; i < after; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j <= i; ++j) {
+        const double value =
+            j < before ? cross[(i - before) * before + j] : own[gram_index(i - before, j - before)];
+        gram(row, static_cast<Eigen::Index>(j)) = gram(static_cast<Eigen::Index>(j), row) = value;
+      }
+    }
+  };
+
+  std::atomic<std::size_t> next{0};
+  const auto loop = [&] {
+    for (std::size_t f = next++; f < folds_.size(); f = next++) work(f);
+  };
+  std::vector<std::thread> helpers;
+  const bool small = point.size() * after < 200'000;  // a thread costs more than it saves
+  for (int t = 1; t < threads_ && !small; ++t) helpers.emplace_back(loop);
+  loop();
+  for (std::thread& helper : helpers) helper.join();
+
+  list_.insert(list_.end(), fresh.begin(), fresh.end());
+  total_ = Matrix::Zero(k1, k1);
+  for (const Matrix& fold : folds_) total_ += fold;
+}
+
+Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Solution out;
+  out.columns = columns;
+  out.coefficients = Eigen::VectorXd::Zero(n);
+  out.inverse = Matrix::Zero(n, n);
+  out.rss = gram(0, 0);
+  if (n == 0) return out;
+  Matrix normal(n, n);
+  Eigen::VectorXd right(n), scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
+    right(i) = gram(a, 0);
+    scale(i) = gram(a, a) > 0.0 ? 1.0 / std::sqrt(gram(a, a)) : 0.0;
+    for (Eigen::Index j = 0; j < n; ++j)
+      normal(i, j) = gram(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
+  }
+  const Matrix unit = scale.asDiagonal() * normal * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(unit);
+  Eigen::VectorXd inverse(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const bool there = eigen.eigenvalues()(i) > undetermined;
+    inverse(i) = there ? 1.0 / eigen.eigenvalues()(i) : 0.0;
+    out.rank += there;
+  }
+  out.inverse = scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
+                eigen.eigenvectors().transpose() * scale.asDiagonal();
+  out.coefficients = out.inverse * right;
+  out.rss = gram(0, 0) - right.dot(out.coefficients);
+  return out;
+}
+
+Projection project(const Eigen::MatrixXd& gram, const Columns& taken) {
+  const Solution solution = solve(gram, taken);
+  Projection out;
+  out.norm2 = gram.diagonal();
+  out.rank = solution.rank;
+  const auto n = static_cast<Eigen::Index>(taken.size());
+  Matrix cross(n, gram.cols());
+  for (Eigen::Index i = 0; i < n; ++i)
+    cross.row(i) = gram.row(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]));
+  out.gram = gram - cross.transpose() * (solution.inverse * cross);
+  out.rss = out.gram(0, 0);
+  return out;
+}
+
+Score score(const Projection& projection, const Columns& columns) {
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Matrix left(n, n);
+  Eigen::VectorXd right(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
+    const double scale_a = projection.norm2(a) > 0.0 ? 1.0 / std::sqrt(projection.norm2(a)) : 0.0;
+    right(i) = projection.gram(a, 0) * scale_a;
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto b = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]);
+      const double scale_b = projection.norm2(b) > 0.0 ? 1.0 / std::sqrt(projection.norm2(b)) : 0.0;
+      left(i, j) = projection.gram(a, b) * scale_a * scale_b;
+    }
+  }
+  Score out;
+  const auto take = [&](double value, double along) {
+    if (value <= 1e-9) return;
+    out.gain += along * along / value;
+    ++out.rank;
+  };
+  if (n == 1) {
+    take(left(0, 0), right(0));
+    return out;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(left);
+  const Eigen::VectorXd along = eigen.eigenvectors().transpose() * right;
+  for (Eigen::Index i = 0; i < n; ++i) take(eigen.eigenvalues()(i), along(i));
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "diagnose/geometry/hypothesis.hpp"
+#include "diagnose/geometry/observation_mask.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+using Columns = std::vector<std::size_t>;
+
+/// The Gram matrix of [readings | base | hypotheses], whitened, also block by block of readings:
+/// all that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
+/// the readings from the point's surface (mm); then the base; then what was appended.
+class NormalEquations {
+ public:
+  /// @param autoregression φ of ε_i = Σ φ_j ε_{i−j} + e_i: a row is y_i − Σ φ_j y_{i−j}; rows
+  ///        without that many unbroken predecessors do not count.
+  /// @param blocks whether the Gram matrices of the blocks are wanted, or their sum alone
+  NormalEquations(const LinearisationPoint& point, const ObservationMask& mask, std::span<const double> deviation_mm,
+           std::vector<double> autoregression, int threads, bool blocks = false);
+
+  /// One pass over the readings. @returns the columns of each hypothesis.
+  std::vector<Columns> append(std::span<const Hypothesis> list);
+
+  const Eigen::MatrixXd& total() const { return total_; }
+  /// Of the blocks that are held out. @throws ContractViolation where they were not asked for.
+  const std::vector<Eigen::MatrixXd>& folds() const;
+  std::size_t count() const { return count_; }  ///< rows that count
+  const Columns& base() const { return base_; }
+  const std::vector<double>& autoregression() const { return autoregression_; }
+  const LinearisationPoint& point() const { return *point_; }
+  const ObservationMask& mask() const { return *mask_; }
+  std::span<const double> deviation() const { return deviation_; }
+  int threads() const { return threads_; }
+  /// Drops all columns from `columns` on.
+  void shrink(std::size_t columns);
+
+ private:
+  void pass(std::span<const Hypothesis> fresh);
+  void fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
+                std::span<double* const> columns) const;
+
+  const LinearisationPoint* point_;
+  const ObservationMask* mask_;
+  std::span<const double> deviation_;
+  std::vector<double> autoregression_;
+  int threads_;
+  std::vector<Hypothesis> list_;
+  Columns base_;
+  std::size_t count_ = 0;
+  double floor2_ = 0.0;  ///< mm²: what rounding and the linearisation of the columns leave
+  Eigen::MatrixXd total_;
+  std::vector<std::size_t> part_begin_;  ///< of what one Gram matrix sums over
+  std::vector<Eigen::MatrixXd> folds_;
+};
+
+/// What is left of every column once some are taken out by least squares.
+struct Projection {
+  Eigen::MatrixXd gram;   ///< Schur complement over all columns
+  Eigen::VectorXd norm2;  ///< of the columns before
+  double rss = 0.0;       ///< of column 0
+  std::size_t rank = 0;   ///< of what was taken out
+};
+Projection project(const Eigen::MatrixXd& gram, const Columns& taken);
+
+/// What more columns take off the sum of squares.
+struct Score {
+  double gain = 0.0;     ///< decrease of the residual sum of squares
+  std::size_t rank = 0;  ///< columns that are not absorbed
+};
+Score score(const Projection& projection, const Columns& columns);
+
+/// Least squares over some columns: coefficients (0 where a combination is undetermined) and the
+/// inverse of their normal matrix.
+struct Solution {
+  Columns columns;
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd inverse;
+  double rss = 0.0;
+  std::size_t rank = 0;
+};
+Solution solve(const Eigen::MatrixXd& gram, const Columns& columns);
+
+}  // namespace trueaxis::diagnose_detail

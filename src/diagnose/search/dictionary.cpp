@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/dictionary.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "diagnose/search/causes.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr std::size_t slip_instants = 16;
+
+bool same_shape(const TermShape& a, const TermShape& b) {
+  return a.order == b.order && a.lever_from_mm == b.lever_from_mm &&
+         a.decay_length_mm == b.decay_length_mm && a.period_mm == b.period_mm &&
+         a.frequency_hz == b.frequency_hz && a.time_constant_s == b.time_constant_s &&
+         a.onset_s == b.onset_s && a.reference_x_mm == b.reference_x_mm && a.range_mm == b.range_mm;
+}
+
+/// The form of a hypothesis that holds all columns of its variants.
+Hypothesis carrier_of(const Hypothesis& h) {
+  Hypothesis out = h;
+  out.free.clear();
+  if (h.effect->id == "slide.z_straightness") out.shape.degree = 5;
+  return out;
+}
+
+Columns subset(const Columns& all, const Hypothesis& h) {
+  Columns out;
+  if (h.free.empty()) {
+    out.assign(all.begin(), all.begin() + static_cast<long>(h.columns()));
+  } else {
+    for (const std::size_t j : h.free) out.push_back(all[j]);
+  }
+  return out;
+}
+
+/// Columns of a cause that is made of basis: roundness constant or growing, barrel.
+std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesis>& basis,
+                                const std::vector<Columns>& places) {
+  const bool round = h.effect->id == "part.roundness";
+  if (!round && h.effect->id != "part.barrel") return std::nullopt;
+  const double order = round ? h.shape.order : 0.0;
+  const int first = round ? 0 : 2;
+  const std::size_t wanted = h.columns() == (round ? 2U : 1U) ? 1 : 2;
+  Columns out;
+  for (int degree = first; degree < first + static_cast<int>(wanted); ++degree) {
+    const auto found = std::ranges::find_if(basis, [&](const Hypothesis& c) {
+      return c.pattern.order == order && c.pattern.degree == degree && !c.pattern.spindle &&
+             !c.pattern.in_time;
+    });
+    if (found == basis.end()) return std::nullopt;
+    const Columns& own = places[static_cast<std::size_t>(found - basis.begin())];
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point, const ObservationMask& mask,
+                                            const Resolution& resolution,
+                                            std::span<const double> deviation_mm,
+                                            const std::vector<double>& phi, int threads) {
+  auto out =
+      std::make_unique<Dictionary>(Dictionary{phi,
+                                              NormalEquations(point, rows, deviation_mm, phi, threads),
+                                              preset_causes(point, resolution),
+                                              fourier_legendre_basis(point, resolution),
+                                              {},
+                                              {},
+                                              0});
+  for (Hypothesis& h : slips(point, slip_instants)) out->presets.push_back(std::move(h));
+  for (Hypothesis& h : out->basis) h.tests = static_cast<double>(out->basis.size());
+  std::vector<Hypothesis> list = out->basis;
+  std::vector<std::size_t> carrier(out->presets.size(), 0);
+  // Cells come first: their places are known before anything is appended.
+  std::vector<Columns> basis_places;
+  std::size_t next = 1 + out->equations.base().size();
+  for (const Hypothesis& h : out->basis) {
+    Columns own(h.columns());
+    for (std::size_t& c : own) c = next++;
+    basis_places.push_back(std::move(own));
+  }
+  std::vector<std::optional<Columns>> shared;
+  for (std::size_t i = 0; i < out->presets.size(); ++i) {
+    shared.push_back(in_basis(out->presets[i], out->basis, basis_places));
+    if (shared.back()) continue;
+    const Hypothesis wanted = carrier_of(out->presets[i]);
+    const auto found = std::find_if(
+        list.begin() + static_cast<long>(out->basis.size()), list.end(), [&](const Hypothesis& h) {
+          return h.effect == wanted.effect && same_shape(h.shape, wanted.shape);
+        });
+    carrier[i] = static_cast<std::size_t>(found - list.begin());
+    if (found == list.end()) list.push_back(wanted);
+  }
+  const std::vector<Columns> places = out->equations.append(list);
+  out->basis_places.assign(places.begin(), places.begin() + static_cast<long>(out->basis.size()));
+  for (std::size_t i = 0; i < out->presets.size(); ++i) {
+    out->preset_places.push_back(shared[i] ? *shared[i]
+                                           : subset(places[carrier[i]], out->presets[i]));
+  }
+  out->columns = static_cast<std::size_t>(out->equations.total().rows());
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/fourier_legendre_basis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr int most_harmonics = 12, most_degrees = 4;
+
+Hypothesis cell(int order, int degree, bool spindle = false, bool in_time = false) {
+  Hypothesis h;
+  h.pattern = {.order = static_cast<double>(order),
+               .spindle = spindle,
+               .degree = degree,
+               .in_time = in_time};
+  return h;
+}
+
+}  // namespace
+
+Resolution resolution_of(const LinearisationPoint& point, const ObservationMask& mask) {
+  Resolution out;
+  out.per_turn = 1e9;
+  for (const Pass& pass : point.passes) {
+    if (pass.c_sign == 0 || pass.readings_per_revolution <= 0.0) continue;
+    out.turns += static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
+    if (pass.end - pass.begin > 8)
+      out.per_turn = std::min(out.per_turn, pass.readings_per_revolution);
+  }
+  if (out.per_turn == 1e9) out.per_turn = static_cast<double>(point.size());
+  out.sections = mask.block == "a section";
+  if (out.sections)
+    out.per_turn = static_cast<double>(point.size()) / static_cast<double>(mask.folds());
+  out.whole = std::abs(out.per_turn - std::round(out.per_turn)) < 1e-4;
+  // Turns that end between two readings are never at the same angles again: aliases come apart.
+  const double most = out.whole || out.turns < 2.0 ? (out.per_turn - 1.0) / 2.0 : most_harmonics;
+  out.harmonics = static_cast<int>(std::min<double>(most_harmonics, std::floor(most)));
+  out.degrees = point.has_position ? most_degrees : 0;
+  if (out.sections) out.degrees = std::min<int>(most_degrees, static_cast<int>(mask.folds()) - 2);
+  std::size_t moving = 0;
+  for (const Pass& pass : point.passes) moving += pass.end - pass.begin > 8;
+  out.one_variable = moving <= 1 && !out.sections;
+  return out;
+}
+
+std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point, const Resolution& resolution) {
+  std::vector<Hypothesis> basis;
+  for (int n = 0; n <= resolution.harmonics; ++n) {
+    for (int l = 0; l <= resolution.degrees + (n == 0 && resolution.degrees > 3 ? 1 : 0); ++l)
+      basis.push_back(cell(n, l));
+  }
+  if (point.reindexed || point.two_sided) {
+    for (int n = 2; n <= resolution.harmonics; ++n) {
+      basis.push_back(cell(n, 0, true));
+      if (resolution.degrees > 0) basis.push_back(cell(n, 1, true));
+    }
+  }
+  if (point.has_time && !resolution.one_variable && !resolution.sections) {
+    for (int n = 0; n <= std::min(resolution.harmonics, 3); ++n) {
+      for (int l = 1; l <= 3; ++l) basis.push_back(cell(n, l, true, true));
+    }
+  }
+  return basis;
+}
+
+std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& point, const Resolution& resolution) {
+  std::vector<Hypothesis> basis;
+  const std::size_t most = point.size() / 3;
+  std::size_t columns = point.base.columns();
+  const auto add = [&](int n, int l) {
+    const std::size_t own = n == 0 ? 1 : 2;
+    if (columns + own > most) return;
+    columns += own;
+    basis.push_back(cell(n, l));
+  };
+  for (int n = 0; n <= resolution.harmonics; ++n) {
+    add(n, 0);
+    if (resolution.degrees > 0) add(n, 1);
+    if (n == 0 || n == 2) {
+      for (int l = 2; l <= resolution.degrees; ++l) add(n, l);
+    }
+  }
+  // Between passes: machine terms seen from the rear, drift, backlash, latency.
+  const auto add_machine = [&](int n, int l, bool in_time) {
+    const std::size_t own = n == 0 ? 1 : 2;
+    if (columns + own > most) return;
+    columns += own;
+    basis.push_back(cell(n, l, true, in_time));
+  };
+  if (point.two_sided || point.reindexed) {
+    for (int l = 0; l <= std::min(3, resolution.degrees); ++l) add_machine(0, l, false);
+    for (int n = 2; n <= resolution.harmonics; ++n) {
+      add_machine(n, 0, false);
+      if (resolution.degrees > 0) add_machine(n, 1, false);
+    }
+  }
+  if (point.has_time && !resolution.one_variable && !resolution.sections) {
+    for (int n = 0; n <= 1; ++n)
+      for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
+  }
+  const auto add_cause = [&](Hypothesis h) {
+    columns += h.columns();
+    if (columns <= most) basis.push_back(std::move(h));
+  };
+  if (!resolution.one_variable && !resolution.sections) {
+    if (resolution.degrees > 0) add_cause(of_effect("slide.backlash", {}));
+    if (point.has_time) add_cause(of_effect("probe.latency", {}));
+    TermShape sensor;
+    sensor.reference_x_mm = point.reference_x_mm;
+    sensor.range_mm = point.range_x_mm;
+    add_cause(of_effect("probe.nonlinearity", sensor));
+    add_cause(of_effect("probe.gain", sensor));
+    if (resolution.degrees > 0) add_cause(of_effect("probe.tilt", {}));
+  }
+  return basis;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/search/scan.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+std::vector<Hypothesis> scan_bumps(const NormalEquations& equations, std::span<const double> remainder_mm,
+                                   double& tests) {
+  const LinearisationPoint& point = equations.point();
+  const ObservationMask& mask = equations.rows();
+  const std::vector<double> g = weighted(equations, remainder_mm);
+  std::vector<Hypothesis> best;
+  tests = 0.0;
+  constexpr std::size_t least_readings = 8;
+  constexpr double not_one_reading = 0.7;
+  for (const std::size_t sectors : {12U, 24U, 48U}) {
+    for (const std::size_t lengths : {1U, 6U, 12U, 24U}) {
+      if (lengths > 1 && !point.has_position) continue;
+      if (mask.folds() < 12 && lengths > 6) continue;
+      std::vector<double> sum(sectors * lengths, 0.0);
+      std::vector<std::size_t> count(sectors * lengths, 0);
+      const auto place = [&](std::size_t i) {
+        double turn = point.theta[i] / two_pi;
+        turn -= std::floor(turn);
+        const double u =
+            std::clamp(0.5 + 0.5 * (point.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999);
+        const auto a =
+            std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
+        return a * lengths +
+               (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
+      };
+      std::vector<double> largest(sum.size(), 0.0);
+      for (std::size_t i = 0; i < point.size(); ++i) {
+        if (!mask.used[i]) continue;
+        const std::size_t at = place(i);
+        const double value = point.rear[i] ? -g[i] : g[i];
+        sum[at] += value;
+        ++count[at];
+        if (std::abs(value) > std::abs(largest[at])) largest[at] = value;
+      }
+      double top = 0.0;
+      std::size_t where = 0;
+      for (std::size_t b = 0; b < sum.size(); ++b) {
+        if (count[b] < least_readings) continue;
+        tests += 1.0;
+        const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
+        const double rest = sum[b] - largest[b];  // a form is not made by one reading
+        if (rest * rest / static_cast<double>(count[b] - 1) < not_one_reading * value) continue;
+        if (value > top) top = value, where = b;
+      }
+      if (!(top > 0.0)) continue;
+      Hypothesis h;
+      const double width = two_pi / static_cast<double>(sectors);
+      const double length = 2.0 * point.z_half_mm / static_cast<double>(lengths);
+      h.pattern.kind = Pattern::Kind::bump;
+      h.pattern.angle_rad = (static_cast<double>(where / lengths) + 0.5) * width;
+      h.pattern.width_rad = 0.5 * width;
+      h.pattern.position_mm =
+          point.z_mid_mm - point.z_half_mm + (static_cast<double>(where % lengths) + 0.5) * length;
+      h.pattern.length_mm = lengths > 1 ? 0.5 * length : 0.0;
+      best.push_back(h);
+    }
+  }
+  return best;
+}
+
+}  // namespace trueaxis::diagnose_detail

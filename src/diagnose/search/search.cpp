@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/explain/gain.hpp"
+#include "diagnose/regression/noise.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double catalogue_first = 6.0;  // 2 ln of the odds that a pattern is no new cause
+constexpr double correlation_moved = 0.02;
+
+Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
+  Columns out;
+  for (std::size_t t = begin; t < end; ++t)
+    out.insert(out.end(), places[t].begin(), places[t].end());
+  return out;
+}
+
+bool moved(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return true;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > correlation_moved) return true;
+  return false;
+}
+
+std::vector<Hypothesis> without(const std::vector<Hypothesis>& terms, std::size_t i) {
+  std::vector<Hypothesis> out(terms);
+  out.erase(out.begin() + static_cast<long>(i));
+  return out;
+}
+
+class StepwiseSearch {
+ public:
+  explicit StepwiseSearch(const Problem& problem)
+      : problem_(problem), basis_(small_fourier_legendre_basis(problem.point, problem.resolution)) {}
+
+  /// @param patterns whether a pattern may be taken while a cause still passes.
+  Model run(bool patterns, bool& pattern_was_better) {
+    Model model;
+    model.phi = noise({});
+    forward(model, patterns, pattern_was_better);
+    for (int round = 0; round < 3; ++round) {
+      bool changed = backward(model);
+      if (model.terms.size() > 1 || std::ranges::any_of(model.terms, splits))
+        changed |= swap(model, patterns);
+      if (!changed) break;
+      forward(model, patterns, pattern_was_better);
+    }
+    finish(model);
+    return model;
+  }
+
+ private:
+  std::vector<double> noise(const std::vector<Hypothesis>& terms) const {
+    std::vector<Hypothesis> all(basis_);
+    all.insert(all.end(), terms.begin(), terms.end());
+    return autoregression(problem_.point, problem_.mask, problem_.deviation_mm, all);
+  }
+
+  double family_p(const Family& family, const Candidate& c) const {
+    return family.p_value(std::exp(c.log_p));
+  }
+
+  void forward(Model& model, bool patterns, bool& pattern_was_better) {
+    while (model.terms.size() < problem_.most_terms) {
+      Proposal p = propose(problem_, model.phi, model.terms);
+      model.family = p.family;
+      const auto passes = [&](const Candidate& c) {
+        return c.rank > 0 && family_p(p.family, c) < problem_.false_alarm;
+      };
+      std::erase_if(p.causes, [&](const Candidate& c) { return !passes(c); });
+      std::erase_if(p.patterns, [&](const Candidate& c) { return !passes(c); });
+      if (p.causes.empty() && p.patterns.empty()) return;
+      const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
+      const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
+      if (!p.causes.empty() && pattern < cause) pattern_was_better = true;
+      const bool take_pattern = p.causes.empty() || (patterns && pattern < cause);
+      model.terms.push_back((take_pattern ? p.patterns : p.causes).front().hypothesis);
+      renew_noise(model);
+    }
+  }
+
+  // A strong slow effect looks like autocorrelation, until it is a term.
+  void renew_noise(Model& model) const {
+    if (model.phi.empty()) return;
+    std::vector<double> phi = noise(model.terms);
+    if (moved(phi, model.phi)) model.phi = std::move(phi);
+  }
+
+  struct Fitted {
+    NormalEquations equations;
+    std::vector<Columns> places;
+  };
+  Fitted fitted(const Model& model) const {
+    Fitted out{NormalEquations(problem_.point, problem_.mask, problem_.deviation_mm, model.phi,
+                        problem_.threads, true),
+               {}};
+    out.places = out.equations.append(model.terms);
+    return out;
+  }
+
+  double term_log_p(const Fitted& f, std::size_t i) const {
+    Columns taken = f.equations.base();
+    for (std::size_t t = 0; t < f.places.size(); ++t)
+      if (t != i) taken.insert(taken.end(), f.places[t].begin(), f.places[t].end());
+    const Projection projection = project(f.equations.total(), taken);
+    const Score s = score(projection, f.places[i]);
+    return log_p_value(s.gain, static_cast<double>(s.rank), projection.rss,
+                       static_cast<double>(f.equations.count() - projection.rank));
+  }
+
+  /// Pooled held-out sum of squares with a term minus without it.
+  bool predicts(const Fitted& f, std::size_t i, const Hypothesis& h) const {
+    if (h.effect ? h.effect->id == "part.slip" : h.pattern.kind == Pattern::Kind::bump) return true;
+    Columns with = f.equations.base(), rest = with;
+    for (std::size_t t = 0; t < f.places.size(); ++t) {
+      with.insert(with.end(), f.places[t].begin(), f.places[t].end());
+      if (t != i) rest.insert(rest.end(), f.places[t].begin(), f.places[t].end());
+    }
+    double change = 0.0;
+    for (const Eigen::MatrixXd& fold : f.equations.folds())
+      change += held_out(f.equations.total(), fold, with) - held_out(f.equations.total(), fold, rest);
+    return change < 0.0;
+  }
+
+  bool backward(Model& model) {
+    bool changed = false;
+    while (!model.terms.empty()) {
+      const Fitted f = fitted(model);
+      std::size_t worst = 0;
+      double worst_log_p = -1e300;
+      for (std::size_t i = 0; i < model.terms.size(); ++i) {
+        const double log_p = predicts(f, i, model.terms[i]) ? term_log_p(f, i) : 0.0;
+        if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
+      }
+      if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;
+      model.terms.erase(model.terms.begin() + static_cast<long>(worst));
+      renew_noise(model);
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// ν ln RSS and the penalties: what two models with the same noise are compared by.
+  double criterion(const Model& model) const {
+    const Fitted f = fitted(model);
+    Columns all = f.equations.base();
+    const Columns terms = flat(f.places, 0, f.places.size());
+    all.insert(all.end(), terms.begin(), terms.end());
+    const Solution s = solve(f.equations.total(), all);
+    double sum = static_cast<double>(f.equations.count() - f.equations.base().size()) *
+                 std::log(s.rss / f.equations.total()(0, 0));
+    auto at = static_cast<Eigen::Index>(f.equations.base().size());
+    for (const Hypothesis& h : model.terms) {
+      const auto own = static_cast<Eigen::Index>(h.columns());
+      sum += penalty(h, h.columns(), f.equations.count(), s.coefficients.segment(at, own)) +
+             (h.effect ? 0.0 : catalogue_first);
+      at += own;
+    }
+    return sum;
+  }
+
+  /// Every term against the best there is in its place, and pairs of one angular order against a
+  /// single hypothesis.
+  bool swap(Model& model, bool patterns) {
+    bool changed = false;
+    for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      Model other = model;
+      other.terms = without(model.terms, i);
+      changed |= replace(model, std::move(other), patterns);
+    }
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      if (splits(model.terms[i])) changed |= split(model, i);
+    for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
+      for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
+        if (angular_order(model.terms[i]) != angular_order(model.terms[j])) continue;
+        Model other = model;
+        other.terms = without(without(model.terms, j), i);
+        if (!replace(model, std::move(other), patterns)) continue;
+        changed = true;
+        break;
+      }
+    }
+    return changed;
+  }
+
+  /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so
+  /// too.
+  static bool splits(const Hypothesis& h) {
+    return h.effect && h.effect->id == "part.chuck_lobing" && h.columns() == 4;
+  }
+  bool split(Model& model, std::size_t term) {
+    Model other = model;
+    other.terms = without(model.terms, term);
+    for (int half = 0; half < 2; ++half) {
+      const Proposal p = propose(problem_, model.phi, other.terms);
+      const auto next = std::ranges::find_if(
+          p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
+      if (next == p.causes.end()) return false;
+      other.terms.push_back(next->hypothesis);
+    }
+    if (criterion(other) > criterion(model)) return false;
+    model.terms = std::move(other.terms);
+    return true;
+  }
+
+  bool replace(Model& model, Model reduced, bool patterns) {
+    const Proposal p = propose(problem_, model.phi, reduced.terms);
+    const Candidate* best = p.causes.empty() ? nullptr : &p.causes.front();
+    if (!p.patterns.empty() && (patterns || best == nullptr) &&
+        (best == nullptr || p.patterns.front().criterion + catalogue_first < best->criterion))
+      best = &p.patterns.front();
+    if (best == nullptr || best->rank == 0) return false;
+    reduced.terms.push_back(best->hypothesis);
+    if (criterion(reduced) > criterion(model) - 0.5) return false;
+    model.terms = std::move(reduced.terms);
+    return true;
+  }
+
+  static double angular_order(const Hypothesis& h) {
+    if (!h.effect) return h.pattern.kind == Pattern::Kind::cell ? h.pattern.order : -1.0;
+    if (is_line(h)) return -1.0;
+    const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
+    if (harmonic) return harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
+    return 0.0;
+  }
+
+  void finish(Model& model) {
+    model.criterion = criterion(model);
+    const Fitted f = fitted(model);
+    model.p_values.clear();
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      model.p_values.push_back(model.family.p_value(std::exp(term_log_p(f, i))));
+  }
+
+  const Problem& problem_;
+  std::vector<Hypothesis> basis_;
+};
+
+}  // namespace
+
+Model search(const Problem& problem) {
+  StepwiseSearch engine(problem);
+  bool pattern_was_better = false;
+  Model causes = engine.run(false, pattern_was_better);
+  if (!pattern_was_better) return causes;
+  Model mixed = engine.run(true, pattern_was_better);
+  if (moved(mixed.phi, causes.phi)) {
+    // Compared with the noise of the better described of the two.
+    return mixed.terms.size() <= causes.terms.size() ? mixed : causes;
+  }
+  return mixed.criterion < causes.criterion ? mixed : causes;
+}
+
+bool fast_line_left(const Problem& problem, const Model& model, std::size_t means) {
+  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, model.phi, problem.threads);
+  Columns all = equations.base();
+  for (const Columns& own : equations.append(model.terms))
+    all.insert(all.end(), own.begin(), own.end());
+  const Solution fitted = solve(equations.total(), all);
+  const std::vector<double> left =
+      remainder(problem.point, problem.deviation_mm, model.terms, fitted.coefficients);
+  const Scans scans = scan_lines(equations, problem.resolution, left, means);
+  Family family = model.family;
+  family.bandwidth += scans.bandwidth;
+  const auto freedom = static_cast<double>(equations.count() - fitted.rank);
+  return std::ranges::any_of(scans.causes, [&](const Peak& peak) {
+    return family.p_value(std::exp(log_p_value(peak.gain, 2.0, fitted.rss, freedom))) <
+           problem.false_alarm;
+  });
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/files/fit_json.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+
+#include "format/json.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "format/file.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+bool withdrawn(const FitParameter& parameter) {
+  return !parameter.estimate.determined() && !parameter.estimate.why_not.empty();
+}
+
+bool withdrawn(const FitResult& result, std::string_view name) {
+  return std::ranges::any_of(result.parameters, [&](const FitParameter& parameter) {
+    return parameter.name == name && withdrawn(parameter);
+  });
+}
+
+Json matrix(std::span<const double> values, std::size_t columns) {
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < values.size(); i += columns) {
+    Json row = Json::array();
+    for (std::size_t j = 0; j < columns; ++j) row.push_back(number(values[i + j]));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json estimates(const std::vector<FitParameter>& parameters) {
+  Json object = Json::object();
+  for (const FitParameter& p : parameters) object[p.name] = to_json(p.estimate);
+  return object;
+}
+
+/// Covariance of the parameters; null where one of the two was not determined.
+Json covariance_object(const FitResult& result) {
+  const std::size_t count = result.parameters.size();
+  std::vector<double> values = result.covariance;
+  Json order = Json::array();
+  for (std::size_t i = 0; i < count; ++i) {
+    order.push_back(result.parameters[i].name);
+    if (!withdrawn(result.parameters[i]) || values.empty()) continue;
+    for (std::size_t j = 0; j < count; ++j) values[i * count + j] = values[j * count + i] = none;
+  }
+  return {{"order", order}, {"matrix", matrix(values, std::max<std::size_t>(1, count))}};
+}
+
+Json budget(const FitResult& result) {
+  Json lines = Json::array();
+  for (const BudgetLine& line : result.budget) {
+    Json u = Json::object();
+    for (std::size_t i = 0; i < line.u.size(); ++i) {
+      u[result.parameters[i].name] = with_unit(withdrawn(result.parameters[i]) ? none : line.u[i],
+                                               result.parameters[i].estimate.unit.c_str());
+    }
+    lines.push_back({{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}});
+  }
+  return lines;
+}
+
+/// What was done before each set-up, and the part as it then stood.
+Json set_ups(const FitResult& result) {
+  Json list = Json::array();
+  for (const SetUpFit& one : result.set_ups) {
+    const SetUp& set_up = one.set_up;
+    list.push_back({{"number", set_up.number},
+                    {"side", one.side == Root::rear ? "rear" : "front"},
+                    {"reindex", with_unit(set_up.reindex_rad / rad_per_deg, "deg")},
+                    {"z_shift", with_unit(set_up.z_shift_mm, "mm")},
+                    {"x_jog", with_unit(set_up.x_jog_mm, "mm")},
+                    {"clamp_force_ratio", with_unit(set_up.clamp_force_ratio, "1")},
+                    {"parameters", estimates(one.parameters)}});
+  }
+  return list;
+}
+
+/// The axis and the shape as determined: NaN where the readings leave them open. (The axis of a
+/// cone that cannot be told from a cylinder is determined.)
+AxisEstimate determined_axis(const FitResult& result) {
+  AxisEstimate estimate = result.axis;
+  if (withdrawn(result, "l") || withdrawn(result, "m") || withdrawn(result, "x0") ||
+      withdrawn(result, "y0")) {
+    estimate.axis = {none, none, none, none, estimate.axis.z_ref_mm};
+    estimate.covariance.fill(none);
+  }
+  return estimate;
+}
+
+Json shape_object(const FitResult& result) {
+  const bool open = result.status == FitStatus::rank_deficient;
+  const bool taper_open = open && withdrawn(result, "half_angle");
+  const bool radius_open = open && (withdrawn(result, "radius") || withdrawn(result, "x0"));
+  return {{"radius", with_unit(radius_open ? none : result.shape.radius_mm, "mm")},
+          {"tan_half_angle", with_unit(taper_open ? none : result.shape.tan_half_angle, "1")}};
+}
+
+Json axis_object(const AxisEstimate& estimate) {
+  const Axis& axis = estimate.axis;
+  return {
+      {"x", with_unit(axis.x_mm, "mm")},
+      {"y", with_unit(axis.y_mm, "mm")},
+      {"slope_x", with_unit(axis.slope_x, "1")},
+      {"slope_y", with_unit(axis.slope_y, "1")},
+      {"z_ref", with_unit(axis.z_ref_mm, "mm")},
+      {"covariance",
+       {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance, 4)}}}};
+}
+
+}  // namespace
+
+Json fit_object(const FitResult& result) {
+  Json rejected = Json::array();
+  for (const Rejected& r : result.rejected) rejected.push_back({{"row", r.row}, {"why", r.why}});
+  Json json;
+  json["schema"] = "trueaxis.fit/1";
+  json["version"] = TRUEAXIS_VERSION;
+  json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
+  json["surface"] = result.surface;
+  json["feature"] = result.bore ? "bore" : "shaft";
+  json["criterion"] = result.criterion;
+  json["loss"] = to_string(result.loss);
+  json["status"] = to_string(result.status);
+  json["message"] = result.message;
+  json["not_determined"] = result.not_determined;
+  json["notes"] = result.notes;
+  json["parameters"] = estimates(result.parameters);
+  json["derived"] = estimates(result.derived);
+  json["covariance"] = covariance_object(result);
+  json["coverage_factor"] = result.coverage_factor;
+  json["budget"] = budget(result);
+  json["axis"] = axis_object(determined_axis(result));
+  json["shape"] = shape_object(result);
+  if (result.set_ups.size() > 1) json["set_ups"] = set_ups(result);
+  json["rms"] = with_unit(result.rms_mm, "mm");
+  json["noise"] = {{"sigma", with_unit(result.sigma_mm, "mm")},
+                   {"source", result.sigma_source},
+                   {"autocorrelation", number(result.autocorrelation)},
+                   {"u_factor", number(result.u_factor)}};
+  json["points"] = result.points;
+  json["range"] = {{"min", with_unit(result.position_min_mm, "mm")},
+                   {"max", with_unit(result.position_max_mm, "mm")}};
+  json["rejected"] = rejected;
+  json["iterations"] = result.iterations;
+  return json;
+}
+
+std::string fit_json(const FitResult& result) { return json_text(fit_object(result)); }
+
+FitResult read_fit_json(const std::string& path) {
+  const std::string text = read_file(path);
+  FitResult result;
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("schema") != "trueaxis.fit/1")
+      throw InputError(path, "is no trueaxis.fit/1: write one with 'trueaxis fit --json'");
+    if (json.at("status") != "converged") {
+      throw InputError(path, "its fit is not converged (" + json.at("status").get<std::string>() +
+                                 "): no correction from it");
+    }
+    result.status = FitStatus::converged;
+    result.surface = json.at("surface");
+    result.bore = json.at("feature") == "bore";
+    result.source = path;
+    result.input_hash = json.at("input").at("hash");
+    const Json& axis = json.at("axis");
+    const auto value = [](const Json& object, const char* key) {
+      return object.at(key).at("value").get<double>();
+    };
+    result.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
+                        value(axis, "slope_y"), value(axis, "z_ref")};
+    for (std::size_t i = 0; i < 16; ++i)
+      result.axis.covariance[i] = axis.at("covariance").at("matrix").at(i / 4).at(i % 4);
+    for (const std::size_t i : {0, 5, 10, 15}) {
+      if (result.axis.covariance[i] < 0.0)
+        throw InputError(path, "has a negative variance in its axis covariance");
+    }
+    result.shape = {result.axis.axis, value(json.at("shape"), "radius"),
+                    value(json.at("shape"), "tan_half_angle")};
+    result.position_min_mm = value(json.at("range"), "min");
+    result.position_max_mm = value(json.at("range"), "max");
+  } catch (const Json::exception& error) {
+    throw InputError(path, std::string("cannot be read as trueaxis.fit/1 (") + error.what() + ")");
+  }
+  return result;
+}
+
+}  // namespace trueaxis

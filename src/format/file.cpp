@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/file.hpp"
+
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <vector>
+
+#include "format/output_file.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+
+void write_files(std::span<const FileContent> files) {
+  std::vector<OutputFile> open;
+  for (const FileContent& file : files) {
+    open.emplace_back(file.path).write(file.content);
+    open.back().close();
+  }
+  for (OutputFile& file : open) file.commit();
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  const FileContent file{path, content};
+  write_files({&file, 1});
+}
+
+std::string read_file(const std::string& path) {
+  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path, "is a folder: name a file");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path, std::string("cannot be read (") + std::strerror(errno) + ")");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string content_hash(std::string_view bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, "xxh3-64:%016llx",
+                static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
+  return text;
+}
+
+}  // namespace trueaxis

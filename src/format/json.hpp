@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "trueaxis/estimate.hpp"
+#include "trueaxis/fit.hpp"
+
+namespace trueaxis {
+
+using Json = nlohmann::ordered_json;
+
+/// A number, or null where it is not finite (JSON has no NaN).
+inline Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// {"value", "unit"}
+inline Json with_unit(double value, const char* unit) {
+  return {{"value", number(value)}, {"unit", unit}};
+}
+
+/// {"value", "u", "unit"} and "why" where a number is missing.
+inline Json to_json(const Estimate& estimate) {
+  Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
+  if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
+  return json;
+}
+
+/// As written to a file. Bytes that are no UTF-8 (a file name may hold some) become U+FFFD.
+inline std::string json_text(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+/// The fit as an object, for results that hold one.
+Json fit_object(const FitResult& result);
+
+}  // namespace trueaxis

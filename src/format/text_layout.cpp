@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/text_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <vector>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::layout {
+
+std::string format(const char* pattern, ...) {
+  std::va_list arguments, again;
+  va_start(arguments, pattern);
+  va_copy(again, arguments);
+  const int size = std::vsnprintf(nullptr, 0, pattern, arguments);
+  va_end(arguments);
+  std::vector<char> text(static_cast<std::size_t>(size) + 1);
+  std::vsnprintf(text.data(), text.size(), pattern, again);
+  va_end(again);
+  return text.data();
+}
+
+std::size_t width(std::string_view text) {
+  std::size_t count = 0;
+  for (const char c : text) count += (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  return count;
+}
+
+std::string padded(std::string_view text, std::size_t to) {
+  std::string out(text);
+  const std::size_t has = width(text);
+  if (has < to) out.append(to - has, ' ');
+  return out;
+}
+
+std::string wrapped(const std::string& head, std::string_view text) {
+  const std::size_t indent = width(head);
+  std::string out = head;
+  std::size_t at = indent;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string_view word = text.substr(0, end);
+    const std::size_t needs = width(word);
+    if (at > indent && at + 1 + needs > columns) {
+      out += '\n' + std::string(indent, ' ');
+      at = indent;
+    }
+    if (at > indent) {
+      out += ' ';
+      ++at;
+    }
+    out += word;
+    at += needs;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out + '\n';
+}
+
+std::string um(double length_mm) {
+  if (!std::isfinite(length_mm)) return "not determined";
+  return format("%.3g µm", length_mm / mm_per_um);
+}
+
+std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
+                       const std::string& unit) {
+  const std::string behind = unit.empty() || unit == "1" ? "" : " " + unit;
+  if (!estimate.determined())
+    return estimate.why_not.empty() ? "not determined" : "not determined: " + estimate.why_not;
+  const double U = scale * coverage_factor * estimate.u;
+  if (!std::isfinite(U)) {
+    const std::string why = estimate.why_not.empty() ? "" : " (" + estimate.why_not + ")";
+    return format("%.4g", scale * estimate.value) + behind + why;
+  }
+  const int decimals = decimals_of(U, 0);
+  return format("%.*f ± %.*f", decimals, scale * estimate.value, decimals, U) + behind;
+}
+
+std::string probability(double value) {
+  if (!std::isfinite(value)) return "not determined";
+  if (value < 0.001) return "< 0.001";
+  if (value > 0.999 && value < 1.0) return "> 0.999";
+  return format("%.2g", value);
+}
+
+}  // namespace trueaxis::layout

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "trueaxis/estimate.hpp"
+
+namespace trueaxis::layout {
+
+inline constexpr std::size_t columns = 100;
+
+/// printf into a string.
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
+
+/// Characters that a terminal shows of UTF-8.
+std::size_t width(std::string_view text);
+
+/// `text` with blanks behind it up to `to` characters.
+std::string padded(std::string_view text, std::size_t to);
+
+/// `head` and then `text`, broken at blanks to `columns`; further lines start below the text.
+std::string wrapped(const std::string& head, std::string_view text);
+
+/// A length in µm: "99.2 µm"; "not determined".
+std::string um(double length_mm);
+
+/// "value ± U unit" of `scale` × the estimate, or its value and why there is no U.
+std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
+                       const std::string& unit);
+
+/// "0.98", "< 0.001", "> 0.999", "not determined".
+std::string probability(double value);
+
+}  // namespace trueaxis::layout

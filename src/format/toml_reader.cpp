@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "format/toml_state.hpp"
+#include "format/toml_units.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string number_text(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return text.str();
+}
+
+std::string range_text(const Range& range, double factor) {
+  const std::string low = number_text(range.low / factor);
+  const std::string high = number_text(range.high / factor);
+  if (std::isinf(range.high)) return (range.low_open ? "more than " : "at least ") + low;
+  if (std::isinf(range.low)) return (range.high_open ? "less than " : "at most ") + high;
+  return std::string("in ") + (range.low_open ? '(' : '[') + low + ", " + high +
+         (range.high_open ? ')' : ']');
+}
+
+bool contains(const Range& range, double value) {
+  return (range.low_open ? value > range.low : value >= range.low) &&
+         (range.high_open ? value < range.high : value <= range.high);
+}
+
+/// "an integer", "a string"
+std::string type_text(const toml::node& node) {
+  std::ostringstream text;
+  text << node.type();
+  const bool vowel = std::string_view("aeiou").find(text.str().front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + text.str();
+}
+
+}  // namespace
+
+TomlTable::State::Found TomlTable::State::find(std::string_view key) {
+  const std::vector<KeySpelling> spellings = key_spellings(key);
+  const bool first_time =
+      std::find(known.begin(), known.end(), spellings.front().key) == known.end();
+  if (first_time) known.push_back(spellings.front().key);
+  Found found{spellings.front().key, spellings.front().factor, nullptr};
+  for (const KeySpelling& spelling : spellings) {
+    if (first_time) accepted.push_back(spelling.key);
+    const toml::node* node = table ? table->get(spelling.key) : nullptr;
+    if (!node) continue;
+    if (found.node && first_time) {
+      note(node->source().begin, "`" + spelling.key + "` repeats `" + found.key +
+                                     "` in another unit: keep one of the two");
+    }
+    if (!found.node) found = {spelling.key, spelling.factor, node};
+  }
+  return found;
+}
+
+void TomlTable::State::note(const toml::source_position& at, std::string message) {
+  document->diagnostics.push_back({document->path, at.line, at.column, std::move(message)});
+}
+
+void TomlTable::State::wrong(const Found& found, const std::string& message) {
+  note(found.node->source().begin, "`" + found.key + "` " + message);
+}
+
+void TomlTable::State::missing(std::string_view key, std::string_view what) {
+  if (absent) return;
+  note(place, where() + " needs `" + key_spellings(key).front().key + "` (" + std::string(what) +
+                  "): add it");
+}
+
+std::optional<double> TomlTable::maybe_number(std::string_view key, const Range& range) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return std::nullopt;
+  if (!found.node->is_number()) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a number");
+    return std::nullopt;
+  }
+  const double value = found.node->value<double>().value_or(0.0) * found.factor;
+  if (!std::isfinite(value)) {
+    state_->wrong(found, "must be finite");
+    return std::nullopt;
+  }
+  if (!contains(range, value)) {
+    state_->wrong(found, "is " + number_text(value / found.factor) + " but must be " +
+                             range_text(range, found.factor));
+    return std::nullopt;
+  }
+  return value;
+}
+
+double TomlTable::number(std::string_view key, double fallback, const Range& range) {
+  return maybe_number(key, range).value_or(fallback);
+}
+
+double TomlTable::required_number(std::string_view key, const Range& range) {
+  if (!state_->find(key).node) state_->missing(key, "a number");
+  return maybe_number(key, range).value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, const Range& range) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return {};
+  const toml::array* array = found.node->as_array();
+  if (!array) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a list of numbers [a, b, …]");
+    return {};
+  }
+  std::vector<double> values;
+  for (const toml::node& node : *array) {
+    const State::Found item{found.key, found.factor, &node};
+    const double value = node.value<double>().value_or(0.0) * found.factor;
+    if (!node.is_number() || !std::isfinite(value)) {
+      state_->wrong(item, "holds " + type_text(node) + ": give finite numbers only");
+    } else if (!contains(range, value)) {
+      state_->wrong(item, "holds " + number_text(value / found.factor) + " but each must be " +
+                              range_text(range, found.factor));
+    } else {
+      values.push_back(value);
+    }
+  }
+  return values;
+}
+
+std::optional<long long> TomlTable::maybe_integer(std::string_view key, long long low,
+                                                  long long high) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return std::nullopt;
+  if (!found.node->is_integer()) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a whole number");
+    return std::nullopt;
+  }
+  const long long value = found.node->value<int64_t>().value_or(0);
+  if (value < low || value > high) {
+    state_->wrong(found, "is " + std::to_string(value) + " but must be in [" + std::to_string(low) +
+                             ", " + std::to_string(high) + "]");
+    return std::nullopt;
+  }
+  return value;
+}
+
+long long TomlTable::integer(std::string_view key, long long fallback, long long low,
+                             long long high) {
+  return maybe_integer(key, low, high).value_or(fallback);
+}
+
+bool TomlTable::flag(std::string_view key, bool fallback) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return fallback;
+  if (!found.node->is_boolean()) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give true or false");
+  }
+  return found.node->value<bool>().value_or(fallback);
+}
+
+std::optional<std::string> TomlTable::maybe_text(std::string_view key) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return std::nullopt;
+  if (!found.node->is_string()) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a text in quotes");
+    return std::nullopt;
+  }
+  return found.node->value<std::string>();
+}
+
+std::string TomlTable::text(std::string_view key, std::string fallback) {
+  return maybe_text(key).value_or(std::move(fallback));
+}
+
+std::string TomlTable::required_text(std::string_view key) {
+  if (!state_->find(key).node) state_->missing(key, "a text in quotes");
+  return maybe_text(key).value_or("");
+}
+
+std::vector<std::string> TomlTable::texts(std::string_view key) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return {};
+  const toml::array* array = found.node->as_array();
+  if (!array) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a list [\"a\", \"b\"]");
+    return {};
+  }
+  std::vector<std::string> values;
+  for (const toml::node& node : *array) {
+    if (node.is_string()) {
+      values.push_back(*node.value<std::string>());
+    } else {
+      state_->wrong({found.key, 1.0, &node}, "holds " + type_text(node) + ": texts only");
+    }
+  }
+  return values;
+}
+
+std::optional<std::string> TomlTable::maybe_path(std::string_view key) {
+  const std::optional<std::string> name = maybe_text(key);
+  if (!name || name->empty() || *name == "-") return name;
+  const std::filesystem::path folder = std::filesystem::path(state_->document->path).parent_path();
+  return (folder / *name).lexically_normal().string();
+}
+
+std::string TomlTable::required_path(std::string_view key) {
+  const State::Found found = state_->find(key);
+  if (!found.node) state_->missing(key, "a file name in quotes");
+  const std::optional<std::string> path = maybe_path(key);
+  if (path && path->empty()) state_->wrong(found, "is empty: name a file");
+  return path.value_or("");
+}
+
+std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
+                                                   std::span<const std::string_view> words,
+                                                   bool required) {
+  const std::vector<std::string> list(words.begin(), words.end());
+  const State::Found found = state_->find(key);
+  if (!found.node && required) state_->missing(key, "one of: " + join_words(list));
+  const std::optional<std::string> word = maybe_text(key);
+  if (!word) return std::nullopt;
+  const auto place = std::find(list.begin(), list.end(), *word);
+  if (place != list.end()) return static_cast<std::size_t>(place - list.begin());
+  state_->wrong(found, "is \"" + *word + "\" but must be one of: " + join_words(list));
+  return std::nullopt;
+}
+
+std::optional<TomlTable> TomlTable::maybe_table(std::string_view key) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return std::nullopt;
+  const toml::table* table = found.node->as_table();
+  const std::string full = state_->name.empty() ? found.key : state_->name + '.' + found.key;
+  if (!table) {
+    state_->wrong(found, "is " + type_text(*found.node) + ": give a table [" + full + "]");
+    return std::nullopt;
+  }
+  return TomlTable(state_->document->open(table, full, table->source().begin));
+}
+
+TomlTable TomlTable::required_table(std::string_view key) {
+  if (!state_->find(key).node) state_->missing(key, "a table");
+  if (const std::optional<TomlTable> table = maybe_table(key)) return *table;
+  TomlTable empty(state_->document->open(nullptr, std::string(key), state_->place));
+  empty.state_->absent = true;
+  return empty;
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) {
+  const State::Found found = state_->find(key);
+  if (!found.node) return {};
+  const std::string full = state_->name.empty() ? found.key : state_->name + '.' + found.key;
+  const toml::array* array = found.node->as_array();
+  std::vector<TomlTable> views;
+  if (array) {
+    for (const toml::node& node : *array) {
+      const toml::table* table = node.as_table();
+      if (!table) break;
+      views.push_back(TomlTable(state_->document->open(table, full, table->source().begin)));
+    }
+  }
+  if (!array || views.size() != array->size()) {
+    state_->wrong(found, "must be a list of tables: begin each with [[" + full + "]]");
+  }
+  return views;
+}
+
+std::vector<std::string> TomlTable::keys() const {
+  std::vector<std::string> keys;
+  if (state_->table == nullptr) return keys;
+  for (const auto& [key, node] : *state_->table) keys.emplace_back(key.str());
+  return keys;
+}
+
+bool TomlTable::has(std::string_view key) { return state_->find(key).node != nullptr; }
+
+void TomlTable::complain(std::string_view key, std::string message) {
+  const State::Found found = state_->find(key);
+  if (found.node) {
+    state_->wrong(found, message);
+  } else if (!state_->absent) {
+    state_->note(state_->place, "`" + found.key + "` in " + state_->where() + ' ' + message);
+  }
+}
+
+void TomlTable::ignore_rest() { state_->rest_ignored = true; }
+
+const std::string& TomlTable::name() const { return state_->name; }
+
+Diagnostic TomlTable::here(std::string message) const {
+  return {state_->document->path, state_->place.line, state_->place.column, std::move(message)};
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/toml_units.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+struct UnitKind {
+  std::string_view inside;
+  std::vector<KeySpelling> spellings;  // the usual one first
+};
+
+// Longer suffixes first: "_mm_per_s" also ends in "_s".
+const std::vector<UnitKind>& unit_kinds() {
+  static const std::vector<UnitKind> kinds{
+      {"_mm_per_rev",
+       {{"_mm_per_rev", 1.0}, {"_um_per_rev", mm_per_um}, {"_in_per_rev", mm_per_inch}}},
+      {"_mm_per_s",
+       {{"_mm_per_s", 1.0},
+        {"_um_per_s", mm_per_um},
+        {"_mm_per_min", 1.0 / 60.0},
+        {"_um_per_min", mm_per_um / 60.0}}},
+      {"_mm", {{"_mm", 1.0}, {"_um", mm_per_um}, {"_in", mm_per_inch}, {"_m", mm_per_m}}},
+      {"_rad",
+       {{"_deg", rad_per_deg},
+        {"_rad", 1.0},
+        {"_mrad", 1e-3},
+        {"_urad", 1e-6},
+        {"_arcsec", rad_per_deg / 3600.0}}},
+      {"_hz", {{"_hz", 1.0}, {"_khz", 1e3}}},
+      {"_s", {{"_s", 1.0}, {"_ms", 1e-3}, {"_us", 1e-6}, {"_min", 60.0}}},
+  };
+  return kinds;
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t swap = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({swap, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+}  // namespace
+
+std::vector<KeySpelling> key_spellings(std::string_view key) {
+  for (const UnitKind& kind : unit_kinds()) {
+    if (!key.ends_with(kind.inside)) continue;
+    const std::string stem(key.substr(0, key.size() - kind.inside.size()));
+    std::vector<KeySpelling> spellings = kind.spellings;
+    for (KeySpelling& spelling : spellings) spelling.key.insert(0, stem);
+    return spellings;
+  }
+  return {{std::string(key), 1.0}};
+}
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
+  std::string best;
+  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const bool lacks_unit = candidate.starts_with(std::string(word) + '_');
+    const std::size_t distance = lacks_unit ? 0 : edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// Schema trueaxis.run/1: verdict, fits, target axis with what is left at each reference, harmonics
+/// of the correction and the actuator's margin.
+std::string job_json(const JobResult& result);
+
+/// Name of the file beside the result that holds the diagnosis of a reference.
+std::string diagnosis_file(const JobResult& result, std::size_t reference);
+
+/// Name of the file with its readings: measured, simulated, what is left.
+std::string readings_file(const JobResult& result, std::size_t reference);
+
+}  // namespace trueaxis

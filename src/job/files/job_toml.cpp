@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/job_toml.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "format/toml_reader.hpp"
+#include "trueaxis/units.hpp"
+#include "surface/surface.hpp"
+
+namespace trueaxis {
+namespace {
+
+const Range most_coverage{0.0, 100.0, true, false};
+
+struct Sensor {
+  double ball_radius_mm = 0.0;
+  std::optional<double> noise_mm;
+  std::vector<Influence> influences;
+};
+
+Sensor read_sensor(TomlTable table) {
+  Sensor sensor;
+  sensor.ball_radius_mm = table.number("ball_radius_mm", 0.0, Range::non_negative());
+  sensor.noise_mm = table.maybe_number("noise_mm", Range::non_negative());
+  const std::pair<const char*, Influence::Kind> influences[] = {
+      {"u_height_mm", Influence::Kind::probe_height},
+      {"u_gain", Influence::Kind::probe_gain},
+      {"u_c_rad", Influence::Kind::c_offset},
+      {"u_z_mm", Influence::Kind::z_offset},
+      {"u_ball_radius_mm", Influence::Kind::ball_radius}};
+  for (const auto& [key, kind] : influences) {
+    if (const auto u = table.maybe_number(key, Range::non_negative()))
+      sensor.influences.push_back({kind, *u});
+  }
+  return sensor;
+}
+
+JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor) {
+  JobReference reference;
+  reference.stream = table.required_path("stream");
+  reference.fit.surface = table.required_text("surface");
+  reference.name = table.text("name", reference.fit.surface);
+  try {
+    if (!reference.fit.surface.empty()) surface_info(reference.fit.surface);
+  } catch (const InputError& error) {
+    table.complain("surface", "is an " + error.diagnostics().front().message);
+  }
+  reference.fit.loss = table.choice<Loss>(
+      "loss", {{"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}},
+      Loss::plain);
+  reference.fit.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
+  if (table.has("x_convention")) {
+    reference.read.diameter =
+        table.choice<bool>("x_convention", {{"radius", false}, {"diameter", true}}, false);
+  }
+  if (table.has("reading")) {
+    reference.read.indication = table.choice<Indication>(
+        "reading", {{"absolute", Indication::absolute}, {"relative", Indication::relative}},
+        Indication::absolute);
+  }
+  reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
+  reference.weight = table.number("weight", 1.0, Range::positive());
+  reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
+  reference.fit.ball_radius_mm = sensor.ball_radius_mm;
+  reference.fit.noise_mm = sensor.noise_mm;
+  reference.fit.influences = sensor.influences;
+  reference.fit.coverage_factor = coverage_factor;
+  return reference;
+}
+
+TargetSurface read_target(TomlTable table, Job& job) {
+  TargetSurface target;
+  target.kind = table.required_choice<TargetKind>(
+      "surface",
+      {{"cylinder", TargetKind::cylinder}, {"cone", TargetKind::cone}, {"face", TargetKind::face}});
+  target.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
+  if (target.kind == TargetKind::face) {
+    if (target.bore)
+      table.complain("feature", "is of no use: a face is neither shaft nor bore, remove it");
+    target.z_face_mm = table.required_number("z_mm");
+    target.radius_start_mm = table.required_number("radius_start_mm", Range::non_negative());
+    target.radius_end_mm = table.required_number("radius_end_mm", Range::non_negative());
+    target.z_start_mm = target.z_end_mm = target.z_face_mm;
+    if (target.radius_start_mm == target.radius_end_mm)
+      table.complain("radius_end_mm", "equals the start: give the cut a length");
+  } else {
+    target.z_start_mm = table.required_number("z_start_mm");
+    target.z_end_mm = table.required_number("z_end_mm");
+    target.radius_mm = table.required_number("radius_mm", Range::positive());
+    if (target.z_start_mm == target.z_end_mm)
+      table.complain("z_end_mm", "equals the start: give the cut a length");
+  }
+  if (target.kind == TargetKind::cone) {
+    const double half_angle =
+        table.required_number("half_angle_rad", Range::inside(0.0, 80.0 * rad_per_deg));
+    const double sign = table.required_choice<double>("opens", {{"+z", 1.0}, {"-z", -1.0}});
+    target.tan_half_angle = sign * std::tan(half_angle);
+  }
+  job.coaxiality_tolerance_mm = table.maybe_number(
+      target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
+      Range::positive());
+  return target;
+}
+
+ToolSetup read_tool(TomlTable table) {
+  ToolSetup tool;
+  tool.nose_radius_mm = table.number("nose_radius_mm", tool.nose_radius_mm, Range::non_negative());
+  tool.height_mm = table.number("tool_height_mm", tool.height_mm);
+  tool.angle_from_probe_rad = table.number("angle_from_probe_rad", tool.angle_from_probe_rad);
+  tool.speed_rpm = table.required_number("speed_rpm", Range::positive());
+  tool.sense = table.required_choice<int>("sense", {{"+c", 1}, {"-c", -1}});
+  tool.feed_mm_per_rev = table.required_number("feed_mm_per_rev", Range::positive());
+  tool.c_start_rad = table.number("c_start_rad", tool.c_start_rad);
+  tool.rows_per_revolution =
+      static_cast<int>(table.integer("rows_per_revolution", tool.rows_per_revolution, 8, 100000));
+  return tool;
+}
+
+constexpr double most_rows = 5e7;  // 2 GB of text; a bar of a metre at 0.02 mm/rev has 1.8e7
+
+/// The nose of a boring tool is smaller than the bore, at its narrow end too.
+void check_nose(TomlTable table, const TargetSurface& target, const ToolSetup& tool) {
+  if (!target.bore) return;
+  const double at_end =
+      target.radius_mm + target.tan_half_angle * (target.z_end_mm - target.z_start_mm);
+  if (tool.nose_radius_mm >= std::min(target.radius_mm, at_end)) {
+    table.complain("nose_radius_mm",
+                   "does not fit into the bore: give the radius of the tool's nose");
+  }
+}
+
+/// ObservationMask that the table of this cut would have must fit a file that a control can be given.
+void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
+  const double travel = target.kind == TargetKind::face
+                            ? target.radius_end_mm - target.radius_start_mm
+                            : target.z_end_mm - target.z_start_mm;
+  const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
+  if (rows <= most_rows || std::isnan(rows)) return;
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "makes a table of %.2g rows, more than %.2g: raise the feed, shorten the cut or "
+                "lower rows_per_revolution",
+                rows, most_rows);
+  cut.complain("feed_mm_per_rev", text);
+}
+
+Actuator read_actuator(TomlTable table) {
+  Actuator a;
+  a.stroke_mm = table.number("stroke_mm", a.stroke_mm, Range::positive());
+  a.natural_frequency_hz =
+      table.number("natural_frequency_hz", a.natural_frequency_hz, Range::positive());
+  a.damping = table.number("damping", a.damping, Range::positive());
+  a.delay_s = table.number("delay_s", a.delay_s, Range::between(0.0, 1.0));
+  a.slew_mm_per_s = table.number("slew_mm_per_s", a.slew_mm_per_s, Range::positive());
+  a.sampling_hz = table.number("sampling_hz", a.sampling_hz, Range::positive());
+  a.stroke_reserve = table.number("stroke_reserve", a.stroke_reserve, Range::between(0.0, 0.99));
+  a.following_limit_mm =
+      table.number("following_limit_mm", a.following_limit_mm, Range::positive());
+  a.precompensate = table.flag("precompensate", a.precompensate);
+  for (TomlTable point : table.tables("response")) {
+    ResponsePoint response;
+    response.frequency_hz = point.required_number("frequency_hz", Range::non_negative());
+    response.gain = point.required_number("gain", Range::positive());
+    response.phase_rad = point.required_number("phase_rad");
+    if (!a.measured.empty() && response.frequency_hz <= a.measured.back().frequency_hz) {
+      point.complain("frequency_hz", "frequencies must rise from point to point");
+    }
+    a.measured.push_back(response);
+  }
+  if (!a.measured.empty() && a.measured.back().frequency_hz == 0.0)
+    table.complain("response", "has one point at 0 Hz: add measured frequencies above it");
+  return a;
+}
+
+/// Only what repeats at the tool may be asked for.
+void read_include(TomlTable table, Job& job) {
+  job.include = table.texts("include");
+  for (const std::string& id : job.include) {
+    const auto known = repeating_effects();
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    std::string names;
+    for (const std::string_view name : known)
+      names += (names.empty() ? "" : ", ") + std::string(name);
+    table.complain("include", "holds '" + id +
+                                  "', which no correction may follow; those that repeat at the "
+                                  "tool are " +
+                                  names);
+  }
+}
+
+void read_cut(TomlTable root, Job& job, bool required) {
+  auto target =
+      required ? std::optional(root.required_table("target")) : root.maybe_table("target");
+  if (target) {
+    job.target = read_target(*target, job);
+    const TomlTable cut = root.required_table("cut");
+    job.tool = read_tool(cut);
+    check_rows(cut, *job.target, job.tool);
+    check_nose(cut, *job.target, job.tool);
+    if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
+    if (auto correction = root.maybe_table("correction")) read_include(*correction, job);
+  } else {
+    for (const char* key : {"cut", "actuator", "correction"}) {
+      if (auto table = root.maybe_table(key)) {
+        root.complain(key, "is of no use without a [target]: add it, or remove this table");
+        table->ignore_rest();
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Job read_job_toml(const std::string& path) {
+  TomlDocument document(path);
+  TomlTable root = document.root();
+  Job job;
+  job.path = path;
+  job.name = root.text("name", path);
+  const double coverage = root.number("coverage_factor", 2.0, most_coverage);
+  Sensor sensor;
+  if (auto table = root.maybe_table("sensor")) sensor = read_sensor(*table);
+  for (TomlTable table : root.tables("reference"))
+    job.references.push_back(read_reference(table, sensor, coverage));
+  if (!root.has("reference"))
+    root.complain("reference", "is missing: add a [[reference]] with stream and surface");
+  read_cut(root, job, false);
+  for (const JobReference& reference : job.references) {
+    if (job.target && reference.fit.surface == "section") {
+      root.complain("target", "reference '" + reference.name +
+                                  "' is one section, which shows no direction of an axis: probe it "
+                                  "along Z as a cylinder or cone");
+    }
+  }
+  document.finish();
+  return job;
+}
+
+Job read_target_toml(const std::string& path) {
+  TomlDocument document(path);
+  Job job;
+  job.path = path;
+  TomlTable root = document.root();
+  // A whole job will do: what it says beyond the cut is not asked for here.
+  for (const char* key : {"name", "coverage_factor", "sensor", "reference"}) root.has(key);
+  read_cut(root, job, true);
+  document.finish();
+  return job;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// Reads a job (TOML, keys with their unit as suffix; docs/files.md lists them).
+/// @throws InputError with every diagnostic: unknown keys, wrong types, values out of range.
+Job read_job_toml(const std::string& path);
+
+/// Target, tool and actuator alone ("--target" of `correct`): the same keys as in a job; the other
+/// tables of a job may be there and are not read.
+Job read_target_toml(const std::string& path);
+
+}  // namespace trueaxis

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/residuals_csv.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// A cell; "," where the value is not there.
+void append(std::string& text, const std::vector<double>& values, std::size_t i, int decimals,
+            double unit = 1.0) {
+  const double value = i < values.size() ? values[i] : std::nan("");
+  char cell[48] = ",";
+  if (std::isfinite(value)) std::snprintf(cell, sizeof cell, ",%.*f", decimals, value / unit);
+  text += cell;
+}
+
+void append_um(std::string& text, const std::vector<double>& values_mm, std::size_t i) {
+  append(text, values_mm, i, 4, mm_per_um);
+}
+
+}  // namespace
+
+std::string residuals_csv(const ProbeStream& stream, const FitResult& result) {
+  expects(result.residual_mm.size() == stream.size(), "the fit of this stream");
+  const bool face = stream.kind == StreamKind::face;
+  std::string text = face ? "row,C[deg],X[mm],Z_M[mm],residual[um],rejected\n"
+                          : "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n";
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const bool rejected = next < result.rejected.size() && result.rejected[next].row == i + 1;
+    if (rejected) ++next;
+    char row[160];
+    text.append(
+        row, static_cast<std::size_t>(std::snprintf(
+                 row, sizeof row, "%zu,%.6f,%.6f,%.7f,%.4f,%d\n", i + 1,
+                 stream.c_rad[i] / rad_per_deg, stream.has_position() ? stream.position_mm[i] : 0.0,
+                 stream.reading_mm[i], result.residual_mm[i] / mm_per_um, rejected ? 1 : 0)));
+  }
+  return text;
+}
+
+std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
+                          const SimulatedReadings* simulated) {
+  std::vector<bool> masked(stream.size(), false);
+  for (const Rejected& r : diagnosis.noise.masked) {
+    if (r.row >= 1 && r.row <= masked.size()) masked[r.row - 1] = true;
+  }
+  const std::vector<double>& before = diagnosis.residual_before_mm.empty()
+                                          ? diagnosis.baseline.residual_mm
+                                          : diagnosis.residual_before_mm;
+  std::string text =
+      "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked";
+  text += simulated ? ",simulated_before[mm],simulated_after[mm]\n" : "\n";
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    char row[120];
+    text.append(row,
+                static_cast<std::size_t>(std::snprintf(
+                    row, sizeof row, "%zu,%.6f,%.6f,%.7f", i + 1, stream.c_rad[i] / rad_per_deg,
+                    stream.has_position() ? stream.position_mm[i] : 0.0, stream.reading_mm[i])));
+    append_um(text, before, i);
+    append_um(text, diagnosis.effect_mm, i);
+    append_um(text, diagnosis.residual_after_mm, i);
+    text += masked[i] ? ",1" : ",0";
+    if (simulated) {
+      append(text, simulated->before_mm, i, 7);
+      append(text, simulated->after_mm, i, 7);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "measure/files/stream_csv_finish.hpp"
+#include "measure/files/stream_csv_header.hpp"
+#include "measure/files/stream_csv_metadata.hpp"
+#include "measure/files/stream_csv_rows.hpp"
+#include "measure/files/stream_csv_text.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
+constexpr std::size_t longest_line_bytes = std::size_t{1} << 20U;
+
+/// An open file, or standard input for "-".
+class ByteSource {
+ public:
+  explicit ByteSource(const std::string& path) : path_(path) {
+    if (path == "-") return;
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno);
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) return;
+    if (S_ISDIR(status.st_mode)) {
+      ::close(descriptor_);
+      throw InputError(path, "is a folder: name a file");
+    }
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
+  }
+  ~ByteSource() {
+    if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
+  }
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+
+  /// Up to `room` bytes; 0 at the end.
+  std::size_t read(char* to, std::size_t room) {
+    for (;;) {
+      const ssize_t got = ::read(descriptor_, to, room);
+      if (got >= 0) return static_cast<std::size_t>(got);
+      if (errno != EINTR) fail(errno);
+    }
+  }
+  std::size_t size() const { return size_; }  ///< 0 where it is not known
+
+ private:
+  [[noreturn]] void fail(int why) const {
+    throw InputError(path_, std::string("cannot be read (") + std::strerror(why) +
+                                "): name a file that can be read");
+  }
+  std::string path_;
+  int descriptor_ = STDIN_FILENO;
+  std::size_t size_ = 0;
+};
+
+/// Takes whole lines and turns them into metadata, header and rows.
+class LineReader {
+ public:
+  LineReader(ProbeStream& stream, CsvDiagnostics& diagnostics)
+      : stream_(stream), diagnostics_(diagnostics), metadata_(diagnostics) {}
+
+  /// Lines from `p` to `end`; the last byte is '\n'. False: what follows cannot be read.
+  bool block(const char* p, const char* end) {
+    while (p < end) {
+      ++line_number_;
+      const char* next = rows_ ? rows_->fast_row(p, end) : nullptr;
+      if (next == nullptr) {
+        const auto* stop =
+            static_cast<const char*>(std::memchr(p, '\n', static_cast<std::size_t>(end - p)));
+        if (!line({p, static_cast<std::size_t>(stop - p)})) return false;
+        next = stop + 1;
+      }
+      p = next;
+    }
+    return true;
+  }
+
+  /// Room for the rows of a file of `total_bytes`, judged by those in its first `bytes`.
+  void reserve_for(std::size_t total_bytes, std::size_t bytes) {
+    const std::size_t rows = stream_.reading_mm.size();
+    if (!rows_ || total_bytes <= bytes) return;
+    const double ratio = static_cast<double>(total_bytes) / static_cast<double>(bytes);
+    rows_->reserve(static_cast<std::size_t>(1.05 * ratio * static_cast<double>(rows)) + 1);
+  }
+
+  void too_long() {
+    diagnostics_.add(line_number_ + 1, 0,
+                     "the line is longer than 1 MiB: this is not a text table");
+  }
+
+  void finish(const StreamReadOptions& options) {
+    if (header_.line == 0 && !diagnostics_.any()) {
+      diagnostics_.add(0, 0,
+                       line_number_ == 0
+                           ? "is empty: write a header X_M,C,Z and rows"
+                           : "has no header and no rows: write a header X_M,C,Z and rows");
+    }
+    if (header_.line != 0 && !header_.columns.empty()) {
+      csv_finish(header_, metadata_, options, stream_, diagnostics_);
+    }
+    diagnostics_.throw_if_any();
+  }
+
+ private:
+  bool line(std::string_view text) {
+    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
+    if (line_number_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    if (line_number_ == 1 && (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))) {
+      diagnostics_.add(1, 1, "this is UTF-16 text: save it as UTF-8");
+      return false;
+    }
+    const std::string_view content = csv_without_comment(text);
+    if (csv_trimmed(content).empty()) {
+      if (content.size() < text.size()) metadata_.comment(text, line_number_);
+      return true;
+    }
+    if (rows_) {
+      rows_->any_row(content, line_number_);
+      return true;
+    }
+    header_ = csv_parse_header(content, line_number_, diagnostics_);
+    if (header_.columns.empty()) return false;
+    rows_.emplace(header_, stream_, diagnostics_);
+    return true;
+  }
+
+  ProbeStream& stream_;
+  CsvDiagnostics& diagnostics_;
+  CsvMetadataReader metadata_;
+  CsvHeader header_;
+  std::optional<CsvRows> rows_;
+  std::size_t line_number_ = 0;
+};
+
+struct HashStateDeleter {
+  void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+};
+
+/// XXH3 of the bytes as they come.
+class StreamingHash {
+ public:
+  StreamingHash() : state_(XXH3_createState()) { XXH3_64bits_reset(state_.get()); }
+  void add(const char* bytes, std::size_t count) { XXH3_64bits_update(state_.get(), bytes, count); }
+  std::string text() const {
+    char out[32];
+    std::snprintf(out, sizeof out, "xxh3-64:%016llx",
+                  static_cast<unsigned long long>(XXH3_64bits_digest(state_.get())));
+    return out;
+  }
+
+ private:
+  std::unique_ptr<XXH3_state_t, HashStateDeleter> state_;
+};
+
+/// Hands whole lines to `lines`; the text is never held beyond one chunk and one line.
+void read_lines(ByteSource& source, LineReader& lines, StreamingHash& hash) {
+  const auto room = std::make_unique_for_overwrite<char[]>(chunk_bytes + longest_line_bytes + 1);
+  char* buffer = room.get();
+  std::size_t kept = 0;  // start of a line whose end is not read yet
+  bool reserved = false;
+  while (const std::size_t got = source.read(buffer + kept, chunk_bytes)) {
+    hash.add(buffer + kept, got);
+    const std::size_t filled = kept + got;
+    const auto* last = static_cast<const char*>(::memrchr(buffer + kept, '\n', got));
+    const std::size_t whole = last == nullptr ? 0 : static_cast<std::size_t>(last + 1 - buffer);
+    if (!lines.block(buffer, buffer + whole)) return;
+    kept = filled - whole;
+    if (kept > longest_line_bytes) return lines.too_long();
+    std::memmove(buffer, buffer + whole, kept);
+    if (!reserved && whole > 0) {
+      lines.reserve_for(source.size(), whole);
+      reserved = true;
+    }
+  }
+  if (kept == 0) return;
+  buffer[kept] = '\n';
+  lines.block(buffer, buffer + kept + 1);
+}
+
+}  // namespace
+
+ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options) {
+  ByteSource source(path);
+  ProbeStream stream;
+  stream.source = path;
+  CsvDiagnostics diagnostics(path, options.max_diagnostics);
+  LineReader lines(stream, diagnostics);
+  StreamingHash hash;
+  read_lines(source, lines, hash);
+  lines.finish(options);
+  stream.input_hash = hash.text();
+  return stream;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_finish.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace trueaxis {
+namespace {
+
+void scale(std::vector<double>& column, double factor) {
+  if (factor == 1.0) return;
+  for (double& value : column) value *= factor;
+}
+
+/// Adds whole turns so that no step is longer than half a turn, whatever the sense of rotation.
+void unwrap(std::vector<double>& c, double turn) {
+  double turns = 0.0, previous = c.front();
+  for (double& value : c) {
+    const double step = value - previous;
+    if (std::abs(step) > 0.5 * turn) turns -= std::round(step / turn);
+    previous = value;
+    value += turns * turn;
+  }
+}
+
+/// Whether X (X_M, or X of a face) is a diameter. Unit, metadata and caller must agree.
+bool is_diameter(const CsvHeader& header, const CsvKnownMetadata& known,
+                 const StreamReadOptions& options, CsvDiagnostics& diagnostics) {
+  const CsvColumn* x =
+      header.find(header.kind == StreamKind::face ? CsvRole::position : CsvRole::reading);
+  const auto word = [](bool diameter) { return diameter ? "a diameter" : "a radius"; };
+  if (x == nullptr) return false;
+  if (x->diameter && known.diameter == false) {
+    diagnostics.add(header.line, x->character,
+                    x->name +
+                        " is marked both ways: its unit says a diameter, x_convention in line " +
+                        std::to_string(known.diameter_line) + " a radius: keep one");
+  }
+  const bool said = x->diameter || known.diameter.has_value();
+  const bool diameter = x->diameter || known.diameter.value_or(options.diameter.value_or(false));
+  if (said && options.diameter && *options.diameter != diameter) {
+    diagnostics.add(header.line, x->character,
+                    x->name + " is " + word(diameter) + " in the file and " +
+                        word(*options.diameter) + " for the caller: correct one");
+  }
+  return diameter;
+}
+
+/// The set-ups that have readings, as the metadata state them; a statement about another is wrong.
+void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeStream& stream,
+                  CsvDiagnostics& diagnostics) {
+  stream.setups.clear();
+  for (const auto& [number, set_up] : known.set_ups) stream.setups.push_back(set_up);
+  stream.setups = list_set_ups(stream);
+  for (const auto& [number, place] : known.set_up_places) {
+    if (std::ranges::find(stream.setups, number, &SetUp::number) != stream.setups.end()) continue;
+    const std::string name = "setup." + std::to_string(number);
+    diagnostics.add(place.line, place.column,
+                    header.find(CsvRole::setup) != nullptr
+                        ? name + " has no reading: number it as in the column setup, or remove it"
+                        : name +
+                              " has no reading, as there is no column setup: add the column, or "
+                              "remove it");
+  }
+}
+
+}  // namespace
+
+bool csv_is_wrapped(const std::vector<double>& c, double turn) {
+  if (c.empty()) return false;
+  const double slack = 1e-3 * turn;
+  const auto [low, high] = std::minmax_element(c.begin(), c.end());
+  const bool positive = *low >= -slack && *high <= turn + slack;
+  const bool centred = *low >= -0.5 * turn - slack && *high <= 0.5 * turn + slack;
+  if (!positive && !centred) return false;
+  return std::adjacent_find(c.begin(), c.end(), [&](double a, double b) {
+           return std::abs(b - a) > 0.5 * turn;
+         }) != c.end();
+}
+
+void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
+                const StreamReadOptions& options, ProbeStream& stream,
+                CsvDiagnostics& diagnostics) {
+  const CsvKnownMetadata& known = metadata.known;
+  const bool diameter = is_diameter(header, known, options, diagnostics);
+  if (diagnostics.any()) return;
+  const CsvColumn& angle = *header.find(CsvRole::angle);
+  if (stream.c_rad.empty()) {
+    diagnostics.add(header.line, 0, "no rows after the header: the stream is empty");
+    return;
+  }
+  const double turn = angle.unit.turn;
+  if (!angle.running && csv_is_wrapped(stream.c_rad, turn)) unwrap(stream.c_rad, turn);
+  const auto [low, high] = std::minmax_element(stream.c_rad.begin(), stream.c_rad.end());
+  if (*high - *low < 1e-3 * turn) {
+    diagnostics.add(
+        header.line, angle.character,
+        "C never moves: a stationary capture alone locates nothing, add readings around "
+        "the part");
+    return;
+  }
+  const double half = diameter ? 0.5 : 1.0;
+  const bool face = header.kind == StreamKind::face;
+  scale(stream.reading_mm, header.find(CsvRole::reading)->unit.factor * (face ? 1.0 : half));
+  scale(stream.c_rad, angle.unit.factor);
+  if (const CsvColumn* position = header.find(CsvRole::position)) {
+    scale(stream.position_mm, position->unit.factor * (face ? half : 1.0));
+  }
+  if (const CsvColumn* time = header.find(CsvRole::time)) scale(stream.time_s, time->unit.factor);
+  stream.kind = header.kind;
+  stream.indication = options.indication.value_or(known.indication.value_or(Indication::absolute));
+  stream.nominal_radius_mm =
+      options.nominal_radius_mm ? options.nominal_radius_mm : known.nominal_radius_mm;
+  stream.sensor_noise_mm = known.sensor_noise_mm;
+  stream.ball_radius_mm = known.ball_radius_mm;
+  stream.spindle_rpm = known.spindle_rpm;
+  stream.metadata = metadata.metadata;
+  take_set_ups(header, known, stream, diagnostics);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_header.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+namespace trueaxis {
+namespace {
+
+/// A name a header may use. Face and lateral streams share all but reading and position.
+struct KnownColumn {
+  const char* name;
+  CsvRole role;
+  CsvQuantity quantity;
+  const char* unit;
+};
+
+constexpr KnownColumn known_columns[] = {
+    {"X_M", CsvRole::reading, CsvQuantity::length, "mm"},
+    {"Z_M", CsvRole::reading, CsvQuantity::length, "mm"},
+    {"C", CsvRole::angle, CsvQuantity::angle, "deg"},
+    {"Z", CsvRole::position, CsvQuantity::length, "mm"},
+    {"X", CsvRole::position, CsvQuantity::length, "mm"},
+    {"t", CsvRole::time, CsvQuantity::time, "s"},
+    {"pass", CsvRole::pass, CsvQuantity::count, ""},
+    {"setup", CsvRole::setup, CsvQuantity::count, ""},
+};
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
+    return std::tolower(x) == std::tolower(y);
+  });
+}
+
+bool starts_like_number(std::string_view text) {
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0;
+}
+
+/// The first of , ; tab outside brackets, else blanks.
+char find_separator(std::string_view line) {
+  bool in_bracket = false;
+  for (const char c : line) {
+    if (c == '[') in_bracket = true;
+    if (c == ']') in_bracket = false;
+    if (!in_bracket && (c == ',' || c == ';' || c == '\t')) return c;
+  }
+  return ' ';
+}
+
+class HeaderParser {
+ public:
+  HeaderParser(std::string_view line, CsvHeader& header, CsvDiagnostics& diagnostics)
+      : line_(line), header_(header), diagnostics_(diagnostics) {}
+
+  void column(const CsvField& field) {
+    CsvColumn column;
+    const std::size_t bracket = field.text.find('[');
+    const std::string_view name = csv_trimmed(field.text.substr(0, bracket));
+    column.character = csv_character(line_, field.byte);
+    const auto known =
+        std::find_if(std::begin(known_columns), std::end(known_columns),
+                     [&](const KnownColumn& candidate) { return same_name(candidate.name, name); });
+    if (field.text.empty()) {
+      add(column, "a column has no name: name it or remove the separator");
+    } else if (known == std::end(known_columns)) {
+      add(column,
+          "unknown column " + csv_quoted(name) +
+              ": remove it or name it one of X_M, C, Z, t, pass, setup (a face: Z_M, C, X)");
+    } else {
+      column.role = known->role;
+      column.name = known->name;
+      column.unit = *csv_find_unit(known->quantity, known->unit);
+      if (twice(column)) {
+        column.role = CsvRole::unknown;
+      } else if (bracket != std::string_view::npos) {
+        unit(column, known->quantity, field.text.substr(bracket + 1));
+      }
+    }
+    header_.columns.push_back(std::move(column));
+  }
+
+ private:
+  void add(const CsvColumn& column, std::string message) {
+    diagnostics_.add(header_.line, column.character, std::move(message));
+  }
+
+  bool twice(const CsvColumn& column) {
+    const bool found =
+        std::any_of(header_.columns.begin(), header_.columns.end(), [&](const CsvColumn& other) {
+          return other.role != CsvRole::unknown && other.name == column.name;
+        });
+    if (found) add(column, "column " + column.name + " is named twice: keep one");
+    return found;
+  }
+
+  void unit(CsvColumn& column, CsvQuantity quantity, std::string_view text) {
+    if (text.empty() || text.back() != ']') {
+      return add(column, "the unit of " + column.name + " has no closing bracket: write " +
+                             column.name + "[unit]");
+    }
+    text = csv_trimmed(text.substr(0, text.size() - 1));
+    const std::string_view whole = text;
+    const auto drop_word = [&](std::string_view word) {
+      if (text.size() <= word.size() || !text.ends_with(word)) return false;
+      if (!csv_is_blank(text[text.size() - word.size() - 1])) return false;
+      text = csv_trimmed(text.substr(0, text.size() - word.size()));
+      return true;
+    };
+    if (column.name == "X_M" || column.name == "X") column.diameter = drop_word("dia");
+    if (column.role == CsvRole::angle) column.running = drop_word("running");
+    if (quantity == CsvQuantity::count) {
+      return add(column, column.name + " is a number without unit: write " + column.name);
+    }
+    if (const auto found = csv_find_unit(quantity, text)) {
+      column.unit = *found;
+    } else {
+      add(column, "unknown unit " + csv_quoted(whole) + " of " + column.name + ": use " +
+                      csv_known_units(quantity));
+    }
+  }
+
+  std::string_view line_;
+  CsvHeader& header_;
+  CsvDiagnostics& diagnostics_;
+};
+
+/// Columns that are missing, or that belong to the other kind of stream.
+void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
+  const auto named = [&](std::string_view name) {
+    return std::find_if(header.columns.begin(), header.columns.end(), [&](const CsvColumn& column) {
+      return column.role != CsvRole::unknown && column.name == name;
+    });
+  };
+  const auto none = header.columns.end();
+  const bool face = named("Z_M") != none && named("X_M") == none;
+  header.kind = face ? StreamKind::face : StreamKind::lateral;
+  const auto refuse = [&](std::vector<CsvColumn>::iterator column, const char* message) {
+    if (column == none) return;
+    diagnostics.add(header.line, column->character, message);
+    column->role = CsvRole::unknown;
+  };
+  if (face) {
+    refuse(named("Z"), "Z is the reading of a face (Z_M,C,X): remove column Z");
+    if (named("X") == none) diagnostics.add(header.line, 0, "no column X: a face is Z_M,C,X");
+  } else {
+    refuse(named("Z_M"), "X_M and Z_M in one stream: a face is Z_M,C,X, all else X_M,C,Z");
+    refuse(named("X"), "X is a column of a face (Z_M,C,X): name the position Z or remove it");
+    if (named("X_M") == none) {
+      diagnostics.add(header.line, 0, "no column X_M: name the columns X_M,C,Z (a face: Z_M,C,X)");
+    }
+  }
+  if (named("C") == none) {
+    diagnostics.add(header.line, 0, "no column C: name the spindle angle's column C");
+  }
+}
+
+}  // namespace
+
+const CsvColumn* CsvHeader::find(CsvRole role) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [&](const CsvColumn& column) { return column.role == role; });
+  return found == columns.end() ? nullptr : &*found;
+}
+
+CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
+                           CsvDiagnostics& diagnostics) {
+  CsvHeader header;
+  header.line = line_number;
+  header.separator = find_separator(csv_trimmed(line));
+  std::vector<CsvField> fields;
+  csv_split(line, header.separator, fields);
+  if (starts_like_number(fields.front().text)) {
+    diagnostics.add(line_number, csv_character(line, fields.front().byte),
+                    "the header is missing: name the columns in the first line, such as "
+                    "X_M[mm],C[deg],Z[mm]");
+    return header;
+  }
+  HeaderParser parser(line, header, diagnostics);
+  for (const CsvField& field : fields) parser.column(field);
+  check_kind(header, diagnostics);
+  return header;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "measure/files/stream_csv_text.hpp"
+#include "measure/files/stream_csv_unit.hpp"
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+enum class CsvRole { reading, angle, position, time, pass, setup, unknown };
+
+/// A column as its header names it.
+struct CsvColumn {
+  CsvRole role = CsvRole::unknown;
+  std::string name;           ///< as we write it: X_M, C, Z, t, pass, setup
+  std::size_t character = 0;  ///< where the header names it
+  CsvUnit unit{};
+  bool diameter = false;  ///< unit says `dia`
+  bool running = false;   ///< unit says `running`: C is not unwrapped
+};
+
+/// The line that names the columns. `separator` is ' ' for runs of blanks.
+struct CsvHeader {
+  std::size_t line = 0;  ///< 0: none yet
+  char separator = ',';
+  StreamKind kind = StreamKind::lateral;
+  std::vector<CsvColumn> columns;
+
+  /// The column of a role, or nullptr.
+  const CsvColumn* find(CsvRole role) const;
+};
+
+/// Reads the header line (comment stripped); what is wrong goes to `diagnostics`. A line of numbers
+/// is not a header: the result then has no columns.
+CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
+                           CsvDiagnostics& diagnostics);
+
+}  // namespace trueaxis

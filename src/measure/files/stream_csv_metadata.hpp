@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "measure/files/stream_csv_text.hpp"
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// The known keys among "# key: value", read; absent where the file does not say.
+struct CsvKnownMetadata {
+  std::optional<bool> diameter;  ///< x_convention
+  std::size_t diameter_line = 0;
+  std::optional<Indication> indication;  ///< reading
+  std::optional<double> nominal_radius_mm, sensor_noise_mm, spindle_rpm, ball_radius_mm;
+  std::map<int, SetUp> set_ups;  ///< by number
+  struct Place {
+    std::size_t line = 0, column = 0;
+  };
+  std::map<int, Place> set_up_places;  ///< where each is first spoken of
+};
+
+/// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'; other
+/// comments are passed over. All keys go to `metadata` (a key that comes again is joined by "; "),
+/// known ones, in any case of letters, are read as well.
+class CsvMetadataReader {
+ public:
+  explicit CsvMetadataReader(CsvDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
+
+  /// `line` starts with blanks and '#'.
+  void comment(std::string_view line, std::size_t line_number);
+
+  CsvKnownMetadata known;
+  std::map<std::string, std::string> metadata;
+
+ private:
+  void known_key(const std::string& key, std::string_view value, std::size_t line,
+                 std::size_t column);
+
+  CsvDiagnostics& diagnostics_;
+  std::map<std::string, std::size_t> known_lines_;
+};
+
+/// Whether `key` can be written as metadata and read again unchanged.
+bool csv_is_key(std::string_view key);
+
+}  // namespace trueaxis

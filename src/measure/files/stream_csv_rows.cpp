@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "measure/files/stream_csv_number.hpp"
+
+namespace trueaxis {
+namespace {
+
+// Numbers stay clear of the ends of the double range, so that no unit takes them out of it.
+constexpr double largest = 1e300;
+
+bool fits_int(double value) {
+  return value == std::floor(value) && std::abs(value) <= std::numeric_limits<int>::max();
+}
+
+/// "12,5" with the comma made a point, where that is a number; else empty.
+std::string with_point(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos) return {};
+  std::string point(text);
+  point[comma] = '.';
+  double value = 0.0;
+  std::errc error{};
+  const char* end = point.data() + point.size();
+  return csv_number(point.data(), end, value, error) == end ? point : std::string{};
+}
+
+std::string shortest(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics)
+    : header_(header),
+      diagnostics_(diagnostics),
+      row_(header.columns.size()),
+      time_at_(header.columns.size()),
+      last_time_(-std::numeric_limits<double>::infinity()),
+      all_known_(true) {
+  for (const CsvColumn& column : header.columns) {
+    Target target;
+    target.column = &column;
+    switch (column.role) {
+      case CsvRole::reading:
+        target.numbers = &stream.reading_mm;
+        break;
+      case CsvRole::angle:
+        target.numbers = &stream.c_rad;
+        break;
+      case CsvRole::position:
+        target.numbers = &stream.position_mm;
+        break;
+      case CsvRole::time:
+        target.numbers = &stream.time_s;
+        time_at_ = targets_.size();
+        break;
+      case CsvRole::pass:
+        target.whole = &stream.pass;
+        break;
+      case CsvRole::setup:
+        target.whole = &stream.setup;
+        break;
+      case CsvRole::unknown:
+        all_known_ = false;
+        break;
+    }
+    targets_.push_back(target);
+  }
+}
+
+void CsvRows::reserve(std::size_t rows) {
+  for (const Target& target : targets_) {
+    if (target.numbers != nullptr) target.numbers->reserve(rows);
+    if (target.whole != nullptr) target.whole->reserve(rows);
+  }
+}
+
+void CsvRows::append() {
+  for (std::size_t k = 0; k < targets_.size(); ++k) {
+    if (targets_[k].numbers != nullptr) targets_[k].numbers->push_back(row_[k]);
+    if (targets_[k].whole != nullptr) targets_[k].whole->push_back(static_cast<int>(row_[k]));
+  }
+}
+
+const char* CsvRows::fast_row(const char* p, const char* end) {
+  if (!all_known_) return nullptr;
+  const char separator = header_.separator;
+  const std::size_t count = targets_.size();
+  const auto skip_blanks = [&] {
+    while (*p == ' ' || (*p == '\t' && separator != '\t')) ++p;
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    skip_blanks();
+    std::errc error{};
+    const char* stop = csv_number(p, end, row_[k], error);
+    if (stop == p || error != std::errc{} || !(std::abs(row_[k]) < largest)) return nullptr;
+    if (targets_[k].whole != nullptr && !fits_int(row_[k])) return nullptr;
+    p = stop;
+    skip_blanks();
+    if (k + 1 == count) break;
+    if (separator == ' ') {
+      if (p == stop) return nullptr;
+    } else if (*p++ != separator) {
+      return nullptr;
+    }
+  }
+  if (*p == '\r') ++p;
+  if (*p != '\n') return nullptr;
+  if (time_at_ < count) {
+    if (row_[time_at_] < last_time_) return nullptr;
+    last_time_ = row_[time_at_];
+  }
+  append();
+  return p + 1;
+}
+
+bool CsvRows::field(const Target& target, std::string_view text, double& value,
+                    std::string& why) const {
+  const std::string& name = target.column->name;
+  if (text.empty()) {
+    why = name + " is empty: write a number or remove the row";
+    return false;
+  }
+  std::errc error{};
+  const char* end = text.data() + text.size();
+  const char* stop = csv_number(text.data(), end, value, error);
+  if (stop != end) {
+    const std::string point = with_point(text);
+    why = point.empty() ? name + ": " + csv_quoted(text) + " is not a number"
+                        : name + ": decimal comma in " + csv_quoted(text) + ": write " + point;
+  } else if (error == std::errc::result_out_of_range ||
+             (std::isfinite(value) && !(std::abs(value) < largest))) {
+    why = name + ": " + csv_quoted(text) + " is out of range: a reading is below 1e300";
+  } else if (!std::isfinite(value)) {
+    why = name + ": " + csv_quoted(text) + " is not finite: remove the row or measure it again";
+  } else if (target.whole != nullptr && !fits_int(value)) {
+    why = name + ": " + csv_quoted(text) + " is not a whole number: number them 1, 2, 3";
+  } else {
+    return true;
+  }
+  return false;
+}
+
+void CsvRows::any_row(std::string_view line, std::size_t line_number) {
+  csv_split(line, header_.separator, fields_);
+  const std::size_t count = targets_.size();
+  if (fields_.size() != count) {
+    const bool more = fields_.size() > count;
+    const std::size_t end = static_cast<std::size_t>(line.find_last_not_of(" \t") + 1);
+    diagnostics_.add(line_number, csv_character(line, more ? fields_[count].byte : end),
+                     "the row has " + std::to_string(fields_.size()) +
+                         " fields, the header names " + std::to_string(count) +
+                         (fields_.size() == 2 * count && header_.separator == ','
+                              ? ": write decimal points, no decimal commas"
+                              : ": write one field per column"));
+    return;
+  }
+  bool good = true;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (targets_[k].column->role == CsvRole::unknown) continue;
+    std::string why;
+    bool fine = field(targets_[k], fields_[k].text, row_[k], why);
+    if (fine && k == time_at_) {
+      if (row_[k] < last_time_) {
+        fine = false;
+        why = "t falls from " + shortest(last_time_) + " to " + shortest(row_[k]) +
+              ": sort the rows by time";
+      }
+      last_time_ = row_[k];
+    }
+    if (!fine) diagnostics_.add(line_number, csv_character(line, fields_[k].byte), std::move(why));
+    good = good && fine;
+  }
+  if (good && all_known_) append();
+}
+
+}  // namespace trueaxis

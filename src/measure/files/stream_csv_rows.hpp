@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "measure/files/stream_csv_header.hpp"
+#include "measure/files/stream_csv_text.hpp"
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// Appends rows to the columns of a stream, as the numbers stand in the file (units come later).
+class CsvRows {
+ public:
+  CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics);
+
+  /// Room for `rows` rows in every column.
+  void reserve(std::size_t rows);
+
+  /// Reads the row at `p` if nothing about it is unusual; returns the start of the next line, or
+  /// nullptr with nothing appended. There must be a '\n' before `end`.
+  const char* fast_row(const char* p, const char* end);
+
+  /// Reads a row whatever it looks like (no line end, no comment); what is wrong is a diagnostic.
+  void any_row(std::string_view line, std::size_t line_number);
+
+ private:
+  struct Target {
+    std::vector<double>* numbers = nullptr;
+    std::vector<int>* whole = nullptr;
+    const CsvColumn* column = nullptr;
+  };
+
+  bool field(const Target& target, std::string_view text, double& value, std::string& why) const;
+  void append();
+
+  const CsvHeader& header_;
+  CsvDiagnostics& diagnostics_;
+  std::vector<Target> targets_;
+  std::vector<double> row_;
+  std::vector<CsvField> fields_;
+  std::size_t time_at_;  ///< index of t, or the number of columns
+  double last_time_;
+  bool all_known_;
+};
+
+}  // namespace trueaxis

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <tuple>
+#include <utility>
+
+namespace trueaxis {
+namespace {
+
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Bytes of the UTF-8 character that starts `text`; 0 where none does.
+std::size_t utf8_length(std::string_view text) {
+  const auto lead = static_cast<unsigned char>(text.front());
+  const std::size_t length = lead < 0x80U                    ? 1
+                             : lead >= 0xC2U && lead < 0xE0U ? 2
+                             : lead >= 0xE0U && lead < 0xF0U ? 3
+                             : lead >= 0xF0U && lead < 0xF5U ? 4
+                                                             : 0;
+  if (length == 0 || length > text.size()) return 0;
+  return std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length),
+                     is_continuation)
+             ? length
+             : 0;
+}
+
+}  // namespace
+
+std::string_view csv_trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
+}
+
+void csv_split(std::string_view line, char separator, std::vector<CsvField>& fields) {
+  fields.clear();
+  const auto push = [&](std::size_t begin, std::size_t end) {
+    while (begin < end && csv_is_blank(line[begin])) ++begin;
+    fields.push_back({csv_trimmed(line.substr(begin, end - begin)), begin});
+  };
+  const std::string_view blanks = " \t";
+  bool in_bracket = false;
+  std::size_t begin = separator == ' ' ? std::min(line.find_first_not_of(blanks), line.size()) : 0;
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] == '[') in_bracket = true;
+    if (line[i] == ']') in_bracket = false;
+    if (in_bracket) continue;
+    if (separator != ' ') {
+      if (line[i] != separator) continue;
+      push(begin, i);
+      begin = i + 1;
+    } else if (csv_is_blank(line[i])) {
+      const std::size_t next = line.find_first_not_of(blanks, i);
+      if (next == std::string_view::npos) break;
+      if (line[next] != '[') {
+        push(begin, i);
+        begin = next;
+      }
+      i = next - 1;
+    }
+  }
+  if (separator != ' ' || begin < line.size()) push(begin, line.size());
+}
+
+std::string_view csv_without_comment(std::string_view line) {
+  for (std::size_t at = line.find('#'); at != std::string_view::npos; at = line.find('#', at + 1)) {
+    if (at == 0 || csv_is_blank(line[at - 1])) return line.substr(0, at);
+  }
+  return line;
+}
+
+std::size_t csv_character(std::string_view line, std::size_t byte) {
+  byte = std::min(byte, line.size());
+  const auto end = line.begin() + static_cast<std::ptrdiff_t>(byte);
+  return 1 + byte - static_cast<std::size_t>(std::count_if(line.begin(), end, is_continuation));
+}
+
+std::string csv_utf8(std::string_view text) {
+  bool valid = true;
+  for (std::size_t i = 0; valid && i < text.size();) {
+    const std::size_t length = utf8_length(text.substr(i));
+    valid = length != 0;
+    i += length;
+  }
+  if (valid) return std::string(text);
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80U) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xC0U | (byte >> 6U));
+      out += static_cast<char>(0x80U | (byte & 0x3FU));
+    }
+  }
+  return out;
+}
+
+std::string csv_quoted(std::string_view text) {
+  constexpr std::size_t longest = 40;
+  std::size_t cut = std::min(text.size(), longest);
+  while (cut < text.size() && cut > longest - 4 && is_continuation(text[cut])) --cut;
+  std::string out = "'";
+  for (const char c : csv_utf8(text.substr(0, cut))) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20U && byte != 0x7FU) {
+      out += c;
+    } else {
+      char escaped[8];
+      std::snprintf(escaped, sizeof escaped, "\\x%02x", static_cast<unsigned>(byte));
+      out += escaped;
+    }
+  }
+  return out + (cut < text.size() ? "…'" : "'");
+}
+
+void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string message) {
+  if (found_.size() < max_) {
+    found_.push_back({file_, line, column, std::move(message)});
+  } else {
+    ++more_;
+  }
+}
+
+void CsvDiagnostics::throw_if_any() {
+  if (!any()) return;
+  std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+    return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+  });
+  if (more_ != 0) found_.push_back({file_, 0, 0, "and " + std::to_string(more_) + " more"});
+  throw InputError(std::move(found_));
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+
+/// One field of a line: its text without outer blanks, and the byte of the line where it starts.
+struct CsvField {
+  std::string_view text;
+  std::size_t byte = 0;
+};
+
+inline bool csv_is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// `text` without blanks and carriage returns at both ends.
+std::string_view csv_trimmed(std::string_view text);
+
+/// Splits a line at `separator`; ' ' stands for runs of blanks. Blanks inside [brackets] and before
+/// a bracket do not separate, so that a header may say X_M [mm dia].
+void csv_split(std::string_view line, char separator, std::vector<CsvField>& fields);
+
+/// The line up to a comment: a '#' that is first or follows a blank ("#N/A" is a field, no
+/// comment).
+std::string_view csv_without_comment(std::string_view line);
+
+/// 1-based character of a byte of `line` (UTF-8: a multi-byte character counts once).
+std::size_t csv_character(std::string_view line, std::size_t byte);
+
+/// `text` as UTF-8: unchanged where it is that already, else taken as Latin-1.
+std::string csv_utf8(std::string_view text);
+
+/// 'text' for a message: in quotes, control characters escaped, long text cut.
+std::string csv_quoted(std::string_view text);
+
+/// Collects what is wrong with one file; at most `max` places in it are listed, the rest counted.
+class CsvDiagnostics {
+ public:
+  CsvDiagnostics(std::string file, std::size_t max) : file_(std::move(file)), max_(max) {}
+
+  void add(std::size_t line, std::size_t column, std::string message);
+  bool any() const { return !found_.empty() || more_ != 0; }
+  /// Throws InputError with everything found, in line order, if anything was.
+  void throw_if_any();
+
+ private:
+  std::string file_;
+  std::size_t max_, more_ = 0;
+  std::vector<Diagnostic> found_;
+};
+
+}  // namespace trueaxis

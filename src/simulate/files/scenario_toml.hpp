@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis {
+
+/// Reads a scenario of the virtual lathe. Keys carry their unit (`_mm` may be `_um`, `_in`, `_m`;
+/// `_deg` may be `_rad`, `_mrad`, `_urad`, `_arcsec`; `_s` may be `_ms`, `_us`, `_min`):
+///
+///     name = "…"   seed = 1
+///     [part]       kind = "cone" | "cylinder" | "face"   bore = false
+///                  x0_mm y0_mm l m   k_mm + half_angle_deg | radius_mm (+ radius_at_mm,
+///                  half_angle_deg with its sign)   d_mm   u_start_mm u_end_mm
+///     [probe]      ball_radius_mm relative_zero_mm nominal_radius_mm states_noise
+///     [noise]      sigma_mm uniform_mm rho student_dof incidence outlier_fraction outlier_size_mm
+///                  outliers_one_sided quantisation_mm   autoregression = [φ₁, φ₂ …] (not rho)
+///     [[pass]]     z_start_mm z_end_mm | z_mm (face: x_…)   feed_mm_per_rev speed_rpm
+///                  readings_per_revolution revolutions (dwell) duration_s rate_hz (stationary)
+///                  jitter pause_s c_start_deg setup
+///     [[setup]]    number reindex_deg z_shift_mm side = "front" | "rear" x_jog_mm
+///                  clamp_force_ratio x0_mm y0_mm l m
+///     [[effect]]   id = "part.roundness" and the parameters of that effect
+///     [cut]        table = "path.csv"  use = "command" | "wanted" | "none"
+///     [cut.target] kind = "cylinder" | "cone" | "face"  bore  z_start_mm z_end_mm radius_mm (at
+///                  z_start) half_angle_deg | z_face_mm x_start_mm x_end_mm
+///     [cut.tool]   nose_radius_mm height_mm angle_from_probe_deg speed_rpm sense feed_mm_per_rev
+///                  c_start_deg
+///     [cut.actuator] perfect natural_frequency_hz damping delay_s sampling_hz
+///
+/// @throws InputError with every diagnostic: file, line, column, what to do.
+virtual_lathe::Scenario read_scenario_toml(const std::string& path);
+
+/// The same from text; `path` names it in diagnostics and places relative file names.
+virtual_lathe::Scenario parse_scenario_toml(std::string_view content, const std::string& path);
+
+}  // namespace trueaxis

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/files/truth_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace virtual_lathe;
+using Json = nlohmann::ordered_json;
+
+Json quantity(double value, const char* unit) { return {{"value", value}, {"unit", unit}}; }
+Json length(double value_mm) { return quantity(value_mm, "mm"); }
+Json angle(double value_rad) { return quantity(value_rad / rad_per_deg, "deg"); }
+
+/// A parameter whose unit inside is the suffix of its name.
+void put(Json& to, const std::string& name, double value) {
+  struct Suffix {
+    std::string_view inside;
+    const char* unit;
+    double factor;
+  };
+  static constexpr Suffix suffixes[] = {
+      {"_mm_per_rev", "mm/rev", 1.0},     {"_mm_per_s", "mm/s", 1.0}, {"_mm", "mm", 1.0},
+      {"_rad", "deg", 1.0 / rad_per_deg}, {"_hz", "Hz", 1.0},         {"_s", "s", 1.0}};
+  for (const Suffix& suffix : suffixes) {
+    if (!name.ends_with(suffix.inside)) continue;
+    to[name.substr(0, name.size() - suffix.inside.size())] =
+        quantity(value * suffix.factor, suffix.unit);
+    return;
+  }
+  to[name] = quantity(value, "1");
+}
+
+Json part_json(const Part& part) {
+  static constexpr const char* kinds[] = {"cone", "cylinder", "plane"};
+  Json parameters;
+  if (part.kind != PartKind::face) {
+    parameters["x0"] = length(part.x0_mm);
+    parameters["y0"] = length(part.y0_mm);
+  }
+  parameters["l"] = quantity(part.l, "1");
+  parameters["m"] = quantity(part.m, "1");
+  if (part.kind == PartKind::face) parameters["d"] = length(part.d_mm);
+  if (part.kind == PartKind::cylinder) parameters["radius"] = length(part.radius_mm);
+  if (part.kind == PartKind::cone) {
+    const double tangent = std::tan(part.half_angle_rad);
+    parameters["k"] = length(part.apex_mm.value_or(part.radius_at_mm - part.radius_mm / tangent));
+    parameters["half_angle"] = angle(std::abs(part.half_angle_rad));
+  }
+  return {{"surface", kinds[static_cast<std::size_t>(part.kind)]},
+          {"bore", part.bore},
+          {"parameters", parameters}};
+}
+
+Json noise_json(const Noise& noise) {
+  return {{"sigma", length(noise.sigma_mm)},
+          {"uniform", length(noise.uniform_mm)},
+          {"rho", quantity(noise.rho, "1")},
+          {"autoregression", noise.autoregression},
+          {"student_dof", quantity(noise.student_dof, "1")},
+          {"incidence", quantity(noise.incidence, "1")},
+          {"outlier_fraction", quantity(noise.outlier_fraction, "1")},
+          {"outlier_size", length(noise.outlier_size_mm)},
+          {"outliers_one_sided", noise.outliers_one_sided},
+          {"quantisation", length(noise.quantisation_mm)}};
+}
+
+Json effects_json(const std::vector<Effect>& effects) {
+  Json list = Json::array();
+  for (const Effect& effect : effects) {
+    Json parameters = Json::object();
+    for (const EffectParameter& known : find_effect_kind(effect.id).parameters) {
+      put(parameters, std::string(known.name), parameter(effect, known.name));
+    }
+    list.push_back({{"effect", effect.id}, {"parameters", parameters}});
+  }
+  return list;
+}
+
+Json setups_json(const std::vector<Chucking>& setups) {
+  Json list = Json::array();
+  for (const Chucking& setup : setups) {
+    Json entry{{"number", setup.number},
+               {"reindex", angle(setup.reindex_rad)},
+               {"z_shift", length(setup.z_shift_mm)},
+               {"side", setup.rear ? "rear" : "front"},
+               {"x_jog", length(setup.x_jog_mm)},
+               {"clamp_force_ratio", quantity(setup.clamp_force_ratio, "1")}};
+    if (setup.x0_mm) entry["x0"] = length(*setup.x0_mm);
+    if (setup.y0_mm) entry["y0"] = length(*setup.y0_mm);
+    if (setup.l) entry["l"] = quantity(*setup.l, "1");
+    if (setup.m) entry["m"] = quantity(*setup.m, "1");
+    list.push_back(entry);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string truth_json(const Truth& truth) {
+  const Scenario& scenario = truth.scenario;
+  Json json{{"schema", "trueaxis.truth/1"}, {"name", scenario.name}};
+  json.update(part_json(scenario.part));
+  json["effects"] = effects_json(scenario.effects);
+  json["noise"] = noise_json(scenario.noise);
+  json["setups"] = setups_json(scenario.plan.setups);
+  json["probe"] = {{"ball_radius", length(scenario.probe.ball_radius_mm)}};
+  if (scenario.probe.relative_zero_mm) {
+    json["probe"]["relative_zero"] = length(*scenario.probe.relative_zero_mm);
+  }
+  json["seed"] = scenario.seed;
+  json["points"] = truth.clean_mm.size();
+  json["outlier_rows"] = truth.outlier_rows;
+  json["clipped_rows"] = truth.clipped_rows;
+  return json.dump(2) + '\n';
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/bound/bound.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "study/bound/estimated_parameters.hpp"
+#include "study/bound/whitening.hpp"
+#include "trueaxis/error.hpp"
+#include "simulate/clean_stream.hpp"
+#include "study/bound/quantities.hpp"
+
+namespace trueaxis::study {
+namespace {
+
+using namespace virtual_lathe;
+using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// d of(scenario) / d levers, one column each: (4 D(h/2) − D(h)) / 3 of central differences D.
+template <class Of>
+Eigen::MatrixXd derivatives(Estimable model, const Of& of) {
+  const std::vector<EstimatedParameter> all = model.levers();
+  Eigen::MatrixXd out;
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    std::vector<double> at;
+    for (const double* number : all[j].numbers) at.push_back(*number);
+    const auto moved = [&](double step) -> Eigen::VectorXd {
+      for (std::size_t i = 0; i < at.size(); ++i) *all[j].numbers[i] = at[i] + step;
+      return of(model.scenario());
+    };
+    const auto central = [&](double step) -> Eigen::VectorXd {
+      return (moved(step) - moved(-step)) / (2.0 * step);
+    };
+    const Eigen::VectorXd whole = central(all[j].step), half = central(0.5 * all[j].step);
+    (void)moved(0.0);
+    if (j == 0) out.resize(whole.size(), static_cast<Eigen::Index>(all.size()));
+    out.col(static_cast<Eigen::Index>(j)) = (4.0 * half - whole) / 3.0;
+  }
+  return out;
+}
+
+/// Whether every lever moves some reading by more than rounding does.
+bool all_move_readings(Estimable model, const Eigen::MatrixXd& jacobian) {
+  constexpr double picometre = 1e-9;
+  Eigen::Index column = 0;
+  return std::ranges::all_of(model.levers(), [&](const EstimatedParameter& lever) {
+    return jacobian.col(column++).cwiseAbs().maxCoeff() * lever.step > picometre;
+  });
+}
+
+Eigen::VectorXd vector_of(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+}
+
+/// One column more for every gauge zero: what is taken off all readings of a clamping.
+void append_gauge_zeros(const Estimable& model, Eigen::MatrixXd& jacobian) {
+  const std::vector<std::size_t>& zero_of = model.gauge_zero_of();
+  if (zero_of.empty()) return;
+  const Eigen::Index before = jacobian.cols();
+  const auto zeros = static_cast<Eigen::Index>(model.clampings());
+  jacobian.conservativeResize(Eigen::NoChange, before + zeros);
+  jacobian.rightCols(zeros).setZero();
+  for (std::size_t i = 0; i < zero_of.size(); ++i)
+    jacobian(static_cast<Eigen::Index>(i), before + static_cast<Eigen::Index>(zero_of[i])) = -1.0;
+}
+
+/// Whether the levers are known well enough for derivatives to say anything: to a tenth of the
+/// radius, as a fit demands of itself.
+bool is_determined(Estimable model, const Eigen::MatrixXd& covariance) {
+  constexpr double coverage_factor = 2.0, size_share = 0.1;
+  const Part& part = model.scenario().part;
+  if (part.kind == PartKind::face) return true;
+  Eigen::Index j = 0;
+  return std::ranges::all_of(model.levers(), [&](const EstimatedParameter& lever) {
+    const double scale_mm = lever.is_length ? 1.0 : part.radius_mm;
+    const double u_mm = std::sqrt(covariance(j, j)) * scale_mm;
+    return ++j, coverage_factor * u_mm < size_share * part.radius_mm;
+  });
+}
+
+/// Fisher information of one reading of Student's t over that of a Gaussian of its variance.
+double information_of(const Noise& noise) {
+  const double v = noise.student_dof;
+  return v > 2.0 && noise.uniform_mm == 0.0 ? v * (v + 1.0) / ((v - 2.0) * (v + 3.0)) : 1.0;
+}
+
+/// (JᵀJ)⁻¹ of whitened rows; empty where a direction is not determined to rounding.
+Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& jacobian) {
+  if (jacobian.rows() < jacobian.cols()) return {};
+  const Eigen::VectorXd scale = jacobian.colwise().norm().cwiseInverse();
+  if (!scale.allFinite()) return {};
+  const Eigen::MatrixXd scaled = jacobian * scale.asDiagonal();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
+  const Eigen::VectorXd values = svd.singularValues();
+  constexpr double singular = 1e-8;  // derivatives carry about 1e-10 of their size
+  if (!(values.minCoeff() > singular * values.maxCoeff())) return {};
+  const Eigen::MatrixXd root =
+      scale.asDiagonal() * svd.matrixV() * values.cwiseInverse().asDiagonal();
+  return root * root.transpose();
+}
+
+}  // namespace
+
+Bound bound_of(const Scenario& scenario, std::string_view surface) {
+  const std::vector<Quantity> all = quantities(surface);
+  const std::size_t count = all.size();
+  Bound bound;
+  bound.sd.assign(count, none);
+  bound.covariance.assign(count * count, none);
+  const auto without = [&](Bound::Missing why) {
+    bound.missing = why;
+    return bound;
+  };
+  if (scenario.part.kind == PartKind::cone && scenario.part.half_angle_rad == 0.0)
+    return without(Bound::Missing::no_cone);
+  const CleanStream clean = simulate_clean(scenario);
+  if (!has_noise(clean, scenario.noise)) return without(Bound::Missing::no_noise);
+  if (scenario.noise.uniform_mm > 0.0 || clean.sensor.quantisation_mm > 0.0)
+    bound.kind = Bound::Kind::gauss_markov;
+  const std::optional<Estimable> model = Estimable::of(scenario, clean.stream, surface);
+  if (!model) return without(Bound::Missing::axis_moves);
+  Eigen::MatrixXd jacobian;
+  try {
+    jacobian = derivatives(
+        *model, [](const Scenario& moved) { return vector_of(simulate_clean(moved).value_mm); });
+  } catch (const InputError&) {
+    return without(Bound::Missing::at_a_limit);
+  }
+  if (!all_move_readings(*model, jacobian)) return without(Bound::Missing::not_determined);
+  const Eigen::Index levers = jacobian.cols();
+  append_gauge_zeros(*model, jacobian);
+  if (!whiten(clean, scenario.noise, jacobian)) return without(Bound::Missing::not_stationary);
+  const Eigen::MatrixXd inverse = inverse_information(jacobian);
+  if (inverse.size() == 0 || !is_determined(*model, inverse))
+    return without(Bound::Missing::not_determined);
+  const Probed probed = probed_length(clean.stream);
+  const Eigen::MatrixXd of_quantities = derivatives(*model, [&](const Scenario& moved) {
+    return vector_of(true_values(moved, probed, surface));
+  });
+  ObservationMask covariance = of_quantities * inverse.topLeftCorner(levers, levers) *
+                    of_quantities.transpose() / information_of(scenario.noise);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool by_nominal = all[i].name.starts_with("radius") || all[i].name == "k";
+    if (!scenario.probe.relative_zero_mm || !by_nominal) continue;
+    covariance.row(static_cast<Eigen::Index>(i)).setConstant(none);
+    covariance.col(static_cast<Eigen::Index>(i)).setConstant(none);
+  }
+  std::copy_n(covariance.data(), count * count, bound.covariance.begin());
+  for (std::size_t i = 0; i < count; ++i) bound.sd[i] = std::sqrt(bound.covariance[i * count + i]);
+  return bound;
+}
+
+const char* to_string(Bound::Kind kind) {
+  return kind == Bound::Kind::cramer_rao ? "cramer_rao" : "gauss_markov";
+}
+
+const char* to_string(Bound::Missing missing) {
+  switch (missing) {
+    case Bound::Missing::nothing:
+      break;
+    case Bound::Missing::axis_moves:
+      return "the axis moves between set-ups of one clamping";
+    case Bound::Missing::not_determined:
+      return "the readings do not determine the parameters";
+    case Bound::Missing::no_noise:
+      return "no noise";
+    case Bound::Missing::not_stationary:
+      return "the noise is not stationary";
+    case Bound::Missing::at_a_limit:
+      return "a little more of a parameter could not be probed";
+    case Bound::Missing::no_cone:
+      return "a cone without an angle";
+  }
+  return "";
+}
+
+}  // namespace trueaxis::study

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueaxis/fit.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis::study {
+
+/// What is compared with the truth: the surface's parameters as they are reported (edge units) and,
+/// of a cone or cylinder, where its axis runs at both ends of the probed length (x_at_min_z …) and
+/// the radius in its middle (a cone's radius_mid).
+struct Quantity {
+  std::string name, unit;
+};
+std::vector<Quantity> quantities(std::string_view surface);
+
+/// Surface of the catalogue that a part is.
+const char* surface_of(virtual_lathe::PartKind kind);
+
+/// Lowest and highest position of the readings since the part was last moved.
+struct Probed {
+  double low_mm = 0.0, high_mm = 0.0;
+};
+Probed probed_length(const ProbeStream& stream);
+
+/// Of the part as it stands in the set-up of the highest number, in the order of quantities(); NaN
+/// where there is none (the apex of a cone of half angle 0). A section lies in the middle of
+/// `probed`.
+std::vector<double> true_values(const virtual_lathe::Scenario& scenario, const Probed& probed,
+                                std::string_view surface);
+
+/// The same of a fit, with standard uncertainties; NaN where the fit withholds a number.
+struct Estimated {
+  std::vector<double> value, u;
+};
+Estimated estimated(const FitResult& fit);
+
+}  // namespace trueaxis::study

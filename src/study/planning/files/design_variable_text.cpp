@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+#include <cmath>
+
+#include "format/toml_units.hpp"
+#include "trueaxis/error.hpp"
+#include "study/planning/files/planning_results.hpp"
+
+namespace trueaxis {
+namespace {
+
+double number_of(std::string_view text, std::string_view whole) {
+  double value = 0.0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+    throw InputError(std::string(whole), "\"" + std::string(text) + "\" is no number");
+  return value;
+}
+
+void check_range(double low, double high, std::string_view whole) {
+  const auto refuse = [&](const char* why) { throw InputError(std::string(whole), why); };
+  if (!std::isfinite(low) || !std::isfinite(high)) refuse("LOW and HIGH must be finite numbers");
+  if (!(low > 0.0)) refuse("LOW must be more than 0");
+  if (!(low <= high)) refuse("LOW is more than HIGH: exchange them");
+}
+
+}  // namespace
+
+study::DesignVariable parse_freedom(std::string_view text) {
+  const std::size_t equals = text.find('='), colon = text.find(':');
+  if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals)
+    throw InputError(std::string(text), "is not KEY=LOW:HIGH");
+  const std::string_view key = text.substr(0, equals);
+  std::string known;
+  for (const study::Choice choice : study::choices) {
+    for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
+      const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
+      if (key == whole || key == shorter) {
+        const double low = number_of(text.substr(equals + 1, colon - equals - 1), text),
+                     high = number_of(text.substr(colon + 1), text);
+        check_range(low, high, text);
+        return {choice, low * spelling.factor, high * spelling.factor};
+      }
+      if (spelling.key == key_spellings(study::path_of(choice)).front().key)
+        known += (known.empty() ? "" : ", ") + std::string(shorter);
+    }
+  }
+  throw InputError(std::string(text),
+                   "\"" + std::string(key) + "\" cannot be chosen; what can: " + known);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/json.hpp"
+#include "study/planning/files/planning_results.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace study;
+
+struct Named {
+  const char *name, *unit;
+};
+
+Named name_of(Choice choice) {
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return {"readings_per_revolution", "1"};
+    case Choice::sigma:
+      return {"sigma", "mm"};
+    case Choice::feed:
+      return {"feed_per_rev", "mm"};
+    case Choice::length:
+      break;
+  }
+  return {"length", "mm"};
+}
+
+Json plan_json(const PlannedMeasurement& plan) {
+  Json json;
+  for (const Choice choice : choices)
+    json[name_of(choice).name] = with_unit(plan.of(choice), name_of(choice).unit);
+  json["U"] = with_unit(plan.u_expanded_mm, "mm");
+  json["time"] = with_unit(plan.time_s, "s");
+  json["rate"] = with_unit(plan.rate_hz, "Hz");
+  json["readings"] = plan.readings;
+  return json;
+}
+
+Json confirmed_json(const Confirmation& confirmed) {
+  return {{"repeats", confirmed.repeats},
+          {"failures", confirmed.failures},
+          {"U",
+           {{"value", number(confirmed.u_expanded_mm)},
+            {"unit", "mm"},
+            {"interval_95",
+             {number(confirmed.interval_95_mm.low), number(confirmed.interval_95_mm.high)}}}},
+          {"U_stated", with_unit(confirmed.stated_mm, "mm")},
+          {"at_bound", confirmed.at_bound},
+          {"misses", confirmed.misses}};
+}
+
+}  // namespace
+
+std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer,
+                          const std::string& input_hash) {
+  Json json{{"schema", "trueaxis.plan/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"input_hash", input_hash},
+            {"status", !answer.reached    ? "not_reached"
+                       : answer.confirmed ? "reached"
+                                          : "not_confirmed"},
+            {"goal", with_unit(task.goal_mm, "mm")},
+            {"coverage_factor", task.coverage_factor},
+            {"seed", task.seed},
+            {"repeats", task.repeats}};
+  json["rate_limit"] = task.rate_hz ? with_unit(*task.rate_hz, "Hz") : Json(nullptr);
+  json["time_limit"] = task.time_s ? with_unit(*task.time_s, "s") : Json(nullptr);
+  Json free = Json::array();
+  for (const DesignVariable& one : task.free) {
+    const Named named = name_of(one.choice);
+    free.push_back({{"choice", named.name},
+                    {"low", with_unit(one.low, named.unit)},
+                    {"high", with_unit(one.high, named.unit)}});
+  }
+  json["free"] = std::move(free);
+  json["as_given"] = plan_json(answer.as_given);
+  json["nearest"] = plan_json(answer.nearest);
+  Json alone = Json::array(), table = Json::array(), recommended = Json::array();
+  for (const Alone& one : answer.alone) {
+    alone.push_back({{"choice", name_of(one.choice).name},
+                     {"reached", one.reached},
+                     {"plan", plan_json(one.plan)}});
+  }
+  for (const TableRow& row : answer.table)
+    table.push_back({{"reached", row.reached}, {"plan", plan_json(row.plan)}});
+  for (const Recommendation& one : answer.recommended) {
+    recommended.push_back({{"what", one.what},
+                           {"plan", plan_json(one.plan)},
+                           {"confirmed", confirmed_json(one.confirmed)}});
+  }
+  json["alone"] = std::move(alone);
+  json["solved_for"] = name_of(answer.solved_for).name;
+  json["table"] = std::move(table);
+  json["recommended"] = std::move(recommended);
+  json["remarks"] = answer.remarks;
+  return json_text(json);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+#include "study/planning/files/planning_results.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace study;
+using layout::format;
+using layout::padded;
+
+/// Three digits or four, and no exponent for what is large.
+std::string digits(int count, double value) {
+  return std::abs(value) < std::pow(10.0, count) ? format("%.*g", count, value)
+                                                 : format("%.0f", value);
+}
+
+std::string um(double length_mm) {
+  return std::isfinite(length_mm) ? digits(3, length_mm / mm_per_um) : "not determined";
+}
+
+std::string u_text(double length_mm) {
+  return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " µm" : "");
+}
+
+const char* words_of(Choice choice) {
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return "readings per revolution";
+    case Choice::sigma:
+      return "sigma of a reading";
+    case Choice::feed:
+      return "feed";
+    case Choice::length:
+      break;
+  }
+  return "length";
+}
+
+std::string value_text(const PlannedMeasurement& plan, Choice choice) {
+  const double value = plan.of(choice);
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return digits(4, value);
+    case Choice::sigma:
+      return digits(3, value / mm_per_um) + " µm";
+    case Choice::feed:
+      return digits(3, value) + " mm/rev";
+    case Choice::length:
+      break;
+  }
+  return digits(3, value) + " mm";
+}
+
+const char* const head =
+    "length    feed         per rev  sigma     readings  time      readings/s  U [µm]\n";
+
+std::string row_text(const PlannedMeasurement& plan) {
+  std::string text = padded(value_text(plan, Choice::length), 10);
+  text += padded(value_text(plan, Choice::feed), 13);
+  text += padded(value_text(plan, Choice::readings_per_revolution), 9);
+  text += padded(value_text(plan, Choice::sigma), 10);
+  text += padded(format("%zu", plan.readings), 10);
+  text += padded(digits(4, plan.time_s) + " s", 10);
+  return text + padded(digits(4, plan.rate_hz), 12) + um(plan.u_expanded_mm);
+}
+
+std::string beyond_text(const PlanningTask& task, const PlannedMeasurement& plan) {
+  constexpr double rounding = 1.0 + 1e-9;
+  if (task.time_s && plan.time_s > *task.time_s * rounding) return "  takes too long";
+  if (task.rate_hz && plan.rate_hz > *task.rate_hz * rounding) return "  too fast for the probe";
+  return "";
+}
+
+std::string alone_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  std::string text = "\nOne thing changed, the others as they are\n";
+  for (const Alone& one : answer.alone) {
+    text += "  " + padded(words_of(one.choice), 26);
+    text += one.reached ? value_text(one.plan, one.choice)
+                        : "not in its range: at " + value_text(one.plan, one.choice) + ' ' +
+                              u_text(one.plan.u_expanded_mm);
+    if (one.reached) text += " (" + digits(4, one.plan.time_s) + " s)";
+    text += beyond_text(task, one.plan) + '\n';
+  }
+  return text;
+}
+
+std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
+  if (confirmed.repeats == 0) return "    simulated: no fit ended\n";
+  std::string text =
+      format("    simulated %zu times: U %s µm (95 %%: %s to %s), the fits state %s µm; ",
+             confirmed.repeats, um(confirmed.u_expanded_mm).c_str(),
+             um(confirmed.interval_95_mm.low).c_str(), um(confirmed.interval_95_mm.high).c_str(),
+             um(confirmed.stated_mm).c_str());
+  text += confirmed.misses ? "misses the goal: the fit is not at the bound"
+          : confirmed.interval_95_mm.high <= goal_mm ? "within the goal"
+          : confirmed.interval_95_mm.low > goal_mm   ? "above the goal"
+                                                     : "at the goal";
+  const bool above = confirmed.interval_95_mm.low > goal_mm;
+  if (confirmed.at_bound)
+    text += above ? ", yet the bound is still within chance" : ", as the bound says";
+  if (confirmed.failures > 0) text += format(", %zu failed", confirmed.failures);
+  return text + '\n';
+}
+
+std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  const PlannedMeasurement& plan = answer.nearest;
+  const std::string beyond = beyond_text(task, plan);
+  std::string text = "\nNot reached: ";
+  if (!beyond.empty()) {
+    text += "no plan of the ranges is within the time and the rate; the nearest";
+  } else if (task.free.empty()) {
+    text += "as it is, " + u_text(plan.u_expanded_mm);
+  } else {
+    text += std::string("with the best that the ranges") + (task.time_s ? " and the time" : "") +
+            " allow, " + u_text(plan.u_expanded_mm);
+  }
+  if (beyond.empty() && std::isfinite(plan.u_expanded_mm))
+    text += ", " + digits(3, plan.u_expanded_mm / task.goal_mm) + " times the goal";
+  if (task.free.empty()) text += "; what may be chosen is told with --free";
+  return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
+}
+
+/// With the goal at which the least wasteful of the simulated fits would do.
+std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  double efficiency = 0.0;
+  for (const Recommendation& one : answer.recommended) {
+    if (one.confirmed.repeats > 0)
+      efficiency = std::max(efficiency, one.plan.u_expanded_mm / one.confirmed.u_expanded_mm);
+  }
+  std::string text = "\nNot confirmed: the bound meets the goal, the simulated fits do not";
+  if (efficiency > 0.0)
+    text += "; ask for a bound of " + um(task.goal_mm * efficiency) + " µm (--goal-um)";
+  return text + '\n';
+}
+
+}  // namespace
+
+std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
+  std::string text =
+      format("U(axis) ≤ %s µm, k = %g\n\nThe plan as it is\n  %s  %s\n", um(task.goal_mm).c_str(),
+             task.coverage_factor, head, row_text(answer.as_given).c_str());
+  if (!answer.alone.empty()) text += alone_text(task, answer);
+  if (!answer.table.empty()) {
+    text += format("\nOver the ranges, %s as needed\n  %s", words_of(answer.solved_for), head);
+    for (const TableRow& row : answer.table)
+      text += "  " + row_text(row.plan) + (row.reached ? "" : "  misses the goal") +
+              beyond_text(task, row.plan) + '\n';
+  }
+  if (!answer.recommended.empty()) {
+    text += format("\nRecommended, and confirmed by simulation (seed %llu)\n  %s",
+                   static_cast<unsigned long long>(task.seed), head);
+    for (const Recommendation& one : answer.recommended) {
+      text += "  " + row_text(one.plan) + "  " + one.what + '\n';
+      text += confirmed_text(one.confirmed, task.goal_mm);
+    }
+  }
+  for (const std::string& remark : answer.remarks) text += "\nNote: " + remark + '\n';
+  if (answer.reached && !answer.confirmed) text += not_confirmed_text(task, answer);
+  return answer.reached ? text : text + not_reached_text(task, answer);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/planning/planning.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <utility>
+
+#include "study/bound/estimated_parameters.hpp"
+#include "study/planning/planning_search.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+#include "simulate/clean_stream.hpp"
+#include "study/bound/quantities.hpp"
+#include "study/sweep/scenario_parameters.hpp"
+
+namespace trueaxis::study {
+
+using namespace planning_detail;
+
+namespace {
+
+using virtual_lathe::Scenario;
+
+constexpr int lengths_tried = 9, lengths_between = 7;
+
+void check(const PlanningTask& task) {
+  const auto refuse = [](const char* why) { throw InputError("plan", why); };
+  const virtual_lathe::Noise& noise = task.base.noise;
+  if (!(task.goal_mm > 0.0) || !(task.coverage_factor > 0.0))
+    refuse("the goal and k must be more than 0");
+  if (!std::isfinite(task.goal_mm) || !std::isfinite(task.coverage_factor))
+    refuse("the goal and k must be finite");
+  for (const DesignVariable& free : task.free) {
+    if (!(free.low > 0.0) || !(free.low <= free.high) || !std::isfinite(free.high))
+      refuse("a range goes from a number above 0 to one that is not smaller");
+    if (std::ranges::count(task.free, free.choice, &DesignVariable::choice) > 1)
+      refuse("a choice has two ranges");
+  }
+  if (!(noise.sigma_mm > 0.0 || noise.uniform_mm > 0.0) && !find(task.free, Choice::sigma))
+    refuse("without noise every plan is perfect: give the probe's noise");
+  const virtual_lathe::Probe& probe = task.base.probe;
+  if (probe.relative_zero_mm && !probe.nominal_radius_mm)
+    refuse("a relative gauge does not show the radius: give nominal_radius_mm");
+  refuse_moving_axis(task.base, virtual_lathe::simulate_clean(task.base).stream, "plan");
+}
+
+/// The probe's rate as a limit on the readings per revolution.
+void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
+  if (!task.rate_hz) return;
+  double fastest_rpm = 0.0;
+  for (const auto& pass : task.base.plan.passes)
+    fastest_rpm = std::max(fastest_rpm, std::abs(pass.speed_rpm));
+  const double most = *task.rate_hz * 60.0 / fastest_rpm;
+  char text[160];
+  for (const auto& pass : task.base.plan.passes) {
+    const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
+    if (rate <= *task.rate_hz || find(task.free, Choice::readings_per_revolution)) continue;
+    std::snprintf(text, sizeof text,
+                  "the plan asks for %.4g readings a second, more than the %g: fewer a revolution, "
+                  "or a slower spindle",
+                  rate, *task.rate_hz);
+    remarks.emplace_back(text);
+    break;
+  }
+  for (DesignVariable& free : task.free) {
+    if (free.choice != Choice::readings_per_revolution || free.high <= most) continue;
+    free.high = most;
+    std::snprintf(text, sizeof text,
+                  "%g readings a second are %.4g readings per revolution at %g/min", *task.rate_hz,
+                  most, fastest_rpm);
+    remarks.emplace_back(text);
+    if (free.low > free.high)
+      throw InputError("plan", std::string(text) + ": less than the range begins with");
+  }
+}
+
+/// The ranges must be possible: on the part, and readings that can be counted.
+void check_ends(const PlanningTask& task) {
+  const DesignVariable* length = find(task.free, Choice::length);
+  Scenario most = task.base;
+  for (const DesignVariable& free : task.free) most = Search::with(most, free, 1.0);
+  try {
+    (void)readings_of(most);
+  } catch (const InputError& error) {
+    throw InputError("plan", std::string("at the demanding ends of the ranges: ") + error.what());
+  }
+  if (!length) return;
+  try {
+    (void)virtual_lathe::simulate_clean(stand_in(Search::with(task.base, *length, 1.0)).scenario);
+  } catch (const InputError& error) {
+    throw InputError("plan", std::string("at the longest length of its range: ") + error.what());
+  }
+}
+
+/// Everything as demanding as it may be but feed and length; the scenario's own probe, or the best.
+Scenario demanding(const PlanningTask& task, bool best_probe) {
+  Scenario out = task.base;
+  for (const DesignVariable& free : task.free) {
+    if (free.choice == Choice::readings_per_revolution ||
+        (free.choice == Choice::sigma && best_probe))
+      out = Search::with(out, free, 1.0);
+  }
+  return out;
+}
+
+std::size_t lengths_looked_at(const PlanningTask& task) {
+  return find(task.free, Choice::length) ? lengths_tried + lengths_between : 1;
+}
+
+using Rated = std::pair<double, PlannedMeasurement>;
+
+/// The best of `rate(scenario of a length)` over the range, smaller is better.
+PlannedMeasurement best_over_length(const PlanningTask& task, const Search& search,
+                                    const Scenario& from,
+                                    const std::function<Rated(const Scenario&)>& rate) {
+  const DesignVariable* length = find(task.free, Choice::length);
+  std::optional<Rated> best;
+  double best_effort = 0.0;
+  const auto look = [&](const std::vector<double>& efforts) {
+    std::vector<Rated> rated(efforts.size());
+    search.each(efforts.size(), [&](std::size_t i) {
+      rated[i] = rate(length ? Search::with_settable(from, *length, efforts[i]) : from);
+    });
+    for (std::size_t i = 0; i < rated.size(); ++i) {
+      if (best && !(rated[i].first < best->first)) continue;
+      best = std::move(rated[i]), best_effort = efforts[i];
+    }
+  };
+  if (!length) {
+    look({0.0});
+    return std::move(best->second);
+  }
+  constexpr double apart = 1.0 / (lengths_tried - 1);
+  std::vector<double> efforts;
+  for (int i = 0; i < lengths_tried; ++i) efforts.push_back(i * apart);
+  look(efforts);
+  efforts.clear();
+  for (int i = 1; i <= lengths_between; ++i) {
+    const double effort = best_effort + apart * (2.0 * i / (lengths_between + 1) - 1.0);
+    if (effort > 0.0 && effort < 1.0 && effort != best_effort) efforts.push_back(effort);
+  }
+  look(efforts);
+  search.skip(lengths_between - efforts.size());
+  return std::move(best->second);
+}
+
+/// Smallest U, within the time if there is one.
+PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bool best_probe) {
+  const DesignVariable* feed = find(task.free, Choice::feed);
+  const Scenario from = demanding(task, best_probe);
+  return best_over_length(task, search, from, [&](const Scenario& scenario) {
+    Scenario slow = scenario;
+    if (feed) {
+      slow = Search::with(scenario, *feed, 1.0);
+      // Passes and turns share the time left beside the pauses: time falls as 1/feed.
+      if (task.time_s && measuring_time_s(slow) > *task.time_s) {
+        double pauses = 0.0;
+        for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
+        const double room = *task.time_s - pauses;
+        const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
+        const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+        const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
+        set_parameter(slow, path_of(Choice::feed),
+                      room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
+      }
+    }
+    PlannedMeasurement plan = search.at(slow);
+    const double late = search.allowed(plan) ? 0.0 : 1e6 * plan.time_s;
+    const double height = plan.u_expanded_mm + late;
+    return Rated{height, std::move(plan)};
+  });
+}
+
+/// Shortest time that meets the goal; of those that do not, the smallest U.
+PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool best_probe) {
+  const DesignVariable* feed = find(task.free, Choice::feed);
+  const DesignVariable* length = find(task.free, Choice::length);
+  const Scenario from = demanding(task, best_probe);
+  if (length && !feed) {
+    search.skip(lengths_looked_at(task));
+    return search.solve(from, *length);
+  }
+  return best_over_length(task, search, from, [&](const Scenario& scenario) {
+    PlannedMeasurement plan = feed ? search.solve(scenario, *feed) : search.at(scenario);
+    const double time = search.meets(plan) ? plan.time_s : 1e12 * plan.u_expanded_mm / task.goal_mm;
+    return Rated{time, std::move(plan)};
+  });
+}
+
+/// As many readings as are needed and no more, where they may be chosen.
+PlannedMeasurement without_excess(const PlanningTask& task, const Search& search,
+                                  PlannedMeasurement plan) {
+  const DesignVariable* readings = find(task.free, Choice::readings_per_revolution);
+  if (!readings) return plan;
+  PlannedMeasurement fewer = search.solve(plan.scenario, *readings);
+  return search.meets(fewer) ? fewer : plan;
+}
+
+/// The other choices on a grid, from least to most demanding.
+struct Grid {
+  std::vector<DesignVariable> others;
+  std::size_t nodes = 0, rows = 0;
+
+  Grid(const PlanningTask& task, Choice solved_for) {
+    for (const DesignVariable& free : task.free) {
+      if (free.choice != solved_for) others.push_back(free);
+    }
+    nodes = others.size() == 1 ? 5 : others.size() == 2 ? 4 : 3;
+    rows = others.empty() ? 0 : 1;
+    for (std::size_t i = 0; i < others.size(); ++i) rows *= nodes;
+  }
+
+  Scenario at(Scenario scenario, std::size_t row) const {
+    for (const DesignVariable& other : others) {
+      const double effort = static_cast<double>(row % nodes) / static_cast<double>(nodes - 1);
+      scenario = Search::with_settable(scenario, other, effort);
+      row /= nodes;
+    }
+    return scenario;
+  }
+};
+
+std::vector<TableRow> table_of(const PlanningTask& task, const Search& search, const Grid& grid,
+                               const DesignVariable& solved) {
+  std::vector<TableRow> table(grid.rows);
+  search.each(grid.rows, [&](std::size_t row) {
+    table[row].plan = search.solve(grid.at(task.base, row), solved);
+    table[row].reached = search.meets(table[row].plan);
+  });
+  return table;
+}
+
+void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
+  const bool there = std::ranges::any_of(out.recommended, [&](const Recommendation& one) {
+    return std::ranges::all_of(choices, [&](Choice c) { return one.plan.of(c) == plan.of(c); });
+  });
+  if (!there) out.recommended.push_back({what, std::move(plan), {}});
+}
+
+const char* words_of(Choice choice) {
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return "other readings per revolution alone";
+    case Choice::sigma:
+      return "another probe alone";
+    case Choice::feed:
+      return "another feed alone";
+    case Choice::length:
+      break;
+  }
+  return "another length alone";
+}
+
+/// What is nearest, with the scenario's own probe where that does.
+bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
+  out.nearest = smallest_u(task, search, false);
+  const bool better_probe = !search.good(out.nearest) && find(task.free, Choice::sigma);
+  if (better_probe) {
+    out.nearest = smallest_u(task, search, true);
+    out.remarks.emplace_back(
+        "within the ranges the probe of the scenario does not do: the best of its range is taken");
+  } else {
+    search.skip(lengths_looked_at(task));
+  }
+  // Where the ranges leave out what is given, that with one of them may be nearer.
+  const auto nearer = [&](const PlannedMeasurement& plan) {
+    if (search.allowed(plan) &&
+        !(search.allowed(out.nearest) && out.nearest.u_expanded_mm <= plan.u_expanded_mm))
+      out.nearest = plan;
+  };
+  nearer(out.as_given);
+  for (const Alone& one : out.alone) nearer(one.plan);
+  if (!std::isfinite(out.nearest.u_expanded_mm)) {
+    out.remarks.emplace_back(
+        "no plan of the ranges determines the axis: probe more of the length or the circumference");
+  }
+  out.reached = search.good(out.nearest);
+  return better_probe;
+}
+
+std::vector<Alone> each_alone(const PlanningTask& task, const Search& search) {
+  std::vector<Alone> alone(task.free.size());
+  search.each(alone.size(), [&](std::size_t i) {
+    alone[i].choice = task.free[i].choice;
+    alone[i].plan = search.solve(task.base, task.free[i]);
+    alone[i].reached = search.meets(alone[i].plan);
+  });
+  return alone;
+}
+
+/// The fits' own U is what a user will see.
+void remark_on_stated(const PlanningTask& task, PlanningAnswer& out) {
+  constexpr double noticeable = 1.05;  // of the goal: more than an estimated sigma scatters by
+  double most_mm = 0.0;
+  for (const Recommendation& one : out.recommended) {
+    if (one.confirmed.repeats > 0) most_mm = std::max(most_mm, one.confirmed.stated_mm);
+  }
+  if (!(most_mm > noticeable * task.goal_mm)) return;
+  char text[256];
+  std::snprintf(text, sizeof text,
+                "the bound meets the goal of %.3g µm, but the U that the fits state does not (up "
+                "to %.3g µm): they take for noise what the bound takes as known, as effects and "
+                "correlation",
+                task.goal_mm / mm_per_um, most_mm / mm_per_um);
+  out.remarks.emplace_back(text);
+}
+
+}  // namespace
+
+PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgress& progress) {
+  if (asked.base.part.kind == virtual_lathe::PartKind::face)
+    throw InputError("plan", "a face has no axis: plan a cone or a cylinder");
+  PlanningTask task = asked;
+  PlanningAnswer out;
+  check(task);
+  limit_rate(task, out.remarks);
+  check_ends(task);
+  const virtual_lathe::Noise& noise = task.base.noise;
+  if (find(task.free, Choice::readings_per_revolution) &&
+      (noise.rho != 0.0 || !noise.autoregression.empty())) {
+    out.remarks.emplace_back(
+        "the noise is correlated from reading to reading, at any rate alike: where it lasts a "
+        "time, "
+        "the correlation is greater the more readings a second");
+  }
+  for (const Choice choice : choices) {
+    if (!find(task.free, choice)) continue;
+    out.solved_for = choice;
+    break;
+  }
+  const DesignVariable* solved = find(task.free, out.solved_for);
+  const Grid grid(task, out.solved_for);
+  Steps steps(progress);
+  const Search search(task, steps);
+  steps.begin(PlanningStage::search, task.free.size() + grid.rows + 3 * lengths_looked_at(task));
+  out.as_given = search.at(task.base);
+  const bool good_as_given = search.good(out.as_given);
+  if (good_as_given) recommend(out, "as it is", out.as_given);
+  out.alone = each_alone(task, search);
+  for (const Alone& one : out.alone) {
+    const double change = one.plan.of(one.choice) - out.as_given.of(one.choice);
+    const bool needless = good_as_given && (more_is_better(one.choice) ? change : -change) > 0.0;
+    if (search.good(one.plan) && !needless) recommend(out, words_of(one.choice), one.plan);
+  }
+  const bool best_probe = look_for_nearest(task, search, out);
+  if (solved) out.table = table_of(task, search, grid, *solved);
+  if (out.reached && solved) {
+    const PlannedMeasurement fast = quickest(task, search, best_probe);
+    if (search.good(fast)) recommend(out, "quickest", without_excess(task, search, fast));
+    if (task.time_s) recommend(out, "most certain in the time", out.nearest);
+  }
+  steps.begin(PlanningStage::simulation, out.recommended.size() * task.repeats);
+  for (Recommendation& one : out.recommended)
+    one.confirmed = search.confirm(one.plan, out.recommended.size());
+  remark_on_stated(task, out);
+  out.confirmed = std::ranges::any_of(
+      out.recommended, [](const Recommendation& one) { return !one.confirmed.misses; });
+  return out;
+}
+
+}  // namespace trueaxis::study

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/planning/planning_search.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+#include <limits>
+
+#include "study/sweep/block.hpp"
+#include "study/sweep/run.hpp"
+#include "study/sweep/scenario_parameters.hpp"
+
+namespace trueaxis::study {
+
+using namespace planning_detail;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double met = 1.0 + 1e-9;     // of the goal: rounding of the bound
+constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded to be set
+constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
+constexpr int most_steps = 25;
+
+}  // namespace
+
+const char* path_of(Choice choice) {
+  switch (choice) {
+    case Choice::readings_per_revolution:
+      return "pass.readings_per_revolution";
+    case Choice::sigma:
+      return "noise.sigma_mm";
+    case Choice::feed:
+      return "pass.feed_mm_per_rev";
+    case Choice::length:
+      break;
+  }
+  return "pass.length_mm";
+}
+
+double PlannedMeasurement::of(Choice choice) const { return parameter(scenario, path_of(choice)); }
+
+namespace planning_detail {
+
+bool more_is_better(Choice choice) {
+  return choice == Choice::readings_per_revolution || choice == Choice::length;
+}
+
+double settable(const DesignVariable& free, double value) {
+  if (free.choice == Choice::readings_per_revolution) {
+    double tenths = std::ceil(value * 10.0 - 1e-9);
+    if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
+    return std::clamp(tenths / 10.0, free.low, free.high);
+  }
+  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
+                                                   : std::floor(value / step + 1e-9);
+  return std::clamp(steps * step, free.low, free.high);
+}
+
+void Steps::begin(PlanningStage stage, std::size_t to_do) {
+  const std::lock_guard lock(one_at_a_time_);
+  stage_ = stage, done_ = 0, to_do_ = to_do;
+}
+
+void Steps::done(std::size_t count) {
+  const std::lock_guard lock(one_at_a_time_);
+  done_ += count;
+  if (progress_ && count > 0) progress_(stage_, done_, to_do_);
+}
+
+const DesignVariable* find(const std::vector<DesignVariable>& free, Choice choice) {
+  const auto at = std::ranges::find(free, choice, &DesignVariable::choice);
+  return at == free.end() ? nullptr : &*at;
+}
+
+void Search::each(std::size_t count, const IndexedWork& work) const {
+  for_each_index(count, task_.threads, [&](std::size_t i) {
+    work(i);
+    steps_.done(1);
+  });
+}
+
+bool Search::meets(const PlannedMeasurement& plan) const {
+  return plan.u_expanded_mm <= task_.goal_mm * met;
+}
+
+bool Search::allowed(const PlannedMeasurement& plan) const {
+  return (!task_.time_s || plan.time_s <= *task_.time_s * met) &&
+         (!task_.rate_hz || plan.rate_hz <= *task_.rate_hz * met);
+}
+
+virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, const DesignVariable& free,
+                                     double effort) {
+  virtual_lathe::Scenario out = scenario;
+  const double share = more_is_better(free.choice) ? effort : 1.0 - effort;
+  const double value = free.low * std::pow(free.high / free.low, share);
+  set_parameter(out, path_of(free.choice), std::clamp(value, free.low, free.high));
+  return out;
+}
+
+virtual_lathe::Scenario Search::with_settable(const virtual_lathe::Scenario& scenario,
+                                              const DesignVariable& free, double effort) {
+  virtual_lathe::Scenario out = with(scenario, free, effort);
+  const char* const path = path_of(free.choice);
+  set_parameter(out, path, settable(free, parameter(out, path)));
+  return out;
+}
+
+PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
+                                 const DesignVariable& free) const {
+  PlannedMeasurement least = at(with(scenario, free, 0.0));
+  if (meets(least)) return least;
+  // Out by the law of large numbers, back by regula falsi on ln U, which is nearly linear in the
+  // logarithm of every choice; halving where it is not, or where nothing is determined.
+  const auto height = [&](const PlannedMeasurement& plan) {
+    return std::log(plan.u_expanded_mm / task_.goal_mm);
+  };
+  const double power = free.choice == Choice::sigma ? 1.0 : 0.5;
+  const double fall = power * std::log(free.high / free.low);
+  PlannedMeasurement most;
+  double low = 0.0, high = infinity, at_low = height(least), at_high = 0.0;
+  for (int step = 0; step < most_steps && !(at_high < 0.0 && at_high > -close_enough); ++step) {
+    double effort = 0.0;
+    if (high > 1.0) {
+      const double further = std::isfinite(at_low) ? beyond * at_low / fall : 0.5 * (1.0 - low);
+      effort = std::min(1.0, low + std::max(further, least_step));
+    } else {
+      const bool straight = std::isfinite(at_low) && step % 3 != 2;
+      const double share = straight ? at_low / (at_low - at_high) : 0.5;
+      effort = low + std::clamp(share, 0.02, 0.98) * (high - low);
+    }
+    PlannedMeasurement now = at(with(scenario, free, effort));
+    if (meets(now)) {
+      high = effort, at_high = height(now), most = std::move(now);
+    } else if (effort >= 1.0) {
+      return now;
+    } else {
+      low = effort, at_low = height(now);
+    }
+    if (high - low < 1e-6) break;
+  }
+  if (high > 1.0) return at(with(scenario, free, 1.0));
+  virtual_lathe::Scenario rounded = scenario;
+  set_parameter(rounded, path_of(free.choice), settable(free, most.of(free.choice)));
+  PlannedMeasurement set = at(rounded);
+  return meets(set) ? set : most;
+}
+
+Confirmation Search::confirm(const PlannedMeasurement& plan, std::size_t among) const {
+  Sweep sweep;
+  sweep.base = plan.scenario;
+  sweep.repeats = task_.repeats;
+  sweep.seed = task_.seed;
+  const WorstOfAxis worst = bounds_.of(plan.scenario);
+  const std::size_t from = place_of_ends(plan.scenario);
+  const std::vector<Block> blocks = blocks_of(sweep);
+  std::vector<BlockResult> results(blocks.size());
+  run_blocks(sweep, blocks, task_.threads, [&](BlockResult&& result) {
+    steps_.done(result.block.count);
+    results[static_cast<std::size_t>(std::ranges::find(blocks, result.block) - blocks.begin())] =
+        std::move(result);
+  });
+  double squares = 0.0, stated = 0.0;
+  Confirmation out;
+  for (const BlockResult& result : results) {
+    for (std::size_t repeat = 0; repeat < result.block.count; ++repeat) {
+      double error = 0.0, variance = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t place = repeat * result.quantities + from + i;
+        if (worst.weight[i] == 0.0) continue;
+        error += worst.weight[i] * result.error[place];
+        variance += std::pow(worst.weight[i] * result.u[place], 2);
+      }
+      if (!std::isfinite(error)) {
+        ++out.failures;
+        continue;
+      }
+      ++out.repeats, squares += error * error, stated += std::sqrt(variance);
+    }
+  }
+  out.misses = out.repeats == 0;
+  if (out.misses) return out;
+  const auto n = static_cast<double>(out.repeats);
+  const double rmse = std::sqrt(squares / n), k = task_.coverage_factor;
+  const boost::math::chi_squared law(n);
+  const auto ends = [&](double level) {
+    return Ends{rmse * std::sqrt(n / quantile(law, 1.0 - 0.5 * level)),
+                rmse * std::sqrt(n / quantile(law, 0.5 * level))};
+  };
+  const Ends of_95 = ends(0.05);
+  const Ends of_all = ends(bonferroni_level / static_cast<double>(among));
+  out.u_expanded_mm = k * rmse;
+  out.interval_95_mm = {k * of_95.low, k * of_95.high};
+  out.stated_mm = k * stated / n;
+  out.at_bound = worst.sd_mm >= of_all.low && worst.sd_mm <= of_all.high;
+  out.misses = !out.at_bound && out.interval_95_mm.low > task_.goal_mm;
+  return out;
+}
+
+}  // namespace planning_detail
+}  // namespace trueaxis::study

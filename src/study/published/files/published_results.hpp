@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "study/published/placement.hpp"
+#include "study/sweep/sweep.hpp"
+
+namespace trueaxis {
+
+/// For the terminal: each published run beside the distribution of its cell, how well every reading
+/// of the printed numbers fits, and intervals of what print has lost.
+std::string published_text(const study::Sweep& sweep, const study::Summary& summary,
+                           const study::Placement& placement);
+
+/// Schema trueaxis.published/1, the same as numbers.
+std::string published_json(const study::Sweep& sweep, const study::Placement& placement);
+
+}  // namespace trueaxis

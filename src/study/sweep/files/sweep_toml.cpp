@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/sweep/files/sweep_toml.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "study/published/files/published_toml.hpp"
+#include "simulate/files/scenario_tables.hpp"
+#include "study/sweep/files/sweep_axes.hpp"
+#include "trueaxis/error.hpp"
+#include "format/file.hpp"
+#include "simulate/files/scenario_toml.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace study;
+
+constexpr long long most_repeats = 100'000'000;
+
+std::vector<Method> read_methods(TomlTable root) {
+  std::vector<Method> methods;
+  for (const std::string& word : root.texts("methods")) {
+    const Method all[] = {Method::fit, Method::huber, Method::tukey, Method::diagnosis};
+    const auto* known =
+        std::ranges::find_if(all, [&](Method method) { return word == to_string(method); });
+    if (known == std::end(all)) {
+      root.complain("methods", "names \"" + word + "\": known are fit, huber, tukey, diagnosis");
+    } else if (std::ranges::find(methods, *known) != methods.end()) {
+      root.complain("methods", "names \"" + word + "\" twice");
+    } else {
+      methods.push_back(*known);
+    }
+  }
+  if (methods.empty()) methods.push_back(Method::fit);
+  return methods;
+}
+
+/// "section" where the sweep wants a circle and not the surface of the part.
+std::string read_surface(TomlTable root, const virtual_lathe::Scenario& base) {
+  const bool section = root.choice("surface", {{"part", false}, {"section", true}}, false);
+  if (section && base.part.kind == virtual_lathe::PartKind::face)
+    root.complain("surface",
+                  "is \"section\", but a face is probed across: give a cone or cylinder");
+  return section ? "section" : "";
+}
+
+/// The scenario of the file or of the sweep's own tables, and its bytes for the hash.
+std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Scenario& base) {
+  if (!root.has("scenario")) {
+    read_scenario_tables(root, base);
+    return {};
+  }
+  const std::string path = root.required_path("scenario");
+  if (path.empty()) return {};
+  std::string content;
+  try {
+    content = read_file(path);
+  } catch (const InputError& error) {
+    root.complain("scenario", std::string("cannot be used: ") + error.what());
+    return {};
+  }
+  try {
+    base = parse_scenario_toml(content, path);
+    return content;
+  } catch (const InputError& error) {
+    for (const Diagnostic& diagnostic : error.diagnostics()) document.add(diagnostic);
+  }
+  return {};
+}
+
+}  // namespace
+
+study::Sweep parse_sweep_toml(std::string_view content, const std::string& path) {
+  TomlDocument document(content, path);
+  TomlTable root = document.root();
+  Sweep sweep;
+  const std::string scenario = read_base(document, root, sweep.base);
+  const SweepAxes axes(document, root, sweep);
+  sweep.name = root.text("name");
+  sweep.seed =
+      static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
+  sweep.repeats = static_cast<std::size_t>(root.integer("repeats", 2000, 1, most_repeats));
+  sweep.methods = read_methods(root);
+  sweep.surface = read_surface(root, sweep.base);
+  sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
+  if (sweep.base.cut)
+    document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
+  if (std::optional<TomlTable> paper = root.maybe_table("paper")) {
+    if (document.ok()) {
+      sweep.published = read_published(
+          *paper, sweep, [&](const TomlTable& set) { return axes.read_reading_set(set); });
+    } else {
+      paper->ignore_rest();
+    }
+  }
+  document.finish();
+  return sweep;
+}
+
+study::Sweep read_sweep_toml(const std::string& path) {
+  return parse_sweep_toml(read_file(path), path);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an effect does to the axis: the virtual lathe against the projection of the effect's column,
+// and against figures from plain geometry.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "trueaxis/units.hpp"
+#include "trueaxis/effect.hpp"
+#include "study/axis_bias/axis_bias.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using namespace study;
+using virtual_lathe::PartKind;
+using virtual_lathe::Scenario;
+
+Scenario reference(PartKind kind) {
+  Scenario scenario = axis_bias_reference();
+  scenario.part.kind = kind;
+  if (kind == PartKind::cylinder) scenario.part.half_angle_rad = 0.0;
+  return scenario;
+}
+
+class AxisBiasLaw : public ::testing::TestWithParam<PartKind> {};
+
+// bias(a)/a = projection + O(a): half the size halves the error, and 2 × half − whole has none but
+// what the third order leaves, which is less than the second where sizes are small. Rounding is
+// that of contacts, and must itself be small beside the bias.
+TEST_P(AxisBiasLaw, LatheGoesToTheProjectionAsTheSizeGoesToZero) {
+  const Scenario scenario = reference(GetParam());
+  for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
+    SCOPED_TRACE(one.effect + " " + one.form);
+    const AxisBiasRow row = axis_bias_of(scenario, one);
+    EXPECT_LE(row.off, row.second_order + row.rounding);
+    EXPECT_EQ(row.agrees, row.off <= row.second_order + row.rounding);
+    EXPECT_LE(row.off_half, 0.55 * row.off_whole + row.rounding);
+    EXPECT_LE(row.off_whole, 0.01 * std::max(row.predicted, 1e-3 / one.edge) + row.rounding);
+    EXPECT_LE(row.rounding, 1e-3 * std::max(row.predicted, 1e-3 / one.edge));
+  }
+}
+
+// With the effect's term in the fit the bias is of second order: per unit it halves with the size.
+// What rounds grows as the uncertainty does.
+TEST_P(AxisBiasLaw, TheExtendedModelHasNoFirstOrderLeft) {
+  const Scenario scenario = reference(GetParam());
+  for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
+    SCOPED_TRACE(one.effect + " " + one.form);
+    const AxisBiasRow row = axis_bias_of(scenario, one);
+    if (!row.separable) {
+      EXPECT_LT(row.left, 1e-4);  // absorbed: the surface can imitate it
+      continue;
+    }
+    const double contacts = 4e-11 / one.size / one.edge * std::max(1.0, row.u_ratio);
+    EXPECT_LE(row.extended_half, 0.55 * row.extended + contacts);
+    EXPECT_LE(row.extended, 0.01 * std::max(row.predicted, 1e-3 / one.edge) + contacts);
+    // A model with more to fit knows the axis less; 1 % for the axis' own place in the basis.
+    EXPECT_GE(row.u_ratio, 0.99);
+  }
+}
+
+// A gauge whose nominal radius is off by 0.137 mm (a whole period of the cyclic case) misses the
+// axis by some nm without any effect, which is no bias of one. What is left is that the prediction
+// is about a part of another radius: proportional to the radius' error, 10 times that is wide.
+TEST_P(AxisBiasLaw, ARelativeGaugesOwnErrorIsNoHarm) {
+  Scenario scenario = reference(GetParam());
+  const double radius_mm = GetParam() == PartKind::cone ? 43.0 : 40.0,
+               off_mm = 0.137;  // in the middle
+  scenario.probe.relative_zero_mm = radius_mm;
+  scenario.probe.nominal_radius_mm = radius_mm + off_mm;
+  for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
+    SCOPED_TRACE(one.effect + " " + one.form);
+    const AxisBiasRow row = axis_bias_of(scenario, one);
+    const double share = 10.0 * off_mm / radius_mm;
+    const double least = 1e-3 / one.edge;
+    EXPECT_LE(row.off, row.second_order + row.rounding + share * std::max(row.predicted, least));
+    EXPECT_LE(row.off_half,
+              0.55 * row.off_whole + row.rounding + share * std::max(row.predicted, least));
+  }
+}
+
+TEST_P(AxisBiasLaw, EveryEffectOfTheCatalogueHasACase) {
+  std::set<std::string_view> covered;
+  const std::vector<AxisBiasCase> cases = axis_bias_cases(reference(GetParam()));
+  for (const AxisBiasCase& one : cases) covered.insert(one.effect);
+  for (const Effect& effect : effect_catalogue()) {
+    // Of a cone a taper is the angle itself.
+    const bool asked =
+        !effect.check && !(effect.id == "part.taper" && GetParam() == PartKind::cone);
+    EXPECT_EQ(covered.contains(effect.id), asked) << effect.id;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, AxisBiasLaw, ::testing::Values(PartKind::cone, PartKind::cylinder),
+                         [](const auto& part) {
+                           return part.param == PartKind::cone ? "Cone" : "Cylinder";
+                         });
+
+const AxisBiasCase& case_of(const std::vector<AxisBiasCase>& cases, const std::string& effect) {
+  return *std::ranges::find(cases, effect, &AxisBiasCase::effect);
+}
+
+// On a cylinder some biases are plain geometry. The axis is |a| off the spindle's at the far end:
+// another zero of C turns it (|a| per rad), a delay turns it by ω τ, a gain scales it, a height h
+// turns the contact by asin(h/R). Corrections are of the order of tilt × feed and (e/R)²: 1e-3.
+TEST(AxisBiasGeometry, FiguresOfACylinder) {
+  const Scenario scenario = reference(PartKind::cylinder);
+  const std::vector<AxisBiasCase> cases = axis_bias_cases(scenario);
+  const auto& part = scenario.part;
+  const double end = scenario.plan.passes[0].end_mm;
+  const double away = std::hypot(part.x0_mm + part.l * end, part.y0_mm + part.m * end);
+  const auto expect = [&](const char* effect, double value) {
+    EXPECT_NEAR(axis_bias_of(scenario, case_of(cases, effect)).limit, value, 2e-3 * value) << effect;
+  };
+  expect("encoder.offset", away * rad_per_deg);
+  expect("probe.latency", away * two_pi);  // 60 rpm
+  expect("probe.gain", away);
+  expect("probe.height", away / part.radius_mm);
+}
+
+// The catalogue's figures that do not depend on how the turns end, to the digits that it gives.
+TEST(AxisBiasGeometry, FiguresOfTheCatalogue) {
+  const Scenario scenario = axis_bias_reference();
+  const struct {
+    const char *effect, *form;
+    double half_a_digit;
+  } figures[] = {{"encoder.offset", "", 5e-5},
+                 {"probe.latency", "", 5e-3},
+                 {"probe.gain", "", 5e-3},
+                 {"probe.height", "", 5e-4},
+                 {"probe.ball_radius", "", 1e-7},
+                 {"part.bow", "from the lower end", 5e-3},
+                 {"part.slip", "radial, at two thirds", 5e-3}};
+  for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
+    for (const auto& figure : figures) {
+      if (one.effect != figure.effect || one.form != figure.form) continue;
+      ASSERT_TRUE(one.stated.has_value()) << one.effect;
+      EXPECT_NEAR(axis_bias_of(scenario, one).limit, *one.stated, figure.half_a_digit) << one.effect;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
