@@ -44,7 +44,6 @@ struct Actuator {
   void validate() const;  ///< @throws ContractViolation naming quantity, value and limit
 };
 
-
 /// One reference surface as the target axis sees it.
 struct Reference {
   std::string name;
@@ -81,7 +80,6 @@ TargetAxis solve_target_axis(std::span<const Reference> references, double z_sta
 /// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
 /// diameter, mm.
 double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm, double z_end_mm);
-
 
 enum class TargetKind { cylinder, cone, face };
 

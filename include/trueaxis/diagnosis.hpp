@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/estimate.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {
@@ -74,9 +74,9 @@ struct Unexplained {
 /// An effect that this plan cannot see at its typical size.
 struct NotObservable {
   std::string effect;
-  std::string why;          ///< "absorbed by x0, y0 …", "needs a time column" …
-  Estimate axis_bias_per_unit;   ///< shift of the axis per unit of the effect's parameter
-  Estimate axis_bias_typical;    ///< shift at the largest typical size
+  std::string why;              ///< "absorbed by x0, y0 …", "needs a time column" …
+  Estimate axis_bias_per_unit;  ///< shift of the axis per unit of the effect's parameter
+  Estimate axis_bias_typical;   ///< shift at the largest typical size
   double detectable = 0.0;  ///< size of the parameter that would be found with power ½; inf: none
   std::string detectable_unit;
   std::optional<Separating> separate_with;

@@ -146,7 +146,6 @@ void fill_columns(const Term& term, const TermContext& context, const TermShape&
 /// The names of the shape parameters that a term reads.
 std::vector<std::string> shape_parameters(const Term& term);
 
-
 /// Where an effect enters the measuring chain (C, Z, t) → A → B → C → D → E → X_M.
 enum class Slot {
   arguments,   ///< A: C' = C + δC, Z' = Z + δZ

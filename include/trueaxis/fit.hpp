@@ -124,7 +124,6 @@ FitResult fit(const ProbeStream& stream, const FitOptions& options);
 const char* to_string(FitStatus status);
 const char* to_string(Loss loss);
 
-
 /// fit() again and again, with other readings at the same C and positions: what does not depend on
 /// the readings is prepared once.
 class RepeatedFit {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/correction.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/estimate.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/probe_stream.hpp"
 
@@ -62,7 +62,6 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
 /// would refute too much: linearised terms move λ of a right finding (a nonlinearity of 20 µm:
 /// 0.2).
 bool refuted(const Comparison& comparison);
-
 
 /// What the job says of a stream that the stream does not.
 struct StreamReading {

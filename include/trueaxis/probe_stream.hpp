@@ -30,7 +30,6 @@ struct SetUp {
   bool operator==(const SetUp&) const = default;
 };
 
-
 /// What the probe moves along while it reads.
 enum class StreamKind {
   lateral,  ///< reads X_M (radius) at (C, Z): cone, cylinder, section

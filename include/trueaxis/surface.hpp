@@ -28,7 +28,6 @@ struct AxisEstimate {
   double u_at(double z_mm) const;
 };
 
-
 /// A right circular cone (or, with tan_half_angle = 0, a cylinder) about an axis. s runs along the
 /// axis with s = 0 at (axis.x, axis.y, axis.z_ref); radius(s) = radius_mm + tan_half_angle · s.
 struct Revolved {

@@ -152,7 +152,6 @@ struct Scenario {
   std::uint64_t seed = 1;
 };
 
-
 /// A parameter of an effect. The unit inside is the suffix of its name; none: a pure number.
 struct EffectParameter {
   std::string_view name;
@@ -177,7 +176,6 @@ void validate(const Effect& effect);
 
 /// The parameter's value or its fallback. Expects a valid effect.
 double parameter(const Effect& effect, std::string_view name);
-
 
 /// What the stream does not say.
 struct Truth {

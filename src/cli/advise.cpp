@@ -5,10 +5,10 @@
 #include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
 #include "cli/job_streams.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/diagnosis.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "job/files/job_toml.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -5,10 +5,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
-#include "trueaxis/error.hpp"
 #include "format/file.hpp"
-#include "study/axis_bias/files/axis_bias_results.hpp"
 #include "simulate/files/scenario_toml.hpp"
+#include "study/axis_bias/files/axis_bias_results.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -38,8 +38,9 @@ int execute(const std::string& path, const std::string& folder) {
   std::filesystem::create_directories(folder, unused);
   const std::string csv = axis_bias_csv(rows), json = axis_bias_json(scenario, rows, hash),
                     page = axis_bias_markdown(rows);
-  const FileContent files[] = {
-      {folder + "/axis_bias.csv", csv}, {folder + "/axis_bias.json", json}, {folder + "/axis_bias.md", page}};
+  const FileContent files[] = {{folder + "/axis_bias.csv", csv},
+                               {folder + "/axis_bias.json", json},
+                               {folder + "/axis_bias.md", page}};
   write_files(files);
   return done;
 }
@@ -55,7 +56,8 @@ void add_axis_bias(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   command->add_option("scenario", options->scenario,
                       "part and plan (TOML); default: those of the catalogue's figures");
-  command->add_option("-o,--output", options->folder, "folder for axis_bias.csv, axis_bias.json, axis_bias.md");
+  command->add_option("-o,--output", options->folder,
+                      "folder for axis_bias.csv, axis_bias.json, axis_bias.md");
   command->callback(
       [options, &exit_code] { exit_code = execute(options->scenario, options->folder); });
 }

@@ -6,11 +6,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
-#include "trueaxis/error.hpp"
-#include "format/file.hpp"
-#include "fit/files/fit_json.hpp"
-#include "job/files/job_toml.hpp"
 #include "correct/files/table_csv.hpp"
+#include "fit/files/fit_json.hpp"
+#include "format/file.hpp"
+#include "job/files/job_toml.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -4,12 +4,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/diagnosis.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/file.hpp"
 #include "job/files/residuals_csv.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/effect.hpp"
 #include "effect/files/effects_json.hpp"
 #include "effect/files/effects_text.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -6,11 +6,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
-#include "trueaxis/error.hpp"
-#include "format/file.hpp"
 #include "fit/files/fit_json.hpp"
 #include "fit/files/fit_text.hpp"
+#include "format/file.hpp"
 #include "job/files/residuals_csv.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "cli/checks.hpp"
 #include "cli/stream_options.hpp"
-#include "trueaxis/fit.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::cli {
 

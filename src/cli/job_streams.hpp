@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "trueaxis/error.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {

@@ -7,11 +7,11 @@
 #include "cli/checks.hpp"
 #include "cli/commands.hpp"
 #include "cli/progress.hpp"
+#include "format/file.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "study/planning/files/planning_results.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "format/file.hpp"
-#include "study/planning/files/planning_results.hpp"
-#include "simulate/files/scenario_toml.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -90,7 +90,8 @@ int execute(Options options) {
   try {
     for (const std::string& text : options.free) {
       const study::DesignVariable free = parse_freedom(text);
-      if (std::ranges::find(task.free, free.choice, &study::DesignVariable::choice) != task.free.end())
+      if (std::ranges::find(task.free, free.choice, &study::DesignVariable::choice) !=
+          task.free.end())
         throw InputError(text, "this choice has a range already: give it one");
       task.free.push_back(free);
     }

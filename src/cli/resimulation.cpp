@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/resimulation.hpp"
 
-#include "trueaxis/error.hpp"
 #include "simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 

@@ -8,18 +8,18 @@
 #include "cli/earlier_table.hpp"
 #include "cli/job_streams.hpp"
 #include "cli/resimulation.hpp"
-#include "trueaxis/error.hpp"
-#include "resimulate/files/comparison_json.hpp"
+#include "correct/files/table_csv.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "format/file.hpp"
 #include "fit/files/fit_text.hpp"
+#include "format/file.hpp"
 #include "job/files/job_json.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/residuals_csv.hpp"
-#include "correct/files/table_csv.hpp"
-#include "trueaxis/job.hpp"
 #include "report/report.hpp"
+#include "resimulate/files/comparison_json.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/virtual_lathe.hpp"
-
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -8,13 +6,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/simulate_from.hpp"
-#include "trueaxis/error.hpp"
-#include "simulate/files/cut_table_csv.hpp"
 #include "format/file.hpp"
-#include "simulate/files/scenario_toml.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "simulate/files/cut_table_csv.hpp"
+#include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::cli {
 namespace {

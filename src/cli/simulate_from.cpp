@@ -7,11 +7,11 @@
 
 #include "cli/commands.hpp"
 #include "cli/resimulation.hpp"
-#include "trueaxis/error.hpp"
-#include "resimulate/files/comparison_json.hpp"
-#include "resimulate/diagnosis_scenario.hpp"
 #include "format/file.hpp"
+#include "resimulate/diagnosis_scenario.hpp"
+#include "resimulate/files/comparison_json.hpp"
 #include "simulate/files/truth_json.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::cli {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "cli/checks.hpp"
-#include "trueaxis/units.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::cli {
 

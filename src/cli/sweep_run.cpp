@@ -6,11 +6,11 @@
 
 #include "cli/progress.hpp"
 #include "format/file.hpp"
+#include "report/sweep_report.hpp"
 #include "study/published/files/published_results.hpp"
+#include "study/published/placement.hpp"
 #include "study/sweep/files/sweep_journal.hpp"
 #include "study/sweep/files/sweep_results.hpp"
-#include "report/sweep_report.hpp"
-#include "study/published/placement.hpp"
 #include "study/sweep/summary.hpp"
 
 namespace trueaxis::cli {

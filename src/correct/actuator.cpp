@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correction.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
 
+#include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correction.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -4,19 +4,19 @@
 #include <thread>
 
 #include "diagnose/advise/advise.hpp"
-#include "diagnose/explain/describe.hpp"
 #include "diagnose/explain/confounder_set.hpp"
-#include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/explain/describe.hpp"
 #include "diagnose/explain/gain.hpp"
-#include "diagnose/regression/noise.hpp"
-#include "diagnose/refit/relinearised_fit.hpp"
 #include "diagnose/explain/rival_axes.hpp"
-#include "diagnose/search/coarse_to_fine_search.hpp"
 #include "diagnose/explain/sources.hpp"
 #include "diagnose/explain/spectrum.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/diagnosis.hpp"
+#include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/refit/relinearised_fit.hpp"
+#include "diagnose/regression/noise.hpp"
+#include "diagnose/search/coarse_to_fine_search.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
@@ -87,15 +87,16 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const BaseKind base = base_of(stream, out.baseline, clampings);
   const LinearisationPoint first = linearise_at(stream, clampings, base, options.fit.bore);
   ObservationMask mask = make_observation_mask(first);
-  const Resolution resolution = resolution_of(first, rows);
+  const Resolution resolution = resolution_of(first, mask);
   const std::vector<double> deviation = deviation_from(stream, first);
-  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, rows, threads);
+  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, mask, threads);
   const auto most = static_cast<std::size_t>(options.max_findings);
-  const Problem whole{first, rows, resolution, deviation, options.false_alarm, threads, most};
+  const Problem whole{first, mask, resolution, deviation, options.false_alarm, threads, most};
   CoarseToFineSearch coarse_to_fine(whole);
   const Given given{stream, options.fit, ball_mm, masked};
   std::optional<Timing> timing;
-  const std::unique_ptr<RelinearisedFit> refined = relinearise(given, whole, coarse_to_fine.model, timing);
+  const std::unique_ptr<RelinearisedFit> refined =
+      relinearise(given, whole, coarse_to_fine.model, timing);
   const Model& model = coarse_to_fine.model;
   const Problem& problem = refined->problem;
   const LinearisationPoint& second = problem.point;

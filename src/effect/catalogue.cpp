@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/effect.hpp"
-
 #include <algorithm>
 #include <numeric>
 
 #include "effect/entries.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {

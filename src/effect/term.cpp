@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/effect.hpp"
-
 #include <algorithm>
 #include <type_traits>
 
 #include "effect/kinds.hpp"
+#include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

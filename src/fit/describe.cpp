@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -21,8 +21,8 @@ constexpr double cylinder_sds =
 constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
 
 ObservationMask as_rows(const std::vector<double>& values, Eigen::Index columns) {
-  return Eigen::Map<const ObservationMask>(values.data(), static_cast<Eigen::Index>(values.size()) / columns,
-                                columns);
+  return Eigen::Map<const ObservationMask>(
+      values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
 }
 
 Eigen::Index index_of(const std::vector<std::string>& names, std::string_view name) {
@@ -32,8 +32,10 @@ Eigen::Index index_of(const std::vector<std::string>& names, std::string_view na
 
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
 std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
-                                            const std::vector<double>& value, const ObservationMask& jacobian,
-                                            const ObservationMask& edge, const Determination& determination) {
+                                            const std::vector<double>& value,
+                                            const ObservationMask& jacobian,
+                                            const ObservationMask& edge,
+                                            const Determination& determination) {
   std::vector<FitParameter> parameters;
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -132,8 +134,8 @@ void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_up
 struct Standing {
   const Surface& surface;
   std::vector<double> working;
-  Eigen::MatrixXd covariance;  ///< of `working`
-  ObservationMask report_jacobian;        ///< of the reported parameters with respect to the joint ones
+  Eigen::MatrixXd covariance;       ///< of `working`
+  ObservationMask report_jacobian;  ///< of the reported parameters with respect to the joint ones
 };
 
 SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
@@ -142,7 +144,7 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   SetUpFit out{placed.set_up, placed.root, parameters, {}, surface.shape(standing.working)};
   out.axis.axis = surface.axis(standing.working);
   const ObservationMask jacobian = as_rows(surface.axis_jacobian(standing.working),
-                                static_cast<Eigen::Index>(standing.working.size()));
+                                           static_cast<Eigen::Index>(standing.working.size()));
   const ObservationMask axis = jacobian * standing.covariance * jacobian.transpose();
   std::copy_n(axis.data(), 16, out.axis.covariance.begin());
   return out;
@@ -170,7 +172,8 @@ void report_derived(const Standing& last, FitResult& result) {
     result.derived.push_back(
         length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
-  const ObservationMask axis = Eigen::Map<const ObservationMask>(result.axis.covariance.data(), 4, 4);
+  const ObservationMask axis =
+      Eigen::Map<const ObservationMask>(result.axis.covariance.data(), 4, 4);
   const Axis& line = result.axis.axis;
   const auto offset = [&](const char* name, double z) {
     Eigen::Matrix<double, 2, 4> at;

@@ -8,8 +8,8 @@
 #include "fit/describe.hpp"
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
-#include "trueaxis/error.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/probe_stream.hpp"
 #include "model/normal_matrix.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "fit/joint_model.hpp"
-#include "trueaxis/error.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

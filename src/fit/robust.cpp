@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "fit/starts.hpp"
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -76,7 +76,8 @@ psi_and_derivative influence(const LossScale& loss, double residual_mm) {
   const double c = loss.threshold_mm, r = residual_mm;
   switch (loss.kind) {
     case LossScale::Kind::huber:
-      return std::abs(r) <= c ? psi_and_derivative{r, 1.0} : psi_and_derivative{std::copysign(c, r), 0.0};
+      return std::abs(r) <= c ? psi_and_derivative{r, 1.0}
+                              : psi_and_derivative{std::copysign(c, r), 0.0};
     case LossScale::Kind::tukey: {
       const double v = (r / c) * (r / c);
       return v >= 1.0 ? psi_and_derivative{0.0, 0.0}

@@ -63,7 +63,7 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
   }
   using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   return Eigen::Map<const ObservationMask>(transform.data(), static_cast<Eigen::Index>(p),
-                                static_cast<Eigen::Index>(columns)) *
+                                           static_cast<Eigen::Index>(columns)) *
          sums;
 }
 

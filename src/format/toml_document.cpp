@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "format/file.hpp"
 #include "format/toml_state.hpp"
 #include "format/toml_units.hpp"
-#include "format/file.hpp"
 
 namespace trueaxis {
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "trueaxis/error.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 
-#include "trueaxis/units.hpp"
 #include "trueaxis/job.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

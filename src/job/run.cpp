@@ -7,8 +7,8 @@
 #include "job/inclusion.hpp"
 #include "job/slip.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/job.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

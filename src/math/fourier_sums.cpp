@@ -9,9 +9,9 @@
 
 #include "math/fast_fourier.hpp"
 #include "math/fourier_spread.hpp"
+#include "math/sincos.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "math/sincos.hpp"
 
 namespace trueaxis {
 namespace {

@@ -13,8 +13,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t tile =
     4;  // 4 × 4 sums and their operands fit into 32 registers, nearly into 16
 
-// ObservationMask [row0, row0 + ObservationMask) against columns [column0, column0 + tile), or, on the diagonal, against
-// the rows themselves: the sums stay in registers over the block.
+// ObservationMask [row0, row0 + ObservationMask) against columns [column0, column0 + tile), or, on
+// the diagonal, against the rows themselves: the sums stay in registers over the block.
 template <std::size_t ObservationMask, bool Diagonal>
 HWY_INLINE void add_tile(const double* const* column, std::size_t row0, std::size_t column0,
                          LaneSums& sums) {
@@ -48,7 +48,8 @@ HWY_INLINE void add_tile(const double* const* column, std::size_t row0, std::siz
 
 template <std::size_t ObservationMask>
 HWY_INLINE void add_rows(const double* const* column, std::size_t row0, LaneSums& sums) {
-  for (std::size_t j = 0; j < row0; j += tile) add_tile<ObservationMask, false>(column, row0, j, sums);
+  for (std::size_t j = 0; j < row0; j += tile)
+    add_tile<ObservationMask, false>(column, row0, j, sums);
   add_tile<ObservationMask, true>(column, row0, row0, sums);
 }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "trueaxis/error.hpp"
 #include "math/gram.hpp"
+#include "trueaxis/error.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "math/wide_gram.cpp"  // compiled once for every instruction set

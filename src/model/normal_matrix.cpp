@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
+#include "math/gram.hpp"
 #include "model/loss.hpp"
 #include "trueaxis/error.hpp"
-#include "math/gram.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "trueaxis/probe_stream.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "model/column_buffer.hpp"
-#include "trueaxis/error.hpp"
 #include "math/sincos.hpp"
+#include "model/column_buffer.hpp"
 #include "model/normal_matrix.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 

@@ -14,8 +14,8 @@
 #include "cli/guarded.hpp"
 #include "cli/sweep_run.hpp"
 #include "mpi/distribute.hpp"
-#include "trueaxis/error.hpp"
 #include "study/sweep/files/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
 
 /// trueaxis-mpi sweep SWEEP.toml -o DIR: the command of that name on the ranks of mpirun.
 namespace trueaxis::mpi {

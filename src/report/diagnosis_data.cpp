@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "report/report_data.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

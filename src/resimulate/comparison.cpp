@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/job.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <utility>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "math/fourier_sums.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -80,8 +79,8 @@ void centre(std::vector<double>& values, const std::vector<bool>& masked) {
 }
 
 Estimate j_test_lambda(const ProbeStream& measured, const SimulatedReadings& simulated,
-                  const std::vector<bool>& masked, double sigma_mm,
-                  const std::vector<double>& autoregression) {
+                       const std::vector<bool>& masked, double sigma_mm,
+                       const std::vector<double>& autoregression) {
   std::vector<double> way, left;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     way.push_back(simulated.before_mm[i] - simulated.after_mm[i]);

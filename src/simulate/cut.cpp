@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/virtual_cut.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +9,7 @@
 #include "simulate/tool_path.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
+#include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -2,10 +2,10 @@
 #include <cmath>
 #include <cstddef>
 
+#include "simulate/clean_stream.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/variates.hpp"
 #include "trueaxis/error.hpp"
-#include "simulate/clean_stream.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

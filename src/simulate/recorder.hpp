@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "simulate/clean_stream.hpp"
 #include "simulate/lag_filter.hpp"
 #include "simulate/noise_source.hpp"
 #include "simulate/prober.hpp"
 #include "simulate/timeline.hpp"
-#include "simulate/clean_stream.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/virtual_lathe.hpp"
-
 #include <algorithm>
 #include <sstream>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "simulate/recorder.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

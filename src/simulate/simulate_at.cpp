@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <map>
 
+#include "measure/passes.hpp"
 #include "simulate/recorder.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "measure/passes.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {

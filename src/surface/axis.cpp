@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/surface.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/surface.hpp"
-
 #include <cmath>
 #include <limits>
+
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 namespace {

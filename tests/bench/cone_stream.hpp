@@ -9,8 +9,8 @@
 #include <random>
 
 #include "bench/cone_peer.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::peer {
 

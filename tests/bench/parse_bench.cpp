@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <string>
 
-#include "trueaxis/units.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "measure/passes.hpp"
+#include "trueaxis/units.hpp"
 
 namespace {
 

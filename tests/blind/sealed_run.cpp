@@ -3,8 +3,8 @@
 
 #include <chrono>
 
-#include "support/command.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "support/command.hpp"
 
 namespace trueaxis::blind {
 namespace {

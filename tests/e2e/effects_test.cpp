@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/virtual_lathe.hpp"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "simulate/files/scenario_toml.hpp"
 #include "support/command.hpp"
 #include "trueaxis/effect.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <sstream>
 
-#include "support/command.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "support/command.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "study/sweep/files/sweep_toml.hpp"
 #include "support/open_page.hpp"
 #include "support/sweep_examples.hpp"
-#include "study/sweep/files/sweep_toml.hpp"
 
 namespace trueaxis {
 namespace {

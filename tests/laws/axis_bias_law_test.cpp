@@ -8,9 +8,9 @@
 #include <set>
 #include <string>
 
-#include "trueaxis/units.hpp"
-#include "trueaxis/effect.hpp"
 #include "study/axis_bias/axis_bias.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -114,7 +114,8 @@ TEST(AxisBiasGeometry, FiguresOfACylinder) {
   const double end = scenario.plan.passes[0].end_mm;
   const double away = std::hypot(part.x0_mm + part.l * end, part.y0_mm + part.m * end);
   const auto expect = [&](const char* effect, double value) {
-    EXPECT_NEAR(axis_bias_of(scenario, case_of(cases, effect)).limit, value, 2e-3 * value) << effect;
+    EXPECT_NEAR(axis_bias_of(scenario, case_of(cases, effect)).limit, value, 2e-3 * value)
+        << effect;
   };
   expect("encoder.offset", away * rad_per_deg);
   expect("probe.latency", away * two_pi);  // 60 rpm
@@ -139,7 +140,8 @@ TEST(AxisBiasGeometry, FiguresOfTheCatalogue) {
     for (const auto& figure : figures) {
       if (one.effect != figure.effect || one.form != figure.form) continue;
       ASSERT_TRUE(one.stated.has_value()) << one.effect;
-      EXPECT_NEAR(axis_bias_of(scenario, one).limit, *one.stated, figure.half_a_digit) << one.effect;
+      EXPECT_NEAR(axis_bias_of(scenario, one).limit, *one.stated, figure.half_a_digit)
+          << one.effect;
     }
   }
 }

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "support/sweep_examples.hpp"
-#include "trueaxis/units.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
+#include "support/sweep_examples.hpp"
+#include "trueaxis/units.hpp"
 
 /// The bound of what can be known, and that fits reach it.
 namespace trueaxis::study {

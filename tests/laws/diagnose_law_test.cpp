@@ -60,7 +60,7 @@ Eigen::MatrixXd surface_columns(const virtual_lathe::Scenario& scenario) {
   const auto clampings = diagnose_detail::clampings_of(ideal, 0.0);
   return explicit_columns(
       diagnose_detail::linearise_at(stream, clampings,
-                                  diagnose_detail::base_of(stream, ideal, clampings), false),
+                                    diagnose_detail::base_of(stream, ideal, clampings), false),
       {});
 }
 

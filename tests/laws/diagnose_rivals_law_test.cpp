@@ -5,10 +5,10 @@
 #include <cmath>
 #include <iostream>
 
+#include "study/bound/quantities.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/virtual_lathe.hpp"
-#include "study/bound/quantities.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -25,9 +25,10 @@ Scenario one_pass_over_a_cone(bool barrel) {
   scenario.noise.sigma_mm = 0.002;
   scenario.plan.passes[0].readings_per_revolution = 24.3;
   scenario.effects = {
-      barrel ? Effect{"part.barrel", {{"amplitude_mm", 0.004}}}
-             : Effect{"probe.nonlinearity",
-                      {{"quadratic_mm", 0.005}, {"range_mm", 3.0}, {"reference_mm", 35.5}}}};
+      barrel ? virtual_lathe::Effect{"part.barrel", {{"amplitude_mm", 0.004}}}
+             : virtual_lathe::Effect{
+                   "probe.nonlinearity",
+                   {{"quadratic_mm", 0.005}, {"range_mm", 3.0}, {"reference_mm", 35.5}}}};
   return scenario;
 }
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <string>
 
-#include "support/sweep_examples.hpp"
-#include "trueaxis/units.hpp"
-#include "trueaxis/diagnosis.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 #include "study/bound/quantities.hpp"
+#include "support/sweep_examples.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
 namespace {

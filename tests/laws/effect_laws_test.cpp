@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/error.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

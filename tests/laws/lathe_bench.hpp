@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/units.hpp"
 #include "trueaxis/effect.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 #include "trueaxis/surface.hpp"
+#include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::testing {
 

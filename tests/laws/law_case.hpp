@@ -9,10 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "surface/surface.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/virtual_lathe.hpp"
-#include "surface/surface.hpp"
 
 namespace trueaxis::laws {
 

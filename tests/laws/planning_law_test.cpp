@@ -5,12 +5,12 @@
 #include <cmath>
 #include <random>
 
-#include "study/planning/planning_bound.hpp"
-#include "trueaxis/error.hpp"
 #include "simulate/clean_stream.hpp"
-#include "study/planning/planning.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/planning/planning.hpp"
+#include "study/planning/planning_bound.hpp"
 #include "study/sweep/scenario_parameters.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <iostream>
 
-#include "trueaxis/fit.hpp"
 #include "simulate/clean_stream.hpp"
+#include "trueaxis/fit.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/files/diagnosis_json.hpp"
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
-#include "trueaxis/error.hpp"
-#include "diagnose/files/diagnosis_json.hpp"
 #include "resimulate/diagnosis_scenario.hpp"
-#include "trueaxis/job.hpp"
 #include "simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis::testing {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
-#include "support/sweep_examples.hpp"
-#include "trueaxis/units.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/sweep/scenario_parameters.hpp"
+#include "support/sweep_examples.hpp"
+#include "trueaxis/units.hpp"
 
 /// What must hold of any sweep.
 namespace trueaxis::study {

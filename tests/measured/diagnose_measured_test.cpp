@@ -10,9 +10,9 @@
 #include <iostream>
 #include <set>
 
+#include "measure/files/stream_csv.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/units.hpp"
-#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
 namespace {

@@ -9,9 +9,9 @@
 #include <sstream>
 #include <utility>
 
+#include "measure/files/stream_csv.hpp"
 #include "support/command_fixture.hpp"
 #include "trueaxis/fit.hpp"
-#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis::testing {
 namespace {

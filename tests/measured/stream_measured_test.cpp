@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "trueaxis/units.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "measure/passes.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "bench/peers_ceres.hpp"
 #include "reference/lateral_stream.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
 
 /// The engine gives Ceres one small block made of the normal matrix; here Ceres gets every reading
 /// as a residual of its own, with AutoDiff and a model that shares no code with the engine.

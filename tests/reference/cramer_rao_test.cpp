@@ -14,8 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "trueaxis/units.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
 
 /// Efficiency of fit() against the Cramér-Rao bound, and coverage of its U (k = 2).
 namespace trueaxis::reference {

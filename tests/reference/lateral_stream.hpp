@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bench/peers_ceres.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::reference {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/units.hpp"
 #include "trueaxis/job.hpp"
+#include "trueaxis/units.hpp"
 
 /// Job results for the tests of the report, made by formulas of this file and not by the engine:
 /// the fit is the truth, the residuals are the noise that was added.

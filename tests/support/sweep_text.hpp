@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "trueaxis/error.hpp"
 #include "study/sweep/files/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::testing {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/error.hpp"
 #include "format/file.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured against simulated: discrepancies whose RMS, share and spectrum follow from a formula.
-#include "trueaxis/job.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "resimulate/files/comparison_json.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -136,7 +135,8 @@ TEST(Comparison, WayBackKnowsCorrelatedNoise) {
         pairs += way[i] * way[j] * std::pow(phi, i > j ? i - j : j - i);
     }
     const double u = sigma_mm * std::sqrt(pairs) / squares;
-    EXPECT_NEAR(compare(e.measured, e.simulated, e.masked, sigma_mm, {phi}).j_test_lambda.u, u, 1e-9 * u)
+    EXPECT_NEAR(compare(e.measured, e.simulated, e.masked, sigma_mm, {phi}).j_test_lambda.u, u,
+                1e-9 * u)
         << phi;
   }
 }

@@ -69,7 +69,8 @@ TEST(Condense, OnlyDenseLongStreams) {
   EXPECT_EQ(condensation(few, resolution_of(few, make_observation_mask(few))), 1u);
   const LinearisationPoint many = testing::bench_point({.readings = 70000, .per_turn = 333.3}, 0.1);
   EXPECT_EQ(condensation(many, resolution_of(many, make_observation_mask(many))), 8u);
-  const LinearisationPoint sparse = testing::bench_point({.readings = 70000, .per_turn = 23.7}, 0.1);
+  const LinearisationPoint sparse =
+      testing::bench_point({.readings = 70000, .per_turn = 23.7}, 0.1);
   EXPECT_EQ(condensation(sparse, resolution_of(sparse, make_observation_mask(sparse))), 1u);
 }
 

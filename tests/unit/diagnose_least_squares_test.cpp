@@ -141,7 +141,7 @@ TEST(HeldOut, IsTheRefitWithoutTheBlock) {
   const ObservationMask mask = make_observation_mask(point);
   const std::vector<double> y = testing::white_noise(point.size(), 0.01, 5);
   constexpr bool blocks = true;
-  NormalEquations equations(point, rows, y, {}, 1, blocks);
+  NormalEquations equations(point, mask, y, {}, 1, blocks);
   const std::vector<Hypothesis> terms{testing::roundness(2)};
   equations.append(terms);
   Columns columns = equations.base();

@@ -21,7 +21,7 @@ constexpr std::uint64_t seed = 77;
 struct Bench {
   LinearisationPoint point = testing::bench_point({}, 0.1);
   ObservationMask mask = make_observation_mask(point);
-  Resolution resolution = resolution_of(point, rows);
+  Resolution resolution = resolution_of(point, mask);
 
   /// Noise with three lobes of fifty times its size.
   std::vector<double> with_lobes(std::vector<double> noise) const {
@@ -85,7 +85,7 @@ TEST(Autoregression, FindsNothingInWhiteNoise) {
 std::set<std::size_t> masked_rows(const Bench& b, const std::vector<double>& y) {
   ObservationMask mask = b.mask;
   std::set<std::size_t> out;
-  for (const Rejected& r : mask_outliers(b.point, b.resolution, y, rows)) out.insert(r.row - 1);
+  for (const Rejected& r : mask_outliers(b.point, b.resolution, y, mask)) out.insert(r.row - 1);
   for (std::size_t i = 0; i < mask.used.size(); ++i) EXPECT_EQ(mask.used[i] == 0, out.contains(i));
   return out;
 }

@@ -20,7 +20,7 @@ constexpr std::uint64_t seed = 4;
 struct LineCase {
   const char* id;  ///< nullptr: a pattern
   Pattern pattern;
-  double frequency;                   ///< cycles per rad of C, s, mm
+  double frequency;                                ///< cycles per rad of C, s, mm
   std::vector<double> LinearisationPoint::*along;  ///< what it is periodic in
 };
 
@@ -34,8 +34,8 @@ struct Bench {
 
   explicit Bench(const testing::HelixPlan& plan)
       : point(testing::bench_point(plan, 0.1)),
-        rows(make_observation_mask(point)),
-        resolution(resolution_of(point, rows)) {}
+        mask(make_observation_mask(point)),
+        resolution(resolution_of(point, mask)) {}
 };
 const testing::HelixPlan out_and_back{.readings = 900, .passes = 2};
 
@@ -115,19 +115,20 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, ScannedLine,
     ::testing::Combine(
-        ::testing::Values(LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &LinearisationPoint::c},
-                          LineCase{"environment.vibration", {}, 7.31, &LinearisationPoint::time},
-                          LineCase{"part.waviness", {}, 1.0 / 7.3, &LinearisationPoint::s},
-                          LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &LinearisationPoint::z},
-                          LineCase{"part.feed_marks", {}, 1.0 / 0.87, &LinearisationPoint::s},
-                          LineCase{nullptr,
-                                   {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
-                                   0.057,
-                                   &LinearisationPoint::s},
-                          LineCase{nullptr,
-                                   {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
-                                   0.083,
-                                   &LinearisationPoint::s}),
+        ::testing::Values(
+            LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &LinearisationPoint::c},
+            LineCase{"environment.vibration", {}, 7.31, &LinearisationPoint::time},
+            LineCase{"part.waviness", {}, 1.0 / 7.3, &LinearisationPoint::s},
+            LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &LinearisationPoint::z},
+            LineCase{"part.feed_marks", {}, 1.0 / 0.87, &LinearisationPoint::s},
+            LineCase{nullptr,
+                     {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
+                     0.057,
+                     &LinearisationPoint::s},
+            LineCase{nullptr,
+                     {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
+                     0.083,
+                     &LinearisationPoint::s}),
         ::testing::Values(0.0, 0.5)));
 
 // Σ W over the scans that count, W = Δf √(4π var x): of one pass C, Z and t are one variable and

@@ -54,8 +54,8 @@ Revolved about(const Revolved& from, double z_mm) {
 
 /// Parameter j of an axis' own (x, y, slopes), then radius and tangent about s_ref. Slopes turn the
 /// part rigidly about the spindle's point at z_mid: its axis' point there then moves along Z.
-Revolved nudged(const Revolved& shape, const Clamping& clamping, const LinearisationPoint& point, std::size_t j,
-                double by) {
+Revolved nudged(const Revolved& shape, const Clamping& clamping, const LinearisationPoint& point,
+                std::size_t j, double by) {
   Revolved out = about(shape, point.z_mid_mm);
   double* const own[] = {&out.axis.x_mm, &out.axis.y_mm, &out.axis.slope_x, &out.axis.slope_y,
                          &out.radius_mm};

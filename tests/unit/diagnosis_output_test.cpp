@@ -5,13 +5,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_noise_json.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
+#include "job/files/residuals_csv.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/effect.hpp"
-#include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_text.hpp"
-#include "job/files/residuals_csv.hpp"
 
 namespace trueaxis {
 namespace {

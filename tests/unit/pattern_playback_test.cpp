@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "resimulate/diagnosis_scenario.hpp"
 #include "simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "study/published/printed_run.hpp"
-#include "study/published/likelihood_profile.hpp"
-#include "support/sweep_examples.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/published/likelihood_profile.hpp"
+#include "study/published/printed_run.hpp"
+#include "support/sweep_examples.hpp"
 
 namespace trueaxis::study {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "support/sweep_examples.hpp"
 #include "study/planning/files/planning_results.hpp"
+#include "support/sweep_examples.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "trueaxis/error.hpp"
 #include "study/sweep/files/sweep_toml.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "report/page.hpp"
+#include "report/report.hpp"
 #include "report/thinning.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/error.hpp"
-#include "report/report.hpp"
 
 namespace trueaxis {
 namespace {

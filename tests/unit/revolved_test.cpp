@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/surface.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "trueaxis/error.hpp"
 #include "simulate/resimulate.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {

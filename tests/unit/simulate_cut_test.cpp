@@ -7,9 +7,9 @@
 #include <complex>
 #include <numbers>
 
+#include "simulate/files/cut_table_csv.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "simulate/files/cut_table_csv.hpp"
 #include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::virtual_lathe {

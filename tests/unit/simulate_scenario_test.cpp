@@ -3,10 +3,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/diagnosis_example.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
 namespace {

@@ -11,10 +11,10 @@
 #include <random>
 #include <string>
 
+#include "format/file.hpp"
 #include "measure/files/stream_csv_number.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "format/file.hpp"
 
 namespace trueaxis {
 namespace {

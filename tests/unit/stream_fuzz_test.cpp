@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/error.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "measure/passes.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

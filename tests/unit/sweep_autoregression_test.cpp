@@ -3,11 +3,11 @@
 
 #include <cmath>
 
+#include "simulate/files/scenario_toml.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 #include "support/sweep_examples.hpp"
 #include "support/sweep_text.hpp"
 #include "trueaxis/error.hpp"
-#include "simulate/files/scenario_toml.hpp"
-#include "study/sweep/files/sweep_toml.hpp"
 
 /// The kind of noise as an axis: φ of an autoregression.
 namespace trueaxis {

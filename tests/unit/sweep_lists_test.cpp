@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "study/sweep/files/sweep_toml.hpp"
 #include "support/sweep_text.hpp"
 #include "trueaxis/error.hpp"
-#include "study/sweep/files/sweep_toml.hpp"
 
 /// Cases of an axis that replace whole lists of the scenario, and the order in which a cell is set.
 namespace trueaxis {

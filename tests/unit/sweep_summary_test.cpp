@@ -5,10 +5,10 @@
 #include <limits>
 #include <sstream>
 
-#include "support/sweep_examples.hpp"
-#include "trueaxis/error.hpp"
 #include "study/sweep/files/sweep_results.hpp"
 #include "study/sweep/summary.hpp"
+#include "support/sweep_examples.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

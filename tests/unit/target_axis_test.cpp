@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/correction.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
+#include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

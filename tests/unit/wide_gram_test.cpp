@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "laws/targets.hpp"
-#include "trueaxis/error.hpp"
 #include "math/gram.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <utility>
 
-#include "trueaxis/units.hpp"
 #include "correct/files/table_csv.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

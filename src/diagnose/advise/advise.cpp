@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "diagnose/search/causes.hpp"
 #include "diagnose/advise/candidate_measurements.hpp"
+#include "diagnose/search/causes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -29,8 +29,9 @@ struct Outlook {
 
 class Predictor {
  public:
-  Predictor(const Problem& problem, const Model& model, const std::vector<AmbiguousFinding>& questions,
-            const std::vector<Unobservable>& hidden, double sigma_mm)
+  Predictor(const Problem& problem, const Model& model,
+            const std::vector<AmbiguousFinding>& questions, const std::vector<Unobservable>& hidden,
+            double sigma_mm)
       : problem_(problem),
         model_(model),
         questions_(questions),
@@ -62,7 +63,7 @@ class Predictor {
     const LinearisationPoint point = linearise_at(stream, clampings, base, problem_.point.bore);
     const ObservationMask mask = make_observation_mask(point);
     const std::vector<double> nothing(point.size(), 0.0);
-    NormalEquations equations(point, rows, nothing, {}, 1);
+    NormalEquations equations(point, mask, nothing, {}, 1);
     const std::vector<Columns> places = equations.append(list_);
     const Eigen::MatrixXd gram = weight * equations.total();
     Outlook out;
@@ -119,8 +120,8 @@ Separating nothing_helps(double before, const std::string& why) {
 
 /// The plan to take for something that each plan raises from `before` to `after[plan]`: among those
 /// that raise it nearly as much as any, the fastest; none where none makes sure of it.
-Separating choose(const std::vector<CandidateMeasurement>& plans, double before, const std::vector<double>& after,
-                  double sure, const std::string& nothing) {
+Separating choose(const std::vector<CandidateMeasurement>& plans, double before,
+                  const std::vector<double>& after, double sure, const std::string& nothing) {
   const auto top = std::ranges::max_element(after);
   const double most = std::max(0.0, (top == after.end() ? before : *top) - before);
   if (most < worth_taking) return nothing_helps(before, nothing);
@@ -158,14 +159,16 @@ double longest_wave(const std::vector<AmbiguousFinding>& questions) {
 }  // namespace
 
 Advice advise(const Problem& problem, const Model& model, const ProbeStream& stream,
-              const std::vector<Clamping>& clampings, const std::vector<AmbiguousFinding>& questions,
+              const std::vector<Clamping>& clampings,
+              const std::vector<AmbiguousFinding>& questions,
               const std::vector<Unobservable>& hidden, double sigma_mm) {
   Advice out;
   const std::vector<CandidateMeasurement> plans =
       candidate_measurements(stream, problem.point, clampings, longest_wave(questions));
   const Predictor predictor(problem, model, questions, hidden, sigma_mm);
   std::vector<Outlook> after;
-  for (const CandidateMeasurement& p : plans) after.push_back(predictor.of(p.stream, p.clampings, p.weight));
+  for (const CandidateMeasurement& p : plans)
+    after.push_back(predictor.of(p.stream, p.clampings, p.weight));
 
   std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
   double weight_sum = 0.0, before_sum = 0.0;

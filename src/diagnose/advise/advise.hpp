@@ -26,7 +26,8 @@ struct Advice {
 /// was measured and of what each plan would add; without a class, the one that shows the most
 /// harmful of the hidden effects.
 Advice advise(const Problem& problem, const Model& model, const ProbeStream& stream,
-              const std::vector<Clamping>& clampings, const std::vector<AmbiguousFinding>& questions,
+              const std::vector<Clamping>& clampings,
+              const std::vector<AmbiguousFinding>& questions,
               const std::vector<Unobservable>& hidden, double sigma_mm);
 
 }  // namespace trueaxis::diagnose_detail

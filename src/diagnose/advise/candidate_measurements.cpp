@@ -96,8 +96,10 @@ ProbeStream thinned(const ProbeStream& stream, const LinearisationPoint& point) 
 
 }  // namespace
 
-std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream, const LinearisationPoint& point,
-                                  const std::vector<Clamping>& clampings, double wave_mm) {
+std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream,
+                                                         const LinearisationPoint& point,
+                                                         const std::vector<Clamping>& clampings,
+                                                         double wave_mm) {
   const Manner m = manner_of(point);
   const ProbeStream before = thinned(stream, point);
   const double weight = static_cast<double>(point.size()) / static_cast<double>(before.size());

@@ -19,7 +19,9 @@ struct CandidateMeasurement {
 
 /// The candidates: each after the passes measured, in the manner of the longest of them.
 /// @param wave_mm half of it is the shift along Z; 0: a fifth of the length
-std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream, const LinearisationPoint& point,
-                                  const std::vector<Clamping>& clampings, double wave_mm);
+std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream,
+                                                         const LinearisationPoint& point,
+                                                         const std::vector<Clamping>& clampings,
+                                                         double wave_mm);
 
 }  // namespace trueaxis::diagnose_detail

@@ -21,7 +21,7 @@ template <typename Statistic>
 Interval interval(const std::vector<Block>& blocks, Statistic statistic) {
   const auto sum = [](const std::vector<Block>& list) {
     Block all;
-    for (const Block& b : list) all.before += b.before, all.after += b.after, all.rows += b.mask;
+    for (const Block& b : list) all.before += b.before, all.after += b.after, all.rows += b.rows;
     return all;
   };
   Interval out;
@@ -80,9 +80,9 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::Matri
     blocks.push_back(b);
   }
   out.held_out_before_mm =
-      interval(blocks, [](const Block& b) { return root_mean(b.before, b.mask); });
+      interval(blocks, [](const Block& b) { return root_mean(b.before, b.rows); });
   out.held_out_after_mm =
-      interval(blocks, [](const Block& b) { return root_mean(b.after, b.mask); });
+      interval(blocks, [](const Block& b) { return root_mean(b.after, b.rows); });
   out.held_out_ratio = interval(
       blocks, [](const Block& b) { return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0; });
   out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;

@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "diagnose/search/causes.hpp"
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -124,7 +124,8 @@ double typical_lambda(const Projection& projection, const Columns& columns, doub
   return size * size * trace / static_cast<double>(count) / (sigma_mm * sigma_mm);
 }
 
-std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model, double sigma_mm) {
+std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
+                                               double sigma_mm) {
   const LinearisationPoint& point = problem.point;
   const std::vector<Typical> all = typical_effects(point);
   std::vector<Hypothesis> list = model.terms;
@@ -192,8 +193,9 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));
   }
-  std::ranges::stable_sort(out,
-                           [](const Unobservable& a, const Unobservable& b) { return a.axis_bias_mm > b.axis_bias_mm; });
+  std::ranges::stable_sort(out, [](const Unobservable& a, const Unobservable& b) {
+    return a.axis_bias_mm > b.axis_bias_mm;
+  });
   return out;
 }
 

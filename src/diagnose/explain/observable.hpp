@@ -36,6 +36,7 @@ struct Unobservable {
   double axis_bias_mm = 0.0;  ///< at the typical size
   double power = 0.0;
 };
-std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model, double sigma_mm);
+std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
+                                               double sigma_mm);
 
 }  // namespace trueaxis::diagnose_detail

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "diagnose/explain/sources.hpp"
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -55,7 +55,7 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
                                         const std::vector<double>& residual_mm,
                                         const NoiseReport& noise) {
   const LinearisationPoint& point = joint.equations.point();
-  const ObservationMask& mask = joint.equations.rows();
+  const ObservationMask& mask = joint.equations.mask();
   std::vector<QualityCheck> list{saturation(stream), quantisation(stream, noise.sigma_mm)};
   list.push_back(result(
       "probe.outliers", !noise.masked.empty() && noise.interruptions.empty(),
@@ -68,7 +68,8 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   for (std::size_t i = 0; i < point.size(); ++i) {
     if (!mask.used[i]) continue;
     const double dx_dy = point.dx_dc[i] / point.x[i];
-    const double t = dx_dy * dx_dy + point.dx_dz[i] * point.dx_dz[i], v = residual_mm[i] * residual_mm[i];
+    const double t = dx_dy * dx_dy + point.dx_dz[i] * point.dx_dz[i],
+                 v = residual_mm[i] * residual_mm[i];
     sum_t += t, sum_v += v, sum_tt += t * t, sum_tv += t * v, n += 1.0;
   }
   const double mean = sum_v / n, spread = sum_tt - sum_t * sum_t / n;

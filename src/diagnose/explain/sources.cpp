@@ -145,14 +145,14 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                          const std::vector<double>& residual_mm, std::vector<Rejected> masked,
                          const std::optional<double>& stated_mm) {
   const LinearisationPoint& point = joint.equations.point();
-  const ObservationMask& mask = joint.equations.rows();
+  const ObservationMask& mask = joint.equations.mask();
   NoiseReport out;
   out.masked = std::move(masked);
   out.stated_mm = stated_mm ? stated_mm : stream.sensor_noise_mm;
   out.autoregression = joint.equations.autoregression();
-  out.stationary_mm = stationary_sigma(point, rows, residual_mm);
-  out.revolutions_mm = revolution_sigma(point, rows, residual_mm);
-  out.repeated_mm = repeated_sigma(point, rows, residual_mm);
+  out.stationary_mm = stationary_sigma(point, mask, residual_mm);
+  out.revolutions_mm = revolution_sigma(point, mask, residual_mm);
+  out.repeated_mm = repeated_sigma(point, mask, residual_mm);
   const double freedom =
       std::max(1.0, static_cast<double>(joint.equations.count() - joint.solution.rank));
   const double residual = joint.sigma_mm * std::sqrt(gain_of(out.autoregression));
@@ -186,7 +186,7 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                   residual / mm_per_um, out.source.c_str(), out.sigma_mm / mm_per_um);
     out.note = text;
   }
-  find_gaps(point, rows, out);
+  find_gaps(point, mask, out);
   return out;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/files/diagnosis_json.hpp"
 
-#include "diagnose/files/diagnosis_objects.hpp"
 #include "diagnose/files/diagnosis_noise_json.hpp"
+#include "diagnose/files/diagnosis_objects.hpp"
 
 namespace trueaxis {
 namespace {

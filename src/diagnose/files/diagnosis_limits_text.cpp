@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/finding_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
-#include "diagnose/files/diagnosis_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -51,7 +51,8 @@ std::string not_observable_text(const Diagnosis& d) {
   std::vector<NotObservable> listed;
   std::string harmless;
   for (const NotObservable& n : d.not_observable) {
-    const bool biases = !n.axis_bias_typical.determined() || n.axis_bias_typical.value >= harmless_mm;
+    const bool biases =
+        !n.axis_bias_typical.determined() || n.axis_bias_typical.value >= harmless_mm;
     if (biases)
       listed.push_back(n);
     else
@@ -67,13 +68,14 @@ std::string not_observable_text(const Diagnosis& d) {
   const auto row = [&](const std::string& a, const std::string& b, const std::string& c,
                        const std::string& e, const std::string& why) {
     return wrapped(
-        "  " + padded(a, id + 2) + padded(b, axis_bias + 2) + padded(c, found + 2) + padded(e, 9), why);
+        "  " + padded(a, id + 2) + padded(b, axis_bias + 2) + padded(c, found + 2) + padded(e, 9),
+        why);
   };
   std::string text = "\nCannot be seen with these readings at its typical size\n";
   text += row("effect", "axis shift", "seen from", "shown by", "why");
   for (const NotObservable& n : listed) {
-    text +=
-        row(n.effect, axis_bias_per_unit_text(n.axis_bias_per_unit), detectable_text(n), shown_by(n), n.why);
+    text += row(n.effect, axis_bias_per_unit_text(n.axis_bias_per_unit), detectable_text(n),
+                shown_by(n), n.why);
   }
   if (!harmless.empty())
     text += wrapped("  ", "Unseen too, but shifting the axis by less than 0.01 µm: " + harmless);

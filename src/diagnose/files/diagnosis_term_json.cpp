@@ -3,9 +3,9 @@
 #include <string_view>
 
 #include "diagnose/files/diagnosis_objects.hpp"
+#include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
 namespace {

@@ -52,8 +52,9 @@ std::string finding_block(const Finding& finding, std::size_t number, double k) 
   std::string text = "\n";
   text += wrapped(format("%2zu  ", number), finding.effect + "  " + finding_parameters(finding, k));
   if (finding.members.size() > 1) text += wrapped("    cause    ", finding_class(finding));
-  text += wrapped("    axis_bias     ", finding_axis_bias(finding, k) + "; RMS of its part of the readings " +
-                                       um(finding.rms_mm));
+  text +=
+      wrapped("    axis_bias     ", finding_axis_bias(finding, k) +
+                                        "; RMS of its part of the readings " + um(finding.rms_mm));
   const std::string axis = axis_note(finding);
   if (!axis.empty()) text += wrapped("    axis     ", axis);
   text += wrapped("    sure     ", "family-wise p " + probability(finding.p_value));
@@ -112,7 +113,8 @@ std::string findings_text(const Diagnosis& d) {
   const double k = d.baseline.coverage_factor;
   std::string text = wrapped("diagnosis   ", diagnosis_line(d));
   for (const Finding& f : d.findings) {
-    text += wrapped("  ", f.effect + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
+    text +=
+        wrapped("  ", f.effect + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
     if (f.members.size() > 1) text += wrapped("    ", finding_class(f));
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "format/text_layout.hpp"
-#include "trueaxis/units.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -15,13 +15,17 @@ constexpr double means_per_turn = 40.0;
 using Column = std::vector<double>;
 
 constexpr Column LinearisationPoint::*straight[] = {
-    &LinearisationPoint::c, &LinearisationPoint::z,      &LinearisationPoint::time,      &LinearisationPoint::speed, &LinearisationPoint::velocity,
-    &LinearisationPoint::x, &LinearisationPoint::sensed, &LinearisationPoint::dx_dc,     &LinearisationPoint::dx_dz, &LinearisationPoint::d2x_dc2,
-    &LinearisationPoint::s, &LinearisationPoint::clamp,  &LinearisationPoint::dx_dnormal};
-constexpr Column LinearisationPoint::*turning[] = {&LinearisationPoint::theta, &LinearisationPoint::chuck};
+    &LinearisationPoint::c,         &LinearisationPoint::z,        &LinearisationPoint::time,
+    &LinearisationPoint::speed,     &LinearisationPoint::velocity, &LinearisationPoint::x,
+    &LinearisationPoint::sensed,    &LinearisationPoint::dx_dc,    &LinearisationPoint::dx_dz,
+    &LinearisationPoint::d2x_dc2,   &LinearisationPoint::s,        &LinearisationPoint::clamp,
+    &LinearisationPoint::dx_dnormal};
+constexpr Column LinearisationPoint::*turning[] = {&LinearisationPoint::theta,
+                                                   &LinearisationPoint::chuck};
 
 /// First reading of every group, and one past the last.
-std::vector<std::size_t> groups_of(const LinearisationPoint& point, const ObservationMask& mask, std::size_t every) {
+std::vector<std::size_t> groups_of(const LinearisationPoint& point, const ObservationMask& mask,
+                                   std::size_t every) {
   std::vector<std::size_t> first;
   for (const Pass& pass : point.passes) {
     std::size_t begun = pass.begin;
@@ -38,7 +42,7 @@ std::vector<std::size_t> groups_of(const LinearisationPoint& point, const Observ
 class Mean {
  public:
   Mean(const ObservationMask& mask, std::size_t begin, std::size_t end)
-      : mask_(rows), begin_(begin), end_(end) {
+      : mask_(mask), begin_(begin), end_(end) {
     for (std::size_t i = begin; i < end; ++i) count_ += mask.used[i];
   }
   std::size_t count() const { return count_; }
@@ -69,18 +73,20 @@ std::size_t condensation(const LinearisationPoint& point, const Resolution& reso
   return static_cast<std::size_t>(std::max(1.0, std::floor(resolution.per_turn / means_per_turn)));
 }
 
-Condensed condense(const LinearisationPoint& point, const ObservationMask& mask, const std::vector<double>& deviation_mm,
-                   std::size_t every) {
-  const std::vector<std::size_t> first = groups_of(point, rows, every);
+Condensed condense(const LinearisationPoint& point, const ObservationMask& mask,
+                   const std::vector<double>& deviation_mm, std::size_t every) {
+  const std::vector<std::size_t> first = groups_of(point, mask, every);
   const std::size_t count = first.size() - 1;
   Condensed out;
   static_cast<LinearisationFacts&>(out.point) = point;
   for (Column LinearisationPoint::*column : straight) (out.point.*column).reserve(count);
   for (Column LinearisationPoint::*column : turning) (out.point.*column).reserve(count);
   for (std::size_t g = 0; g < count; ++g) {
-    const Mean mean(rows, first[g], first[g + 1]);
-    for (Column LinearisationPoint::*column : straight) (out.point.*column).push_back(mean(point.*column));
-    for (Column LinearisationPoint::*column : turning) (out.point.*column).push_back(mean.angle(point.*column));
+    const Mean mean(mask, first[g], first[g + 1]);
+    for (Column LinearisationPoint::*column : straight)
+      (out.point.*column).push_back(mean(point.*column));
+    for (Column LinearisationPoint::*column : turning)
+      (out.point.*column).push_back(mean.angle(point.*column));
     out.deviation_mm.push_back(mean(deviation_mm));
     out.point.axis.push_back(point.axis[first[g]]);
     out.point.rear.push_back(point.rear[first[g]]);

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/sincos.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "math/sincos.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -23,8 +23,8 @@ double legendre(int degree, double u) {
   return now;
 }
 
-void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_t begin, std::size_t end,
-                  std::span<double* const> columns) {
+void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_t begin,
+                  std::size_t end, std::span<double* const> columns) {
   const double first = point.time.front(), lasted = point.time.back() - first;
   const std::size_t count = end - begin;
   std::vector<double> angle(count), sine(count), cosine(count);
@@ -59,8 +59,9 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_
 
 }  // namespace
 
-void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin, std::size_t end,
-                  std::span<const double* const> constant, std::span<double* const> columns) {
+void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin,
+                  std::size_t end, std::span<const double* const> constant,
+                  std::span<double* const> columns) {
   for (std::size_t i = begin; i < end; ++i) {
     const double u = (point.s[i] - point.z_mid_mm) / point.z_half_mm;
     const double size = legendre(cell.pattern.degree, u);
@@ -79,8 +80,8 @@ std::size_t Hypothesis::columns() const {
   return own + (with_radial ? 2 : 0);
 }
 
-void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin, std::size_t end,
-          std::span<double* const> columns) {
+void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
+          std::size_t end, std::span<double* const> columns) {
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
   const Term& term = hypothesis.effect->term;
   if (hypothesis.with_radial) {

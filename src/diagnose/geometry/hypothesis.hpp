@@ -36,12 +36,13 @@ struct Hypothesis {
 };
 
 /// ∂X/∂(linear parameter) over readings [begin, end) of one set-up.
-void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin, std::size_t end,
-          std::span<double* const> columns);
+void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
+          std::size_t end, std::span<double* const> columns);
 
 /// The columns of a cell of a Legendre degree along s from those of its degree 0.
-void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin, std::size_t end,
-                  std::span<const double* const> constant, std::span<double* const> columns);
+void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin,
+                  std::size_t end, std::span<const double* const> constant,
+                  std::span<double* const> columns);
 
 /// A hypothesis of an effect by id. @throws ContractViolation for an unknown id.
 Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> free = {},

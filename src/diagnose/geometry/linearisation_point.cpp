@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "math/sincos.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -112,7 +112,7 @@ void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clamp
 }  // namespace
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                 const BaseKind& base, bool bore) {
+                                const BaseKind& base, bool bore) {
   expects(stream.kind == StreamKind::lateral && !stream.c_rad.empty(), "a lateral stream");
   LinearisationPoint point;
   point.base = base;
@@ -167,7 +167,8 @@ TermContext LinearisationPoint::context(std::size_t begin, std::size_t end) cons
   return at;
 }
 
-void LinearisationPoint::fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const {
+void LinearisationPoint::fill_base(std::size_t begin, std::size_t end,
+                                   std::span<double* const> columns) const {
   const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
   const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
   for (std::size_t j = 0; j < columns.size(); ++j) std::fill_n(columns[j], end - begin, 0.0);

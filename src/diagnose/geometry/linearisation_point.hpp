@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "trueaxis/effect.hpp"
 #include "measure/passes.hpp"
+#include "trueaxis/effect.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/surface.hpp"
 
@@ -63,6 +63,6 @@ struct LinearisationPoint : LinearisationFacts {
 
 /// @param stream columns C, Z, t, set-up; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                 const BaseKind& base, bool bore);
+                                const BaseKind& base, bool bore);
 
 }  // namespace trueaxis::diagnose_detail

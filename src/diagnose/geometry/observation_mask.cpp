@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -56,7 +56,7 @@ ObservationMask make_observation_mask(const LinearisationPoint& point) {
   if (!mask.fold_begin.empty()) {
     mask.fold_begin.push_back(point.size());
     mask.block = "a section";
-    return rows;
+    return mask;
   }
   double turns = 0.0;
   for (const Pass& pass : point.passes)
@@ -65,7 +65,7 @@ ObservationMask make_observation_mask(const LinearisationPoint& point) {
     const std::size_t blocks = std::min(blocks_wanted, point.size() / 2);
     for (std::size_t b = 0; b <= blocks; ++b) mask.fold_begin.push_back(b * point.size() / blocks);
     mask.block = "an arc";
-    return rows;
+    return mask;
   }
   const double per_block = std::max(1.0, std::floor(turns / static_cast<double>(blocks_wanted)));
   for (const Pass& pass : point.passes) {
@@ -84,7 +84,7 @@ ObservationMask make_observation_mask(const LinearisationPoint& point) {
   mask.fold_begin.push_back(point.size());
   mask.block = per_block == 1.0 ? "a revolution"
                                 : std::to_string(static_cast<int>(per_block)) + " revolutions";
-  return rows;
+  return mask;
 }
 
 }  // namespace trueaxis::diagnose_detail

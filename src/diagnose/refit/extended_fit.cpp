@@ -91,7 +91,8 @@ BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
   return base;
 }
 
-std::vector<double> contribution(const LinearisationPoint& point, const std::vector<Hypothesis>& terms,
+std::vector<double> contribution(const LinearisationPoint& point,
+                                 const std::vector<Hypothesis>& terms,
                                  const Eigen::VectorXd& coefficients) {
   std::vector<double> out(point.size(), 0.0);
   const std::size_t count = columns_of(terms);
@@ -121,7 +122,7 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
                        const std::vector<double>& effect_mm, const std::vector<Rejected>& masked,
                        const Eigen::MatrixXd& between) {
   const LinearisationPoint& point = joint.equations.point();
-  const ProbeStream clean = cleaned(stream, joint.equations.rows(), effect_mm);
+  const ProbeStream clean = cleaned(stream, joint.equations.mask(), effect_mm);
   FitResult result = fit(clean, options);
   FitOptions bare = options;
   bare.influences.clear();

@@ -19,7 +19,8 @@ BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
                  const std::vector<Clamping>& clampings);
 
 /// ∂X of all terms, one per reading, mm.
-std::vector<double> contribution(const LinearisationPoint& point, const std::vector<Hypothesis>& terms,
+std::vector<double> contribution(const LinearisationPoint& point,
+                                 const std::vector<Hypothesis>& terms,
                                  const Eigen::VectorXd& coefficients);
 
 /// The surface fitted to the readings less what the terms contribute, masked readings left out; u

@@ -27,13 +27,13 @@ struct Linearised {
   Linearised(const ProbeStream& stream, const FitResult& about, const FitOptions& options,
              const Hypothesis& effect)
       : point(point_of(stream, about, options)),
-        rows(make_observation_mask(point)),
-        resolution(resolution_of(point, rows)),
+        mask(make_observation_mask(point)),
+        resolution(resolution_of(point, mask)),
         deviation_mm(deviation(stream, point)),
-        joint(Problem{point, rows, resolution, deviation_mm}, {}, {effect}, 1) {}
+        joint(Problem{point, mask, resolution, deviation_mm}, {}, {effect}, 1) {}
 
   static LinearisationPoint point_of(const ProbeStream& stream, const FitResult& about,
-                        const FitOptions& options) {
+                                     const FitOptions& options) {
     const double ball_mm = std::max(stream.ball_radius_mm.value_or(0.0), options.ball_radius_mm);
     const std::vector<Clamping> clampings = clampings_of(about, ball_mm);
     return linearise_at(stream, clampings, base_of(stream, about, clampings), options.bore);
@@ -48,7 +48,8 @@ struct Linearised {
 /// How the axis moves at the ends of the probed Z, from the coefficients of the last axis: a shift
 /// and a turn about (0, 0, z_mid), which displaces a point by (δ lever, −δ·(x, y)). What the axis
 /// moves along itself is a shift, its slope that much.
-AxisEnds ends_from(const LinearisationPoint& point, const FitResult& fit, const Eigen::VectorXd& base) {
+AxisEnds ends_from(const LinearisationPoint& point, const FitResult& fit,
+                   const Eigen::VectorXd& base) {
   const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
   AxisEnds out{base(from), base(from + 1), base(from), base(from + 1)};
   if (!point.base.tilts) return out;

@@ -142,7 +142,7 @@ void RelinearisedFit::widen(const Given& given, const Eigen::MatrixXd& between) 
 }
 
 std::unique_ptr<RelinearisedFit> relinearise(const Given& given, const Problem& whole, Model& model,
-                                      std::optional<Timing>& timing) {
+                                             std::optional<Timing>& timing) {
   auto best = std::make_unique<RelinearisedFit>(given, whole, model);
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     const char* id = other_of(model.terms[t]);

@@ -64,6 +64,6 @@ struct Timing {
 
 /// The last fit; `model` is changed where the other of lag and delay does better.
 std::unique_ptr<RelinearisedFit> relinearise(const Given& given, const Problem& whole, Model& model,
-                                      std::optional<Timing>& timing);
+                                             std::optional<Timing>& timing);
 
 }  // namespace trueaxis::diagnose_detail

@@ -75,7 +75,8 @@ AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& cha
   return worst;
 }
 
-AxisUncertainty axis_uncertainty(const LinearisationPoint& point, const Eigen::MatrixXd& base_covariance) {
+AxisUncertainty axis_uncertainty(const LinearisationPoint& point,
+                                 const Eigen::MatrixXd& base_covariance) {
   const auto per = static_cast<Eigen::Index>(point.base.per_axis());
   const Eigen::Index from = last_axis(point);
   AxisUncertainty worst;

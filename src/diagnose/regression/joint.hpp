@@ -42,6 +42,7 @@ AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& cha
 struct AxisUncertainty {
   double u_mm = 0.0, rms_mm = 0.0;
 };
-AxisUncertainty axis_uncertainty(const LinearisationPoint& point, const Eigen::MatrixXd& base_covariance);
+AxisUncertainty axis_uncertainty(const LinearisationPoint& point,
+                                 const Eigen::MatrixXd& base_covariance);
 
 }  // namespace trueaxis::diagnose_detail

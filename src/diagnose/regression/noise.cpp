@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <numbers>
 
-#include "trueaxis/units.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -140,7 +140,8 @@ std::vector<double> remainder(const LinearisationPoint& point, std::span<const d
 }
 
 std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resolution& resolution,
-                                    std::span<const double> deviation_mm, ObservationMask& mask, int threads) {
+                                    std::span<const double> deviation_mm, ObservationMask& mask,
+                                    int threads) {
   const std::vector<Hypothesis> basis = small_fourier_legendre_basis(point, resolution);
   std::vector<double> left(deviation_mm.begin(), deviation_mm.end());
   double sigma = 0.0;
@@ -163,9 +164,10 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resol
     masked = count;
     if (same || (round == 0 && masked == 0 && point.size() < least_rows)) break;
     mask.find_runs(point);
-    NormalEquations equations(point, rows, deviation_mm, {}, threads);
+    NormalEquations equations(point, mask, deviation_mm, {}, threads);
     Columns all = equations.base();
-    for (const Columns& own : equations.append(basis)) all.insert(all.end(), own.begin(), own.end());
+    for (const Columns& own : equations.append(basis))
+      all.insert(all.end(), own.begin(), own.end());
     left = remainder(point, deviation_mm, basis, solve(equations.total(), all).coefficients);
   }
   mask.find_runs(point);

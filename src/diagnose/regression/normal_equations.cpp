@@ -8,9 +8,9 @@
 #include <numeric>
 #include <thread>
 
-#include "trueaxis/error.hpp"
 #include "math/gram.hpp"
 #include "math/wide_gram.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -84,14 +84,15 @@ std::vector<std::size_t> whole_passes(const ObservationMask& mask, std::size_t s
 
 }  // namespace
 
-NormalEquations::NormalEquations(const LinearisationPoint& point, const ObservationMask& mask, std::span<const double> deviation_mm,
-                   std::vector<double> autoregression, int threads, bool blocks)
+NormalEquations::NormalEquations(const LinearisationPoint& point, const ObservationMask& mask,
+                                 std::span<const double> deviation_mm,
+                                 std::vector<double> autoregression, int threads, bool blocks)
     : point_(&point),
-      mask_(&rows),
+      mask_(&mask),
       deviation_(deviation_mm),
       autoregression_(std::move(autoregression)),
       threads_(threads),
-      part_begin_(blocks ? mask.fold_begin : whole_passes(rows, point.size())),
+      part_begin_(blocks ? mask.fold_begin : whole_passes(mask, point.size())),
       folds_(part_begin_.size() - 1) {
   for (std::size_t i = 0; i < point.size(); ++i)
     count_ += mask.used[i] && mask.run[i] >= autoregression_.size();
@@ -134,8 +135,8 @@ void NormalEquations::shrink(std::size_t columns) {
   for (Matrix& fold : folds_) fold.conservativeResize(size, size);
 }
 
-void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
-                        std::span<double* const> columns) const {
+void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin,
+                               std::size_t end, std::span<double* const> columns) const {
   std::copy(deviation_.begin() + static_cast<long>(begin),
             deviation_.begin() + static_cast<long>(end), columns[0]);
   point_->fill_base(begin, end, columns.subspan(1, base_.size()));

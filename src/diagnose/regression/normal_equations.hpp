@@ -21,8 +21,9 @@ class NormalEquations {
   /// @param autoregression φ of ε_i = Σ φ_j ε_{i−j} + e_i: a row is y_i − Σ φ_j y_{i−j}; rows
   ///        without that many unbroken predecessors do not count.
   /// @param blocks whether the Gram matrices of the blocks are wanted, or their sum alone
-  NormalEquations(const LinearisationPoint& point, const ObservationMask& mask, std::span<const double> deviation_mm,
-           std::vector<double> autoregression, int threads, bool blocks = false);
+  NormalEquations(const LinearisationPoint& point, const ObservationMask& mask,
+                  std::span<const double> deviation_mm, std::vector<double> autoregression,
+                  int threads, bool blocks = false);
 
   /// One pass over the readings. @returns the columns of each hypothesis.
   std::vector<Columns> append(std::span<const Hypothesis> list);

@@ -42,7 +42,8 @@ void add_harmonics(const LinearisationPoint& point, const Resolution& resolution
   }
 }
 
-void add_along_z(const LinearisationPoint& point, const Resolution& resolution, std::vector<Hypothesis>& list) {
+void add_along_z(const LinearisationPoint& point, const Resolution& resolution,
+                 std::vector<Hypothesis>& list) {
   if (resolution.degrees == 0) return;
   list.push_back(of_effect("part.barrel", {}, {0}, 2));
   if (resolution.degrees > 2) list.push_back(of_effect("part.barrel", {}, {}, 2));
@@ -64,7 +65,8 @@ bool both_ways(const LinearisationPoint& point) {
   return v.low < -no_motion && v.high > no_motion;
 }
 
-void add_probe(const LinearisationPoint& point, const Resolution& resolution, std::vector<Hypothesis>& list) {
+void add_probe(const LinearisationPoint& point, const Resolution& resolution,
+               std::vector<Hypothesis>& list) {
   list.push_back(of_effect("probe.height", {}));
   list.push_back(of_effect("encoder.offset", {}));
   list.push_back(of_effect("encoder.eccentricity", {}));
@@ -139,7 +141,8 @@ std::vector<Hypothesis> slips(const LinearisationPoint& point, std::size_t insta
   return list;
 }
 
-std::vector<Hypothesis> preset_causes(const LinearisationPoint& point, const Resolution& resolution) {
+std::vector<Hypothesis> preset_causes(const LinearisationPoint& point,
+                                      const Resolution& resolution) {
   std::vector<Hypothesis> list;
   add_harmonics(point, resolution, list);
   add_along_z(point, resolution, list);
@@ -148,8 +151,8 @@ std::vector<Hypothesis> preset_causes(const LinearisationPoint& point, const Res
   return list;
 }
 
-std::vector<Hypothesis> causes_of_order(const LinearisationPoint& point, const Resolution& resolution,
-                                        int order) {
+std::vector<Hypothesis> causes_of_order(const LinearisationPoint& point,
+                                        const Resolution& resolution, int order) {
   std::vector<Hypothesis> list;
   const double tests = resolution.harmonics;
   const double n = order;
@@ -181,7 +184,8 @@ std::vector<Hypothesis> causes_of_order(const LinearisationPoint& point, const R
   return list;
 }
 
-std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint& point, double step) {
+std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint& point,
+                                   double step) {
   std::vector<Hypothesis> list;
   const auto vary = [&](auto change) {
     for (const double d : {-step, step}) {

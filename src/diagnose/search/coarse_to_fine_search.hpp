@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "diagnose/geometry/condense.hpp"
 #include "diagnose/explain/confounder_set.hpp"
+#include "diagnose/geometry/condense.hpp"
 #include "diagnose/search/search.hpp"
 
 namespace trueaxis::diagnose_detail {

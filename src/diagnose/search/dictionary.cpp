@@ -59,18 +59,19 @@ std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesi
 
 }  // namespace
 
-std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point, const ObservationMask& mask,
+std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point,
+                                            const ObservationMask& mask,
                                             const Resolution& resolution,
                                             std::span<const double> deviation_mm,
                                             const std::vector<double>& phi, int threads) {
-  auto out =
-      std::make_unique<Dictionary>(Dictionary{phi,
-                                              NormalEquations(point, rows, deviation_mm, phi, threads),
-                                              preset_causes(point, resolution),
-                                              fourier_legendre_basis(point, resolution),
-                                              {},
-                                              {},
-                                              0});
+  auto out = std::make_unique<Dictionary>(
+      Dictionary{phi,
+                 NormalEquations(point, mask, deviation_mm, phi, threads),
+                 preset_causes(point, resolution),
+                 fourier_legendre_basis(point, resolution),
+                 {},
+                 {},
+                 0});
   for (Hypothesis& h : slips(point, slip_instants)) out->presets.push_back(std::move(h));
   for (Hypothesis& h : out->basis) h.tests = static_cast<double>(out->basis.size());
   std::vector<Hypothesis> list = out->basis;

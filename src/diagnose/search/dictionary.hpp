@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "diagnose/search/fourier_legendre_basis.hpp"
 #include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -21,7 +21,8 @@ struct Dictionary {
   std::size_t columns = 0;  ///< of the equations, without what a step appends for a while
 };
 
-std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point, const ObservationMask& mask,
+std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point,
+                                            const ObservationMask& mask,
                                             const Resolution& resolution,
                                             std::span<const double> deviation_mm,
                                             const std::vector<double>& phi, int threads);

@@ -45,7 +45,8 @@ Resolution resolution_of(const LinearisationPoint& point, const ObservationMask&
   return out;
 }
 
-std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point, const Resolution& resolution) {
+std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point,
+                                               const Resolution& resolution) {
   std::vector<Hypothesis> basis;
   for (int n = 0; n <= resolution.harmonics; ++n) {
     for (int l = 0; l <= resolution.degrees + (n == 0 && resolution.degrees > 3 ? 1 : 0); ++l)
@@ -65,7 +66,8 @@ std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point, 
   return basis;
 }
 
-std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& point, const Resolution& resolution) {
+std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& point,
+                                                     const Resolution& resolution) {
   std::vector<Hypothesis> basis;
   const std::size_t most = point.size() / 3;
   std::size_t columns = point.base.columns();

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <map>
 
-#include "diagnose/search/causes.hpp"
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/search/causes.hpp"
 #include "diagnose/search/search.hpp"
 #include "math/statistics.hpp"
 
@@ -107,7 +107,8 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
       }
     }
     if (round > 0 && round < rounds && tried.size() == candidates.size()) continue;
-    NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads);
+    NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi,
+                              problem.threads);
     const auto places = equations.append(joined(others, tried));
     const std::vector<Candidate> judged = judge(equations, places, tried, others.size());
     best.assign(candidates.size(), {});

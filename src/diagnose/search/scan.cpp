@@ -7,10 +7,10 @@
 #include <functional>
 
 #include "diagnose/search/causes.hpp"
-#include "trueaxis/units.hpp"
 #include "math/fourier_sums.hpp"
 #include "math/sincos.hpp"
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -183,8 +183,8 @@ TurnedSums turned_sums(const FourierSums& plan, double order, const Column& angl
 }
 
 /// Of a single pass at constant feed a line of C is also one of an order along Z.
-void pattern_of_line(const LinearisationPoint& point, const Resolution& resolution, const Peak& line,
-                     Scans& out) {
+void pattern_of_line(const LinearisationPoint& point, const Resolution& resolution,
+                     const Peak& line, Scans& out) {
   const Pass& pass =
       *std::ranges::max_element(point.passes, {}, [](const Pass& p) { return p.end - p.begin; });
   const double turns = (point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
@@ -199,9 +199,10 @@ void pattern_of_line(const LinearisationPoint& point, const Resolution& resoluti
 
 }  // namespace
 
-std::vector<double> weighted(const NormalEquations& equations, std::span<const double> remainder_mm) {
+std::vector<double> weighted(const NormalEquations& equations,
+                             std::span<const double> remainder_mm) {
   const auto& phi = equations.autoregression();
-  const ObservationMask& mask = equations.rows();
+  const ObservationMask& mask = equations.mask();
   const std::size_t n = remainder_mm.size(), p = phi.size();
   std::vector<double> white(n, 0.0), out(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -220,7 +221,7 @@ std::vector<double> weighted(const NormalEquations& equations, std::span<const d
 Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
                  std::span<const double> remainder_mm, std::size_t means) {
   const LinearisationPoint& point = equations.point();
-  const ObservationMask& mask = equations.rows();
+  const ObservationMask& mask = equations.mask();
   const std::vector<double> plain = weighted(equations, remainder_mm);
   std::vector<double> outward = plain;  // of what lies along the normal
   for (std::size_t i = 0; i < outward.size(); ++i)

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "diagnose/search/fourier_legendre_basis.hpp"
 #include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -37,10 +37,11 @@ double frequency_of(const Hypothesis& hypothesis);
 bool is_line(const Hypothesis& hypothesis);
 
 /// Sums of what is left over windows in (θ, s): where a local form may be.
-std::vector<Hypothesis> scan_bumps(const NormalEquations& equations, std::span<const double> remainder_mm,
-                                   double& tests);
+std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
+                                   std::span<const double> remainder_mm, double& tests);
 
 /// Σ⁻¹ times what is left, up to the innovation's variance: WᵀW e; 0 where a row does not count.
-std::vector<double> weighted(const NormalEquations& equations, std::span<const double> remainder_mm);
+std::vector<double> weighted(const NormalEquations& equations,
+                             std::span<const double> remainder_mm);
 
 }  // namespace trueaxis::diagnose_detail

@@ -7,10 +7,10 @@
 
 namespace trueaxis::diagnose_detail {
 
-std::vector<Hypothesis> scan_bumps(const NormalEquations& equations, std::span<const double> remainder_mm,
-                                   double& tests) {
+std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
+                                   std::span<const double> remainder_mm, double& tests) {
   const LinearisationPoint& point = equations.point();
-  const ObservationMask& mask = equations.rows();
+  const ObservationMask& mask = equations.mask();
   const std::vector<double> g = weighted(equations, remainder_mm);
   std::vector<Hypothesis> best;
   tests = 0.0;

@@ -36,7 +36,8 @@ std::vector<Hypothesis> without(const std::vector<Hypothesis>& terms, std::size_
 class StepwiseSearch {
  public:
   explicit StepwiseSearch(const Problem& problem)
-      : problem_(problem), basis_(small_fourier_legendre_basis(problem.point, problem.resolution)) {}
+      : problem_(problem),
+        basis_(small_fourier_legendre_basis(problem.point, problem.resolution)) {}
 
   /// @param patterns whether a pattern may be taken while a cause still passes.
   Model run(bool patterns, bool& pattern_was_better) {
@@ -97,7 +98,7 @@ class StepwiseSearch {
   };
   Fitted fitted(const Model& model) const {
     Fitted out{NormalEquations(problem_.point, problem_.mask, problem_.deviation_mm, model.phi,
-                        problem_.threads, true),
+                               problem_.threads, true),
                {}};
     out.places = out.equations.append(model.terms);
     return out;
@@ -123,7 +124,8 @@ class StepwiseSearch {
     }
     double change = 0.0;
     for (const Eigen::MatrixXd& fold : f.equations.folds())
-      change += held_out(f.equations.total(), fold, with) - held_out(f.equations.total(), fold, rest);
+      change +=
+          held_out(f.equations.total(), fold, with) - held_out(f.equations.total(), fold, rest);
     return change < 0.0;
   }
 
@@ -257,7 +259,8 @@ Model search(const Problem& problem) {
 }
 
 bool fast_line_left(const Problem& problem, const Model& model, std::size_t means) {
-  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, model.phi, problem.threads);
+  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, model.phi,
+                            problem.threads);
   Columns all = equations.base();
   for (const Columns& own : equations.append(model.terms))
     all.insert(all.end(), own.begin(), own.end());

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "diagnose/search/dictionary.hpp"
 #include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/search/dictionary.hpp"
 #include "diagnose/search/scan.hpp"
 
 namespace trueaxis::diagnose_detail {

@@ -55,8 +55,9 @@ Json effect_object(const Effect& effect) {
             {"absorbed_by", effect.absorbed_by},
             {"separations", separations}};
   if (effect.axis_bias) {
-    json["axis_bias_per_unit"] = {
-        {"value", effect.axis_bias->value}, {"unit", effect.axis_bias->unit}, {"text", effect.axis_bias->text}};
+    json["axis_bias_per_unit"] = {{"value", effect.axis_bias->value},
+                                  {"unit", effect.axis_bias->unit},
+                                  {"text", effect.axis_bias->text}};
   }
   json["source"] = effect.source;
   return json;

@@ -5,10 +5,10 @@
 #include <limits>
 #include <string_view>
 
+#include "format/file.hpp"
 #include "format/json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "format/file.hpp"
 
 namespace trueaxis {
 namespace {

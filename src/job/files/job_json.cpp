@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_json.hpp"
 
-#include "resimulate/files/comparison_object.hpp"
 #include "diagnose/files/diagnosis_objects.hpp"
+#include "resimulate/files/comparison_object.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

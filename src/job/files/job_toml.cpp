@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "format/toml_reader.hpp"
-#include "trueaxis/units.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -133,7 +133,8 @@ void check_nose(TomlTable table, const TargetSurface& target, const ToolSetup& t
   }
 }
 
-/// ObservationMask that the table of this cut would have must fit a file that a control can be given.
+/// ObservationMask that the table of this cut would have must fit a file that a control can be
+/// given.
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   const double travel = target.kind == TargetKind::face
                             ? target.radius_end_mm - target.radius_start_mm

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
-#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
 

@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "format/output_file.hpp"
+#include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_finish.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_setup.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "measure/files/stream_csv.hpp"
 
 namespace trueaxis {
 namespace {

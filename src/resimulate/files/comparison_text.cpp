@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/text_layout.hpp"
-#include "trueaxis/units.hpp"
 #include "resimulate/files/comparison_json.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <optional>
 
+#include "format/file.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "format/file.hpp"
 
 namespace trueaxis {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "format/file.hpp"
+#include "format/toml_reader.hpp"
 #include "simulate/files/scenario_cut.hpp"
 #include "simulate/files/scenario_tables.hpp"
-#include "format/toml_reader.hpp"
 #include "simulate/noise_source.hpp"
-#include "format/file.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/bound/estimated_parameters.hpp"
-#include "trueaxis/error.hpp"
 #include "simulate/clean_stream.hpp"
+#include "study/bound/estimated_parameters.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

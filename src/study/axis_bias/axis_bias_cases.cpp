@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "study/bound/estimated_parameters.hpp"
-#include "trueaxis/units.hpp"
-#include "trueaxis/effect.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/axis_bias/axis_bias.hpp"
+#include "study/bound/estimated_parameters.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 namespace {
@@ -55,7 +55,7 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
 /// A size with cosine and sine: `phase` is the lathe's phase, its sine of this sign in the model's
 /// second column; `times`: the lathe's phase is that angle over it.
 std::vector<AxisBiasDirection> phases(const char* size, const char* phase, double sign,
-                                  double times = 1.0) {
+                                      double times = 1.0) {
   return {{{{size, 1.0}, {phase, 0.0}}, {1.0, 0.0}},
           {{{size, 1.0}, {phase, 0.5 * half_turn / times}}, {0.0, sign}}};
 }
@@ -65,7 +65,7 @@ AxisBiasDirection only(const char* size, std::vector<double> linear = {1.0}) {
 }
 
 AxisBiasCase mm(const char* effect, const char* form, TermShape shape, Parameters fixed,
-            std::vector<AxisBiasDirection> directions) {
+                std::vector<AxisBiasDirection> directions) {
   return {effect,
           form,
           small_mm,
@@ -77,8 +77,8 @@ AxisBiasCase mm(const char* effect, const char* form, TermShape shape, Parameter
           {}};
 }
 
-AxisBiasCase angle(const char* effect, const char* form, double size, TermShape shape, Parameters fixed,
-               std::vector<AxisBiasDirection> directions) {
+AxisBiasCase angle(const char* effect, const char* form, double size, TermShape shape,
+                   Parameters fixed, std::vector<AxisBiasDirection> directions) {
   AxisBiasCase out = mm(effect, form, shape, std::move(fixed), std::move(directions));
   out.size = size, out.unit = std::string("deg"), out.edge = 1.0 / rad_per_deg;
   return out;
@@ -99,8 +99,8 @@ AxisBiasCase free(AxisBiasCase of, std::vector<std::size_t> columns) {
 /// cone turned by θ = b/(1 + tan²α) and displaced by a − R θ tanα.
 AxisBiasCase bow_from_the_end(const Where& at) {
   AxisBiasCase out = mm("part.bow", "from the lower end", {},
-                    {{"length_mm", 2.0 * at.length_mm()}, {"middle_mm", at.low_mm}},
-                    phases("sagitta_mm", "direction_rad", 1.0));
+                        {{"length_mm", 2.0 * at.length_mm()}, {"middle_mm", at.low_mm}},
+                        phases("sagitta_mm", "direction_rad", 1.0));
   const double turned = 1.0 / at.length_mm() / (1.0 + at.tangent * at.tangent);
   const double displaced = 0.25 - at.middle_radius_mm * turned * at.tangent;
   const auto moved = [&](double z) { return displaced + turned * (z - at.middle_mm()); };
@@ -121,9 +121,9 @@ std::vector<AxisBiasCase> part_cases(const Where& at) {
   const double length = at.length_mm(), jaws = at.low_mm - 5.0;
   const double ring = std::pow((9.0 - 1.0) / (36.0 - 1.0), 2);  // second harmonic of three jaws
   AxisBiasCase lobing = mm("part.chuck_lobing", "three jaws",
-                       {.order = 3, .lever_from_mm = jaws, .decay_length_mm = 40},
-                       {{"jaws", 3}, {"jaw_position_mm", jaws}, {"decay_length_mm", 40}},
-                       phases("amplitude_mm", "jaw_angle_rad", 1.0, 3.0));
+                           {.order = 3, .lever_from_mm = jaws, .decay_length_mm = 40},
+                           {{"jaws", 3}, {"jaw_position_mm", jaws}, {"decay_length_mm", 40}},
+                           phases("amplitude_mm", "jaw_angle_rad", 1.0, 3.0));
   lobing.directions[0].linear = {1.0, 0.0, ring, 0.0};
   lobing.directions[1].linear = {0.0, 1.0, -ring, 0.0};  // twice the phase: cos π
   const auto roundness = [](const char* form, double order, const char* size,

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "simulate/clean_stream.hpp"
 #include "study/bound/estimated_parameters.hpp"
+#include "study/bound/quantities.hpp"
 #include "study/bound/whitening.hpp"
 #include "trueaxis/error.hpp"
-#include "simulate/clean_stream.hpp"
-#include "study/bound/quantities.hpp"
 
 namespace trueaxis::study {
 namespace {
@@ -142,7 +142,7 @@ Bound bound_of(const Scenario& scenario, std::string_view surface) {
     return vector_of(true_values(moved, probed, surface));
   });
   ObservationMask covariance = of_quantities * inverse.topLeftCorner(levers, levers) *
-                    of_quantities.transpose() / information_of(scenario.noise);
+                               of_quantities.transpose() / information_of(scenario.noise);
   for (std::size_t i = 0; i < count; ++i) {
     const bool by_nominal = all[i].name.starts_with("radius") || all[i].name == "k";
     if (!scenario.probe.relative_zero_mm || !by_nominal) continue;

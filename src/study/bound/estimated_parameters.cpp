@@ -6,10 +6,10 @@
 #include <limits>
 #include <string>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 #include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 
@@ -101,7 +101,8 @@ std::vector<EstimatedParameter> Estimable::levers() {
   const bool tilts = surface_ != "section", is_face = part.kind == PartKind::face;
   for (const std::vector<int>& numbers : set_ups_) {
     const auto move = [&](double step, const auto& number_of) {
-      EstimatedParameter& lever = out.emplace_back(EstimatedParameter{{}, step, step == length_step});
+      EstimatedParameter& lever =
+          out.emplace_back(EstimatedParameter{{}, step, step == length_step});
       for (const int number : numbers)
         lever.numbers.push_back(&number_of(written_out(scenario_, number)));
     };

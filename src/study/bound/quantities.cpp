@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "trueaxis/units.hpp"
 #include "surface/surface.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 namespace {

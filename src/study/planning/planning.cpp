@@ -7,13 +7,13 @@
 #include <functional>
 #include <utility>
 
+#include "simulate/clean_stream.hpp"
 #include "study/bound/estimated_parameters.hpp"
+#include "study/bound/quantities.hpp"
 #include "study/planning/planning_search.hpp"
+#include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "simulate/clean_stream.hpp"
-#include "study/bound/quantities.hpp"
-#include "study/sweep/scenario_parameters.hpp"
 
 namespace trueaxis::study {
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/virtual_lathe.hpp"
 #include "study/sweep/summary.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 /// Which length, readings and probe are needed for an uncertainty of the axis: before measuring,
 /// from the Cramér-Rao bound, and confirmed by simulation.

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "simulate/timeline.hpp"
-#include "trueaxis/error.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace planning_detail {

@@ -90,8 +90,8 @@ bool Search::allowed(const PlannedMeasurement& plan) const {
          (!task_.rate_hz || plan.rate_hz <= *task_.rate_hz * met);
 }
 
-virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario, const DesignVariable& free,
-                                     double effort) {
+virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario,
+                                     const DesignVariable& free, double effort) {
   virtual_lathe::Scenario out = scenario;
   const double share = more_is_better(free.choice) ? effort : 1.0 - effort;
   const double value = free.low * std::pow(free.high / free.low, share);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "study/planning/planning_bound.hpp"
 #include "study/planning/planning.hpp"
+#include "study/planning/planning_bound.hpp"
 
 namespace trueaxis::study::planning_detail {
 
@@ -40,11 +40,12 @@ class Search {
 
   /// The least demanding value of a choice that meets the goal, rounded to what can be set; or the
   /// most demanding, which does not.
-  PlannedMeasurement solve(const virtual_lathe::Scenario& scenario, const DesignVariable& free) const;
+  PlannedMeasurement solve(const virtual_lathe::Scenario& scenario,
+                           const DesignVariable& free) const;
 
   /// A scenario with a choice between its least (0) and its most demanding end (1), by logarithm.
-  static virtual_lathe::Scenario with(const virtual_lathe::Scenario& scenario, const DesignVariable& free,
-                                      double effort);
+  static virtual_lathe::Scenario with(const virtual_lathe::Scenario& scenario,
+                                      const DesignVariable& free, double effort);
 
   /// As above, rounded to what can be set.
   static virtual_lathe::Scenario with_settable(const virtual_lathe::Scenario& scenario,

@@ -8,10 +8,10 @@
 #include <limits>
 #include <map>
 
-#include "study/published/printed_run.hpp"
-#include "study/published/likelihood_profile.hpp"
-#include "trueaxis/error.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/published/likelihood_profile.hpp"
+#include "study/published/printed_run.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

@@ -7,11 +7,11 @@
 #include <limits>
 #include <optional>
 
-#include "trueaxis/error.hpp"
-#include "trueaxis/diagnosis.hpp"
-#include "trueaxis/fit.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::study {
 namespace {

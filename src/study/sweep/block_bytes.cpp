@@ -2,8 +2,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "trueaxis/error.hpp"
 #include "study/sweep/block.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/virtual_lathe.hpp"
 #include "study/sweep/setting.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::study {
 

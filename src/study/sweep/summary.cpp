@@ -9,8 +9,8 @@
 #include <limits>
 #include <map>
 
-#include "trueaxis/error.hpp"
 #include "study/bound/quantities.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

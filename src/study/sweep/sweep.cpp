@@ -5,9 +5,9 @@
 
 #include "simulate/random.hpp"
 #include "simulate/variates.hpp"
-#include "trueaxis/error.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/sweep/scenario_parameters.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
 namespace {

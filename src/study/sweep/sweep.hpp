@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/virtual_lathe.hpp"
 #include "study/published/published.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
 /// what the fit or the diagnosis makes of it, beside the Cramér-Rao bound.

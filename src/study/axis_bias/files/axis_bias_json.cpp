@@ -10,7 +10,9 @@ using namespace study;
 using layout::format;
 
 /// Of a shift in mm per unit of the effect.
-std::string unit_of(const AxisBiasRow& row) { return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit; }
+std::string unit_of(const AxisBiasRow& row) {
+  return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit;
+}
 
 std::string cell(double value) { return std::isfinite(value) ? format("%.9g", value) : ""; }
 
@@ -36,8 +38,8 @@ std::string axis_bias_csv(const std::vector<AxisBiasRow>& rows) {
   return text;
 }
 
-std::string axis_bias_json(const virtual_lathe::Scenario& scenario, const std::vector<AxisBiasRow>& rows,
-                      const std::string& input_hash) {
+std::string axis_bias_json(const virtual_lathe::Scenario& scenario,
+                           const std::vector<AxisBiasRow>& rows, const std::string& input_hash) {
   Json json{{"schema", "trueaxis.axis_bias/1"},
             {"version", TRUEAXIS_VERSION},
             {"input_hash", input_hash},

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "format/toml_units.hpp"
-#include "trueaxis/error.hpp"
 #include "study/planning/files/planning_results.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

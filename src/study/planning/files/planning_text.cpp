@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "format/text_layout.hpp"
-#include "trueaxis/units.hpp"
 #include "study/planning/files/planning_results.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "study/sweep/files/sweep_keys.hpp"
 #include "format/toml_reader.hpp"
+#include "study/sweep/files/sweep_keys.hpp"
 #include "study/sweep/sweep.hpp"
 
 namespace trueaxis {

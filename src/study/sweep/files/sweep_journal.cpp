@@ -16,8 +16,8 @@
 #include <utility>
 
 #include "base/build_id.hpp"
-#include "trueaxis/error.hpp"
 #include "format/file.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {

@@ -5,12 +5,12 @@
 #include <limits>
 #include <optional>
 
-#include "study/published/files/published_toml.hpp"
+#include "format/file.hpp"
 #include "simulate/files/scenario_tables.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "study/published/files/published_toml.hpp"
 #include "study/sweep/files/sweep_axes.hpp"
 #include "trueaxis/error.hpp"
-#include "format/file.hpp"
-#include "simulate/files/scenario_toml.hpp"
 
 namespace trueaxis {
 namespace {
