@@ -203,6 +203,42 @@ struct Effect {
   bool check = false;  ///< quality of the data: handled and reported, never a name for a form
 };
 
+/// A pattern of no cause, along the normal of the part or along X: cos, sin of
+/// (order × angle − 2π ν s) × a Legendre polynomial, or a local bump.
+struct Pattern {
+  enum class Kind {
+    fourier_legendre,  ///< order × Legendre degree along s or time
+    line,              ///< turns along s or time with a frequency
+    bump               ///< exp(−v²/2 − w²/2), v in angle and w along s
+  } kind = Kind::fourier_legendre;
+  double order = 0.0;    ///< undulations per revolution
+  bool spindle = false;  ///< angle C instead of the part's θ
+  int degree = 0;        ///< Legendre, along s or time
+  bool in_time = false;
+  double frequency = 0.0;  ///< ν of a line: cycles per mm along s, or per second
+  double angle_rad = 0.0, position_mm = 0.0, width_rad = 0.0, length_mm = 0.0;  ///< of a bump
+};
+
+/// The one representation of a term beside the surface, from the search to JSON, lathe, correction
+/// and report: an effect of the catalogue with its shape, or a pattern; its linear amplitudes and
+/// their covariance once they are fitted.
+struct TermValue {
+  const Effect* effect = nullptr;  ///< of a catalogue that outlives this; nullptr: a pattern
+  TermShape shape;                 ///< of an effect
+  std::vector<std::size_t> free;   ///< which linear parameters are free; empty: all
+  Pattern pattern;                 ///< of no effect
+  bool with_radial = false;  ///< beside a tilt motion the radial one of its order: a lever anywhere
+
+  /// Amplitudes in the order of linear_parameters(effect->term, shape), 0 where not free, then
+  /// those of the radial motion; of a pattern the factors of cos and sin, or of the bump. mm, rad,
+  /// s. Empty: not fitted.
+  std::vector<double> linear;
+  std::vector<double> covariance;  ///< of `linear`, row-major; empty: not fitted
+
+  std::size_t columns() const;  ///< how many are free
+  std::string id() const { return effect ? std::string(effect->id) : "unexplained"; }
+};
+
 /// All effects and checks, family by family.
 std::span<const Effect> effect_catalogue();
 

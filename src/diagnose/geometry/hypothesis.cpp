@@ -46,7 +46,7 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_
       columns[0][k] = size * std::exp(-0.5 * (v * v + w * w));
       continue;
     }
-    if (of.kind == Pattern::Kind::cell) {
+    if (of.kind == Pattern::Kind::fourier_legendre) {
       const double u = of.in_time
                            ? (lasted > 0.0 ? 2.0 * (point.time[i] - first) / lasted - 1.0 : 0.0)
                            : (point.s[i] - point.z_mid_mm) / point.z_half_mm;
@@ -68,16 +68,6 @@ void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::
     for (std::size_t j = 0; j < columns.size(); ++j)
       columns[j][i - begin] = size * constant[j][i - begin];
   }
-}
-
-std::size_t Hypothesis::columns() const {
-  if (!effect) {
-    const bool line = pattern.kind == Pattern::Kind::line;
-    return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
-  }
-  const std::size_t own =
-      free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
-  return own + (with_radial ? 2 : 0);
 }
 
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,

@@ -11,28 +11,9 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A pattern of no cause: cos, sin of (order θ − 2π ν s) × Legendre polynomial, or a local bump.
-struct Pattern {
-  enum class Kind { cell, line, bump } kind = Kind::cell;
-  double order = 0.0;    ///< of the angle
-  bool spindle = false;  ///< angle C instead of the part's θ
-  int degree = 0;        ///< Legendre, along s or time
-  bool in_time = false;
-  double frequency = 0.0;  ///< ν: cycles per mm along s, or per second
-  double angle_rad = 0.0, position_mm = 0.0, width_rad = 0.0, length_mm = 0.0;  ///< of a bump
-};
-
-/// A cause of the catalogue with its shape, or a pattern: a few columns beside the surface's own.
-struct Hypothesis {
-  const Effect* effect = nullptr;  ///< nullptr: a pattern
-  TermShape shape;
-  std::vector<std::size_t> free;  ///< which linear parameters of the term are free; empty: all
-  Pattern pattern;
-  bool with_radial = false;  ///< beside a tilt motion the radial one of its order: a lever anywhere
-  double tests = 1.0;        ///< how many hypotheses of its kind were tried: what its choice costs
-
-  std::size_t columns() const;
-  std::string id() const { return effect ? std::string(effect->id) : "unexplained"; }
+/// A term that may be taken: how many of its kind were tried is what its choice costs.
+struct Hypothesis : TermValue {
+  double tests = 1.0;
 };
 
 /// ∂X/∂(linear parameter) over readings [begin, end) of one set-up.

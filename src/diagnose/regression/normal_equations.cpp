@@ -147,7 +147,7 @@ void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t be
     for (const Hypothesis& h : some) {
       const std::span<double* const> own = columns.subspan(next, h.columns());
       next += own.size();
-      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::cell && !h.pattern.in_time;
+      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::fourier_legendre && !h.pattern.in_time;
       if (cell && h.pattern.degree > 0 && constant != nullptr &&
           constant->pattern.order == h.pattern.order &&
           constant->pattern.spindle == h.pattern.spindle) {

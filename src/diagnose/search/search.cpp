@@ -224,7 +224,7 @@ class StepwiseSearch {
   }
 
   static double angular_order(const Hypothesis& h) {
-    if (!h.effect) return h.pattern.kind == Pattern::Kind::cell ? h.pattern.order : -1.0;
+    if (!h.effect) return h.pattern.kind == Pattern::Kind::fourier_legendre ? h.pattern.order : -1.0;
     if (is_line(h)) return -1.0;
     const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
     if (harmonic) return harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
