@@ -85,9 +85,9 @@ void expect_same_gram(const MatrixXd& gram, const MatrixXd& dense, const char* w
 
 enum : bool { sum_alone = false, with_blocks = true };
 
-class EvidenceOf : public ::testing::TestWithParam<std::vector<double>> {};
+class NormalEquationsOf : public ::testing::TestWithParam<std::vector<double>> {};
 
-TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
+TEST_P(NormalEquationsOf, IsTheGramOfTheExplicitMatrix) {
   const Bench b(1301);
   NormalEquations equations(b.point, b.mask, b.deviation, GetParam(), 1, with_blocks);
   const std::vector<Hypothesis> list = some_hypotheses();
@@ -109,7 +109,7 @@ TEST_P(EvidenceOf, IsTheGramOfTheExplicitMatrix) {
   expect_same_gram(alone.total(), all, "the sum alone");
 }
 
-TEST_P(EvidenceOf, AppendsAndShrinks) {
+TEST_P(NormalEquationsOf, AppendsAndShrinks) {
   const Bench b(700);
   const std::vector<Hypothesis> list = some_hypotheses();
   const MatrixXd all = b.dense(list, GetParam(), 0, b.stream.size());
@@ -128,7 +128,7 @@ TEST_P(EvidenceOf, AppendsAndShrinks) {
   for (const MatrixXd& fold : equations.folds()) EXPECT_EQ(fold.rows(), bare.rows());
 }
 
-TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
+TEST_P(NormalEquationsOf, DoesNotDependOnTheThreads) {
   const Bench b(24000);  // two passes: above the size from which the sum alone is shared out
   const std::vector<Hypothesis> list = some_hypotheses();
   for (const bool blocks : {with_blocks, sum_alone}) {
@@ -145,7 +145,7 @@ TEST_P(EvidenceOf, DoesNotDependOnTheThreads) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Noise, EvidenceOf,
+INSTANTIATE_TEST_SUITE_P(Noise, NormalEquationsOf,
                          ::testing::Values(std::vector<double>{}, std::vector<double>{0.6},
                                            std::vector<double>{0.5, 0.3}));
 
