@@ -59,7 +59,7 @@ std::size_t widest_id() {
 void list(std::ostream& out, bool checks) {
   std::string_view last;
   for (const Effect& effect : effect_catalogue()) {
-    if (effect.check != checks) continue;
+    if (effect.check.has_value() != checks) continue;
     if (!checks && family(effect.id) != last) out << '\n';
     last = family(effect.id);
     out << "  " << std::left << std::setw(static_cast<int>(widest_id()) + 2) << effect.id

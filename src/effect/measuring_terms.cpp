@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "effect/measuring_terms.hpp"
+
+#include <algorithm>
 #include <cmath>
 
 #include "effect/geometry.hpp"
-#include "effect/kinds.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
 namespace {
+
+using By = ArgumentShift::By;
+
+double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
 
 using Of = Response::Of;
 
@@ -42,6 +48,67 @@ double lag(const TermContext& at, double T, std::size_t i) {
 }
 
 }  // namespace
+
+Linear linear(const ArgumentShift& term, const TermShape&) {
+  switch (term.by) {
+    case By::delay:
+      return {{"delay", "s"}};
+    case By::backlash:
+      return {{"along", "mm"}, {"across", "mm"}};
+    case By::angle:
+      break;
+  }
+  return {{"angle", "rad"}};
+}
+
+Names shapes(const ArgumentShift&) { return {}; }
+
+void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Columns out) {
+  switch (term.by) {
+    case By::angle:
+      std::copy(at.dx_dc.begin(), at.dx_dc.end(), out[0]);
+      break;
+    case By::delay:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[0][i] = -at.speed_rad_per_s[i] * at.dx_dc[i] - at.velocity_mm_per_s[i] * at.dx_dz[i];
+      }
+      break;
+    case By::backlash:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[1][i] = 0.5 * sign(at.velocity_mm_per_s[i]);
+        out[0][i] = -out[1][i] * at.dx_dz[i];
+      }
+      break;
+  }
+}
+
+Linear linear(const ProbeLine& term, const TermShape&) {
+  switch (term.of) {
+    case ProbeLine::Of::tilt:
+      return {{"tilt", "rad"}};
+    case ProbeLine::Of::ball:
+      return {{"radius", "mm"}};
+    case ProbeLine::Of::height:
+      break;
+  }
+  return {{"height", "mm"}};
+}
+
+Names shapes(const ProbeLine&) { return {}; }
+
+// Tilt: the contact's height on the line is Z + X sin γ. Ball: its centre stands off along the
+// normal, out of the material.
+void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Columns out) {
+  switch (term.of) {
+    case ProbeLine::Of::height:
+      return contact::dx_dy(at, out[0]);
+    case ProbeLine::Of::tilt:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = at.x_mm[i] * at.dx_dz[i];
+      return;
+    case ProbeLine::Of::ball:
+      return contact::secant(at, contact::away(at), out[0]);
+  }
+}
 
 Linear linear(const Response& term, const TermShape&) {
   switch (term.of) {
@@ -102,6 +169,26 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
     case Of::lag:
       for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = lag(at, shape.time_constant_s, i);
       return;
+  }
+}
+
+Linear linear(const PartStep&, const TermShape&) {
+  return {{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}};
+}
+
+Names shapes(const PartStep&) { return {"onset_s"}; }
+
+// A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
+// motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn.
+void fill(const PartStep&, const TermContext& at, const TermShape& shape, Columns out) {
+  contact::Chunk sine, cosine, slope;
+  contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
+  contact::dx_dy(at, slope.data());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const bool after = at.time_s[i] >= shape.onset_s;
+    out[0][i] = after ? cosine[i] + sine[i] * slope[i] : 0.0;
+    out[1][i] = after ? sine[i] - cosine[i] * slope[i] : 0.0;
+    out[2][i] = after ? -at.dx_dc[i] : 0.0;
   }
 }
 

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "effect/position_terms.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
 
 #include "effect/geometry.hpp"
-#include "effect/kinds.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
 namespace {
@@ -66,6 +70,10 @@ void fill_growing(const Harmonic& term, const TermContext& at, Columns out) {
   }
 }
 
+int last_degree(const PolynomialInZ& term, const TermShape& shape) {
+  return term.last > 0 ? term.last : shape.degree;
+}
+
 }  // namespace
 
 Linear linear(const Harmonic& term, const TermShape&) {
@@ -104,6 +112,85 @@ void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, C
   scale_by_envelope(term, at, shape, own);
   contact::scale_by_dx_d(term.port, at, own);
   if (term.envelope == Envelope::growing) fill_growing(term, at, out);
+}
+
+Linear linear(const PolynomialInZ& term, const TermShape& shape) {
+  if (term.plain) return {{"slope", "rad"}};
+  Linear list;
+  for (int l = term.first; l <= last_degree(term, shape); ++l) {
+    list.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
+  }
+  return list;
+}
+
+Names shapes(const PolynomialInZ& term) { return term.last > 0 ? Names{} : Names{"degree"}; }
+
+// Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
+void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const std::size_t size = at.size();
+  if (term.plain) {
+    const std::span<const double> along = contact::along_mm(term.port, at);
+    std::copy(along.begin(), along.end(), out[0]);
+    return contact::scale_by_dx_d(term.port, at, out);
+  }
+  const int last = last_degree(term, shape);
+  contact::Chunk u, before, now;
+  contact::normalised(term.port, at, u.data());
+  std::fill_n(before.begin(), size, 1.0);
+  std::copy_n(u.begin(), size, now.begin());
+  for (int l = 1; l <= last; ++l) {
+    if (l >= term.first) {
+      std::copy_n(now.begin(), size, out[static_cast<std::size_t>(l - term.first)]);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      before[i] = boost::math::legendre_next(static_cast<unsigned>(l), u[i], now[i], before[i]);
+    }
+    std::swap(before, now);
+  }
+  contact::scale_by_dx_d(term.port, at, out);
+}
+
+Linear linear(const PeriodicInZ& term, const TermShape&) {
+  return {{"amplitude_cos", unit_of(term.port)}, {"amplitude_sin", unit_of(term.port)}};
+}
+
+Names shapes(const PeriodicInZ&) { return {"period_mm"}; }
+
+void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const double k = two_pi / shape.period_mm;
+  const std::span<const double> along = contact::along_mm(term.port, at);
+  contact::Chunk angle;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    angle[i] = k * along[i] - term.turns * at.theta_rad[i];
+  }
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
+  contact::scale_by_dx_d(term.port, at, out);
+}
+
+Linear linear(const PeriodicInTime&, const TermShape&) {
+  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+}
+
+Names shapes(const PeriodicInTime&) { return {"frequency_hz"}; }
+
+void fill(const PeriodicInTime&, const TermContext& at, const TermShape& shape, Columns out) {
+  const double turning_rad_per_s = two_pi * shape.frequency_hz;
+  contact::Chunk angle;
+  for (std::size_t i = 0; i < at.size(); ++i) angle[i] = turning_rad_per_s * at.time_s[i];
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
+}
+
+Linear linear(const GrowthInTime&, const TermShape&) {
+  return {{"rate", "mm/s"}, {"amplitude", "mm"}};
+}
+
+Names shapes(const GrowthInTime&) { return {"time_constant_s"}; }
+
+void fill(const GrowthInTime&, const TermContext& at, const TermShape& shape, Columns out) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[0][i] = at.time_s[i];
+    out[1][i] = -std::expm1(-at.time_s[i] / shape.time_constant_s);
+  }
 }
 
 }  // namespace trueaxis::kind

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/entries.hpp"
+#include "effect/entries_part.hpp"
 
 namespace trueaxis::entries {
 
 using Angle = Harmonic::Angle;
 using Envelope = Harmonic::Envelope;
 
+using When = SearchRange::When;
+using By = Refinement::By;
+
 std::vector<Effect> part_roundness() {
+  const ShapeValues jaw_decays{&TermShape::decay_length_mm, {10.0, 20.0, 40.0, 80.0, 160.0}};
+  ShapeValues instants{&TermShape::onset_s, {}, ShapeValues::In::instant};
+  for (int k = 1; k < 16; ++k) instants.values.push_back(k / 16.0);
   return {
       {.id = "part.chuck_lobing",
        .title = "lobes pressed in by the jaws of the chuck",
@@ -18,8 +24,8 @@ std::vector<Effect> part_roundness() {
        .parameters = {{"amplitude", "mm", 1e-3, 0.1, "A_j at the jaws"},
                       {"order", "1", 2, 6, "number of jaws j"},
                       {"jaw_angle", "rad", 0, 0, "theta of a jaw"},
-                      {"jaw_position", "mm", 0, 0, "s of the jaws' ends"},
-                      {"decay_length", "mm", 10, 200, "L"}},
+                      {"jaw_position", "mm", 0, 0, "s of the jaws' ends", "lever_from_mm"},
+                      {"decay_length", "mm", 10, 200, "L", "decay_length_mm"}},
        .signature = "j and 2j undulations per revolution that decay from the jaws, in phase with "
                     "them",
        .confounders = {"part.roundness", "spindle.radial_synchronous"},
@@ -27,7 +33,16 @@ std::vector<Effect> part_roundness() {
                        {"RM", "the lobes shrink with the clamping force"},
                        {"OZ", "the decay starts at the jaws and not at a place of the part"}},
        .axis_bias = AxisBias{0.008, "mm/mm", "three lobes: 0.008 of the amplitude"},
-       .source = "thin-ring theory: under j radial forces harmonic n goes as 1/(n^2 - 1)^2"},
+       .source = "thin-ring theory: under j radial forces harmonic n goes as 1/(n^2 - 1)^2",
+       .needs = {.length = true},
+       .typical = {{&TermShape::order, {3.0}},
+                   {&TermShape::lever_from_mm, {-1.0}, ShapeValues::In::half_lengths},
+                   {&TermShape::decay_length_mm, {40.0}}},
+       .search = {.when = When::at_orders,
+                  .forms = {{{0, 1}, jaw_decays}, {{}, jaw_decays}},
+                  .highest_order = 6,
+                  .tests = 5},
+       .refinement = Refinement{&TermShape::decay_length_mm, By::factor, 3.0, 10.0, 200.0}},
       {.id = "part.roundness",
        .title = "roundness of the part: ovality, lobes, and their growth along it",
        .slot = Slot::part,
@@ -45,7 +60,8 @@ std::vector<Effect> part_roundness() {
                        "probe.nonlinearity"},
        .separations = {{"RC", "the lobes turn with the part, those of the spindle do not"}},
        .axis_bias = AxisBias{0.017, "mm/mm", "ovality: 0.017 of the amplitude; three lobes 0.008"},
-       .source = "ISO 12181-1 (roundness, UPR)"},
+       .source = "ISO 12181-1 (roundness, UPR)",
+       .search = {.forms = {{{0, 1}}, {.degrees = 1}}, .tests = 1}},
       {.id = "part.feed_marks",
        .title = "the spiral left by turning",
        .slot = Slot::part,
@@ -54,7 +70,7 @@ std::vector<Effect> part_roundness() {
        .formula = "rho = a cos(2 pi s/f - theta + phi), a near f^2/(16 r_nose) (height "
                   "f^2/(8 r_nose))",
        .parameters = {{"amplitude", "mm", 1e-4, 5e-3, "a"},
-                      {"feed", "mm", 0.05, 0.5, "f, per revolution of the cut"},
+                      {"feed", "mm", 0.05, 0.5, "f, per revolution of the cut", "period_mm"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "a spiral: probed with a lead p it has the order p/f - 1",
        .confounders = {"spindle.asynchronous", "environment.vibration", "part.waviness",
@@ -63,7 +79,11 @@ std::vector<Effect> part_roundness() {
        .separations = {{"OZ", "the spiral moves with the part"},
                        {"RC", "the spiral turns with the part"},
                        {"RZ", "on the way back its order is -p/f - 1"}},
-       .source = "ISO 21920-2 (surface texture, profile); kinematic roughness f^2/(8 r)"},
+       .source = "ISO 21920-2 (surface texture, profile); kinematic roughness f^2/(8 r)",
+       .needs = {.length = true},
+       .typical = {{&TermShape::period_mm, {0.173}}},
+       .search = {When::scanned},
+       .line = Line{Line::In::spiral, 0.7, 20.0}},
       {.id = "part.bow",
        .title = "a bent part",
        .slot = Slot::part,
@@ -80,7 +100,8 @@ std::vector<Effect> part_roundness() {
        .separations = {{"OZ", "another length of the part: the sagitta goes as its square"},
                        {"RC", "the direction turns with the part"}},
        .axis_bias = AxisBias{0.76, "mm/mm", "0.76 of the amplitude"},
-       .source = "ISO 1101 (straightness of a derived median line)"},
+       .source = "ISO 1101 (straightness of a derived median line)",
+       .needs = {.length = true}},
       {.id = "part.slip",
        .title = "the part slipped in the chuck",
        .slot = Slot::part,
@@ -90,14 +111,80 @@ std::vector<Effect> part_roundness() {
        .parameters = {{"dx", "mm", 0.01, 0.2, "step along x of the spindle frame"},
                       {"dy", "mm", 0.01, 0.2, "step along y"},
                       {"turn", "rad", 1e-3, 0.1, "turn in the sense of C"},
-                      {"onset", "s", 0, 0, "t0"}},
+                      {"onset", "s", 0, 0, "t0", "onset_s"}},
        .signature = "the vector of 1 undulation per revolution steps at an instant",
        .confounders = {"part.bow", "encoder.offset"},
        .separations = {{"RZ", "probed again, the first part of the length shows the new axis"},
                        {"DW", "a dwell after the slip shows the new vector at one Z"}},
        .axis_bias = AxisBias{0.90, "mm/mm", "radial: 0.90 of the step"},
        .source = "kinematics of a step; a radial and a rotational slip part by a feature with an "
-                 "angle mark"},
+                 "angle mark",
+       .needs = {.time = true},
+       .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
+       .search = {.forms = {{{0, 1}, instants}, {{2}, instants}}, .tests = 64},
+       .refinement = Refinement{&TermShape::onset_s, By::duration}},
+  };
+}
+
+std::vector<Effect> part_profile() {
+  return {
+      {.id = "part.barrel",
+       .title = "barrel or saddle: the generator is curved",
+       .slot = Slot::part,
+       .frame = Frame::part,
+       .term = PolynomialInZ{2, 3, Port::normal},
+       .formula = "rho = a P2(u) + b P3(u)",
+       .parameters = {{"amplitude", "mm", 2e-3, 0.03, "a", "amplitude_2"},
+                      {"cubic", "mm", 0, 0.01, "b", "amplitude_3"}},
+       .signature = "no undulation around, even in Z",
+       .confounders = {"slide.z_straightness", "thermal.drift", "probe.nonlinearity"},
+       .absorbed_by = "radius and half angle, where the length is probed unevenly",
+       .separations = {{"RE",
+                        "from the rear a barrel has the same sign in radius, a bent guide "
+                        "the opposite one"},
+                       {"OZ", "the barrel moves with the part"}},
+       .axis_bias = AxisBias{0.022, "mm/mm", "P2: 0.022 of the amplitude"},
+       .source = "ISO 12180-1 (cylindricity: generatrix)",
+       .needs = {.length = true},
+       .search = {.forms = {{{0}}, {.degrees = 3}}}},
+      {.id = "part.taper",
+       .title = "taper of a cylinder",
+       .slot = Slot::part,
+       .frame = Frame::part,
+       .term = PolynomialInZ{1, 1, Port::normal},
+       .formula = "rho = a u (on a cone it is the angle)",
+       .parameters = {{"amplitude", "mm", 1e-3, 0.02, "a: change of radius over half the length",
+                       "amplitude_1"}},
+       .signature = "no undulation around, linear in Z",
+       .confounders = {"slide.xz_parallelism", "thermal.drift", "probe.tilt"},
+       .absorbed_by = "half angle of a cone",
+       .separations = {{"RE", "from the rear a taper has the same sign in radius"},
+                       {"MS", "a master shows the slide's part"},
+                       {"RZ", "a drift goes on, a taper comes back"}},
+       .source = "ISO 12180-1 (cylindricity)",
+       .needs = {.length = true, .cylinder = true}},
+      {.id = "part.waviness",
+       .title = "waviness along the part",
+       .slot = Slot::part,
+       .frame = Frame::part,
+       .term = PeriodicInZ{Port::normal, 0.0},
+       .formula = "rho = a cos(2 pi s/lambda + phi)",
+       .parameters = {{"amplitude", "mm", 1e-3, 5e-3, "a"},
+                      {"wavelength", "mm", 0.5, 20, "lambda", "period_mm"},
+                      {"phase", "rad", 0, 0, "phi"}},
+       .signature = "a line in the spectrum along Z, no undulation around",
+       .confounders = {"slide.leadscrew_periodic", "spindle.asynchronous", "environment.vibration",
+                       "part.feed_marks", "probe.cyclic"},
+       .separations = {{"OZ",
+                        "shifted by lambda/2 the waviness turns its sign, a screw error "
+                        "does not"},
+                       {"2W", "another speed leaves its wavelength, a vibration's changes"}},
+       .axis_bias = AxisBias{0.024, "mm/mm", "0.024 of the amplitude"},
+       .source = "ISO 21920-2 (profile, waviness)",
+       .needs = {.length = true},
+       .typical = {{&TermShape::period_mm, {7.3}, ShapeValues::In::per_length}},
+       .search = {When::scanned},
+       .line = Line{Line::In::length, 1.0 / 30.0, 2.0, 1.5}},
   };
 }
 
