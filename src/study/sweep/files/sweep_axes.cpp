@@ -154,7 +154,7 @@ std::vector<Setting> SweepAxes::read_set(TomlTable& set, const SweepKeys& keys) 
   return settings;
 }
 
-std::vector<Setting> SweepAxes::read_reading_set(TomlTable set) const {
+std::vector<Setting> SweepAxes::read_set_before_axes(TomlTable set) const {
   std::vector<Setting> settings = read_set(set, keys_);
   for (const Setting& setting : settings) {
     const WrittenKey* axis = taken_by(setting.path, taken_);
