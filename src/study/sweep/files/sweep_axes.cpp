@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simulate/files/scenario_tables.hpp"
-#include "simulate/noise_source.hpp"
+#include "simulate/autoregression.hpp"
 
 namespace trueaxis {
 namespace {
