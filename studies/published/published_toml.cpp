@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/published/files/published_toml.hpp"
+#include "studies/published/published_toml.hpp"
+
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "format/file.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/sweep/files/sweep_toml.hpp"
 
 namespace trueaxis {
 namespace {
@@ -24,20 +28,17 @@ std::optional<PrintedNumber> printed(const std::string& text) {
   return number;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 std::vector<std::string> read_parameters(TomlTable& paper, const Sweep& sweep) {
   std::vector<std::string> known;
   for (const Quantity& quantity : quantities(fitted_surface(sweep))) known.push_back(quantity.name);
   const std::vector<std::string> names = paper.texts("parameters");
-  if (names.empty()) paper.complain("parameters", "must name what was printed: " + listed(known));
+  if (names.empty())
+    paper.complain("parameters",
+                   "must name what was printed: " + fmt::format("{}", fmt::join(known, ", ")));
   for (const std::string& name : names) {
     if (std::ranges::find(known, name) == known.end())
-      paper.complain("parameters", "names \"" + name + "\": the part has " + listed(known));
+      paper.complain("parameters", "names \"" + name + "\": the part has " +
+                                       fmt::format("{}", fmt::join(known, ", ")));
     if (std::ranges::count(names, name) > 1)
       paper.complain("parameters", "names \"" + name + "\" twice");
   }
@@ -81,7 +82,8 @@ void read_place(TomlTable& table, const Sweep& sweep, PublishedRow& row) {
     std::vector<std::string> labels;
     for (const AxisPoint& one : axis.points) labels.push_back(one.label);
     table.complain("at", "gives " + axis.name + " = \"" + at[a] + "\": the axis has " +
-                             listed(labels) + ", or \"?\" where it is not known");
+                             fmt::format("{}", fmt::join(labels, ", ")) +
+                             ", or \"?\" where it is not known");
   }
 }
 
@@ -121,8 +123,6 @@ PublishedReading read_reading(TomlTable table, const std::vector<std::string>& p
   return reading;
 }
 
-}  // namespace
-
 Published read_published(TomlTable paper, const Sweep& sweep, const ReadSet& read_set) {
   Published published;
   published.source = paper.required_text("source");
@@ -138,6 +138,21 @@ Published read_published(TomlTable paper, const Sweep& sweep, const ReadSet& rea
         {"as stated", {}, std::vector<double>(count, 1.0), 1.0, false, std::vector<int>(count, 0)});
   }
   return published;
+}
+
+}  // namespace
+
+PublishedSweep parse_published_sweep(std::string_view content, const std::string& path) {
+  PublishedSweep out;
+  const auto read = [&](TomlTable table, const Sweep& sweep, const ReadSet& read_set) {
+    out.published = read_published(table, sweep, read_set);
+  };
+  out.sweep = parse_sweep_toml(content, path, {{"paper", read}});
+  return out;
+}
+
+PublishedSweep read_published_sweep(const std::string& path) {
+  return parse_published_sweep(read_file(path), path);
 }
 
 }  // namespace trueaxis

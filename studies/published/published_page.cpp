@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/published/published_page.hpp"
+
 #include "report/sweep_data.hpp"
+
+extern "C" {
+extern const char trueaxis_published_js_begin[], trueaxis_published_js_end[];
+}
 
 namespace trueaxis {
 namespace {
@@ -48,8 +54,7 @@ json reading_data(const PublishedReading& reading, const PlacedReading& placed) 
 }
 
 /// Levels in the unit of the axis' labels.
-json unknown_data(const Sweep& sweep, const UnknownLevel& unknown) {
-  const GridAxis& axis = sweep.axes[*sweep.published->rows[unknown.row].unknown_axis];
+json unknown_data(const GridAxis& axis, const UnknownLevel& unknown) {
   const double unit = unknown.unit;
   json labels = json::array(), lost = json::array();
   for (std::size_t i = 0; i < unknown.points.size(); ++i) {
@@ -68,8 +73,9 @@ json unknown_data(const Sweep& sweep, const UnknownLevel& unknown) {
 
 }  // namespace
 
-json published_data(const Sweep& sweep, const Placement& placement) {
-  const Published& published = *sweep.published;
+std::vector<SweepReportAddition> published_page(const Sweep& sweep, const Published& published,
+                                                const Placement& placement) {
+  if (!placement.why_not.empty()) return {};
   json data{{"source", published.source},
             {"parameters", published.parameters},
             {"runs", json::array()},
@@ -80,8 +86,12 @@ json published_data(const Sweep& sweep, const Placement& placement) {
   for (std::size_t i = 0; i < placement.readings.size(); ++i)
     data["readings"].push_back(reading_data(published.readings[i], placement.readings[i]));
   for (const UnknownLevel& unknown : placement.unknown)
-    data["unknown"].push_back(unknown_data(sweep, unknown));
-  return data;
+    data["unknown"].push_back(
+        unknown_data(sweep.axes[*published.rows[unknown.row].unknown_axis], unknown));
+  const std::string_view script(
+      trueaxis_published_js_begin,
+      static_cast<std::size_t>(trueaxis_published_js_end - trueaxis_published_js_begin));
+  return {{"published", std::move(data), script}};
 }
 
 }  // namespace trueaxis

@@ -1,42 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/axis_bias/axis_bias_json.hpp"
+
 #include "format/json.hpp"
-#include "format/text_layout.hpp"
-#include "study/axis_bias/files/axis_bias_results.hpp"
+#include "studies/axis_bias/axis_bias_text.hpp"
 
 namespace trueaxis {
-namespace {
 
 using namespace study;
-using layout::format;
-
-/// Of a shift in mm per unit of the effect.
-std::string unit_of(const AxisBiasRow& row) {
-  return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit;
-}
-
-std::string cell(double value) { return std::isfinite(value) ? format("%.9g", value) : ""; }
-
-}  // namespace
-
-std::string axis_bias_csv(const std::vector<AxisBiasRow>& rows) {
-  std::string text =
-      "effect,form,unit,size,lathe,lathe_half,limit,predicted,second_order,off,rounding,agrees,"
-      "stated,"
-      "left,separable,u_ratio,extended,extended_half\n";
-  for (const AxisBiasRow& row : rows) {
-    text += row.of.effect + ",\"" + row.of.form + "\"," + unit_of(row);
-    for (const double value : {row.of.size * row.of.edge, row.lathe, row.lathe_half, row.limit,
-                               row.predicted, row.second_order, row.off, row.rounding})
-      text += ',' + cell(value);
-    text += row.agrees ? ",1," : ",0,";
-    text += (row.of.stated ? cell(*row.of.stated) : "") + ',' + cell(row.left);
-    text += row.separable ? ",1" : ",0";
-    for (const double value : {row.u_ratio, row.extended, row.extended_half})
-      text += row.separable ? ',' + cell(value) : ",";
-    text += '\n';
-  }
-  return text;
-}
 
 std::string axis_bias_json(const virtual_lathe::Scenario& scenario,
                            const std::vector<AxisBiasRow>& rows, const std::string& input_hash) {
@@ -46,7 +16,7 @@ std::string axis_bias_json(const virtual_lathe::Scenario& scenario,
             {"scenario", scenario.name}};
   Json effects = Json::array();
   for (const AxisBiasRow& row : rows) {
-    const std::string unit = unit_of(row);
+    const std::string unit = axis_bias_unit(row);
     const auto shift = [&](double value) { return with_unit(value, unit.c_str()); };
     Json one{{"effect", row.of.effect},
              {"form", row.of.form},

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "study/sweep/setting.hpp"
+#include "study/sweep/sweep.hpp"
 
 namespace trueaxis::study {
 
@@ -44,6 +44,12 @@ struct Published {
   std::vector<std::string> parameters;  ///< names of quantities()
   std::vector<PublishedRow> rows;
   std::vector<PublishedReading> readings;  ///< the first is the plain one: the sweep as it stands
+};
+
+/// A sweep and, where its file has them, results of it that someone printed.
+struct PublishedSweep {
+  Sweep sweep;
+  std::optional<Published> published;
 };
 
 }  // namespace trueaxis::study

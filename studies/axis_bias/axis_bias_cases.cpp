@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/axis_bias/axis_bias_cases.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "simulate/clean_stream.hpp"
-#include "study/axis_bias/axis_bias.hpp"
 #include "study/bound/estimated_parameters.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/effect.hpp"
@@ -245,6 +246,26 @@ std::vector<AxisBiasCase> axis_bias_cases(const virtual_lathe::Scenario& scenari
     all.insert(all.end(), more.begin(), more.end());
   add_stated(all);
   return all;
+}
+
+virtual_lathe::Scenario axis_bias_reference() {
+  // The figures leave the direction of the tilt open; with this angle to the eccentricity the axis
+  // is 0.2244 mm off the spindle's at Z = 60 mm, which 1.41 µm per ms at 60 rpm asks for.
+  constexpr double tilt_rad = 1e-3, away_rad = 1.285;
+  virtual_lathe::Scenario scenario;
+  scenario.name = "axis_bias";
+  scenario.part.kind = virtual_lathe::PartKind::cone;
+  scenario.part.half_angle_rad = std::atan(0.1);
+  scenario.part.radius_mm = 40.0;
+  scenario.part.x0_mm = 0.2;
+  scenario.part.l = tilt_rad * std::cos(away_rad);
+  scenario.part.m = tilt_rad * std::sin(away_rad);
+  virtual_lathe::PlannedPass pass;
+  pass.end_mm = 60.0;
+  pass.feed_mm_per_rev = 0.77;
+  pass.readings_per_revolution = 40.3;
+  scenario.plan.passes = {pass};
+  return scenario;
 }
 
 }  // namespace trueaxis::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/published/placement.hpp"
+#include "studies/published/placement.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
@@ -8,9 +8,9 @@
 #include <limits>
 #include <map>
 
+#include "studies/published/likelihood_profile.hpp"
+#include "studies/published/printed_run.hpp"
 #include "study/bound/quantities.hpp"
-#include "study/published/likelihood_profile.hpp"
-#include "study/published/printed_run.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
@@ -70,8 +70,8 @@ PlacedReading placed(const Table& table, const Understood& one) {
   out.noise_factor = reading.noise_factor;
   out.noise_factor_95 = {none, none};
   if (reading.fit_noise) {
-    const Profile profile([&](double factor) { return one.log_likelihood(rows, factor); },
-                          least_factor, most_factor);
+    const LikelihoodProfile profile([&](double factor) { return one.log_likelihood(rows, factor); },
+                                    least_factor, most_factor);
     out.noise_factor = profile.best();
     out.noise_factor_95 = profile.interval_95();
   }
@@ -118,7 +118,7 @@ UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row
   const auto of_level = [&](double level) {
     const double over_first = level / known.front();
     if (!reading.fit_noise) return run.at(reading.noise_factor * over_first).log_likelihood;
-    return Profile(
+    return LikelihoodProfile(
                [&](double factor) {
                  return one.log_likelihood(rows, factor) +
                         run.at(factor * over_first).log_likelihood;
@@ -126,7 +126,7 @@ UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row
                least_factor, most_factor)
         .highest();
   };
-  const Profile profile(of_level, 0.01 * known.front(), 1e3 * known.front());
+  const LikelihoodProfile profile(of_level, 0.01 * known.front(), 1e3 * known.front());
   UnknownLevel out{row,
                    one.reading,
                    unit_of(table.sweep.axes[*rows[row].unknown_axis]),
@@ -168,8 +168,9 @@ AmongRepeats among(const Table& table, const Understood& plain, std::size_t row,
   return out;
 }
 
-Table table_of(const Sweep& sweep, const std::vector<BlockResult>& results) {
-  Table table{sweep, *sweep.published, {}, {}};
+Table table_of(const Sweep& sweep, const Published& published,
+               const std::vector<BlockResult>& results) {
+  Table table{sweep, published, {}, {}};
   for (const BlockResult& block : results) {
     if (!block.facts.empty()) table.facts[block.block.cell] = &block.facts.front();
   }
@@ -190,9 +191,10 @@ Placement nothing(const std::string& why) {
 
 }  // namespace
 
-Placement place_published(const Sweep& sweep, const std::vector<BlockResult>& results) {
-  expects(sweep.published && !sweep.published->readings.empty(), "published results and a reading");
-  const Table table = table_of(sweep, results);
+Placement place_published(const Sweep& sweep, const Published& published,
+                          const std::vector<BlockResult>& results) {
+  expects(!published.readings.empty(), "a reading of the published results");
+  const Table table = table_of(sweep, published, results);
   const std::vector<PublishedRow>& rows = table.published.rows;
   Placement out;
   for (std::size_t i = 0; i < table.published.readings.size(); ++i) {

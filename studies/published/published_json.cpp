@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/published/published_json.hpp"
+
 #include "format/json.hpp"
-#include "study/published/files/published_results.hpp"
 
 namespace trueaxis {
 namespace {
@@ -49,8 +50,7 @@ Json reading_json(const Published& published, const PublishedReading& reading,
           {"runs", runs}};
 }
 
-Json unknown_json(const Sweep& sweep, const UnknownLevel& unknown) {
-  const GridAxis& axis = sweep.axes[*sweep.published->rows[unknown.row].unknown_axis];
+Json unknown_json(const GridAxis& axis, const UnknownLevel& unknown) {
   Json points = Json::array();
   for (const UnknownLevel::AtPoint& point : unknown.points)
     points.push_back({{"level", number(point.level)}, {"below_best", number(point.below_best)}});
@@ -64,8 +64,8 @@ Json unknown_json(const Sweep& sweep, const UnknownLevel& unknown) {
 
 }  // namespace
 
-std::string published_json(const Sweep& sweep, const Placement& placement) {
-  const Published& published = *sweep.published;
+std::string published_json(const Sweep& sweep, const Published& published,
+                           const Placement& placement) {
   Json json{{"schema", "trueaxis.published/1"},
             {"version", TRUEAXIS_VERSION},
             {"input_hash", sweep.input_hash},
@@ -78,7 +78,8 @@ std::string published_json(const Sweep& sweep, const Placement& placement) {
   Json readings = Json::array(), unknown = Json::array(), among = Json::array();
   for (std::size_t i = 0; i < placement.readings.size(); ++i)
     readings.push_back(reading_json(published, published.readings[i], placement.readings[i]));
-  for (const UnknownLevel& one : placement.unknown) unknown.push_back(unknown_json(sweep, one));
+  for (const UnknownLevel& one : placement.unknown)
+    unknown.push_back(unknown_json(sweep.axes[*published.rows[one.row].unknown_axis], one));
   for (const AmongRepeats& one : placement.among) {
     among.push_back({{"row", one.row},
                      {"cell", one.cell},

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/axis_bias/axis_bias_text.hpp"
+
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "format/text_layout.hpp"
-#include "study/axis_bias/files/axis_bias_results.hpp"
 
 namespace trueaxis {
 namespace {
 
 using namespace study;
-using layout::format;
+using fmt::format;
 using layout::padded;
 
 /// µm of axis per natural unit of the effect, from mm per edge unit.
@@ -31,7 +34,7 @@ struct Cells {
 
 std::string figure(double value) {
   if (std::abs(value) < 1e-6) return "0";
-  return format(std::abs(value) < 1e-3 ? "%.2g" : "%.3g", value);
+  return format("{:.{}g}", value, std::abs(value) < 1e-3 ? 2 : 3);
 }
 
 Cells cells_of(const AxisBiasRow& row) {
@@ -43,9 +46,11 @@ Cells cells_of(const AxisBiasRow& row) {
   cells.stated = row.of.stated ? figure(*row.of.stated * natural.factor) : "";
   cells.unit = natural.unit;
   cells.extended = row.separable ? figure(row.extended_half * natural.factor) : "absorbed";
-  cells.cost = row.separable ? format("%.3g", row.u_ratio) : "";
+  cells.cost = row.separable ? format("{:.3g}", row.u_ratio) : "";
   return cells;
 }
+
+std::string cell(double value) { return std::isfinite(value) ? format("{:.9g}", value) : ""; }
 
 }  // namespace
 
@@ -63,7 +68,7 @@ std::string axis_bias_text(const std::vector<AxisBiasRow>& rows) {
     line(cells_of(row));
     off += !row.agrees;
   }
-  text += format("\n%zu of %zu: lathe and prediction agree within the second order of the size%s\n",
+  text += format("\n{} of {}: lathe and prediction agree within the second order of the size{}\n",
                  rows.size() - off, rows.size(), off > 0 ? " (! do not)" : "");
   return text;
 }
@@ -76,9 +81,33 @@ std::string axis_bias_markdown(const std::vector<AxisBiasRow>& rows) {
     const Cells c = cells_of(row);
     text += "| `" + row.of.effect + "`" + (row.of.form.empty() ? "" : ", " + row.of.form) + " | " +
             c.lathe + " | " + c.predicted + " | " + c.stated + " | " + c.unit + " | " +
-            format("%.3g %%", 100.0 * row.left) + " | " + c.extended + " | " + c.cost + " |\n";
+            format("{:.3g} %", 100.0 * row.left) + " | " + c.extended + " | " + c.cost + " |\n";
   }
   return text;
+}
+
+std::string axis_bias_csv(const std::vector<AxisBiasRow>& rows) {
+  std::string text =
+      "effect,form,unit,size,lathe,lathe_half,limit,predicted,second_order,off,rounding,agrees,"
+      "stated,"
+      "left,separable,u_ratio,extended,extended_half\n";
+  for (const AxisBiasRow& row : rows) {
+    text += row.of.effect + ",\"" + row.of.form + "\"," + axis_bias_unit(row);
+    for (const double value : {row.of.size * row.of.edge, row.lathe, row.lathe_half, row.limit,
+                               row.predicted, row.second_order, row.off, row.rounding})
+      text += ',' + cell(value);
+    text += row.agrees ? ",1," : ",0,";
+    text += (row.of.stated ? cell(*row.of.stated) : "") + ',' + cell(row.left);
+    text += row.separable ? ",1" : ",0";
+    for (const double value : {row.u_ratio, row.extended, row.extended_half})
+      text += row.separable ? ',' + cell(value) : ",";
+    text += '\n';
+  }
+  return text;
+}
+
+std::string axis_bias_unit(const AxisBiasRow& row) {
+  return row.of.unit == "1" ? "mm" : "mm/" + row.of.unit;
 }
 
 }  // namespace trueaxis

@@ -35,9 +35,6 @@ struct AxisBiasCase {
   std::optional<double> stated;  ///< what the catalogue says, mm per edge unit
 };
 
-/// Every effect of the catalogue that is a form, with lengths that fit the plan.
-std::vector<AxisBiasCase> axis_bias_cases(const virtual_lathe::Scenario& scenario);
-
 /// Largest distance of the axis over the probed length in the worst phase, mm per edge unit.
 struct AxisBiasRow {
   AxisBiasCase of;
@@ -60,9 +57,5 @@ struct AxisBiasRow {
 /// @throws InputError when the part cannot be probed, the surface not be fitted, or the axis moves
 /// between set-ups of one clamping.
 AxisBiasRow axis_bias_of(const virtual_lathe::Scenario& scenario, const AxisBiasCase& of);
-
-/// The plan of the catalogue's figures: cone of R = 40 mm, tan α = 0.1, e = 0.2 mm, tilt 1 mrad,
-/// one helical pass over Z 0-60 mm at 60 rpm.
-virtual_lathe::Scenario axis_bias_reference();
 
 }  // namespace trueaxis::study

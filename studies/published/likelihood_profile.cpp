@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/published/likelihood_profile.hpp"
+#include "studies/published/likelihood_profile.hpp"
 
 #include <boost/math/tools/minima.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -15,7 +15,8 @@ constexpr int bits = 24;
 
 }  // namespace
 
-Profile::Profile(const std::function<double(double)>& log_likelihood, double low, double high)
+LikelihoodProfile::LikelihoodProfile(const std::function<double(double)>& log_likelihood,
+                                     double low, double high)
     : of_log_([log_likelihood](double x) { return log_likelihood(std::exp(x)); }),
       low_(std::log(low)),
       high_(std::log(high)) {
@@ -32,7 +33,7 @@ Profile::Profile(const std::function<double(double)>& log_likelihood, double low
 }
 
 /// Where the interval ends on the side of `step`.
-double Profile::crossing(double step) const {
+double LikelihoodProfile::crossing(double step) const {
   const auto above = [this](double x) { return of_log_(x) - highest_ + half_chi_squared_95; };
   double inside = std::log(best_);
   for (double x = inside + step; x > low_ && x < high_; x += step) {
@@ -48,6 +49,8 @@ double Profile::crossing(double step) const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Ends Profile::interval_95() const { return {crossing(-step_of_log), crossing(step_of_log)}; }
+Ends LikelihoodProfile::interval_95() const {
+  return {crossing(-step_of_log), crossing(step_of_log)};
+}
 
 }  // namespace trueaxis::study

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "studies/published/published.hpp"
 #include "study/bound/bound.hpp"
-#include "study/published/published.hpp"
 
 namespace trueaxis::study {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/published/printed_run.hpp"
+#include "studies/published/printed_run.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,6 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 // Published single runs in the distribution of the sweep, and what their numbers may mean.
 
+/** Runs that were published, by the cell they belong to. */
+function runsByCell(sweep) {
+  const by = new Map();
+  sweep.published.runs.forEach((run, row) => {
+    const placed = sweep.published.readings[0].runs.find((r) => r.row === row);
+    if (isNumber(run.cell) && placed) by.set(run.cell, {...run, ...placed});
+  });
+  return by;
+}
+
+/** [place, value] of the published runs of one quantity. */
+function publishedPoints(sweep, view, quantity, value) {
+  const parameter = sweep.published.parameters.indexOf(quantity.name);
+  if (parameter < 0) return [];
+  const runs = runsByCell(sweep);
+  return view.curves.flatMap((curve) => curve.cells.filter((c) => runs.has(c.index))
+    .map((c) => [view.place(c.point), value(runs.get(c.index), parameter)])).filter(([, v]) => isNumber(v));
+}
+
+const publishedSeries = (name, data) => data.length ? [{name, type: 'scatter', symbol: 'diamond', symbolSize: 12, z: 6, data,
+  itemStyle: {color: colours.model, borderColor: '#fff', borderWidth: 1}}] : [];
+
 const pEquals = (p) => pText(p).startsWith('>') ? `p ${pText(p)}` : `p = ${pText(p)}`;
 const pText = (p) => !isNumber(p) ? '–' : p > 0.995 ? '> 0.995' : p < 1e-3 ? scientific(p, 1) : significant(p, 2);
 
@@ -72,10 +94,16 @@ function unknownBlock(published, row) {
 
 function publishedSection(sweep) {
   const {published} = sweep;
-  if (!published) return null;
   return section('published', 'The published runs', paragraph(`${published.source}. In SD: error over the bound’s standard deviation. Below: share of the repeats, ` +
     'rounded as printed, with a smaller number. χ²: Mahalanobis distance squared over all parameters, rounding in print included.'),
   ...published.runs.map((_, row) => runTable(sweep, row)).filter(Boolean),
   block('What the printed numbers may mean', gainChart(published), readingsTable(published)),
   ...published.runs.map((_, row) => unknownBlock(published, row)).filter(Boolean));
 }
+
+studies.push({
+  sections: (sweep) => [publishedSection(sweep)],
+  errorSeries: (sweep, view, quantity) => publishedSeries('published |error|',
+    publishedPoints(sweep, view, quantity, (run, p) => shown(quantity.unit)[0] * Math.abs(run.error[p])).filter(([, v]) => v > 1e-9)),
+  spreadSeries: (sweep, view, quantity) => publishedSeries('published', publishedPoints(sweep, view, quantity, (run, p) => run.in_sd[p])),
+});

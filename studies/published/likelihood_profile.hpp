@@ -9,10 +9,10 @@ namespace trueaxis::study {
 
 /// A log-likelihood of one positive number: its maximum and the 95 % interval of the likelihood
 /// ratio, 2 (highest − log-likelihood) ≤ χ²(1).
-class Profile {
+class LikelihoodProfile {
  public:
   /// Looks between `low` and `high` in equal steps of the logarithm, then closer.
-  Profile(const std::function<double(double)>& log_likelihood, double low, double high);
+  LikelihoodProfile(const std::function<double(double)>& log_likelihood, double low, double high);
 
   double best() const { return best_; }
   double highest() const { return highest_; }

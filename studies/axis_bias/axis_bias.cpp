@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/axis_bias/axis_bias.hpp"
+#include "studies/axis_bias/axis_bias.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -172,26 +172,6 @@ AxisBiasRow axis_bias_of(const Scenario& scenario, const AxisBiasCase& of) {
   row.extended = worst(whole.extended) / of.edge;
   row.extended_half = worst(half.extended) / of.edge;
   return row;
-}
-
-Scenario axis_bias_reference() {
-  // The figures leave the direction of the tilt open; with this angle to the eccentricity the axis
-  // is 0.2244 mm off the spindle's at Z = 60 mm, which 1.41 µm per ms at 60 rpm asks for.
-  constexpr double tilt_rad = 1e-3, away_rad = 1.285;
-  Scenario scenario;
-  scenario.name = "axis_bias";
-  scenario.part.kind = PartKind::cone;
-  scenario.part.half_angle_rad = std::atan(0.1);
-  scenario.part.radius_mm = 40.0;
-  scenario.part.x0_mm = 0.2;
-  scenario.part.l = tilt_rad * std::cos(away_rad);
-  scenario.part.m = tilt_rad * std::sin(away_rad);
-  PlannedPass pass;
-  pass.end_mm = 60.0;
-  pass.feed_mm_per_rev = 0.77;
-  pass.readings_per_revolution = 40.3;
-  scenario.plan.passes = {pass};
-  return scenario;
 }
 
 }  // namespace trueaxis::study
