@@ -14,36 +14,15 @@ namespace {
 
 constexpr double highest_alias = 60.0;  // no cause makes so many undulations
 
-/// Phases of these are written cos(k z + φ), those of harmonics cos(n θ − φ).
-bool phase_is_added(std::string_view id) {
-  return id == "spindle.asynchronous" || id == "environment.vibration" || id == "part.waviness" ||
-         id == "slide.leadscrew_periodic" || id == "part.feed_marks" || id == "probe.cyclic";
-}
-
-std::string period_name(std::string_view id) {
-  if (id == "part.waviness") return "wavelength";
-  if (id == "part.feed_marks") return "feed";
-  return id == "slide.leadscrew_periodic" ? "pitch" : "period";
-}
-
 void add_shape(const Hypothesis& h, std::vector<NamedValue>& out) {
-  const auto id = h.effect->id;
-  const TermShape& s = h.shape;
-  const bool drift_rate = id == "thermal.drift" && !h.free.empty() && h.free[0] == 0;
+  const auto& refined = h.effect->refinement;
+  // A shape that none of the free parameters reads is not told.
+  const bool unread =
+      refined && refined->reader && std::ranges::find(h.free, *refined->reader) == h.free.end();
   for (const std::string& name : shape_parameters(h.effect->term)) {
-    if (name == "order") out.push_back({"order", "1", s.order});
-    if (name == "degree") out.push_back({"degree", "1", static_cast<double>(s.degree)});
-    if (name == "lever_from_mm")
-      out.push_back(
-          {id == "part.chuck_lobing" ? "jaw_position" : "bearing", "mm", s.lever_from_mm});
-    if (name == "decay_length_mm") out.push_back({"decay_length", "mm", s.decay_length_mm});
-    if (name == "period_mm") out.push_back({period_name(id), "mm", s.period_mm});
-    if (name == "frequency_hz") out.push_back({"frequency", "Hz", s.frequency_hz});
-    if (name == "time_constant_s" && id != "probe.lag" && !drift_rate)
-      out.push_back({"time_constant", "s", s.time_constant_s});
-    if (name == "onset_s") out.push_back({"onset", "s", s.onset_s});
-    if (name == "reference_x_mm") out.push_back({"reference_x", "mm", s.reference_x_mm});
-    if (name == "range_mm") out.push_back({"range", "mm", s.range_mm});
+    const EffectParameter* told = parameter_for(*h.effect, name);
+    if (!told || unread) continue;
+    out.push_back({std::string(told->name), std::string(told->unit), shape_value(h.shape, name)});
   }
 }
 
@@ -54,16 +33,12 @@ std::vector<Hypothesis> either_side(const Hypothesis& h, const LinearisationPoin
     const double f = frequency_of(h), df = 1e-3 * f;
     return {at_frequency(h, f - df), at_frequency(h, f + df)};
   }
-  if (!h.effect || h.effect->id == "part.slip") return {};
+  if (!h.effect || is_step(h.effect->term)) return {};
   return neighbours(h, point, 0.01);
 }
 
 double scanned_value(const Hypothesis& h) {
-  if (is_line(h)) return frequency_of(h);
-  const auto id = h.effect->id;
-  if (id == "spindle.tilt_synchronous") return h.shape.lever_from_mm;
-  if (id == "part.chuck_lobing") return h.shape.decay_length_mm;
-  return h.shape.time_constant_s;
+  return is_line(h) ? frequency_of(h) : h.shape.*h.effect->refinement->parameter;
 }
 
 }  // namespace
@@ -84,23 +59,19 @@ std::vector<NamedValue> values_of(const Hypothesis& h, const Eigen::VectorXd& co
   const auto free = [&](std::size_t j) {
     return h.free.empty() || std::ranges::find(h.free, j) != h.free.end();
   };
-  const auto id = h.effect->id;
   for (std::size_t j = 0; j < names.size(); ++j) {
     if (!free(j)) continue;
     const std::string& name = names[j].name;
     if (!name.ends_with("_cos")) {
-      const bool of_part = id == "part.taper" || id == "part.barrel";
-      out.push_back({!of_part                ? name
-                     : name == "amplitude_3" ? "cubic"
-                                             : "amplitude",
-                     names[j].unit, linear[j]});
+      const EffectParameter* told = parameter_for(*h.effect, name);
+      out.push_back({told ? std::string(told->name) : name, names[j].unit, linear[j]});
       continue;
     }
     const std::string of = name.substr(0, name.size() - 4);
     const double c = linear[j], s = linear[j + 1];
     out.push_back({of, names[j].unit, std::hypot(c, s)});
-    double phase = std::atan2(phase_is_added(id) ? -s : s, c);
-    if (id == "part.chuck_lobing" && of == "amplitude") {
+    const double phase = std::atan2(h.effect->line ? -s : s, c);
+    if (has_two_orders(h.effect->term) && of == "amplitude") {
       out.push_back({"jaw_angle", "rad", phase / h.shape.order});
     } else {
       out.push_back({of == "amplitude" ? "phase" : of + "_phase", "rad", phase});
