@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/effect.hpp"
@@ -40,12 +41,10 @@ struct Rival {
 
 /// A cause found in the data, refitted jointly with the surface and the other findings.
 struct Finding {
-  std::string effect;                ///< id of the best explanation
-  std::vector<std::string> members;  ///< the class: every id that explains it as well, best first
-  std::vector<Rival> rivals;         ///< the other members and how far they are
+  TermValue term;             ///< of the best explanation: an effect of the catalogue, fitted
+  std::vector<Rival> rivals;  ///< what explains it as well, the most probable first
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
-  std::string alias;                     ///< another order that the sampling cannot tell from it
-  std::string frame;                     ///< what the named cause is fixed to
+  std::string alias;         ///< another order that the sampling cannot tell from it
   double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
   double probability = 0.0;  ///< of the named effect among its class
   double rms_mm = 0.0;       ///< of its contribution to the readings
@@ -53,23 +52,17 @@ struct Finding {
   bool cosmetic = false;     ///< improves the RMS, not the axis
   std::optional<Separating> separate_with;  ///< for a class of more than one
 
-  /// For the model: the term as data.
-  TermShape shape;
-  std::vector<double> linear;  ///< in the order of linear_parameters(term, shape); mm, rad, s
+  std::string effect() const { return term.id(); }
+  /// The class: every id that explains it as well, the named one first.
+  std::vector<std::string> members() const;
+  bool may_be(std::string_view effect) const;  ///< whether the class holds it
 };
 
 /// A pattern that no catalogued cause explains; it stays in the model as it is.
 struct Unexplained {
-  std::string harmonic;    ///< "3 UPR", "order 7.41", "0 UPR"
-  std::string dependence;  ///< "constant along Z", "P2 along Z", "1/λ = 0.14 per mm" …
-  Estimate amplitude;      ///< mm
+  TermValue term;      ///< a pattern, fitted
+  Estimate amplitude;  ///< mm
   double p_value = 1.0;
-  double order = 0.0;          ///< undulations per revolution, signed against the Z frequency
-  double z_frequency = 0.0;    ///< cycles per mm; with `degree` -1
-  int degree = 0;              ///< Legendre degree along Z; -1: a line
-  bool in_time = false;        ///< the Legendre degree is along time
-  bool part_frame = false;     ///< the angle is that of the part, not of the spindle
-  std::vector<double> linear;  ///< factors of cos and sin (order 0: of 1), mm
 };
 
 /// An effect that this plan cannot see at its typical size.

@@ -19,7 +19,7 @@ struct Diagnostic {
 /// "file:line:column: message", the parts that are 0 left out.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Bad input, thrown once after all diagnostics of the input are collected. Exit code 3.
+/// Bad input, thrown once after all diagnostics of the input are collected.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> diagnostics);
@@ -30,14 +30,13 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics_;
 };
 
-/// A job that is understood but must not be carried out (an actuator that cannot follow). Exit
-/// code 1.
+/// A job that is understood but must not be carried out (an actuator that cannot follow).
 class Refusal : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A caller broke the contract of a function: a bug. Exit code 70.
+/// A caller broke the contract of a function: a bug.
 class ContractViolation : public std::logic_error {
  public:
   using std::logic_error::logic_error;

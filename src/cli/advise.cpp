@@ -4,8 +4,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
-#include "cli/job_streams.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/simulate_from.hpp"
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 
 #include "cli/commands.hpp"
-#include "cli/resimulation.hpp"
+#include "diagnose/files/diagnosis_read.hpp"
 #include "format/file.hpp"
-#include "resimulate/diagnosis_scenario.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "resimulate/files/comparison_json.hpp"
 #include "simulate/files/truth_json.hpp"
 #include "trueaxis/error.hpp"
@@ -20,42 +19,26 @@ namespace {
 namespace lathe = virtual_lathe;
 
 /// As given, else as the diagnosis names it: from here, or beside the diagnosis.
-std::string stream_path(const SimulateFromOptions& options, const DiagnosisInput& input) {
+std::string stream_path(const SimulateFromOptions& options, const std::string& named) {
   if (!options.stream.path.empty()) return options.stream.path;
   const std::filesystem::path beside =
-      std::filesystem::path(options.diagnosis).parent_path() / input.file;
-  for (const std::filesystem::path& path : {std::filesystem::path(input.file), beside}) {
+      std::filesystem::path(options.diagnosis).parent_path() / named;
+  for (const std::filesystem::path& path : {std::filesystem::path(named), beside}) {
     std::error_code error;
     if (std::filesystem::is_regular_file(path, error)) return path.string();
   }
   throw InputError(options.diagnosis,
-                   "its stream `" + input.file + "` is not there: say where it is with --stream");
+                   "its stream `" + named + "` is not there: say where it is with --stream");
 }
 
-/// Else the two would be compared in different units.
-void expect_read_as_then(const SimulateFromOptions& options, const ProbeStream& measured,
-                         const SimulatedReadings& simulated, const DiagnosedScenarios& scenarios) {
-  constexpr double rounding_mm = 1e-6;
-  const double sigma_mm = scenarios.after.noise.sigma_mm, stated_mm = scenarios.rms_mm;
-  const Comparison first = compare(measured, simulated, scenarios.rejected, sigma_mm);
-  if (std::abs(first.before.rms_mm - stated_mm) <= 0.01 * stated_mm + rounding_mm) return;
-  throw InputError(options.diagnosis,
-                   "the stream does not leave the residuals that it states: repeat the --diameter, "
-                   "--relative, --nominal-radius or --ball-radius of the diagnosis");
-}
-
-}  // namespace
-
-int simulate_from(const SimulateFromOptions& options) {
-  const std::string text = read_file(options.diagnosis);
-  StreamOptions stream = options.stream;
-  stream.path = stream_path(options, diagnosis_input(text, options.diagnosis));
-  const ProbeStream measured = stream.read();
-  DiagnosedScenarios scenarios =
-      diagnosed_scenarios(text, options.diagnosis, measured, options.ball_radius_mm);
-  const Resimulation again = resimulated(scenarios, measured);
-  expect_read_as_then(options, measured, again.readings, scenarios);
-
+int play(const SimulateFromOptions& options, const Diagnosis& diagnosis,
+         const ProbeStream& measured) {
+  DiagnosedScenarios scenarios = diagnosed_scenarios(diagnosis, measured, options.ball_radius_mm);
+  const Resimulation again = resimulate(scenarios, diagnosis, measured);
+  if (!reads_as_then(diagnosis, measured, again.readings))
+    throw InputError("diagnosis",
+                     "the stream does not leave the residuals that it states: repeat the "
+                     "--diameter, --relative, --nominal-radius or --ball-radius of the diagnosis");
   if (!options.output.empty()) {
     lathe::Scenario scenario = options.before ? scenarios.before : scenarios.after;
     if (options.noise_free) scenario.noise = lathe::Noise{};
@@ -72,6 +55,24 @@ int simulate_from(const SimulateFromOptions& options) {
       std::cout << options.output << ": " << measured.size() << " readings\n";
   }
   return done;
+}
+
+}  // namespace
+
+int simulate_from(const SimulateFromOptions& options) {
+  const Diagnosis diagnosis = diagnosis_from_json(read_file(options.diagnosis), options.diagnosis);
+  StreamOptions stream = options.stream;
+  stream.path = stream_path(options, diagnosis.baseline.source);
+  const ProbeStream measured = stream.read();
+  try {
+    return play(options, diagnosis, measured);
+  } catch (const InputError& error) {  // of the diagnosis: under the name of its file
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    for (Diagnostic& d : diagnostics) {
+      if (d.file == "diagnosis") d.file = options.diagnosis;
+    }
+    throw InputError(std::move(diagnostics));
+  }
 }
 
 }  // namespace trueaxis::cli

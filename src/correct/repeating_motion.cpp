@@ -23,11 +23,12 @@ double motion_mm(const RepeatingMotion& motion, double c_rad, double z_mm, doubl
   constexpr std::size_t most = 32;
   std::array<double, most> value{};
   std::array<double*, most> columns{};
-  expects(motion.linear.size() <= most, "a motion of 32 parameters or fewer");
+  const std::vector<double>& linear = motion.term.linear;
+  expects(linear.size() <= most, "a motion of 32 parameters or fewer");
   for (std::size_t j = 0; j < most; ++j) columns[j] = &value[j];
-  fill_columns(motion.term, at, motion.shape, std::span(columns).first(motion.linear.size()));
+  fill_columns(motion.term.effect->term, at, motion.term.shape, std::span(columns).first(linear.size()));
   double sum = 0.0;
-  for (std::size_t j = 0; j < motion.linear.size(); ++j) sum += motion.linear[j] * value[j];
+  for (std::size_t j = 0; j < linear.size(); ++j) sum += linear[j] * value[j];
   return sum;
 }
 

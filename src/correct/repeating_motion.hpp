@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "trueaxis/effect.hpp"
 
 namespace trueaxis {
@@ -13,10 +10,7 @@ namespace trueaxis {
 /// +m, or it would leave −m in the part; one on the other side by −m. In between it is unknown: the
 /// probe saw one direction only.
 struct RepeatingMotion {
-  std::string effect;  ///< id of the catalogue
-  Term term;
-  TermShape shape;
-  std::vector<double> linear;  ///< in the order of linear_parameters(term, shape); mm, rad
+  TermValue term;                          ///< of an effect of the catalogue, fitted
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
 };
 

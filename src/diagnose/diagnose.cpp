@@ -32,18 +32,13 @@ double ball_of(const ProbeStream& stream, const FitOptions& options) {
 
 Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
                    const ConfounderSet& found, const Resolution& resolution, std::size_t term) {
-  const Hypothesis& h = model.terms[term];
   Finding out;
-  out.effect = h.id();
-  for (const Candidate& c : found.members) out.members.push_back(c.hypothesis.id());
+  out.term = fitted(model.terms[term], joint.of(term), covariance_of(joint, term));
   out.rivals = found.rivals;
   out.probability = found.probability;
   out.parameters = parameters_of(problem, model, joint, term);
-  out.alias = alias_of(h, resolution);
-  out.frame = to_string(h.effect->frame);
+  out.alias = alias_of(model.terms[term], resolution);
   out.p_value = model.p_values[term];
-  out.shape = h.shape;
-  out.linear = linear_of(h, joint.of(term));
   return out;
 }
 
@@ -159,6 +154,16 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.effective_hypotheses = options.false_alarm / std::exp(-0.5 * out.threshold);
   out.spectrum = spectrum_of(second, resolution, out.residual_before_mm, out.residual_after_mm);
   return out;
+}
+
+std::vector<std::string> Finding::members() const {
+  std::vector<std::string> ids{effect()};
+  for (const Rival& rival : rivals) ids.push_back(rival.effect);
+  return ids;
+}
+
+bool Finding::may_be(std::string_view id) const {
+  return id == effect() || std::ranges::find(rivals, id, &Rival::effect) != rivals.end();
 }
 
 const char* to_string(DiagnosisVerdict verdict) {

@@ -2,7 +2,6 @@
 #include "trueaxis/effect.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <type_traits>
 
 #include "effect/entries_checks.hpp"
@@ -59,26 +58,12 @@ constexpr Separator separator_list[] = {
     {"XJ", "a known jog of the X axis"},
 };
 
-// Levenshtein's distance.
-std::size_t edits(std::string_view from, std::string_view to) {
-  std::vector<std::size_t> row(to.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < to.size(); ++j) {
-      const std::size_t change = diagonal + (from[i] == to[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({change, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 std::string_view after_family(std::string_view id) { return id.substr(id.find('.') + 1); }
 
 // The name alone counts too: the family is often not remembered.
 std::size_t unlikeness(std::string_view asked, std::string_view id) {
-  return std::min(edits(asked, id), edits(after_family(asked), after_family(id)) + 1);
+  return std::min(edit_distance(asked, id),
+                  edit_distance(after_family(asked), after_family(id)) + 1);
 }
 
 }  // namespace

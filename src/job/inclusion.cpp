@@ -19,14 +19,14 @@ bool repeats(std::string_view id) { return std::ranges::find(repeating, id) != r
 
 /// Why a finding must not be cut with; empty: it may.
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
-  for (const std::string& member : finding.members) {
+  for (const std::string& member : finding.members()) {
     if (repeats(member)) continue;
     std::string names;
-    for (const std::string& id : finding.members) names += (names.empty() ? "" : ", ") + id;
+    for (const std::string& id : finding.members()) names += (names.empty() ? "" : ", ") + id;
     return "the data cannot tell it from " + member + " (class " + names +
            "), which must not be copied into the cut";
   }
-  if (std::abs(finding.shape.order - std::round(finding.shape.order)) > 1e-9)
+  if (std::abs(finding.term.shape.order - std::round(finding.term.shape.order)) > 1e-9)
     return "it does not repeat every revolution";
   if (result.job.target->kind == TargetKind::face)
     return "it was seen along X, and a face is cut along Z";
@@ -36,14 +36,14 @@ std::string objection(const JobResult& result, const Diagnosis& diagnosis, const
   const auto [low, high] = std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
-  if (finding.effect.rfind("slide.", 0) == 0 && outside)
+  if (finding.effect().starts_with("slide.") && outside)
     return "the length to be cut reaches beyond the one that was probed";
   return "";
 }
 
 bool known_already(const std::vector<RepeatingMotion>& motions, const Finding& finding) {
   return std::ranges::any_of(motions, [&](const RepeatingMotion& m) {
-    return m.effect == finding.effect && m.shape.order == finding.shape.order;
+    return m.term.effect == finding.term.effect && m.term.shape.order == finding.term.shape.order;
   });
 }
 
@@ -59,20 +59,19 @@ std::vector<RepeatingMotion> included_motions(JobResult& result) {
       if (!result.diagnoses[i]) continue;
       const Diagnosis& diagnosis = *result.diagnoses[i];
       for (const Finding& finding : diagnosis.findings) {
-        if (std::ranges::find(finding.members, wish) == finding.members.end()) continue;
+        if (!finding.may_be(wish)) continue;
         found = true;
         Inclusion inclusion{wish, result.job.references[i].name, false, false,
                             objection(result, diagnosis, finding)};
         if (!inclusion.why.empty()) {
           inclusion.refused = true;
-        } else if (finding.effect != wish) {
-          inclusion.why = "it is named " + finding.effect + " there";
+        } else if (finding.effect() != wish) {
+          inclusion.why = "it is named " + finding.effect() + " there";
         } else if (known_already(motions, finding)) {
           inclusion.why = "another reference shows it already";
         } else {
           inclusion.included = true;
-          motions.push_back({finding.effect, find_effect(finding.effect)->term, finding.shape,
-                             finding.linear, diagnosis.z_mid_mm, diagnosis.z_half_mm});
+          motions.push_back({finding.term, diagnosis.z_mid_mm, diagnosis.z_half_mm});
         }
         result.inclusions.push_back(inclusion);
       }

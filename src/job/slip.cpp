@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/slip.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 
 #include "trueaxis/units.hpp"
@@ -24,9 +24,7 @@ Estimate parameter_of(const Finding& finding, std::string_view name) {
 /// "19.7 ± 0.9 µm"
 std::string plus_minus(double value, double U, const char* unit) {
   const int decimals = decimals_of(U, 1);
-  char text[80];
-  std::snprintf(text, sizeof text, "%.*f ± %.*f%s", decimals, value, decimals, U, unit);
-  return text;
+  return fmt::format("{:.{}f} ± {:.{}f}{}", value, decimals, U, decimals, unit);
 }
 
 /// Length of the step with the U of its direction, the turn, or both.
@@ -48,11 +46,7 @@ std::string how_far(const Finding& finding, double k) {
 std::string named(const Finding& finding, double k) {
   std::string text = "the part slipped in the chuck";
   const Estimate onset = parameter_of(finding, "onset");
-  if (onset.determined()) {
-    char at[40];
-    std::snprintf(at, sizeof at, " at %.1f s", onset.value);
-    text += at;
-  }
+  if (onset.determined()) text += fmt::format(" at {:.1f} s", onset.value);
   const std::string by = how_far(finding, k);
   return text + (by.empty() ? "" : " by " + by);
 }
@@ -60,12 +54,10 @@ std::string named(const Finding& finding, double k) {
 /// As a member of the class of another name.
 std::string possible(const Finding& finding) {
   std::string text =
-      "the part may have slipped in the chuck, which the data cannot tell from " + finding.effect;
+      "the part may have slipped in the chuck, which the data cannot tell from " + finding.effect();
   for (const Rival& rival : finding.rivals) {
-    if (rival.effect != slip) continue;
-    char chance[48];
-    std::snprintf(chance, sizeof chance, " (probability of the slip %.2g)", rival.probability);
-    text += chance;
+    if (rival.effect == slip)
+      text += fmt::format(" (probability of the slip {:.2g})", rival.probability);
   }
   return text;
 }
@@ -80,9 +72,9 @@ std::string slip_objection(const JobResult& result) {
     const std::string reference = result.job.references[i].name;
     const std::string where = reference.empty() ? "" : reference + ": ";
     for (const Finding& finding : diagnosis.findings) {
-      if (finding.effect == slip)
+      if (finding.effect() == slip)
         return where + named(finding, diagnosis.baseline.coverage_factor) + remedy;
-      if (perhaps.empty() && std::ranges::find(finding.members, slip) != finding.members.end())
+      if (perhaps.empty() && finding.may_be(slip))
         perhaps = where + possible(finding) + remedy;
     }
   }

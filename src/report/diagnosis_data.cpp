@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/files/pattern_text.hpp"
 #include "report/report_data.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"
@@ -31,17 +32,14 @@ std::string title_of(const std::string& effect) {
 
 json class_data(const Finding& finding) {
   json members = json::array();
-  for (const std::string& id : finding.members) {
-    const auto rival = std::find_if(finding.rivals.begin(), finding.rivals.end(),
-                                    [&](const Rival& r) { return r.effect == id; });
-    const bool named = id == finding.effect, listed = rival != finding.rivals.end();
+  const auto add = [&](const std::string& id, double probability, bool structural) {
     members.push_back({{"effect", id},
                        {"title", title_of(id)},
-                       {"probability", named    ? finding.probability
-                                       : listed ? rival->probability
-                                                : std::nan("")},
-                       {"structural", listed && rival->structural}});
-  }
+                       {"probability", probability},
+                       {"structural", structural}});
+  };
+  add(finding.effect(), finding.probability, false);
+  for (const Rival& rival : finding.rivals) add(rival.effect, rival.probability, rival.structural);
   return members;
 }
 
@@ -52,12 +50,12 @@ json finding_data(const Finding& finding) {
     parameter["name"] = p.name;
     parameters.push_back(parameter);
   }
-  json data{{"effect", finding.effect},
-            {"title", title_of(finding.effect)},
+  json data{{"effect", finding.effect()},
+            {"title", finding.term.effect->title},
             {"class", class_data(finding)},
             {"parameters", parameters},
             {"alias", finding.alias},
-            {"frame", finding.frame},
+            {"frame", to_string(finding.term.effect->frame)},
             {"p_value", finding.p_value},
             {"rms_mm", finding.rms_mm},
             {"axis_shift", estimate(finding.axis_shift)},
@@ -115,11 +113,12 @@ json lines_data(const Diagnosis& d) {
   for (const Finding& finding : d.findings) {
     for (const FitParameter& p : finding.parameters) {
       if (p.name == "order" && p.estimate.determined())
-        lines.push_back({{"order", p.estimate.value}, {"name", finding.effect}});
+        lines.push_back({{"order", p.estimate.value}, {"name", finding.effect()}});
     }
   }
   for (const Unexplained& u : d.unexplained) {
-    if (u.order != 0.0) lines.push_back({{"order", std::abs(u.order)}, {"name", "unexplained"}});
+    const double order = std::abs(u.term.pattern.order);
+    if (order != 0.0) lines.push_back({{"order", order}, {"name", "unexplained"}});
   }
   return lines;
 }
@@ -132,8 +131,8 @@ json list_of(const std::vector<T>& items, json (*write)(const T&)) {
 }
 
 json unexplained_data(const Unexplained& u) {
-  return {{"harmonic", u.harmonic},
-          {"dependence", u.dependence},
+  return {{"harmonic", harmonic_text(u.term.pattern)},
+          {"dependence", dependence_text(u.term.pattern)},
           {"amplitude", estimate(u.amplitude)},
           {"p_value", u.p_value}};
 }

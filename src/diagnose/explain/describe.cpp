@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/explain/describe.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <map>
 
+#include "diagnose/explain/named_values.hpp"
 #include "diagnose/search/causes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -14,18 +15,6 @@ namespace {
 
 constexpr double highest_alias = 60.0;  // no cause makes so many undulations
 
-void add_shape(const Hypothesis& h, std::vector<NamedValue>& out) {
-  const auto& refined = h.effect->refinement;
-  // A shape that none of the free parameters reads is not told.
-  const bool unread =
-      refined && refined->reader && std::ranges::find(h.free, *refined->reader) == h.free.end();
-  for (const std::string& name : shape_parameters(h.effect->term)) {
-    const EffectParameter* told = parameter_for(*h.effect, name);
-    if (!told || unread) continue;
-    out.push_back({std::string(told->name), std::string(told->unit), shape_value(h.shape, name)});
-  }
-}
-
 /// Neighbours in the one continuous shape parameter, `step` either way; empty: there is none, or it
 /// is a step that has no derivative.
 std::vector<Hypothesis> either_side(const Hypothesis& h, const LinearisationPoint& point) {
@@ -33,65 +22,59 @@ std::vector<Hypothesis> either_side(const Hypothesis& h, const LinearisationPoin
     const double f = frequency_of(h), df = 1e-3 * f;
     return {at_frequency(h, f - df), at_frequency(h, f + df)};
   }
-  if (!h.effect || is_step(h.effect->term)) return {};
+  if (!h.effect || h.effect->id == "part.slip") return {};
   return neighbours(h, point, 0.01);
 }
 
 double scanned_value(const Hypothesis& h) {
-  return is_line(h) ? frequency_of(h) : h.shape.*h.effect->refinement->parameter;
+  if (is_line(h)) return frequency_of(h);
+  const auto id = h.effect->id;
+  if (id == "spindle.tilt_synchronous") return h.shape.lever_from_mm;
+  if (id == "part.chuck_lobing") return h.shape.decay_length_mm;
+  return h.shape.time_constant_s;
+}
+
+/// Of the term's coefficients, in the joint solution.
+Eigen::MatrixXd inverse_of(const Joint& joint, std::size_t term) {
+  auto at = static_cast<Eigen::Index>(joint.equations.base().size());
+  for (std::size_t t = 0; t < term; ++t) at += static_cast<Eigen::Index>(joint.places[t].size());
+  const auto count = static_cast<Eigen::Index>(joint.places[term].size());
+  return joint.solution.inverse.block(at, at, count, count);
 }
 
 }  // namespace
 
-std::vector<double> linear_of(const Hypothesis& h, const Eigen::VectorXd& coefficients) {
-  if (!h.effect || h.free.empty())
-    return {coefficients.data(), coefficients.data() + coefficients.size()};
-  std::vector<double> all(linear_parameters(h.effect->term, h.shape).size(), 0.0);
-  for (std::size_t j = 0; j < h.free.size(); ++j)
-    all[h.free[j]] = coefficients(static_cast<Eigen::Index>(j));
-  return all;
+TermValue fitted(const Hypothesis& h, const Eigen::VectorXd& coefficients,
+                 const Eigen::MatrixXd& covariance) {
+  TermValue out = h;
+  const auto free = static_cast<std::size_t>(coefficients.size());
+  const std::size_t count =
+      h.effect && !h.free.empty() ? linear_parameters(h.effect->term, h.shape).size() : free;
+  const auto place = [&](std::size_t j) { return count == free ? j : h.free[j]; };
+  out.linear.assign(count, 0.0);
+  for (std::size_t j = 0; j < free; ++j)
+    out.linear[place(j)] = coefficients(static_cast<Eigen::Index>(j));
+  if (covariance.size() == 0) return out;
+  out.covariance.assign(count * count, 0.0);
+  for (std::size_t i = 0; i < free; ++i) {
+    for (std::size_t j = 0; j < free; ++j)
+      out.covariance[place(i) * count + place(j)] =
+          covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  return out;
 }
 
-std::vector<NamedValue> values_of(const Hypothesis& h, const Eigen::VectorXd& coefficients) {
-  std::vector<NamedValue> out;
-  const auto names = linear_parameters(h.effect->term, h.shape);
-  const std::vector<double> linear = linear_of(h, coefficients);
-  const auto free = [&](std::size_t j) {
-    return h.free.empty() || std::ranges::find(h.free, j) != h.free.end();
-  };
-  for (std::size_t j = 0; j < names.size(); ++j) {
-    if (!free(j)) continue;
-    const std::string& name = names[j].name;
-    if (!name.ends_with("_cos")) {
-      const EffectParameter* told = parameter_for(*h.effect, name);
-      out.push_back({told ? std::string(told->name) : name, names[j].unit, linear[j]});
-      continue;
-    }
-    const std::string of = name.substr(0, name.size() - 4);
-    const double c = linear[j], s = linear[j + 1];
-    out.push_back({of, names[j].unit, std::hypot(c, s)});
-    const double phase = std::atan2(h.effect->line ? -s : s, c);
-    if (has_two_orders(h.effect->term) && of == "amplitude") {
-      out.push_back({"jaw_angle", "rad", phase / h.shape.order});
-    } else {
-      out.push_back({of == "amplitude" ? "phase" : of + "_phase", "rad", phase});
-    }
-    ++j;
-  }
-  add_shape(h, out);
-  return out;
+Eigen::MatrixXd covariance_of(const Joint& joint, std::size_t term) {
+  return joint.sigma_mm * joint.sigma_mm * inverse_of(joint, term);
 }
 
 std::vector<FitParameter> parameters_of(const Problem& problem, const Model& model,
                                         const Joint& joint, std::size_t term) {
   const Hypothesis& h = model.terms[term];
   const Eigen::VectorXd coefficients = joint.of(term);
-  const std::vector<NamedValue> values = values_of(h, coefficients);
+  const std::vector<NamedValue> values = values_of(fitted(h, coefficients));
   const auto count = static_cast<Eigen::Index>(coefficients.size());
-  auto at = static_cast<Eigen::Index>(joint.equations.base().size());
-  for (std::size_t t = 0; t < term; ++t) at += static_cast<Eigen::Index>(joint.places[t].size());
-  const Eigen::MatrixXd covariance =
-      joint.sigma_mm * joint.sigma_mm * joint.solution.inverse.block(at, at, count, count);
+  const Eigen::MatrixXd covariance = covariance_of(joint, term);
 
   const auto difference = [](const NamedValue& a, const NamedValue& b) {
     return a.unit == "rad" ? std::remainder(a.value - b.value, two_pi) : a.value - b.value;
@@ -102,7 +85,7 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     const double step = 1e-4 * std::max(coefficients.norm(), 1e-12);
     Eigen::VectorXd up = coefficients, down = coefficients;
     up(j) += step, down(j) -= step;
-    const auto above = values_of(h, up), below = values_of(h, down);
+    const auto above = values_of(fitted(h, up)), below = values_of(fitted(h, down));
     for (std::size_t v = 0; v < values.size(); ++v)
       slope(static_cast<Eigen::Index>(v), j) = difference(above[v], below[v]) / (2.0 * step);
   }
@@ -129,8 +112,8 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
                                  : 0.0;
     if (curvature > 0.0) {
       const double u = joint.sigma_mm * std::sqrt(2.0 / curvature);
-      const auto below = values_of(sides[0], low.of(term)),
-                 above = values_of(sides[1], high.of(term));
+      const auto below = values_of(fitted(sides[0], low.of(term))),
+                 above = values_of(fitted(sides[1], high.of(term)));
       for (std::size_t v = 0; v < values.size(); ++v) {
         const double g = difference(above[v], below[v]) / (x2 - x1);
         variance[v] += g * g * u * u;
@@ -154,47 +137,12 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
 }
 
 Unexplained unexplained_of(const Joint& joint, std::size_t term) {
-  const Pattern& p = joint.terms[term].pattern;
   const Eigen::VectorXd c = joint.of(term);
-  auto at = static_cast<Eigen::Index>(joint.equations.base().size());
-  for (std::size_t t = 0; t < term; ++t) at += static_cast<Eigen::Index>(joint.places[t].size());
   Unexplained out;
-  out.order = p.order;
-  out.degree = p.kind == Pattern::Kind::line ? -1 : p.degree;
-  out.z_frequency = p.in_time ? 0.0 : p.frequency;
-  out.in_time = p.in_time;
-  out.part_frame = !p.spindle;
-  out.linear.assign(c.data(), c.data() + c.size());
-  char text[160];
-  std::snprintf(text, sizeof text, "%.4g UPR", p.order);
-  out.harmonic = text;
-  const char* along = p.in_time ? "time" : "Z";
-  if (p.kind == Pattern::Kind::bump) {
-    out.harmonic = "local form";
-    std::snprintf(text, sizeof text, "at %.1f° (± %.1f°)", p.angle_rad / rad_per_deg,
-                  p.width_rad / rad_per_deg);
-    out.dependence = text;
-    if (p.length_mm > 0.0) {
-      std::snprintf(text, sizeof text, ", Z %.2f mm (± %.2f mm)", p.position_mm, p.length_mm);
-      out.dependence += text;
-    }
-  } else if (p.kind == Pattern::Kind::line) {
-    std::snprintf(text, sizeof text,
-                  p.in_time ? "turning with %.4g Hz" : "turning along Z, %.4g per mm", p.frequency);
-    out.dependence = text;
-  } else if (p.degree == 0) {
-    out.dependence = std::string("constant along ") + along;
-  } else {
-    if (p.degree == 1)
-      std::snprintf(text, sizeof text, "linear in %s", along);
-    else
-      std::snprintf(text, sizeof text, "P%d in %s", p.degree, along);
-    out.dependence = text;
-  }
+  out.term = fitted(joint.terms[term], c, covariance_of(joint, term));
   const double amplitude = c.norm();
-  const Eigen::MatrixXd inverse = joint.solution.inverse.block(at, at, c.size(), c.size());
-  const double u =
-      amplitude > 0.0 ? joint.sigma_mm * std::sqrt(c.dot(inverse * c)) / amplitude : 0.0;
+  const double spread = std::sqrt(c.dot(inverse_of(joint, term) * c));
+  const double u = amplitude > 0.0 ? joint.sigma_mm * spread / amplitude : 0.0;
   out.amplitude = {c.size() == 1 ? c(0) : amplitude, u, "mm", ""};
   return out;
 }
@@ -206,12 +154,10 @@ std::string alias_of(const Hypothesis& h, const Resolution& resolution) {
   const double order = harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
   const double m = std::round(resolution.per_turn), other = m - order;
   if (other <= 0.0 || other == order || other > highest_alias) return "";
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%g: with %g readings a revolution orders n and %g - n are one column; take an "
-                "asynchronous rate",
-                other, m, m);
-  return text;
+  return fmt::format(
+      "{:g}: with {:g} readings a revolution orders n and {:g} - n are one column; take an "
+      "asynchronous rate",
+      other, m, m);
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -10,15 +10,13 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A named value inside (mm, rad, s).
-struct NamedValue {
-  std::string name, unit;
-  double value = 0.0;
-};
+/// A hypothesis at its linear coefficients: all linear parameters, those not free being 0.
+/// @param covariance of the coefficients, mm, rad, s; empty: not known
+TermValue fitted(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients,
+                 const Eigen::MatrixXd& covariance = {});
 
-/// The catalogue's parameters of a hypothesis of an effect at its linear coefficients.
-std::vector<NamedValue> values_of(const Hypothesis& hypothesis,
-                                  const Eigen::VectorXd& coefficients);
+/// Of a term's coefficients.
+Eigen::MatrixXd covariance_of(const Joint& joint, std::size_t term);
 
 /// Parameters of a term with their uncertainties: those of the joint fit, and of the shape that the
 /// search has refined (curvature of the profile likelihood), by the law of propagation.
@@ -30,8 +28,5 @@ Unexplained unexplained_of(const Joint& joint, std::size_t term);
 
 /// "12 (sampled 15 times a revolution, orders n and 15 − n are one column)"; empty: no alias.
 std::string alias_of(const Hypothesis& hypothesis, const Resolution& resolution);
-
-/// All linear parameters of a term, those not free being 0.
-std::vector<double> linear_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
 
 }  // namespace trueaxis::diagnose_detail

@@ -3,6 +3,9 @@
 
 #include "diagnose/files/diagnosis_noise_json.hpp"
 #include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_term_json.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
+#include "diagnose/files/pattern_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -39,7 +42,7 @@ Json maybe(const std::optional<Separating>& separating) {
 Json finding_object(const Finding& finding) {
   Json json = finding_summary(finding);
   json["alias"] = finding.alias;
-  json["frame"] = finding.frame;
+  json["frame"] = to_string(finding.term.effect->frame);
   json["rms"] = length(finding.rms_mm);
   Json rivals = Json::array();
   for (const Rival& rival : finding.rivals) {
@@ -51,23 +54,14 @@ Json finding_object(const Finding& finding) {
   }
   json["rivals"] = rivals;
   json["separate_with"] = maybe(finding.separate_with);
-  json["term"] = term_object(finding);
+  json["term"] = term_object(finding.term);
   return json;
 }
 
 Json unexplained_object(const Unexplained& u) {
-  Json json{{"harmonic", u.harmonic},
-            {"dependence", u.dependence},
-            {"amplitude", estimate_object(u.amplitude)},
-            {"p_value", number(u.p_value)},
-            {"order", number(u.order)},
-            {"z_frequency", quantity_object(u.z_frequency, "1/mm", unknown)},
-            {"degree", u.degree},
-            {"along", u.in_time ? "time" : "z"},
-            {"frame", u.part_frame ? "part" : "spindle"}};
-  Json linear = Json::array();
-  for (const double value : u.linear) linear.push_back(length(value));
-  json["linear"] = linear;
+  Json json = unexplained_summary(u);
+  json["p_value"] = number(u.p_value);
+  json["term"] = term_object(u.term);
   return json;
 }
 
@@ -151,8 +145,8 @@ Json finding_summary(const Finding& finding) {
   for (const FitParameter& p : finding.parameters) {
     parameters[p.name] = estimate_object(p.estimate);
   }
-  return {{"effect", finding.effect},
-          {"class", finding.members},
+  return {{"effect", finding.effect()},
+          {"class", finding.members()},
           {"parameters", parameters},
           {"p_value", number(finding.p_value)},
           {"probability", number(finding.probability)},
@@ -160,9 +154,25 @@ Json finding_summary(const Finding& finding) {
            {{"axis_shift", estimate_object(finding.axis_shift)}, {"cosmetic", finding.cosmetic}}}};
 }
 
+Json unexplained_summary(const Unexplained& u) {
+  return {{"harmonic", harmonic_text(u.term.pattern)},
+          {"dependence", dependence_text(u.term.pattern)},
+          {"amplitude", estimate_object(u.amplitude)}};
+}
+
+Json diagnosis_summary(const Diagnosis& d) {
+  return {{"schema", diagnosis_schema},
+          {"verdict", to_string(d.verdict)},
+          {"line", diagnosis_line(d)},
+          {"findings", list_of(d.findings, finding_summary)},
+          {"unexplained", list_of(d.unexplained, unexplained_summary)},
+          {"axis_shift", estimate_object(d.gain.axis_shift)},
+          {"next_measurement", d.next.plan}};
+}
+
 Json diagnosis_object(const Diagnosis& d) {
   Json json;
-  json["schema"] = "trueaxis.diagnosis/1";
+  json["schema"] = diagnosis_schema;
   json["version"] = TRUEAXIS_VERSION;
   json["input"] = {{"file", d.baseline.source}, {"hash", d.baseline.input_hash}};
   json["options"] = options_object(d);

@@ -7,8 +7,9 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.diagnosis/1: lengths in mm, angles in degrees, times in s, each with its unit; a
-/// number that is not there is null beside the reason. `findings[].term` and `unexplained[]` hold
+/// Schema trueaxis.diagnosis/2: lengths in mm, angles in degrees, times in s, each with its unit; a
+/// number that is not there is null beside the reason. `findings[].term` and `unexplained[].term`
+/// hold
 /// the extended model as numbers, over u = (z − z_mid)/z_half of `u_frame`.
 std::string diagnosis_json(const Diagnosis& diagnosis);
 

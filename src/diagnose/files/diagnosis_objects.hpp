@@ -6,7 +6,9 @@
 
 namespace trueaxis {
 
-/// The diagnosis as an object (trueaxis.diagnosis/1).
+inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/2";
+
+/// The diagnosis as an object.
 Json diagnosis_object(const Diagnosis& diagnosis);
 
 /// Verdict and findings of a diagnosis, for a result that names the file of the whole one.
@@ -15,8 +17,8 @@ Json diagnosis_summary(const Diagnosis& diagnosis);
 /// A finding without its term and rivals, for results that hold a summary.
 Json finding_summary(const Finding& finding);
 
-/// The term of a finding: catalogue's formula, shape parameters that it reads, linear parameters.
-Json term_object(const Finding& finding);
+/// A pattern in words and its amplitude.
+Json unexplained_summary(const Unexplained& unexplained);
 
 /// Like to_json, and never without a reason where a number is missing.
 Json estimate_object(const Estimate& estimate);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <array>
+#include "diagnose/files/diagnosis_term_json.hpp"
+
 #include <string_view>
 
 #include "diagnose/files/diagnosis_objects.hpp"
-#include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -12,23 +12,23 @@ namespace {
 
 /// A parameter of TermShape: the name that a term reads it by, its name and unit in the file.
 struct ShapeEntry {
-  std::string_view name, written;
+  std::string_view name;
+  const char* written;
   const char* unit;
-  double (*value)(const TermShape&);
+  double TermShape::*value;
 };
 
-constexpr std::array<ShapeEntry, 10> shape_entries{{
-    {"order", "order", "1", [](const TermShape& s) { return s.order; }},
-    {"lever_from_mm", "lever_from", "mm", [](const TermShape& s) { return s.lever_from_mm; }},
-    {"decay_length_mm", "decay_length", "mm", [](const TermShape& s) { return s.decay_length_mm; }},
-    {"degree", "degree", "1", [](const TermShape& s) { return double(s.degree); }},
-    {"period_mm", "period", "mm", [](const TermShape& s) { return s.period_mm; }},
-    {"frequency_hz", "frequency", "Hz", [](const TermShape& s) { return s.frequency_hz; }},
-    {"time_constant_s", "time_constant", "s", [](const TermShape& s) { return s.time_constant_s; }},
-    {"onset_s", "onset", "s", [](const TermShape& s) { return s.onset_s; }},
-    {"reference_x_mm", "reference_x", "mm", [](const TermShape& s) { return s.reference_x_mm; }},
-    {"range_mm", "range", "mm", [](const TermShape& s) { return s.range_mm; }},
-}};
+constexpr ShapeEntry shape_entries[] = {
+    {"order", "order", "1", &TermShape::order},
+    {"lever_from_mm", "lever_from", "mm", &TermShape::lever_from_mm},
+    {"decay_length_mm", "decay_length", "mm", &TermShape::decay_length_mm},
+    {"period_mm", "period", "mm", &TermShape::period_mm},
+    {"frequency_hz", "frequency", "Hz", &TermShape::frequency_hz},
+    {"time_constant_s", "time_constant", "s", &TermShape::time_constant_s},
+    {"onset_s", "onset", "s", &TermShape::onset_s},
+    {"reference_x_mm", "reference_x", "mm", &TermShape::reference_x_mm},
+    {"range_mm", "range", "mm", &TermShape::range_mm},
+};
 
 const ShapeEntry& shape_entry(std::string_view name) {
   for (const ShapeEntry& entry : shape_entries) {
@@ -37,31 +37,172 @@ const ShapeEntry& shape_entry(std::string_view name) {
   throw ContractViolation("a shape parameter without a place in the file: " + std::string(name));
 }
 
-}  // namespace
+struct PatternKind {
+  Pattern::Kind kind;
+  const char* written;
+};
+constexpr PatternKind pattern_kinds[] = {{Pattern::Kind::fourier_legendre, "fourier_legendre"},
+                                         {Pattern::Kind::line, "line"},
+                                         {Pattern::Kind::bump, "bump"}};
 
-Json term_object(const Finding& finding) {
-  const Effect* effect = find_effect(finding.effect);
-  expects(effect != nullptr, "a finding of the catalogue");
-  Json shape = Json::object(), linear = Json::array();
-  for (const std::string& name : shape_parameters(effect->term)) {
-    const ShapeEntry& entry = shape_entry(name);
-    shape[std::string(entry.written)] =
-        quantity_object(entry.value(finding.shape), entry.unit, "left open");
-  }
-  const auto parameters = linear_parameters(effect->term, finding.shape);
-  expects(parameters.size() == finding.linear.size(), "a value for every linear parameter");
+std::vector<LinearParameter> linear_of(const TermValue& term) {
+  if (term.effect) return linear_parameters(term.effect->term, term.shape);
+  if (term.columns() == 1) return {{"amplitude", "mm"}};
+  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+}
+
+/// Edge units: an angle in degrees.
+double edge_of(const LinearParameter& parameter) {
+  return parameter.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+}
+
+Json linear_array(const TermValue& term) {
+  Json list = Json::array();
+  const auto parameters = linear_of(term);
+  expects(parameters.size() == term.linear.size(), "a value for every linear parameter");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const bool angle = parameters[i].unit == "rad";
-    const double scale = angle ? 1.0 / rad_per_deg : 1.0;
-    Json entry = quantity_object(scale * finding.linear[i],
+    Json entry = quantity_object(edge_of(parameters[i]) * term.linear[i],
                                  angle ? "deg" : parameters[i].unit.c_str(), "not determined");
     entry["name"] = parameters[i].name;
-    linear.push_back(entry);
+    list.push_back(entry);
   }
-  return {{"formula", effect->formula},
-          {"slot", to_string(effect->slot)},
-          {"shape", shape},
-          {"linear", linear}};
+  return list;
+}
+
+/// In the units of `linear`; empty where there is none.
+Json covariance_array(const TermValue& term) {
+  const auto parameters = linear_of(term);
+  Json rows = Json::array();
+  for (std::size_t i = 0; i < parameters.size() && !term.covariance.empty(); ++i) {
+    Json row = Json::array();
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      row.push_back(number(edge_of(parameters[i]) * edge_of(parameters[j]) *
+                           term.covariance[i * parameters.size() + j]));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json shape_object(const TermValue& term) {
+  Json shape = Json::object();
+  for (const std::string& name : shape_parameters(term.effect->term)) {
+    if (name == "degree") {
+      shape["degree"] = with_unit(term.shape.degree, "1");
+      continue;
+    }
+    const ShapeEntry& entry = shape_entry(name);
+    shape[entry.written] = quantity_object(term.shape.*entry.value, entry.unit, "left open");
+  }
+  return shape;
+}
+
+/// The numbers that the kind of pattern has.
+Json pattern_object(const Pattern& p) {
+  Json json;
+  for (const PatternKind& of : pattern_kinds) {
+    if (of.kind == p.kind) json["kind"] = of.written;
+  }
+  json["frame"] = p.spindle ? "spindle" : "part";
+  if (p.kind == Pattern::Kind::bump) {
+    json["angle"] = with_unit(p.angle_rad / rad_per_deg, "deg");
+    json["width"] = with_unit(p.width_rad / rad_per_deg, "deg");
+    json["position"] = with_unit(p.position_mm, "mm");
+    json["length"] = with_unit(p.length_mm, "mm");
+    return json;
+  }
+  json["order"] = number(p.order);
+  json["along"] = p.in_time ? "time" : "z";
+  if (p.kind == Pattern::Kind::line)
+    json["frequency"] = with_unit(p.frequency, p.in_time ? "Hz" : "1/mm");
+  else
+    json["degree"] = p.degree;
+  return json;
+}
+
+double inside_value(const Json& quantity) {
+  const double value = quantity.at("value");
+  return quantity.at("unit") == "deg" ? value * rad_per_deg : value;
+}
+
+Pattern pattern_from(const Json& json) {
+  Pattern p;
+  const std::string kind = json.at("kind");
+  bool known = false;
+  for (const PatternKind& of : pattern_kinds) {
+    if (kind != of.written) continue;
+    p.kind = of.kind;
+    known = true;
+  }
+  if (!known) throw InputError("diagnosis", "no kind of pattern is called `" + kind + "`");
+  p.spindle = json.at("frame") == "spindle";
+  if (p.kind == Pattern::Kind::bump) {
+    p.angle_rad = inside_value(json.at("angle"));
+    p.width_rad = inside_value(json.at("width"));
+    p.position_mm = inside_value(json.at("position"));
+    p.length_mm = inside_value(json.at("length"));
+    return p;
+  }
+  p.order = json.at("order");
+  p.in_time = json.at("along") == "time";
+  if (p.kind == Pattern::Kind::line)
+    p.frequency = inside_value(json.at("frequency"));
+  else
+    p.degree = json.at("degree");
+  return p;
+}
+
+/// The value of every linear parameter, by name.
+std::vector<double> linear_from(const Json& list, const TermValue& term) {
+  std::vector<double> values;
+  for (const LinearParameter& parameter : linear_of(term)) {
+    const auto entry = std::find_if(list.begin(), list.end(), [&](const Json& one) {
+      return one.at("name") == parameter.name;
+    });
+    if (entry == list.end())
+      throw InputError("diagnosis", "a term has no `" + parameter.name + "`");
+    values.push_back(inside_value(*entry));
+  }
+  return values;
+}
+
+}  // namespace
+
+Json term_object(const TermValue& term) {
+  Json json;
+  if (term.effect) {
+    json = {{"formula", term.effect->formula},
+            {"slot", to_string(term.effect->slot)},
+            {"shape", shape_object(term)}};
+  } else {
+    json = {{"pattern", pattern_object(term.pattern)}};
+  }
+  json["linear"] = linear_array(term);
+  json["covariance"] = covariance_array(term);
+  return json;
+}
+
+TermValue effect_term_from(const std::string& id, const Json& json) {
+  TermValue term;
+  term.effect = find_effect(id);
+  if (term.effect == nullptr) throw InputError("diagnosis", "the catalogue has no `" + id + "`");
+  for (const std::string& name : shape_parameters(term.effect->term)) {
+    if (name == "degree") {
+      term.shape.degree = static_cast<int>(inside_value(json.at("shape").at("degree")));
+      continue;
+    }
+    const ShapeEntry& entry = shape_entry(name);
+    term.shape.*entry.value = inside_value(json.at("shape").at(entry.written));
+  }
+  term.linear = linear_from(json.at("linear"), term);
+  return term;
+}
+
+TermValue pattern_term_from(const Json& json) {
+  TermValue term;
+  term.pattern = pattern_from(json.at("pattern"));
+  term.linear = linear_from(json.at("linear"), term);
+  return term;
 }
 
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 
 #include "diagnose/files/diagnosis_limits_text.hpp"
 #include "diagnose/files/finding_text.hpp"
+#include "diagnose/files/pattern_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -44,14 +45,14 @@ std::string origin(const Diagnosis& d) {
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return finding.effect == "part.slip" ? "that of before the slip; the part stands there no longer"
+  return finding.effect() == "part.slip" ? "that of before the slip; the part stands there no longer"
                                        : "";
 }
 
 std::string finding_block(const Finding& finding, std::size_t number, double k) {
   std::string text = "\n";
-  text += wrapped(format("%2zu  ", number), finding.effect + "  " + finding_parameters(finding, k));
-  if (finding.members.size() > 1) text += wrapped("    cause    ", finding_class(finding));
+  text += wrapped(format("%2zu  ", number), finding.effect() + "  " + finding_parameters(finding, k));
+  if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
   text +=
       wrapped("    axis_bias     ", finding_axis_bias(finding, k) +
                                         "; RMS of its part of the readings " + um(finding.rms_mm));
@@ -64,7 +65,7 @@ std::string finding_block(const Finding& finding, std::size_t number, double k) 
 }
 
 std::string unexplained_block(const Unexplained& u, double k) {
-  return wrapped(" ?  ", u.harmonic + ", " + u.dependence + ", amplitude " +
+  return wrapped(" ?  ", harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) + ", amplitude " +
                              plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm") +
                              ": no catalogued cause explains it; it stays in the model so that "
                              "the axis is protected; family-wise p " +
@@ -114,13 +115,13 @@ std::string findings_text(const Diagnosis& d) {
   std::string text = wrapped("diagnosis   ", diagnosis_line(d));
   for (const Finding& f : d.findings) {
     text +=
-        wrapped("  ", f.effect + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
-    if (f.members.size() > 1) text += wrapped("    ", finding_class(f));
+        wrapped("  ", f.effect() + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
+    if (!f.rivals.empty()) text += wrapped("    ", finding_class(f));
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
   }
   for (const Unexplained& u : d.unexplained) {
-    text += wrapped("  ", "unexplained: " + u.harmonic + ", " + u.dependence + ", amplitude " +
+    text += wrapped("  ", "unexplained: " + harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) + ", amplitude " +
                               plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm"));
   }
   return text;

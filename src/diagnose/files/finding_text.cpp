@@ -14,18 +14,15 @@ namespace {
 using namespace layout;
 
 /// Lengths whose typical size is below half a millimetre are shown in µm.
-bool is_small_length(const std::string& effect, const FitParameter& parameter) {
+bool is_small_length(const Effect& effect, const FitParameter& parameter) {
   if (parameter.estimate.unit != "mm") return false;
-  const Effect* known = find_effect(effect);
-  if (known != nullptr) {
-    for (const EffectParameter& p : known->parameters) {
-      if (p.name == parameter.name && p.high > 0.0) return p.high < 0.5;
-    }
+  for (const EffectParameter& p : effect.parameters) {
+    if (p.name == parameter.name && p.high > 0.0) return p.high < 0.5;
   }
   return std::abs(parameter.estimate.value) < 0.5;
 }
 
-std::string parameter_text(const std::string& effect, const FitParameter& p, double k) {
+std::string parameter_text(const Effect& effect, const FitParameter& p, double k) {
   const Estimate& e = p.estimate;
   std::string name = p.name;
   for (std::size_t i = 0; i + 1 < name.size(); ++i) {  // amplitude_2 keeps its number
@@ -37,14 +34,6 @@ std::string parameter_text(const std::string& effect, const FitParameter& p, dou
   return name + " " + plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
 }
 
-double probability_of(const Finding& finding, const std::string& member) {
-  if (member == finding.effect) return finding.probability;
-  for (const Rival& rival : finding.rivals) {
-    if (rival.effect == member) return rival.probability;
-  }
-  return std::nan("");
-}
-
 }  // namespace
 
 std::string finding_parameters(const Finding& finding, double coverage_factor) {
@@ -53,7 +42,7 @@ std::string finding_parameters(const Finding& finding, double coverage_factor) {
     for (const FitParameter& p : finding.parameters) {
       if ((p.name == "order") != order) continue;
       if (!text.empty()) text += ", ";
-      text += parameter_text(finding.effect, p, coverage_factor);
+      text += parameter_text(*finding.term.effect, p, coverage_factor);
     }
   }
   if (!finding.alias.empty()) text += "; the sampling cannot tell it from " + finding.alias;
@@ -61,14 +50,13 @@ std::string finding_parameters(const Finding& finding, double coverage_factor) {
 }
 
 std::string finding_class(const Finding& finding) {
-  if (finding.members.size() < 2) return finding.effect;
-  std::string text;
-  for (const std::string& member : finding.members) {
-    if (!text.empty()) text += " or ";
-    text += member;
-    const double p = probability_of(finding, member);
-    if (std::isfinite(p)) text += " (" + probability(p) + ")";
-  }
+  if (finding.rivals.empty()) return finding.effect();
+  const auto member = [](const std::string& id, double p) {
+    return id + (std::isfinite(p) ? " (" + probability(p) + ")" : "");
+  };
+  std::string text = member(finding.effect(), finding.probability);
+  for (const Rival& rival : finding.rivals)
+    text += " or " + member(rival.effect, rival.probability);
   return text + ": the data cannot tell";
 }
 

@@ -80,7 +80,7 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result, i);
   summary["readings"] = readings_file(result, i);
-  if (i < result.resimulations.size() && result.resimulations[i])
+  if (result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] =
       &fit_used(result, i) == &result.fits[i] ? "ideal surface" : "extended model";
@@ -121,7 +121,7 @@ std::string readings_file(const JobResult& result, std::size_t reference) {
 
 std::string job_json(const JobResult& result) {
   Json json;
-  json["schema"] = "trueaxis.run/1";
+  json["schema"] = "trueaxis.run/2";
   json["version"] = TRUEAXIS_VERSION;
   json["job"] = result.job.name;
   json["verdict"] = verdict_object(result.verdict);

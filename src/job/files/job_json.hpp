@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.run/1: verdict, fits, target axis with what is left at each reference, harmonics
+/// Schema trueaxis.run/2: verdict, fits, target axis with what is left at each reference, harmonics
 /// of the correction and the actuator's margin.
 std::string job_json(const JobResult& result);
 

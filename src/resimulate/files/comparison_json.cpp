@@ -30,7 +30,7 @@ Json comparison_object(const Comparison& comparison) {
 
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,
                             const ProbeStream& stream) {
-  Json json{{"schema", "trueaxis.comparison/1"},
+  Json json{{"schema", "trueaxis.comparison/2"},
             {"version", TRUEAXIS_VERSION},
             {"diagnosis", diagnosis},
             {"input", {{"file", stream.source}, {"hash", stream.input_hash}}}};

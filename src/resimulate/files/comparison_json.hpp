@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "trueaxis/job.hpp"
+#include "trueaxis/resimulation.hpp"
 
 namespace trueaxis {
 
-/// Schema trueaxis.comparison/1: measured against simulated, before and after.
+/// Schema trueaxis.comparison/2: measured against simulated, before and after.
 /// @param diagnosis, stream the files it was made from
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,
                             const ProbeStream& stream);

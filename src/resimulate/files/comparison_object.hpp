@@ -2,7 +2,7 @@
 #pragma once
 
 #include "format/json.hpp"
-#include "trueaxis/job.hpp"
+#include "trueaxis/resimulation.hpp"
 
 namespace trueaxis {
 

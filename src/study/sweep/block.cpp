@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "simulate/clean_stream.hpp"
+#include "simulate/draw_readings.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
@@ -94,10 +94,8 @@ struct Prepared {
 std::uint8_t found_by(const Diagnosis& diagnosis,
                       const std::vector<virtual_lathe::Effect>& hidden) {
   const auto in_a_class = [&](const virtual_lathe::Effect& effect) {
-    return std::ranges::any_of(diagnosis.findings, [&](const Finding& finding) {
-      return finding.effect == effect.id ||
-             std::ranges::find(finding.members, effect.id) != finding.members.end();
-    });
+    return std::ranges::any_of(diagnosis.findings,
+                               [&](const Finding& finding) { return finding.may_be(effect.id); });
   };
   const bool all = std::ranges::all_of(hidden, in_a_class);
   return static_cast<std::uint8_t>((diagnosis.verdict != DiagnosisVerdict::ideal ? 1 : 0) +

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/job_results.hpp"
+
+#include <utility>
+
+#include "correct/files/table_csv.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
+#include "fit/files/fit_text.hpp"
+#include "job/files/job_json.hpp"
+#include "job/files/residuals_csv.hpp"
+#include "measure/files/stream_csv.hpp"
+#include "resimulate/files/comparison_json.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string diagnosis_of(const JobResult& result, std::size_t i) {
+  if (!result.diagnoses[i]) {
+    const bool face = result.streams[i].kind == StreamKind::face;
+    return face ? "diagnosis   none: a face is not diagnosed\n" : "";
+  }
+  const Diagnosis& diagnosis = *result.diagnoses[i];
+  const bool again = diagnosis.verdict != DiagnosisVerdict::ideal && result.resimulations[i];
+  return findings_text(diagnosis) + (again ? resimulation_line(*result.resimulations[i]) : "");
+}
+
+std::string inclusion_text(const Inclusion& i) {
+  return (i.included ? "followed    " : "not followed ") + i.effect +
+         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
+         "\n";
+}
+
+}  // namespace
+
+std::vector<ProbeStream> read_streams(const Job& job) {
+  std::vector<ProbeStream> streams;
+  std::vector<Diagnostic> diagnostics;
+  for (const JobReference& reference : job.references) {
+    try {
+      const StreamReading& said = reference.read;
+      streams.push_back(read_stream_csv(reference.stream,
+                                        {said.diameter, said.indication, said.nominal_radius_mm}));
+    } catch (const InputError& error) {
+      diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
+  return streams;
+}
+
+std::vector<ResultFile> job_files(const JobResult& result) {
+  std::vector<ResultFile> files{{"result.json", job_json(result)}};
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    files.push_back({diagnosis_file(result, i), diagnosis_json(*result.diagnoses[i])});
+    files.push_back({readings_file(result, i),
+                     residuals_csv(result.streams[i], *result.diagnoses[i],
+                                   &result.resimulations[i]->readings)});
+  }
+  if (result.correction && result.verdict.go)
+    files.push_back({"table.csv", correction_csv(*result.correction)});
+  return files;
+}
+
+std::string job_text(const JobResult& result) {
+  std::string text = result.verdict.line + "\n\n";
+  for (std::size_t i = 0; i < result.fits.size(); ++i)
+    text += fit_text(result.fits[i]) + diagnosis_of(result, i) + "\n";
+  for (const Inclusion& inclusion : result.inclusions) text += inclusion_text(inclusion);
+  if (result.correction) text += correction_preview(*result.correction) + "\n";
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/references.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// Radius at which a reference's tilt counts: that of the face to be cut, else that of a plane
+/// probed; 0 for a reference whose position counts.
+double face_radius(const JobReference& reference, const FitResult& fit,
+                   const TargetSurface& target) {
+  if (target.kind == TargetKind::face)
+    return std::max(target.radius_start_mm, target.radius_end_mm);
+  if (fit.surface != "plane") return 0.0;
+  if (reference.face_radius_mm > 0.0) return reference.face_radius_mm;
+  return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+}
+
+}  // namespace
+
+const FitResult& fit_used(const JobResult& result, std::size_t reference) {
+  expects(reference < result.fits.size(), "a reference of the job");
+  const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
+  if (!diagnosed) return result.fits[reference];
+  const Diagnosis& diagnosis = *result.diagnoses[reference];
+  const bool extended = diagnosis.verdict != DiagnosisVerdict::ideal &&
+                        diagnosis.extended.status == FitStatus::converged;
+  return extended ? diagnosis.extended : result.fits[reference];
+}
+
+std::vector<Reference> references_of(const JobResult& result) {
+  std::vector<Reference> references;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const JobReference& named = result.job.references[i];
+    const FitResult& fit = fit_used(result, i);
+    references.push_back(
+        {named.name, fit.axis, named.weight, face_radius(named, fit, *result.job.target)});
+  }
+  return references;
+}
+
+}  // namespace trueaxis

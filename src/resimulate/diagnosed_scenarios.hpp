@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/probe_stream.hpp"
+#include "trueaxis/resimulation.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis {
+
+/// A diagnosis as the virtual lathe plays it at the readings of its stream (see simulate_at). Both
+/// have the stream's set-ups and the diagnosis' noise (σ, autoregression).
+struct DiagnosedScenarios {
+  virtual_lathe::Scenario before;  ///< the ideal surface as first fitted, no effect
+  virtual_lathe::Scenario after;   ///< the extended fit with every finding and unexplained pattern
+};
+
+/// Reads of the diagnosis: of both fits status, surface, bore, axis and shape, and the axes of the
+/// set-ups; u's frame; the terms; σ and autoregression of the noise.
+/// @param measured its stream: set-ups, gauge and clock
+/// @param ball_radius_mm as given to the diagnosis; 0: what the stream says
+/// @throws InputError when the diagnosis is of another stream (hash), a fit did not converge, or the
+/// lathe cannot play a term.
+DiagnosedScenarios diagnosed_scenarios(const Diagnosis& diagnosis, const ProbeStream& measured,
+                                       double ball_radius_mm = 0.0);
+
+/// What the virtual lathe reads before and after, against what was measured. A gauge's zero is set
+/// in the scenarios.
+Resimulation resimulate(DiagnosedScenarios& scenarios, const Diagnosis& diagnosis,
+                        const ProbeStream& measured);
+
+/// Whether the stream leaves the residuals that the diagnosis states of the ideal surface: else it
+/// was read in other units than then.
+bool reads_as_then(const Diagnosis& diagnosis, const ProbeStream& measured,
+                   const SimulatedReadings& simulated);
+
+/// A mark for each of `count` readings: whether its row is among those left out.
+std::vector<bool> marked(const std::vector<Rejected>& rows, std::size_t count);
+
+}  // namespace trueaxis
