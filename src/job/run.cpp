@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/job.hpp"
-
 #include <algorithm>
 #include <utility>
 
@@ -8,6 +6,7 @@
 #include "job/references.hpp"
 #include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 namespace {
@@ -28,9 +27,8 @@ void diagnose_all(JobResult& result) {
 
 void correct(JobResult& result) {
   const TargetSurface& target = *result.job.target;
-  result.target_axis =
-      solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
-                        target.kind != TargetKind::face);
+  result.target_axis = solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
+                                         target.kind != TargetKind::face);
   result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
                                       result.job.actuator, included_motions(result));
 }

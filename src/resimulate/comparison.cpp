@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/resimulation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -9,6 +7,7 @@
 
 #include "math/fourier_sums.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/resimulation.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
