@@ -113,6 +113,7 @@ TEST_F(Tube, NoConstantFourOrFiveLobes) {
   for (const Unexplained& u : found_.unexplained) const Pattern& p = u.term.pattern;
   const bool cell = p.kind == Pattern::Kind::fourier_legendre && p.degree == 0;
   EXPECT_FALSE((p.order == 4.0 || p.order == 5.0) && cell) << harmonic_text(p);
+  }
 }
 
 // 60 readings, no repeats, sections 34 mm apart.
@@ -128,7 +129,7 @@ TEST_F(Tube, TwinsAreNamedAndWhatSplitsThemIsAdvised) {
   const Finding* f = ovality();
   ASSERT_NE(f, nullptr);
   EXPECT_TRUE(std::ranges::any_of(
-      f->members, [](const std::string& id) { return id.starts_with("spindle."); }));
+      f->members(), [](const std::string& id) { return id.starts_with("spindle."); }));
   ASSERT_TRUE(f->separate_with.has_value());
   const std::string& plan = f->separate_with->plan;
   EXPECT_TRUE(plan == "RC" || plan == "RE") << plan << ' ' << f->separate_with->why_not;

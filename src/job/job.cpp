@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/job.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -6,7 +8,6 @@
 #include "job/references.hpp"
 #include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 namespace {

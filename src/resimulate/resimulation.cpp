@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/resimulation.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -7,7 +9,6 @@
 
 #include "math/fourier_sums.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/resimulation.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
