@@ -166,6 +166,83 @@ struct EffectParameter {
   std::string_view unit;  ///< mm, rad, s, Hz, 1 and quotients of them
   double low = 0.0, high = 0.0;
   std::string_view meaning;
+  std::string_view of = {};     ///< shape or linear parameter that it tells, where named otherwise
+  double share_of_range = 0.0;  ///< share of shape.range_mm that `high` is at most; 0: any
+};
+
+/// What a stream must have for an effect to be seen in it.
+struct Requirement {
+  bool time = false;        ///< t of every reading
+  bool length = false;      ///< positions along Z
+  bool cone = false;        ///< an angle to the axis, by which X changes along Z
+  bool cylinder = false;    ///< no half angle of the surface, which would be the same
+  bool both_feeds = false;  ///< passes in +Z and in −Z
+};
+
+/// Values of a parameter of the shape, in what a stream has.
+struct ShapeValues {
+  enum class In {
+    itself,        ///< the parameter's own unit
+    half_lengths,  ///< a place: the middle of the probed length plus so many halves of it
+    per_length,    ///< a wavelength: the probed length over the value
+    per_swing,     ///< a wavelength: the range of what the probe senses over the value
+    duration,      ///< a time: share of what the measurement lasts
+    instant        ///< when so large a share of the readings was taken
+  };
+  double TermShape::*parameter = nullptr;
+  std::vector<double> values = {};
+  In in = In::itself;
+  std::size_t alone = 0;  ///< index of the value that is taken where only one is tried
+};
+
+/// Parameters that are free together, at some shapes.
+struct Form {
+  std::vector<std::size_t> free = {};  ///< linear parameters; empty: all
+  ShapeValues starts = {};             ///< shapes to start from; none: the typical one
+  int degrees = 0;                     ///< Legendre degrees along Z that the stream must tell
+  std::string_view told = {};          ///< not empty: limits of the plan are told of it apart
+};
+
+/// What a search tries of an effect one by one, beside the lines that it scans for.
+struct SearchRange {
+  enum class When {
+    always,      ///< in every step
+    told_apart,  ///< so once re-chucking or the rear side tells frames; before, as `at_orders`
+    at_orders,   ///< at those undulations per revolution that stand out
+    scanned      ///< as a line alone
+  } when = When::always;
+  std::vector<Form> forms = std::vector<Form>(1);
+  int highest_order = 0;   ///< of a harmonic of free order; 0: what the sampling tells
+  int highest_degree = 0;  ///< of a polynomial of free degree
+  double tests = 0.0;  ///< what the choice counts as, for an order; 0: the forms × their starts
+};
+
+/// A line of unknown frequency, which a periodogram finds. Its phase φ is that of cos(2π f x + φ).
+struct Line {
+  enum class In {
+    angle,   ///< C; frequencies are orders
+    time,    ///< t: Hz
+    length,  ///< s of the part: 1/mm, as of the following
+    slide,   ///< Z of the machine
+    spiral,  ///< s, with turns of θ
+    sensed   ///< X as the sensor meets it
+  } in = In::length;
+  double low = 0.0, high = 0.0;
+  double least_cycles = 0.0;  ///< over what the stream has
+};
+
+/// A shape parameter that is refined: how a step d moves it, on a scale where 1 is its range.
+struct Refinement {
+  enum class By {
+    factor,    ///< times exp(range d)
+    sum,       ///< plus range d
+    duration,  ///< plus what the measurement lasts times d, within it
+    lever  ///< κ plus d, κ the half length over the distance of the middle: what data show of it
+  };
+  double TermShape::*parameter = nullptr;
+  By by = By::factor;
+  double range = 1.0, low = 0.0, high = 1e300;
+  std::optional<std::size_t> reader = {};  ///< the linear parameter that reads it; none: all
 };
 
 /// A measurement that tells causes apart.
@@ -185,6 +262,16 @@ struct AxisBias {
   std::string_view unit, text;
 };
 
+/// What a check of the data looks for.
+enum class Check {
+  interruption,
+  saturation,
+  quantisation,
+  incidence_noise,
+  correlated_noise,
+  outliers
+};
+
 /// An entry of the catalogue: data that the engine, the report and the command line read.
 struct Effect {
   std::string_view id = {};
@@ -200,7 +287,16 @@ struct Effect {
   std::vector<Separation> separations = {};
   std::optional<AxisBias> axis_bias = {};
   std::string_view source = {};
-  bool check = false;  ///< quality of the data: handled and reported, never a name for a form
+  std::optional<Check> check = {};  ///< quality of the data: never a name for a form
+
+  Requirement needs = {};
+  std::vector<ShapeValues> typical = {};  ///< shape: the first of the values each
+  SearchRange search = {};
+  std::optional<Line> line = {};
+  std::optional<Refinement> refinement = {};
+  std::string_view second_order_twin = {};  ///< id: one in the first order, told in the second
+  bool between_passes = false;   ///< shows from pass to pass: beside it the noise is judged
+  bool repeats_at_tool = false;  ///< a motion that the tool meets as the probe did
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of
@@ -238,6 +334,28 @@ struct TermValue {
   std::size_t columns() const;  ///< how many are free
   std::string id() const { return effect ? std::string(effect->id) : "unexplained"; }
 };
+
+/// Whether the term is a step at an instant: no value of its shape predicts another, and the part
+/// stands elsewhere afterwards.
+bool is_step(const Term& term);
+
+/// Whether the term has two orders, the one twice the other: the lobes of jaws.
+bool has_two_orders(const Term& term);
+
+/// Whether the undulations per revolution are a parameter of the shape.
+bool has_free_order(const Effect& effect);
+
+/// The parameter that tells a linear or shape parameter; nullptr: it is told by its own name, or
+/// not at all.
+const EffectParameter* parameter_for(const Effect& effect, std::string_view name);
+
+/// The parameter whose typical sizes are those of a linear one: of its name, or as amplitude of
+/// amplitude_cos; nullptr: none.
+const EffectParameter* size_for(const Effect& effect, std::string_view linear);
+
+/// Value of a shape parameter by the name that shape_parameters gives it.
+/// @throws ContractViolation for another name.
+double shape_value(const TermShape& shape, std::string_view name);
 
 /// All effects and checks, family by family.
 std::span<const Effect> effect_catalogue();

@@ -7,7 +7,9 @@
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "simulate/files/scenario_toml.hpp"
-#include "study/axis_bias/files/axis_bias_results.hpp"
+#include "studies/axis_bias/axis_bias_cases.hpp"
+#include "studies/axis_bias/axis_bias_json.hpp"
+#include "studies/axis_bias/axis_bias_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {

@@ -4,6 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "effect/files/effects_json.hpp"
+#include "effect/files/effects_markdown.hpp"
 #include "effect/files/effects_text.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 struct Options {
   std::string id;
-  bool json = false;
+  bool json = false, markdown = false;
 };
 
 const Effect& known_effect(const std::string& id) {
@@ -29,7 +30,9 @@ const Effect& known_effect(const std::string& id) {
 int execute(const Options& options) {
   std::vector<const Effect*> chosen;
   if (!options.id.empty()) chosen.push_back(&known_effect(options.id));
-  if (options.json) {
+  if (options.markdown) {
+    std::cout << effects_markdown();
+  } else if (options.json) {
     if (options.id.empty()) {
       for (const Effect& effect : effect_catalogue()) chosen.push_back(&effect);
     }
@@ -47,6 +50,8 @@ void add_effects(CLI::App& app, int& exit_code) {
       app.add_subcommand("effects", "list what the ideal surface misses, or explain one effect");
   auto options = std::make_shared<Options>();
   command->add_option("id", options->id, "effect to explain, as part.bow");
+  command->add_flag("--markdown", options->markdown,
+                    "print the whole catalogue as docs/effects.md");
   command->add_flag("--json", options->json, "print as JSON (trueaxis.effects/1)");
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

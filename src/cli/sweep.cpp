@@ -4,7 +4,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/sweep_run.hpp"
-#include "study/sweep/files/sweep_toml.hpp"
+#include "studies/published/published_toml.hpp"
 #include "study/sweep/run.hpp"
 
 namespace trueaxis::cli {
@@ -24,9 +24,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
   command->add_option("--threads", options->threads, "default: as many as there are")
       ->check(CLI::Range(0, 4096));
   command->callback([options, &exit_code] {
-    const study::Sweep sweep = read_sweep_toml(options->sweep);
-    run_sweep(sweep, options->folder, [&](const auto& blocks, const auto& finished) {
-      study::run_blocks(sweep, blocks, options->threads, finished);
+    const study::PublishedSweep file = read_published_sweep(options->sweep);
+    run_sweep(file, options->folder, [&](const auto& blocks, const auto& finished) {
+      study::run_blocks(file.sweep, blocks, options->threads, finished);
     });
     exit_code = done;
   });

@@ -7,8 +7,10 @@
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "report/sweep_report.hpp"
-#include "study/published/files/published_results.hpp"
-#include "study/published/placement.hpp"
+#include "studies/published/placement.hpp"
+#include "studies/published/published_json.hpp"
+#include "studies/published/published_page.hpp"
+#include "studies/published/published_text.hpp"
 #include "study/sweep/files/sweep_journal.hpp"
 #include "study/sweep/files/sweep_results.hpp"
 #include "study/sweep/summary.hpp"
@@ -17,12 +19,19 @@ namespace trueaxis::cli {
 
 namespace {
 
-void write_results(const study::Sweep& sweep, const std::string& folder,
-                   const study::Summary& summary, const study::Placement* placement) {
+void write_results(const study::PublishedSweep& file, const std::string& folder,
+                   const study::Summary& summary,
+                   const std::optional<study::Placement>& placement) {
+  const study::Sweep& sweep = file.sweep;
   const std::string csv = sweep_csv(sweep, summary), json = sweep_json(sweep, summary);
   const std::string timing = sweep_timing_csv(sweep, summary);
-  const std::string report = render_sweep_report(sweep, summary, placement);
-  const std::string published = placement ? published_json(sweep, *placement) : "";
+  std::vector<SweepReportAddition> additions;
+  std::string published;
+  if (placement) {
+    additions = published_page(sweep, *file.published, *placement);
+    published = published_json(sweep, *file.published, *placement);
+  }
+  const std::string report = render_sweep_report(sweep, summary, additions);
   std::vector<FileContent> files{{folder + "/sweep.csv", csv},
                                  {folder + "/sweep.json", json},
                                  {folder + "/timing.csv", timing},
@@ -33,7 +42,9 @@ void write_results(const study::Sweep& sweep, const std::string& folder,
 
 }  // namespace
 
-void run_sweep(const study::Sweep& sweep, const std::string& folder, const BlockRunner& runner) {
+void run_sweep(const study::PublishedSweep& file, const std::string& folder,
+               const BlockRunner& runner) {
+  const study::Sweep& sweep = file.sweep;
   std::optional<SweepJournal> journal;
   if (!folder.empty()) journal.emplace(folder, sweep);
   std::vector<study::BlockResult> results;
@@ -51,10 +62,10 @@ void run_sweep(const study::Sweep& sweep, const std::string& folder, const Block
   progress.end();
   const study::Summary summary = study::summarise(sweep, results);
   std::optional<study::Placement> placement;
-  if (sweep.published) placement = study::place_published(sweep, results);
-  if (!folder.empty()) write_results(sweep, folder, summary, placement ? &*placement : nullptr);
+  if (file.published) placement = study::place_published(sweep, *file.published, results);
+  if (!folder.empty()) write_results(file, folder, summary, placement);
   std::cout << sweep_text(sweep, summary);
-  if (placement) std::cout << '\n' << published_text(sweep, summary, *placement);
+  if (placement) std::cout << '\n' << published_text(sweep, *file.published, summary, *placement);
   if (!folder.empty()) std::cout << folder << "/report.html\n";
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/published/published.hpp"
 #include "study/sweep/block.hpp"
 
 namespace trueaxis::cli {
@@ -16,6 +17,7 @@ using BlockRunner = std::function<void(const std::vector<study::Block>&,
 /// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json,
 /// timing.csv, report.html and, beside published runs, published.json there, and the table on
 /// standard output. Progress on a terminal. Without a folder no file is read or written.
-void run_sweep(const study::Sweep& sweep, const std::string& folder, const BlockRunner& runner);
+void run_sweep(const study::PublishedSweep& file, const std::string& folder,
+               const BlockRunner& runner);
 
 }  // namespace trueaxis::cli

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
+#include "base/threads.hpp"
 #include "diagnose/advise/advise.hpp"
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
@@ -74,9 +74,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     out.next.why_not = out.noise.note;
     return out;
   }
-  const int threads = options.threads > 0
-                          ? options.threads
-                          : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = static_cast<int>(threads_for(options.threads, stream.size()));
   const double ball_mm = ball_of(stream, options.fit);
   const std::vector<Clamping> clampings = clampings_of(out.baseline, ball_mm);
   const BaseKind base = base_of(stream, out.baseline, clampings);
@@ -84,19 +82,19 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   ObservationMask mask = make_observation_mask(first);
   const Resolution resolution = resolution_of(first, mask);
   const std::vector<double> deviation = deviation_from(stream, first);
-  std::vector<Rejected> masked = mask_outliers(first, resolution, deviation, mask, threads);
+  std::vector<Rejected> masked = mask_outliers(
+      first, small_fourier_legendre_basis(first, resolution), deviation, mask, threads);
   const auto most = static_cast<std::size_t>(options.max_findings);
   const Problem whole{first, mask, resolution, deviation, options.false_alarm, threads, most};
   CoarseToFineSearch coarse_to_fine(whole);
-  const Given given{stream, options.fit, ball_mm, masked};
   std::optional<Timing> timing;
-  const std::unique_ptr<RelinearisedFit> refined =
-      relinearise(given, whole, coarse_to_fine.model, timing);
+  const std::unique_ptr<RelinearisedFit> refined = relinearise(
+      {stream, options.fit, out.baseline, ball_mm, masked, whole}, coarse_to_fine.model, timing);
   const Model& model = coarse_to_fine.model;
-  const Problem& problem = refined->problem;
+  const Problem& problem = refined->problem();
   const LinearisationPoint& second = problem.point;
-  const Joint& joint = refined->joint;
-  out.effect_mm = refined->effect_mm;
+  const Joint& joint = refined->joint();
+  out.effect_mm = refined->effect_mm();
   out.residual_before_mm = out.baseline.residual_mm;
   out.residual_after_mm =
       remainder(second, problem.deviation_mm, joint.terms, joint.solution.coefficients);
@@ -114,12 +112,11 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     if (timing && timing->term == t) narrow(questions.back().found, timing->likelihood_ratio);
     Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
     add_axis_bias(joint, t, finding.axis_shift, finding.cosmetic);
-    finding.rms_mm = rms_of(contribution(second, {joint.terms[t]}, joint.of(t)));
+    finding.rms_mm = rms_of(joint.contribution_of(t));
     out.findings.push_back(std::move(finding));
   }
   const Eigen::MatrixXd between = between_causes(problem, joint, questions);
-  if (!between.isZero(0.0)) refined->widen(given, between);
-  out.extended = refined->extended;
+  out.extended = refined->extended(between);
   const std::vector<Unobservable> hidden = unobservable_effects(problem, model, joint.sigma_mm);
   Advice advice = advise(problem, model, stream, clampings_of(out.extended, ball_mm), questions,
                          hidden, joint.sigma_mm);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/entries.hpp"
+#include "effect/entries_checks.hpp"
 
 namespace trueaxis::entries {
 
@@ -17,7 +17,7 @@ std::vector<Effect> checks() {
        .absorbed_by = "missing sectors leak ovality into the eccentricity (60 deg: 50 %) unless 2 "
                       "and 3 undulations are fitted with the axis",
        .source = "inspection of measured data",
-       .check = true},
+       .check = Check::interruption},
       {.id = "probe.saturation",
        .title = "readings at the end of the range",
        .slot = Slot::sensor,
@@ -26,7 +26,7 @@ std::vector<Effect> checks() {
        .parameters = {{"limit", "mm", 0, 0, "lower or upper"}},
        .signature = "flat extremes; clipped readings are dropped and counted",
        .source = "inspection of measured data",
-       .check = true},
+       .check = Check::saturation},
       {.id = "probe.quantisation",
        .title = "readings rounded to a step",
        .slot = Slot::sensor,
@@ -35,7 +35,7 @@ std::vector<Effect> checks() {
        .parameters = {{"step", "mm", 1e-5, 0.01, "q"}},
        .signature = "a discrete histogram",
        .source = "JCGM 100 (GUM) F.2.2.1",
-       .check = true},
+       .check = Check::quantisation},
       {.id = "probe.incidence_noise",
        .title = "noise that grows with the angle of incidence",
        .slot = Slot::noise,
@@ -44,7 +44,7 @@ std::vector<Effect> checks() {
        .parameters = {{"sigma", "mm", 1e-4, 0.02, "sigma0"}, {"incidence", "1", 0, 100, "b"}},
        .signature = "a variance with 2 undulations per revolution, the mean unchanged",
        .source = "inspection of measured data",
-       .check = true},
+       .check = Check::incidence_noise},
       {.id = "probe.correlated_noise",
        .title = "noise that remembers",
        .slot = Slot::noise,
@@ -53,7 +53,7 @@ std::vector<Effect> checks() {
        .parameters = {{"autocorrelation", "1", 0.2, 0.95, "rho of neighbouring readings"}},
        .signature = "residuals that are autocorrelated: every uncertainty and test is widened",
        .source = "Box and Jenkins, Time Series Analysis",
-       .check = true},
+       .check = Check::correlated_noise},
       {.id = "probe.outliers",
        .title = "chips and coolant",
        .slot = Slot::noise,
@@ -62,7 +62,7 @@ std::vector<Effect> checks() {
        .parameters = {{"fraction", "1", 1e-3, 0.05, "of all readings"}},
        .signature = "few readings far off, in clusters: counted and listed, never called a form",
        .source = "Huber, Robust Statistics",
-       .check = true},
+       .check = Check::outliers},
   };
 }
 

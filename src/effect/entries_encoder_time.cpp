@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/entries.hpp"
+#include "effect/entries_encoder_time.hpp"
 
 namespace trueaxis::entries {
 
@@ -38,14 +38,21 @@ std::vector<Effect> encoder_and_time() {
        .formula = "X + a t, or X + a (1 - exp(-t/tau))",
        .parameters = {{"rate", "mm/s", 1e-3 / 600, 1e-2 / 600, "a"},
                       {"amplitude", "mm", 1e-3, 0.01, "a of the exponential"},
-                      {"time_constant", "s", 60, 3600, "tau"}},
+                      {"time_constant", "s", 60, 3600, "tau", "time_constant_s"}},
        .signature = "grows with time whatever Z does",
        .confounders = {"part.taper", "slide.xz_parallelism", "part.barrel", "slide.z_straightness"},
        .absorbed_by = "half angle of a cone, in a single pass",
        .separations = {{"RZ", "it goes on where a taper comes back"},
                        {"DW", "it goes on at constant Z"}},
        .axis_bias = AxisBias{0.0005, "mm/mm", "0.0005 of the amplitude"},
-       .source = "ISO 230-3 (thermal effects)"},
+       .source = "ISO 230-3 (thermal effects)",
+       .needs = {.time = true},
+       .search =
+           {.forms = {{{0}},
+                      {{1},
+                       {&TermShape::time_constant_s, {0.1, 0.3, 1.0}, ShapeValues::In::duration}}}},
+       .refinement =
+           Refinement{.parameter = &TermShape::time_constant_s, .range = 3.0, .reader = 1}},
       {.id = "environment.vibration",
        .title = "vibration of a fixed frequency",
        .slot = Slot::machine,
@@ -53,14 +60,18 @@ std::vector<Effect> encoder_and_time() {
        .term = PeriodicInTime{},
        .formula = "X + a cos(2 pi f0 t + phi)",
        .parameters = {{"amplitude", "mm", 1e-4, 5e-3, "a"},
-                      {"frequency", "Hz", 1, 500, "f0"},
+                      {"frequency", "Hz", 1, 500, "f0", "frequency_hz"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "a fixed frequency: its order changes with the speed",
        .confounders = {"spindle.asynchronous", "spindle.radial_synchronous", "part.waviness",
                        "slide.leadscrew_periodic", "part.feed_marks"},
        .separations = {{"2W", "its order changes with the speed"},
                        {"ST", "it is there with the spindle standing still"}},
-       .source = "a sinusoid of the machine in time"},
+       .source = "a sinusoid of the machine in time",
+       .needs = {.time = true},
+       .typical = {{&TermShape::frequency_hz, {7.3}}},
+       .search = {SearchRange::When::scanned},
+       .line = Line{Line::In::time, 0.2, 500.0, 1.5}},
   };
 }
 

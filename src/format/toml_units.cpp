@@ -2,8 +2,8 @@
 #include "format/toml_units.hpp"
 
 #include <algorithm>
-#include <numeric>
 
+#include "base/edit_distance.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -35,21 +35,6 @@ const std::vector<UnitKind>& unit_kinds() {
       {"_s", {{"_s", 1.0}, {"_ms", 1e-3}, {"_us", 1e-6}, {"_min", 60.0}}},
   };
   return kinds;
-}
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t swap = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({swap, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
 }
 
 }  // namespace

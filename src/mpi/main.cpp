@@ -14,7 +14,7 @@
 #include "cli/guarded.hpp"
 #include "cli/sweep_run.hpp"
 #include "mpi/distribute.hpp"
-#include "study/sweep/files/sweep_toml.hpp"
+#include "studies/published/published_toml.hpp"
 #include "trueaxis/error.hpp"
 
 /// trueaxis-mpi sweep SWEEP.toml -o DIR: the command of that name on the ranks of mpirun.
@@ -37,8 +37,9 @@ struct Options {
 int lead(const Options& options) {
   bool agreed = false, working = false;
   const int code = cli::guarded([&] {
-    const study::Sweep sweep = read_sweep_toml(options.sweep);
-    cli::run_sweep(sweep, options.folder, [&](const auto& blocks, const auto& finished) {
+    const study::PublishedSweep file = read_published_sweep(options.sweep);
+    const study::Sweep& sweep = file.sweep;
+    cli::run_sweep(file, options.folder, [&](const auto& blocks, const auto& finished) {
       agree_on(sweep.input_hash);
       agreed = working = true;
       distribute(sweep, blocks, finished);
@@ -55,7 +56,7 @@ int follow(const Options& options) {
   const int code = cli::guarded([&] {
     const std::string hash = agree_on("");
     if (hash.empty()) return cli::done;  // rank 0 says why
-    const study::Sweep sweep = read_sweep_toml(options.sweep);
+    const study::Sweep sweep = read_published_sweep(options.sweep).sweep;
     if (sweep.input_hash != hash)
       throw InputError(options.sweep, "differs between ranks: give all the same files");
     serve(sweep);

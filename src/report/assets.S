@@ -38,7 +38,6 @@ trueaxis_sweep_js_begin:
     .incbin "report/page.js"
     .incbin "report/charts.js"
     .incbin "report/sweep_charts.js"
-    .incbin "report/sweep_published.js"
     .incbin "report/sweep.js"
 trueaxis_sweep_js_end:
 

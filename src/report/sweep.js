@@ -92,7 +92,7 @@ function tableSection() {
 
 function build() {
   const view = gridView(data);
-  const sections = [...chartSections(view), publishedSection(data), tableSection()].filter(Boolean);
+  const sections = [...chartSections(view), ...studies.flatMap((study) => study.sections(data)), tableSection()].filter(Boolean);
   document.getElementById('page').replaceChildren(
     element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} sweep`), element('h1', {}, data.title),
       facts([['Grid', `${data.cells.length} cells of ${data.repeats} repeats`], ['Surface', data.surface], ['Drawn', drawnText()], ['Seed', data.seed], ['Input', data.input_hash || 'no hash']], 'facts origin')),

@@ -52,7 +52,7 @@ function acrossAxis(view, width) {
 
 const colourOf = (i) => colours.series[i % colours.series.length];
 
-/** The same without that of published runs. */
+/** The same without that of what studies add. */
 const curveColour = (i) => colours.series[[0, 2, 3, 4, 5, 1][i % 6]];
 
 /** Height that a legend of these names takes: about 7 px a letter. */
@@ -66,29 +66,7 @@ function legendHeight(names, width) {
   return 18 * rows;
 }
 
-/** Runs that were published, by the cell they belong to. */
-function runsByCell(sweep) {
-  const by = new Map();
-  (sweep.published?.runs ?? []).forEach((run, row) => {
-    const placed = sweep.published.readings[0].runs.find((r) => r.row === row);
-    if (isNumber(run.cell) && placed) by.set(run.cell, {...run, ...placed});
-  });
-  return by;
-}
-
-/** [place, value] of the published runs of one quantity. */
-function publishedPoints(sweep, view, quantity, value) {
-  const parameter = sweep.published ? sweep.published.parameters.indexOf(quantity.name) : -1;
-  if (parameter < 0) return [];
-  const runs = runsByCell(sweep);
-  return view.curves.flatMap((curve) => curve.cells.filter((c) => runs.has(c.index))
-    .map((c) => [view.place(c.point), value(runs.get(c.index), parameter)])).filter(([, v]) => isNumber(v));
-}
-
-const publishedSeries = (name, data) => data.length ? [{name, type: 'scatter', symbol: 'diamond', symbolSize: 12, z: 6, data,
-  itemStyle: {color: colours.model, borderColor: '#fff', borderWidth: 1}}] : [];
-
-/** RMSE of one quantity over the grid, its bound, and the errors that were published. */
+/** RMSE of one quantity over the grid, its bound, and what studies add. */
 function errorChart(sweep, view, quantity, q) {
   const [factor, unit] = shown(quantity.unit);
   const positive = (cells, key) => cells.filter((c) => c.rows[q][key] > 0).map((c) => [view.place(c.point), factor * c.rows[q][key]]);
@@ -96,8 +74,7 @@ function errorChart(sweep, view, quantity, q) {
     {name: view.curves.length > 1 ? curve.name : 'RMSE', type: 'scatter', symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: curveColour(i)}},
     {name: 'bound', type: 'line', symbol: 'none', data: positive(curve.cells, 'bound'), itemStyle: {color: colours.grey}, lineStyle: {color: colours.grey, type: 'dashed', width: 1.4}},
   ]).filter((s) => s.data.length);
-  const printed = publishedPoints(sweep, view, quantity, (run, p) => factor * Math.abs(run.error[p])).filter(([, v]) => v > 1e-9);
-  series.push(...publishedSeries('published |error|', printed));
+  series.push(...studies.flatMap((study) => study.errorSeries(sweep, view, quantity)));
   if (!series.length) return null;
   const names = [...new Set(series.map((s) => s.name))].map((name) => series.find((s) => s.name === name));
   return figure({caption: `${quantity.name}: root mean square error and the least that is possible.`, description: `RMSE of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',
@@ -131,7 +108,7 @@ function spreadChart(sweep, view, quantity, q) {
     {colour: curveColour(i), half, shift: (i - (view.curves.length - 1) / 2) * 2 * half})).filter((s) => s.data.length);
   if (!series.length) return null;
   if (known) series[0].markLine = guide([-1.645, 0, 1.645]);
-  if (known) series.push(...publishedSeries('published', publishedPoints(sweep, view, quantity, (run, p) => run.in_sd[p])));
+  if (known) series.push(...studies.flatMap((study) => study.spreadSeries(sweep, view, quantity)));
   const limit = roundUp(1.05 * largest(series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))));
   return figure({caption: `${quantity.name}: ${known ? 'errors over the bound’s standard deviation' : 'errors'}, the line is the median.`,
     description: `Spread of the errors of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',

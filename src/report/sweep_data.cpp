@@ -107,20 +107,17 @@ double to_six_digits(double value) {
 
 std::string sweep_title(const Sweep& sweep) { return sweep.name.empty() ? "Sweep" : sweep.name; }
 
-json sweep_data(const Sweep& sweep, const Summary& summary, const Placement* placement) {
+json sweep_data(const Sweep& sweep, const Summary& summary) {
   json quantity_list = json::array(), methods = json::array();
   for (const Quantity& quantity : quantities(fitted_surface(sweep)))
     quantity_list.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
   for (const Method method : sweep.methods) methods.push_back(to_string(method));
-  json data{{"schema", "trueaxis.sweep_report/1"}, {"version", TRUEAXIS_VERSION},
-            {"title", sweep_title(sweep)},         {"input_hash", sweep.input_hash},
-            {"seed", std::to_string(sweep.seed)},  {"repeats", sweep.repeats},
-            {"surface", fitted_surface(sweep)},    {"axes", axes_data(sweep)},
-            {"drawn", drawn_data(sweep)},          {"methods", methods},
-            {"quantities", quantity_list},         {"cells", cells_data(sweep, summary)}};
-  if (placement && placement->why_not.empty())
-    data["published"] = published_data(sweep, *placement);
-  return data;
+  return {{"schema", "trueaxis.sweep_report/1"}, {"version", TRUEAXIS_VERSION},
+          {"title", sweep_title(sweep)},         {"input_hash", sweep.input_hash},
+          {"seed", std::to_string(sweep.seed)},  {"repeats", sweep.repeats},
+          {"surface", fitted_surface(sweep)},    {"axes", axes_data(sweep)},
+          {"drawn", drawn_data(sweep)},          {"methods", methods},
+          {"quantities", quantity_list},         {"cells", cells_data(sweep, summary)}};
 }
 
 }  // namespace trueaxis

@@ -3,18 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include "study/published/placement.hpp"
-#include "study/sweep/sweep.hpp"
+#include "study/sweep/summary.hpp"
 
 namespace trueaxis {
 
 /// Everything the page of a sweep shows (schema trueaxis.sweep_report/1): columns of edge units,
 /// one entry a cell; a number that does not exist is NaN, which JSON writes as null.
-nlohmann::json sweep_data(const study::Sweep& sweep, const study::Summary& summary,
-                          const study::Placement* placement);
-
-/// The published runs, the readings of them and what they leave open.
-nlohmann::json published_data(const study::Sweep& sweep, const study::Placement& placement);
+nlohmann::json sweep_data(const study::Sweep& sweep, const study::Summary& summary);
 
 /// The name of the sweep, or what it is.
 std::string sweep_title(const study::Sweep& sweep);

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include "trueaxis/probe_stream.hpp"
@@ -35,10 +33,5 @@ struct CleanStream {
 /// counts. The instants of a jittered pass come from the scenario's seed.
 /// @throws InputError as simulate() does.
 CleanStream simulate_clean(const Scenario& scenario);
-
-/// The readings that noise of `seed` makes of a clean stream: as simulate() draws them, with faster
-/// generators of its own. Same seed, same bits on every platform.
-void draw_readings(const CleanStream& clean, const Noise& noise, std::uint64_t seed,
-                   std::span<double> reading_mm);
 
 }  // namespace trueaxis::virtual_lathe

@@ -3,10 +3,12 @@
 
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/student_t_distribution.hpp>
+#include <cmath>
 #include <cstdint>
+#include <optional>
 #include <random>
-#include <vector>
 
+#include "simulate/autoregression.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
@@ -22,8 +24,36 @@ std::mt19937_64 engine_for(std::uint64_t seed, std::uint32_t purpose);
 /// @throws InputError where a number is outside its range.
 void validate(const Noise& noise);
 
-/// Whether an impulse into ε_i = Σ φ_j ε_{i−j} + e_i dies out.
-bool is_stationary(const std::vector<double>& phi);
+/// By how much an oblique incidence widens the noise; `tangent` of the angle of normal and probe.
+inline double widening(const Noise& noise, double tangent) {
+  return std::sqrt(1.0 + noise.incidence * tangent * tangent);
+}
+
+/// An outlier's error in mm, or none; three uniform variates either way. `away`: the reading's sign
+/// of "away from the material", for one-sided outliers.
+template <class Uniform>
+std::optional<double> draw_outlier(const Noise& noise, double away, Uniform&& uniform) {
+  const double chance = uniform();
+  const double size_mm = noise.outlier_size_mm * (0.5 + uniform());
+  const double side = uniform() < 0.5 ? -1.0 : 1.0;
+  if (chance >= noise.outlier_fraction) return std::nullopt;
+  return size_mm * (noise.outliers_one_sided ? away : side);
+}
+
+/// Variates of standard deviation 1, normal or Student's t: Boost's distributions on an engine of
+/// the scenario.
+class UnitVariates {
+ public:
+  UnitVariates(const Noise& noise, std::uint64_t seed);
+  double operator()() { return heavy_ ? scale_ * student_(engine_) : normal_(engine_); }
+
+ private:
+  bool heavy_;
+  double scale_ = 1.0;
+  std::mt19937_64 engine_;
+  boost::random::normal_distribution<double> normal_;
+  boost::random::student_t_distribution<double> student_;
+};
 
 /// What noise adds to one reading.
 struct NoiseDraw {
@@ -35,22 +65,15 @@ class NoiseSource {
  public:
   NoiseSource(const Noise& noise, std::uint64_t seed);
 
-  /// `tan_incidence`: of the angle between normal and probe line. `away`: the reading's sign of
-  /// "away from the material", for one-sided outliers.
+  /// `tan_incidence`: of the angle between normal and probe line. `away` as of draw_outlier().
   NoiseDraw draw(double tan_incidence, double away);
   bool wants_incidence() const { return noise_.incidence > 0.0; }
 
  private:
-  double unit_variate();
-  double correlated_variate();
-
   Noise noise_;
-  std::mt19937_64 gaussian_, uniform_, outliers_;
-  boost::random::normal_distribution<double> normal_;
-  boost::random::student_t_distribution<double> student_;
-  double student_scale_ = 1.0, innovation_ = 1.0, state_ = 0.0;
-  bool started_ = false;
-  std::vector<double> recent_;  ///< of an autoregression, the newest first
+  UnitVariates variates_;
+  Autoregression series_;
+  std::mt19937_64 uniform_, outliers_;
 };
 
 }  // namespace trueaxis::virtual_lathe

@@ -80,6 +80,15 @@ TEST(EffectsCommand, JsonIsInTheUnitsOfTheContract) {
   EXPECT_NEAR(tilt.at("typical").at(1).get<double>(), 0.114592, 1e-6);  // 2 mrad
 }
 
+TEST(EffectsCommand, DocsEffectsIsTheCatalogueOfToday) {
+  const CommandResult page = trueaxis_command("effects --markdown");
+  ASSERT_EQ(page.exit_code, 0);
+  EXPECT_EQ(page.output, read_text(std::filesystem::path(TRUEAXIS_SOURCE) / "docs/effects.md"))
+      << "write it anew: trueaxis effects --markdown > docs/effects.md";
+  for (const Effect& effect : effect_catalogue())
+    EXPECT_NE(page.output.find("\n## " + std::string(effect.id) + "\n"), std::string::npos);
+}
+
 TEST(EffectsCommand, AnUnknownIdNamesTheNearest) {
   const CommandResult wrong = trueaxis_command("effects part.bwo");
   EXPECT_EQ(wrong.exit_code, 3);

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "study/sweep/files/sweep_toml.hpp"
+#include "studies/published/published_page.hpp"
+#include "studies/published/published_toml.hpp"
 #include "support/open_page.hpp"
 #include "support/sweep_examples.hpp"
 
@@ -13,18 +14,20 @@ namespace {
 using example::open_page;
 using example::Opinion;
 
-std::string page_of(const study::Sweep& sweep) {
+std::string page_of(const study::PublishedSweep& file) {
+  const study::Sweep& sweep = file.sweep;
   const std::vector<study::BlockResult> results = testing::run_all(sweep, 1);
   const study::Summary summary = study::summarise(sweep, results);
-  if (!sweep.published) return render_sweep_report(sweep, summary, nullptr);
-  const study::Placement placement = study::place_published(sweep, results);
-  return render_sweep_report(sweep, summary, &placement);
+  if (!file.published) return render_sweep_report(sweep, summary);
+  const study::Placement placement = study::place_published(sweep, *file.published, results);
+  return render_sweep_report(sweep, summary, published_page(sweep, *file.published, placement));
 }
 
-study::Sweep shipped(const std::string& name, std::size_t repeats) {
-  study::Sweep sweep = read_sweep_toml(TRUEAXIS_SOURCE "/data/sweeps/" + name + ".toml");
-  sweep.repeats = repeats;
-  return sweep;
+study::PublishedSweep shipped(const std::string& name, std::size_t repeats) {
+  study::PublishedSweep file =
+      read_published_sweep(TRUEAXIS_SOURCE "/data/sweeps/" + name + ".toml");
+  file.sweep.repeats = repeats;
+  return file;
 }
 
 class SweepReport : public ::testing::Test {
@@ -33,8 +36,8 @@ class SweepReport : public ::testing::Test {
     if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
   }
 
-  static void expect_sound(const study::Sweep& sweep, const std::string& name) {
-    const Opinion opinion = open_page(page_of(sweep), "sweep_" + name);
+  static void expect_sound(const study::PublishedSweep& file, const std::string& name) {
+    const Opinion opinion = open_page(page_of(file), "sweep_" + name);
     EXPECT_TRUE(opinion.sound) << opinion.log;
   }
 };
@@ -53,7 +56,7 @@ TEST_F(SweepReport, OneCellWithoutAxes) {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
   sweep.repeats = 10;
-  expect_sound(sweep, "one_cell");
+  expect_sound({sweep, {}}, "one_cell");
 }
 
 // Efficiency has a chart where its ratios have intervals: from 100 repeats on.
@@ -63,7 +66,7 @@ TEST_F(SweepReport, DrawnNumbersHaveAnEfficiency) {
   sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
   const auto charts = [&](std::size_t repeats) {
     sweep.repeats = repeats;
-    const Opinion opinion = open_page(page_of(sweep), "drawn" + std::to_string(repeats));
+    const Opinion opinion = open_page(page_of({sweep, {}}), "drawn" + std::to_string(repeats));
     EXPECT_TRUE(opinion.sound) << opinion.log;
     const std::size_t at = opinion.log.find("wide: ");
     return at == std::string::npos ? -1 : std::stoi(opinion.log.substr(at + 6));
@@ -77,10 +80,10 @@ TEST_F(SweepReport, WithoutABoundAndWithFailures) {
   sweep.repeats = 10;
   sweep.base.probe.relative_zero_mm = 30.0;  // a gauge: no bound
   sweep.base.probe.nominal_radius_mm = 35.0;
-  expect_sound(sweep, "no_bound");
+  expect_sound({sweep, {}}, "no_bound");
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
   sweep.axes = {testing::over("pass.length_mm", {0.1, 30.0})};  // some readings, then enough
-  expect_sound(sweep, "failures");
+  expect_sound({sweep, {}}, "failures");
 }
 
 // Of a drawn sweep's 10 repeats no ratio has an interval; of a plan in front of a cone's apex no
@@ -90,7 +93,7 @@ TEST_F(SweepReport, SaysWhichOfBoundRatioAndResultIsMissing) {
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cone);
   sweep.repeats = 10;
   const auto banner = [&](const std::string& name) {
-    return open_page(page_of(sweep), "banner_" + name).log;
+    return open_page(page_of({sweep, {}}), "banner_" + name).log;
   };
   sweep.drawn = {{"noise.sigma_um", "noise.sigma_mm", study::Drawn::Kind::uniform, 0.004, 0.006}};
   std::string log = banner("drawn");
@@ -113,7 +116,7 @@ TEST_F(SweepReport, TheTableTakesTheWidthThatThereIs) {
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
   sweep.repeats = 100;
   sweep.axes = {testing::over("noise.sigma_mm", {0.001, 0.002})};
-  const std::string log = open_page(page_of(sweep), "width").log;
+  const std::string log = open_page(page_of({sweep, {}}), "width").log;
   EXPECT_NE(log.find("wide: 0 wide tables scroll"), std::string::npos) << log;
   EXPECT_EQ(log.find("phone: 0 wide tables scroll"), std::string::npos) << log;
 }
@@ -124,16 +127,16 @@ TEST_F(SweepReport, ManyCells) {
   sweep.repeats = 3;
   sweep.axes = {testing::over("noise.sigma_mm", {0.001, 0.002, 0.003, 0.004, 0.005, 0.006, 0.007}),
                 testing::over("part.x0_mm", {-3, -2, -1, 0, 1, 2, 3, 4})};
-  expect_sound(sweep, "many");
+  expect_sound({sweep, {}}, "many");
 }
 
 TEST_F(SweepReport, HostileNamesStayText) {
-  study::Sweep sweep = shipped("table1", 3);
+  study::PublishedSweep file = shipped("table1", 3);
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
-  sweep.name = sweep.axes[0].name = sweep.axes[0].points[0].label = hostile;
-  sweep.published->source = sweep.published->rows[0].name = hostile;
-  sweep.published->rows[0].values[0].text = sweep.published->readings[0].name = hostile;
-  expect_sound(sweep, "hostile");
+  file.sweep.name = file.sweep.axes[0].name = file.sweep.axes[0].points[0].label = hostile;
+  file.published->source = file.published->rows[0].name = hostile;
+  file.published->rows[0].values[0].text = file.published->readings[0].name = hostile;
+  expect_sound(file, "hostile");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "study/axis_bias/axis_bias.hpp"
+#include "studies/axis_bias/axis_bias_cases.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"
 

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "simulate/clean_stream.hpp"
+#include "simulate/draw_readings.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

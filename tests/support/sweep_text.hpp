@@ -5,13 +5,13 @@
 
 #include <string>
 
-#include "study/sweep/files/sweep_toml.hpp"
+#include "studies/published/published_toml.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::testing {
 
 inline study::Sweep parse_sweep(const std::string& text) {
-  return parse_sweep_toml(text, "sweep.toml");
+  return parse_published_sweep(text, "sweep.toml").sweep;
 }
 
 /// All that is said of a wrong sweep.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/published/placement.hpp"
+#include "studies/published/placement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "studies/published/likelihood_profile.hpp"
+#include "studies/published/printed_run.hpp"
 #include "study/bound/quantities.hpp"
-#include "study/published/likelihood_profile.hpp"
-#include "study/published/printed_run.hpp"
 #include "support/sweep_examples.hpp"
 
 namespace trueaxis::study {
@@ -65,12 +65,12 @@ TEST(PrintedRun, AnErrorPrintedTwiceAsLargeIsHalved) {
 }
 
 /// n Gaussian values of mean square s²: −n ln σ − n s² / 2σ² has its maximum at s.
-TEST(Profile, MaximumAndIntervalOfAStandardDeviation) {
+TEST(LikelihoodProfile, MaximumAndIntervalOfAStandardDeviation) {
   constexpr double n = 12.0, s = 0.37;
   const auto log_likelihood = [](double sigma) {
     return -n * std::log(sigma) - 0.5 * n * s * s / (sigma * sigma);
   };
-  const Profile profile(log_likelihood, 1e-3, 1e3);
+  const LikelihoodProfile profile(log_likelihood, 1e-3, 1e3);
   EXPECT_NEAR(profile.best(), s, 1e-4 * s);  // Brent: the root of its precision
   EXPECT_NEAR(profile.highest(), log_likelihood(s), 1e-9);
   for (const double end : {profile.interval_95().low, profile.interval_95().high})
@@ -79,10 +79,10 @@ TEST(Profile, MaximumAndIntervalOfAStandardDeviation) {
   EXPECT_GT(profile.interval_95().high, s);
 }
 
-TEST(Profile, AnEndThatIsNeverReachedIsOpen) {
+TEST(LikelihoodProfile, AnEndThatIsNeverReachedIsOpen) {
   // Readings of no spread beside rounding: any small σ will do.
-  const Profile profile([](double sigma) { return -0.5 * std::log(1.0 + sigma * sigma); }, 1e-3,
-                        1e3);
+  const LikelihoodProfile profile([](double sigma) { return -0.5 * std::log(1.0 + sigma * sigma); },
+                                  1e-3, 1e3);
   EXPECT_TRUE(std::isnan(profile.interval_95().low));
   EXPECT_NEAR(profile.interval_95().high, std::sqrt(std::exp(3.841458820694124) - 1.0), 1e-4);
 }
@@ -95,16 +95,14 @@ class OwnRun : public ::testing::Test {
     sweep_.axes = {testing::over("noise.sigma_mm", {0.005, 0.010})};
     sweep_.repeats = 400, sweep_.seed = 20261122;
     results_ = testing::run_all(sweep_, 1);
-    Published published;
     for (std::size_t i = 0; i < 6; ++i)
-      published.parameters.push_back(quantities(fitted_surface(sweep_))[i].name);
-    for (std::size_t repeat = 0; repeat < 20; ++repeat) published.rows.push_back(row(repeat));
+      published_.parameters.push_back(quantities(fitted_surface(sweep_))[i].name);
+    for (std::size_t repeat = 0; repeat < 20; ++repeat) published_.rows.push_back(row(repeat));
     const std::vector<double> ones(6, 1.0);
     const std::vector<int> all_printed(6, 0);
-    published.readings = {{"as stated", {}, ones, 1.0, false, all_printed},
-                          {"fitted", {}, ones, 1.0, true, all_printed},
-                          {"a tenth", {}, ones, 0.1, false, all_printed}};
-    sweep_.published = published;
+    published_.readings = {{"as stated", {}, ones, 1.0, false, all_printed},
+                           {"fitted", {}, ones, 1.0, true, all_printed},
+                           {"a tenth", {}, ones, 0.1, false, all_printed}};
   }
 
   const BlockResult& block(std::size_t cell) const {
@@ -124,11 +122,12 @@ class OwnRun : public ::testing::Test {
   }
 
   Sweep sweep_;
+  Published published_;
   std::vector<BlockResult> results_;
 };
 
 TEST_F(OwnRun, DistancesAreChiSquaredAndThePlaceAmongTheRepeatsAgrees) {
-  const Placement placement = place_published(sweep_, results_);
+  const Placement placement = place_published(sweep_, published_, results_);
   const PlacedReading& stated = placement.readings[0];
   // χ²(120) of 20 efficient runs: mean 120, standard deviation √240; four of them.
   EXPECT_NEAR(stated.chi_squared, 120.0, 4.0 * std::sqrt(240.0)) << "seed " << sweep_.seed;
@@ -148,7 +147,7 @@ TEST_F(OwnRun, DistancesAreChiSquaredAndThePlaceAmongTheRepeatsAgrees) {
 }
 
 TEST_F(OwnRun, TheFittedNoiseIsTheOneThatWasDrawn) {
-  const Placement placement = place_published(sweep_, results_);
+  const Placement placement = place_published(sweep_, published_, results_);
   const PlacedReading& fitted = placement.readings[1];
   // 120 squares: the maximum is √(χ²/120), its interval as wide as 1.96/√240 on either side.
   EXPECT_NEAR(fitted.noise_factor, std::sqrt(placement.readings[0].chi_squared / 120.0), 1e-3);
@@ -159,18 +158,18 @@ TEST_F(OwnRun, TheFittedNoiseIsTheOneThatWasDrawn) {
 }
 
 TEST_F(OwnRun, ALostLevelIsFoundAgain) {
-  std::vector<PublishedRow>& rows = sweep_.published->rows;
+  std::vector<PublishedRow>& rows = published_.rows;
   rows = {row(0), row(1), row(2), row(3)};
   rows[3].unknown_axis = 0;
   rows[3].grid = 0;
-  const Placement placement = place_published(sweep_, results_);
+  const Placement placement = place_published(sweep_, published_, results_);
   ASSERT_EQ(placement.readings[0].rows.size(), 3u);
   ASSERT_EQ(placement.unknown.size(), 3u);
   const UnknownLevel& level = placement.unknown[0];
   const std::vector<double> alone = [&] {
     rows[3].unknown_axis.reset();
     rows[3].grid = 1;
-    const Placement known = place_published(sweep_, results_);
+    const Placement known = place_published(sweep_, published_, results_);
     return std::vector{known.readings[0].rows[3].chi_squared};
   }();
   EXPECT_NEAR(level.best, 0.010 * std::sqrt(alone[0] / 6.0), 1e-5) << "the run's own scatter";
@@ -184,8 +183,8 @@ TEST_F(OwnRun, ALostLevelIsFoundAgain) {
 }
 
 TEST_F(OwnRun, WithoutABoundNothingIsPlaced) {
-  sweep_.published->readings[2].settings = {{"pass.length_mm", 1e-3}};  // one reading
-  const Placement placement = place_published(sweep_, results_);
+  published_.readings[2].settings = {{"pass.length_mm", 1e-3}};  // one reading
+  const Placement placement = place_published(sweep_, published_, results_);
   EXPECT_NE(placement.why_not.find("\"a tenth\" has no bound"), std::string::npos);
   EXPECT_TRUE(placement.readings.empty());
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "study/sweep/files/sweep_toml.hpp"
+#include "studies/published/published_toml.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -25,8 +25,8 @@ key = "noise.sigma_um"
 values = [2, 50]
 )";
 
-study::Sweep parse(const std::string& paper) {
-  return parse_sweep_toml(sweep_head + paper, "sweep.toml");
+study::PublishedSweep parse(const std::string& paper) {
+  return parse_published_sweep(sweep_head + paper, "sweep.toml");
 }
 
 std::string complaint(const std::string& paper) {
@@ -39,7 +39,7 @@ std::string complaint(const std::string& paper) {
 }
 
 TEST(PublishedToml, RowsKeepTheirDigits) {
-  const study::Sweep sweep = parse(R"([paper]
+  const study::PublishedSweep sweep = parse(R"([paper]
 source = "someone"
 parameters = ["k", "half_angle"]
 [[paper.row]]
@@ -85,7 +85,7 @@ least_decimals = { k = 4 }
 }
 
 TEST(PublishedToml, WithoutReadingsThereIsThePlainOne) {
-  const study::Sweep sweep = parse(
+  const study::PublishedSweep sweep = parse(
       "[paper]\nsource = \"x\"\nparameters = [\"k\"]\n[[paper.row]]\nat = [\"10\", \"50\"]\n"
       "values = [\"402\"]\n");
   ASSERT_EQ(sweep.published->readings.size(), 1u);

@@ -169,11 +169,11 @@ name = "slower"
 )";
 
 TEST(SweepLists, ReadingsOfPaperSetWhatEveryCaseHas) {
-  const study::Sweep sweep =
-      parse_sweep(part + plans + paper + "set = { \"pass.0.pause_s\" = 9 }\n");
-  ASSERT_TRUE(sweep.published.has_value());
-  study::Sweep read = sweep;
-  read.settings = sweep.published->readings[0].settings;
+  const study::PublishedSweep file = parse_published_sweep(
+      part + plans + paper + "set = { \"pass.0.pause_s\" = 9 }\n", "sweep.toml");
+  ASSERT_TRUE(file.published.has_value());
+  study::Sweep read = file.sweep;
+  read.settings = file.published->readings[0].settings;
   EXPECT_EQ(scenario_of(read, 0).plan.passes[0].pause_s, 9.0);
   EXPECT_EQ(scenario_of(read, 1).plan.passes[0].pause_s, 9.0);  // after the lists
   EXPECT_EQ(scenario_of(read, 1).plan.passes[1].pause_s, 7.0);  // before the axes

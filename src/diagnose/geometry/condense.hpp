@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/geometry/resolution.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -17,8 +17,8 @@ struct Condensed {
 };
 
 /// How many neighbours a mean is of: 1 for streams of fewer than 60 000 readings, else as many as
-/// leave 40 means a turn, so that the highest order of the fourier_legendre_basis keeps 87 % of its
-/// amplitude.
+/// leave 40 means a turn, so that the highest order of the Fourier-Legendre basis keeps 87 %
+/// of its amplitude.
 std::size_t condensation(const LinearisationPoint& point, const Resolution& resolution);
 
 /// Means of `every` readings that count, of one pass and one unbroken sampling.

@@ -2,7 +2,9 @@
 #include "diagnose/geometry/hypothesis.hpp"
 
 #include <algorithm>
+#include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
+#include <utility>
 
 #include "math/sincos.hpp"
 #include "trueaxis/error.hpp"
@@ -12,14 +14,15 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t most_parameters = 8;
+constexpr std::size_t chunk = 512;
 
+/// By Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
 double legendre(int degree, double u) {
   double before = 1.0, now = u;
   if (degree == 0) return 1.0;
-  for (int l = 1; l < degree; ++l) {
-    const double next = ((2.0 * l + 1.0) * u * now - l * before) / (l + 1.0);
-    before = now, now = next;
-  }
+  for (int l = 1; l < degree; ++l)
+    before =
+        std::exchange(now, boost::math::legendre_next(static_cast<unsigned>(l), u, now, before));
   return now;
 }
 
@@ -105,6 +108,32 @@ std::size_t columns_of(std::span<const Hypothesis> list) {
   std::size_t sum = 0;
   for (const Hypothesis& h : list) sum += h.columns();
   return sum;
+}
+
+std::vector<double> contribution(const LinearisationPoint& point, std::span<const Hypothesis> terms,
+                                 std::span<const double> linear) {
+  std::vector<double> out(point.size(), 0.0);
+  const std::size_t count = columns_of(terms);
+  if (count == 0) return out;
+  std::vector<double> buffer(count * chunk);
+  std::vector<double*> column(count);
+  for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
+  for (std::size_t begin = 0; begin < point.size();) {
+    std::size_t end = std::min(begin + chunk, point.size());
+    for (std::size_t i = begin + 1; i < end; ++i)
+      if (point.rear[i] != point.rear[begin]) end = i;
+    std::size_t next = 0;
+    for (const Hypothesis& h : terms) {
+      fill(h, point, begin, end, {column.data() + next, h.columns()});
+      next += h.columns();
+    }
+    for (std::size_t j = 0; j < count; ++j) {
+      const double c = linear[j];
+      for (std::size_t i = begin; i < end; ++i) out[i] += c * column[j][i - begin];
+    }
+    begin = end;
+  }
+  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -31,4 +31,8 @@ Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> f
 
 std::size_t columns_of(std::span<const Hypothesis> list);
 
+/// What terms do to X, one entry a reading, mm. @param linear of all terms, term after term
+std::vector<double> contribution(const LinearisationPoint& point, std::span<const Hypothesis> terms,
+                                 std::span<const double> linear);
+
 }  // namespace trueaxis::diagnose_detail

@@ -3,28 +3,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t chunk = 512;
-
 /// The stream without masked readings, less the contribution of the terms.
 ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
                     const std::vector<double>& effect_mm) {
   ProbeStream out = stream;
   for (std::size_t i = 0; i < stream.size(); ++i) out.reading_mm[i] -= effect_mm[i];
-  const auto free = [&](auto& column) {
+  const auto keep = [&](auto& column) {
     if (column.empty()) return;
     std::size_t to = 0;
     for (std::size_t i = 0; i < mask.used.size(); ++i)
       if (mask.used[i]) column[to++] = column[i];
     column.resize(to);
   };
-  free(out.reading_mm), free(out.c_rad), free(out.position_mm), free(out.time_s);
-  free(out.pass), free(out.setup);
+  keep(out.reading_mm), keep(out.c_rad), keep(out.position_mm), keep(out.time_s);
+  keep(out.pass), keep(out.setup);
   return out;
 }
 
@@ -54,83 +53,30 @@ Eigen::RowVectorXd reported_slope(const std::string& name, const Revolved& shape
 
 }  // namespace
 
-bool is_diagnosable(const FitResult& fit) {
-  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
-         (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
-         std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
-}
-
-std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
-  std::vector<Clamping> out;
-  const SetUp* before = nullptr;
-  for (const SetUpFit& s : fit.set_ups) {
-    Clamping c;
-    c.number = s.set_up.number;
-    c.shape = s.shape;
-    const double secant = std::hypot(1.0, s.shape.tan_half_angle);
-    c.shape.radius_mm += (fit.bore ? -ball_mm : ball_mm) * secant;
-    c.root = s.side;
-    c.reindex_rad = s.set_up.reindex_rad;
-    c.z_shift_mm = s.set_up.z_shift_mm;
-    c.x_jog_mm = s.set_up.x_jog_mm;
-    c.clamp_force_ratio = s.set_up.clamp_force_ratio;
-    c.axis = out.empty() ? 0 : out.back().axis + (s.set_up.clamped_as(*before) ? 0 : 1);
-    before = &s.set_up;
-    out.push_back(c);
-  }
-  return out;
-}
-
-BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
-                 const std::vector<Clamping>& clampings) {
-  BaseKind base;
-  base.tilts = fit.surface != "section";
-  base.tapers = fit.surface == "cone";
-  base.offset = stream.indication == Indication::relative;
-  base.axes = clampings.back().axis + 1;
-  return base;
-}
-
-std::vector<double> contribution(const LinearisationPoint& point,
-                                 const std::vector<Hypothesis>& terms,
-                                 const Eigen::VectorXd& coefficients) {
-  std::vector<double> out(point.size(), 0.0);
-  const std::size_t count = columns_of(terms);
-  if (count == 0) return out;
-  std::vector<double> buffer(count * chunk);
-  std::vector<double*> column(count);
-  for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
-  for (std::size_t begin = 0; begin < point.size();) {
-    std::size_t end = std::min(begin + chunk, point.size());
-    for (std::size_t i = begin + 1; i < end; ++i)
-      if (point.rear[i] != point.rear[begin]) end = i;
-    std::size_t next = 0;
-    for (const Hypothesis& h : terms) {
-      fill(h, point, begin, end, {column.data() + next, h.columns()});
-      next += h.columns();
-    }
-    for (std::size_t j = 0; j < count; ++j) {
-      const double c = coefficients(static_cast<Eigen::Index>(j));
-      for (std::size_t i = begin; i < end; ++i) out[i] += c * column[j][i - begin];
-    }
-    begin = end;
-  }
-  return out;
-}
-
-FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, const Joint& joint,
-                       const std::vector<double>& effect_mm, const std::vector<Rejected>& masked,
-                       const Eigen::MatrixXd& between) {
-  const LinearisationPoint& point = joint.equations.point();
-  const ProbeStream clean = cleaned(stream, joint.equations.mask(), effect_mm);
-  FitResult result = fit(clean, options);
+CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
+                       const std::vector<double>& effect_mm, const ObservationMask& mask,
+                       const std::vector<Rejected>& masked, const FitResult* ideal) {
+  const bool same = ideal != nullptr && masked.empty() &&
+                    std::ranges::all_of(effect_mm, [](double e) { return e == 0.0; });
+  const ProbeStream clean = same ? ProbeStream{} : cleaned(stream, mask, effect_mm);
+  const ProbeStream& fitted = same ? stream : clean;
+  CleanedFit out{same ? *ideal : fit(fitted, options), {}, {}};
   FitOptions bare = options;
   bare.influences.clear();
-  const FitResult noise_only = options.influences.empty() ? result : fit(clean, bare);
-  result.points = stream.size();
-  result.rejected = masked;
+  const FitResult noise_only = options.influences.empty() ? out.fit : fit(fitted, bare);
+  out.noise_covariance = noise_only.covariance;
+  out.axis_noise_covariance.assign(noise_only.axis.covariance.begin(),
+                                   noise_only.axis.covariance.end());
+  out.fit.points = stream.size();
+  out.fit.rejected = masked;
+  return out;
+}
+
+FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::MatrixXd& between) {
+  FitResult result = std::move(cleaned.fit);
   if (result.status != FitStatus::converged || result.set_ups.empty()) return result;
 
+  const LinearisationPoint& point = joint.equations.point();
   // Base columns of the last axis with the shared shape, in this order.
   const auto per = static_cast<Eigen::Index>(point.base.per_axis());
   const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
@@ -168,7 +114,7 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
     for (std::size_t q = 0; q < n; ++q) {
       double& c = result.covariance[p * n + q];
       c += joint_covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) -
-           noise_only.covariance[p * n + q];
+           cleaned.noise_covariance[p * n + q];
     }
     result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance[p * n + p]));
     if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
@@ -186,7 +132,7 @@ FitResult extended_fit(const ProbeStream& stream, const FitOptions& options, con
     for (std::size_t j = 0; j < 4; ++j)
       result.axis.covariance[i * 4 + j] +=
           axis(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -
-          noise_only.axis.covariance[i * 4 + j];
+          cleaned.axis_noise_covariance[i * 4 + j];
   }
   for (FitParameter& d : result.derived) {
     if (d.name.starts_with("offset") || d.name.ends_with("offset") ||

@@ -117,8 +117,8 @@ EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options
     if (round == 0) look_about(at, out);
     if (!out.separable) return out;
     const Eigen::VectorXd coefficients = at.joint.of(0);
-    const std::vector<double> effect_mm = contribution(at.point, {hypothesis}, coefficients);
-    FitResult next = extended_fit(stream, options, at.joint, effect_mm, {});
+    FitResult next = extended_fit(
+        fit_cleaned(stream, options, at.joint.contribution_of(0), at.mask, {}), at.joint);
     if (next.status != FitStatus::converged) {
       out.separable = false;
       return out;

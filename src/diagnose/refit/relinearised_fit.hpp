@@ -5,54 +5,54 @@
 #include <optional>
 #include <vector>
 
-#include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/refit/extended_fit.hpp"
 
 namespace trueaxis::diagnose_detail {
 
-/// What a diagnosis is of.
-struct Given {
-  const ProbeStream& stream;
-  const FitOptions& options;
-  double ball_mm = 0.0;
-  const std::vector<Rejected>& masked;
-};
-
-/// Readings minus the point's surface, of a gauge less its zero, which the base takes out anyway.
-std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point);
-
-/// What the last fit is about: the part without the effects that were found, probed when the delay
-/// that was found says. At 240/min 2 ms are 3°, and 3° of an eccentricity of 0.2 mm are 0.3 µm
-/// beyond the first order.
-struct About {
-  std::vector<Hypothesis> terms;     ///< a lag at the time constant found
-  std::optional<ProbeStream> moved;  ///< the stream at the spindle angles that a delay makes true
-  LinearisationPoint point;
-  std::vector<double> known_mm;   ///< what is known of the terms, added to the readings
-  std::vector<double> turned_mm;  ///< X at the true less X at the recorded angles; or empty
-  std::vector<double> deviation_mm;
-};
-
-/// Surface and terms fitted about the first extended model.
+/// Surface and terms fitted about the first extended model: about the part without the effects that
+/// were found, probed when the delay that was found says. At 240/min 2 ms are 3°, and 3° of an
+/// eccentricity of 0.2 mm are 0.3 µm beyond the first order.
 class RelinearisedFit {
  public:
+  /// What a diagnosis is of; it outlives the fits.
+  struct Input {
+    const ProbeStream& stream;
+    const FitOptions& options;
+    const FitResult& ideal;  ///< fit of the stream without terms
+    double ball_mm = 0.0;
+    const std::vector<Rejected>& masked;
+    const Problem& first;  ///< about the ideal surface
+  };
+
   /// @param model terms that were found, and their noise
-  RelinearisedFit(const Given& given, const Problem& whole, const Model& model);
+  RelinearisedFit(const Input& input, const Model& model);
   RelinearisedFit(const RelinearisedFit&) = delete;
   RelinearisedFit& operator=(const RelinearisedFit&) = delete;
 
-  /// The extended surface again, with what other causes would make of its base.
-  void widen(const Given& given, const Eigen::MatrixXd& between);
+  const Problem& problem() const { return *problem_; }
+  const Joint& joint() const { return *joint_; }
+  /// Of all terms, one a reading.
+  const std::vector<double>& effect_mm() const { return effect_mm_; }
+  /// The extended surface. @param between what other causes would make of its base, or nothing
+  FitResult extended(const Eigen::MatrixXd& between = {}) const {
+    return extended_fit(cleaned_, *joint_, between);
+  }
 
  private:
-  About about_;
-  std::vector<double> taken_off_mm_;  ///< of the readings, for the extended surface
+  void relinearise(const Model& model);
+  void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
 
- public:
-  const Problem problem;
-  const Joint joint;
-  FitResult extended;
-  std::vector<double> effect_mm;  ///< of all terms, one per reading
+  const Input input_;
+  std::vector<Hypothesis> terms_;     ///< a lag at the time constant found
+  std::optional<ProbeStream> moved_;  ///< the stream at the spindle angles that a delay makes true
+  std::optional<LinearisationPoint> point_;  ///< none: the first
+  std::vector<double> known_mm_;   ///< what is known of the terms, added to the readings; or empty
+  std::vector<double> turned_mm_;  ///< X at the true less X at the recorded angles; or empty
+  std::vector<double> deviation_mm_;
+  std::optional<Problem> problem_;
+  std::optional<Joint> joint_;
+  std::vector<double> effect_mm_;
+  CleanedFit cleaned_;
 };
 
 /// What the second order says of a lag and a delay, which are one in the first: the model holds the
@@ -63,7 +63,7 @@ struct Timing {
 };
 
 /// The last fit; `model` is changed where the other of lag and delay does better.
-std::unique_ptr<RelinearisedFit> relinearise(const Given& given, const Problem& whole, Model& model,
+std::unique_ptr<RelinearisedFit> relinearise(const RelinearisedFit::Input& input, Model& model,
                                              std::optional<Timing>& timing);
 
 }  // namespace trueaxis::diagnose_detail

@@ -51,6 +51,11 @@ Eigen::VectorXd Joint::of(std::size_t term) const {
   return solution.coefficients.segment(at, static_cast<Eigen::Index>(places[term].size()));
 }
 
+std::vector<double> Joint::contribution_of(std::size_t term) const {
+  const Eigen::VectorXd linear = of(term);
+  return contribution(equations.point(), {&terms[term], 1}, span_of(linear));
+}
+
 Solution Joint::without(std::size_t term) const {
   Columns rest = equations.base();
   for (std::size_t t = 0; t < fitted; ++t)

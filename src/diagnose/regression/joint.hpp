@@ -21,8 +21,9 @@ struct Joint {
   /// Coefficients and covariance of the base alone (x, y, slopes at mid length of every axis …).
   Eigen::VectorXd base() const;
   Eigen::MatrixXd base_covariance() const;
-  /// Coefficients of a term.
+  /// Coefficients of a term, and what it does to X, one entry a reading, mm.
   Eigen::VectorXd of(std::size_t term) const;
+  std::vector<double> contribution_of(std::size_t term) const;
   Solution without(std::size_t term) const;
 
   std::vector<Hypothesis> terms;

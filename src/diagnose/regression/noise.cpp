@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/regression/noise.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -55,19 +56,12 @@ struct Lagged {
   }
 };
 
+/// Where a likelihood is largest (Brent 1973), φ to 2⁻¹⁵ of itself.
 template <typename Function>
 double maximise(Function f, double low, double high) {
-  constexpr double golden = 0.6180339887498949;
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double fa = f(a), fb = f(b);
-  for (int i = 0; i < 16; ++i) {
-    if (fa > fb) {
-      high = b, b = a, fb = fa, a = high - golden * (high - low), fa = f(a);
-    } else {
-      low = a, a = b, fa = fb, b = low + golden * (high - low), fb = f(b);
-    }
-  }
-  return 0.5 * (low + high);
+  constexpr int bits = 16;
+  return boost::math::tools::brent_find_minima([&](double at) { return -f(at); }, low, high, bits)
+      .first;
 }
 
 /// Columns [deviation | base | terms] of some readings, scaled to unit size and made independent.
@@ -96,18 +90,19 @@ Matrix columns_of_rows(const LinearisationPoint& point, std::span<const double> 
   return out;
 }
 
-/// The columns that are independent beside those before them (modified Gram-Schmidt on the Gram
-/// matrix): a singular normal matrix has no likelihood.
+/// The columns that are independent beside those before them, by a Cholesky decomposition of the
+/// Gram matrix without pivoting that leaves out where its pivot vanishes: a singular normal matrix
+/// has no likelihood.
 std::vector<Eigen::Index> independent(const Matrix& gram) {
-  std::vector<Eigen::Index> free;
+  std::vector<Eigen::Index> kept;
   Matrix left = gram;
   for (Eigen::Index j = 1; j < gram.rows(); ++j) {
     if (!(left(j, j) > 1e-6 * gram(j, j))) continue;
-    free.push_back(j);
+    kept.push_back(j);
     const Eigen::VectorXd column = left.col(j) / std::sqrt(left(j, j));
     left.noalias() -= column * column.transpose();
   }
-  return free;
+  return kept;
 }
 
 /// Whether an autoregression of the second order rings with the spindle: nothing random does, but
@@ -118,7 +113,7 @@ bool rings_with_spindle(const LinearisationPoint& point, double phi1, double phi
   std::vector<double> step_rad;
   for (std::size_t i = 1; i < point.size(); ++i) {
     const double step = std::abs(point.c[i] - point.c[i - 1]);
-    if (step > 0.0 && step < std::numbers::pi) step_rad.push_back(step);
+    if (step > 0.0 && step < 0.5 * two_pi) step_rad.push_back(step);
   }
   if (step_rad.empty()) return false;
   const double order = std::acos(0.5 * phi1 / std::sqrt(-phi2)) / median(step_rad);
@@ -139,10 +134,10 @@ std::vector<double> remainder(const LinearisationPoint& point, std::span<const d
   return out;
 }
 
-std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resolution& resolution,
+std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
+                                    std::span<const Hypothesis> basis,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads) {
-  const std::vector<Hypothesis> basis = small_fourier_legendre_basis(point, resolution);
   std::vector<double> left(deviation_mm.begin(), deviation_mm.end());
   double sigma = 0.0;
   std::size_t masked = 0;
@@ -174,10 +169,8 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resol
   std::vector<Rejected> list;
   for (std::size_t i = 0; i < point.size() && masked > 0; ++i) {
     if (mask.used[i]) continue;
-    char why[64];
-    std::snprintf(why, sizeof why, "%.3g µm off, %.1f σ", left[i] / mm_per_um,
-                  std::abs(left[i]) / sigma);
-    list.push_back({i + 1, why});
+    list.push_back({i + 1, fmt::format("{:.3g} µm off, {:.1f} σ", left[i] / mm_per_um,
+                                       std::abs(left[i]) / sigma)});
   }
   return list;
 }
@@ -214,23 +207,11 @@ std::vector<double> autoregression(const LinearisationPoint& point, const Observ
     lagged.rows += static_cast<double>(n);
   }
   if (lagged.rows < static_cast<double>(least_rows)) return {};
-  std::vector<Eigen::Index> free = independent(lagged.gram[0][0]);
-  free.insert(free.begin(), 0);
+  std::vector<Eigen::Index> kept = independent(lagged.gram[0][0]);
+  kept.insert(kept.begin(), 0);
   for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) {
-      Matrix& gram = lagged.gram[a][b];
-      Matrix kept(static_cast<Eigen::Index>(free.size()), static_cast<Eigen::Index>(free.size()));
-      for (Eigen::Index i = 0; i < kept.rows(); ++i) {
-        for (Eigen::Index j = 0; j < kept.cols(); ++j)
-          kept(i, j) = gram(free[static_cast<std::size_t>(i)], free[static_cast<std::size_t>(j)]);
-      }
-      if (a != 0 || b != 0)
-        gram = std::move(kept);
-      else
-        lagged.gram[2][1] = std::move(kept);  // kept aside until all have used its diagonal
-    }
+    for (std::size_t b = a; b < 3; ++b) lagged.gram[a][b] = Matrix(lagged.gram[a][b](kept, kept));
   }
-  lagged.gram[0][0] = lagged.gram[2][1];
   const double white = lagged.likelihood2(0.0, 0.0);
   const double first = maximise([&](double p) { return lagged.likelihood2(p, 0.0); }, -0.99, 0.995);
   const double one = lagged.likelihood2(first, 0.0);

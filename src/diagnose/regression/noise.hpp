@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
-#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -15,9 +14,10 @@ namespace trueaxis::diagnose_detail {
 std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
                               std::span<const Hypothesis> terms, const Eigen::VectorXd& solution);
 
-/// Masks readings farther than 8 robust σ from the surface with the small fourier_legendre_basis,
+/// Masks readings farther than 8 robust σ from the surface with what `basis` lets it deviate by,
 /// and what clings to them, until nothing changes. @returns why, a line a reading.
-std::vector<Rejected> mask_outliers(const LinearisationPoint& point, const Resolution& resolution,
+std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
+                                    std::span<const Hypothesis> basis,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 

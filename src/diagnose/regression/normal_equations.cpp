@@ -2,12 +2,11 @@
 #include "diagnose/regression/normal_equations.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <thread>
 
+#include "base/threads.hpp"
 #include "math/gram.hpp"
 #include "math/wide_gram.hpp"
 #include "trueaxis/error.hpp"
@@ -16,10 +15,13 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t chunk_rows = 512;
-constexpr double least_floor_mm = 1e-6;  // readings are written to a nanometre
-constexpr double second_order = 5e-4;    // of what the terms take, their next order is left
-constexpr double undetermined = 1e-11;   // of a column's square: rounding of the Gram matrix and of
-                                         // the linearisation leave nothing to trust below
+// A floor under the residual sum of squares, a reading: nothing below it is evidence. Readings are
+// written to a nanometre; and columns are linear where the terms are not: about second_order of
+// what the terms take (RMS) is left as their next order.
+constexpr double least_floor_mm = 1e-6, second_order = 5e-4;
+// Of a column's square: the rounding of the Gram matrix (n ε) and of the columns leave nothing to
+// trust below.
+constexpr double undetermined = 1e-11;
 
 using Matrix = Eigen::MatrixXd;
 
@@ -147,7 +149,8 @@ void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t be
     for (const Hypothesis& h : some) {
       const std::span<double* const> own = columns.subspan(next, h.columns());
       next += own.size();
-      const bool cell = !h.effect && h.pattern.kind == Pattern::Kind::fourier_legendre && !h.pattern.in_time;
+      const bool cell =
+          !h.effect && h.pattern.kind == Pattern::Kind::fourier_legendre && !h.pattern.in_time;
       if (cell && h.pattern.degree > 0 && constant != nullptr &&
           constant->pattern.order == h.pattern.order &&
           constant->pattern.spindle == h.pattern.spindle) {
@@ -208,15 +211,8 @@ void NormalEquations::pass(std::span<const Hypothesis> fresh) {
     }
   };
 
-  std::atomic<std::size_t> next{0};
-  const auto loop = [&] {
-    for (std::size_t f = next++; f < folds_.size(); f = next++) work(f);
-  };
-  std::vector<std::thread> helpers;
   const bool small = point.size() * after < 200'000;  // a thread costs more than it saves
-  for (int t = 1; t < threads_ && !small; ++t) helpers.emplace_back(loop);
-  loop();
-  for (std::thread& helper : helpers) helper.join();
+  for_each_index(folds_.size(), small ? 1 : threads_, work);
 
   list_.insert(list_.end(), fresh.begin(), fresh.end());
   total_ = Matrix::Zero(k1, k1);

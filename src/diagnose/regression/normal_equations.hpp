@@ -60,6 +60,10 @@ class NormalEquations {
   std::vector<Eigen::MatrixXd> folds_;
 };
 
+inline std::span<const double> span_of(const Eigen::VectorXd& values) {
+  return {values.data(), static_cast<std::size_t>(values.size())};
+}
+
 /// What is left of every column once some are taken out by least squares.
 struct Projection {
   Eigen::MatrixXd gram;   ///< Schur complement over all columns

@@ -23,6 +23,11 @@ struct Problem {
   /// The last dictionary made; a step of the same noise uses it again.
   std::shared_ptr<std::unique_ptr<Dictionary>> dictionary =
       std::make_shared<std::unique_ptr<Dictionary>>();
+
+  /// The same readings about another point.
+  Problem about(const LinearisationPoint& other, std::span<const double> deviation) const {
+    return {other, mask, resolution, deviation, false_alarm, threads, most_terms};
+  }
 };
 
 /// How many tests a verdict is the best of: those one by one, and those of the periodograms, whose

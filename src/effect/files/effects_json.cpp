@@ -44,7 +44,7 @@ Json effect_object(const Effect& effect) {
   }
   Json json{{"id", effect.id},
             {"title", effect.title},
-            {"check", effect.check},
+            {"check", effect.check.has_value()},
             {"slot", to_string(effect.slot)},
             {"frame", to_string(effect.frame)},
             {"formula", effect.formula},

@@ -30,18 +30,6 @@ DisplayUnit display_unit(std::string_view unit, double high) {
   return {1.0, unit == "1" ? "" : std::string(unit)};
 }
 
-std::string typical(const EffectParameter& parameter) {
-  const bool sized = parameter.low != 0.0 || parameter.high != 0.0;
-  const DisplayUnit unit = display_unit(parameter.unit, parameter.high);
-  std::ostringstream text;
-  text << std::setprecision(4);
-  if (sized) text << parameter.low * unit.scale;
-  if (sized && parameter.low != parameter.high) text << " to " << parameter.high * unit.scale;
-  if (sized && !unit.name.empty()) text << ' ';
-  text << unit.name;
-  return text.str();
-}
-
 std::string_view slot_text(Slot slot) {
   switch (slot) {
     case Slot::arguments:
@@ -71,7 +59,7 @@ std::size_t widest_id() {
 void list(std::ostream& out, bool checks) {
   std::string_view last;
   for (const Effect& effect : effect_catalogue()) {
-    if (effect.check != checks) continue;
+    if (effect.check.has_value() != checks) continue;
     if (!checks && family(effect.id) != last) out << '\n';
     last = family(effect.id);
     out << "  " << std::left << std::setw(static_cast<int>(widest_id()) + 2) << effect.id
@@ -106,6 +94,18 @@ void scenario_keys(std::ostream& out, std::string_view id) {
 
 }  // namespace
 
+std::string typical_size(const EffectParameter& parameter) {
+  const bool sized = parameter.low != 0.0 || parameter.high != 0.0;
+  const DisplayUnit unit = display_unit(parameter.unit, parameter.high);
+  std::ostringstream text;
+  text << std::setprecision(4);
+  if (sized) text << parameter.low * unit.scale;
+  if (sized && parameter.low != parameter.high) text << " to " << parameter.high * unit.scale;
+  if (sized && !unit.name.empty()) text << ' ';
+  text << unit.name;
+  return text.str();
+}
+
 std::string effects_list_text() {
   std::ostringstream out;
   out << "Effects that the ideal surface misses ('trueaxis effects ID' explains one)\n";
@@ -126,8 +126,8 @@ std::string effect_text(const Effect& effect) {
   for (const EffectParameter& parameter : effect.parameters) {
     line(out, &parameter == effect.parameters.data() ? "parameters" : " ", [&] {
       std::ostringstream text;
-      text << std::left << std::setw(15) << parameter.name << std::setw(26) << typical(parameter)
-           << parameter.meaning;
+      text << std::left << std::setw(15) << parameter.name << std::setw(26)
+           << typical_size(parameter) << parameter.meaning;
       return text.str();
     }());
   }

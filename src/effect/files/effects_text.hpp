@@ -13,4 +13,7 @@ std::string effects_list_text();
 /// One entry explained to a person.
 std::string effect_text(const Effect& effect);
 
+/// "0.1 to 5 ms", in the unit that reads without powers of ten; empty: no typical size.
+std::string typical_size(const EffectParameter& parameter);
+
 }  // namespace trueaxis

@@ -8,7 +8,7 @@
 #include "format/toml_reader.hpp"
 #include "simulate/files/scenario_cut.hpp"
 #include "simulate/files/scenario_tables.hpp"
-#include "simulate/noise_source.hpp"
+#include "simulate/autoregression.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {

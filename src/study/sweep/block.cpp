@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "simulate/clean_stream.hpp"
+#include "simulate/draw_readings.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "study/published/published.hpp"
+#include "study/sweep/setting.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
@@ -59,8 +59,7 @@ struct Sweep {
   std::vector<Method> methods{Method::fit};  ///< each on the same readings
   std::size_t repeats = 2000;
   std::uint64_t seed = 1;
-  std::optional<Published> published;  ///< single runs that someone printed
-  std::string input_hash;              ///< of all bytes that the sweep was read from
+  std::string input_hash;  ///< of all bytes that the sweep was read from
 };
 
 /// Surface that the sweep fits.

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "simulate/files/scenario_tables.hpp"
-#include "simulate/noise_source.hpp"
+#include "simulate/autoregression.hpp"
 
 namespace trueaxis {
 namespace {
@@ -154,7 +154,7 @@ std::vector<Setting> SweepAxes::read_set(TomlTable& set, const SweepKeys& keys) 
   return settings;
 }
 
-std::vector<Setting> SweepAxes::read_reading_set(TomlTable set) const {
+std::vector<Setting> SweepAxes::read_set_before_axes(TomlTable set) const {
   std::vector<Setting> settings = read_set(set, keys_);
   for (const Setting& setting : settings) {
     const WrittenKey* axis = taken_by(setting.path, taken_);

@@ -16,8 +16,8 @@ class SweepAxes {
  public:
   SweepAxes(TomlDocument& document, TomlTable root, study::Sweep& sweep);
 
-  /// Numbers of a `set` that a reading of published runs makes before those of the axes.
-  std::vector<study::Setting> read_reading_set(TomlTable set) const;
+  /// Numbers of a `set` that are set before those of the axes.
+  std::vector<study::Setting> read_set_before_axes(TomlTable set) const;
 
  private:
   struct Axis {

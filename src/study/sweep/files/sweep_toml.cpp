@@ -8,7 +8,6 @@
 #include "format/file.hpp"
 #include "simulate/files/scenario_tables.hpp"
 #include "simulate/files/scenario_toml.hpp"
-#include "study/published/files/published_toml.hpp"
 #include "study/sweep/files/sweep_axes.hpp"
 #include "trueaxis/error.hpp"
 
@@ -72,7 +71,8 @@ std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Sce
 
 }  // namespace
 
-study::Sweep parse_sweep_toml(std::string_view content, const std::string& path) {
+study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
+                              const std::vector<SweepExtension>& extensions) {
   TomlDocument document(content, path);
   TomlTable root = document.root();
   Sweep sweep;
@@ -87,20 +87,23 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path)
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
   if (sweep.base.cut)
     document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
-  if (std::optional<TomlTable> paper = root.maybe_table("paper")) {
+  const ReadSet read_set = [&](const TomlTable& set) { return axes.read_set_before_axes(set); };
+  for (const SweepExtension& extension : extensions) {
+    std::optional<TomlTable> table = root.maybe_table(extension.key);
+    if (!table) continue;
     if (document.ok()) {
-      sweep.published = read_published(
-          *paper, sweep, [&](const TomlTable& set) { return axes.read_reading_set(set); });
+      extension.read(*table, sweep, read_set);
     } else {
-      paper->ignore_rest();
+      table->ignore_rest();
     }
   }
   document.finish();
   return sweep;
 }
 
-study::Sweep read_sweep_toml(const std::string& path) {
-  return parse_sweep_toml(read_file(path), path);
+study::Sweep read_sweep_toml(const std::string& path,
+                             const std::vector<SweepExtension>& extensions) {
+  return parse_sweep_toml(read_file(path), path, extensions);
 }
 
 }  // namespace trueaxis

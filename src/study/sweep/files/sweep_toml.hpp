@@ -1,12 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "format/toml_reader.hpp"
 #include "study/sweep/sweep.hpp"
 
 namespace trueaxis {
+
+/// The numbers of a `set` table as the scenario knows them, set before those of the axes.
+using ReadSet = std::function<std::vector<study::Setting>(const TomlTable&)>;
+
+/// A table of the file that a study beside the library reads once the sweep itself is whole.
+struct SweepExtension {
+  std::string key;  ///< of the table, at the top level
+  std::function<void(TomlTable, const study::Sweep&, const ReadSet&)> read;
+};
 
 /// Reads a sweep:
 ///
@@ -22,11 +34,6 @@ namespace trueaxis {
 ///     [[axis.case]]  label = "uniform"   set = { "noise.sigma_um" = 0, "noise.uniform_um" = 5 }
 ///     [[axis.case.pass]], [[axis.case.setup]], [[axis.case.effect]]   as in a scenario: the whole
 ///                  list; effect = [] for none; `set` may then be missing
-///     [paper]      source = "…"   parameters = ["x0", "k"]
-///     [[paper.row]]  at = ["10"]   values = ["0.0507", "402.036"]     ("?": a noise level lost)
-///     [[paper.reading]]  name = "…"   set = { "pass.z_end_mm" = -10 }
-///                  printed_per_error = { half_angle = 2 }   noise_factor = 1   fit_noise = false
-///                  least_decimals = { y0 = 4 }
 ///
 /// A key is a scenario's table, its place in the list where there are several ("pass.1.",
 /// "effect.0."; "pass." is every pass), and its key there in any unit; "pass.length_mm" moves the
@@ -34,9 +41,11 @@ namespace trueaxis {
 /// case of a list.
 ///
 /// @throws InputError with every diagnostic: file, line, column, what to do.
-study::Sweep read_sweep_toml(const std::string& path);
+study::Sweep read_sweep_toml(const std::string& path,
+                             const std::vector<SweepExtension>& extensions = {});
 
 /// The same from text; `path` names it in diagnostics and places the scenario's file.
-study::Sweep parse_sweep_toml(std::string_view content, const std::string& path);
+study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
+                              const std::vector<SweepExtension>& extensions = {});
 
 }  // namespace trueaxis

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/effect.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "effect/entries_checks.hpp"
+#include "effect/entries_encoder_time.hpp"
+#include "effect/entries_machine.hpp"
+#include "effect/entries_part.hpp"
+#include "effect/entries_probe.hpp"
+#include "effect/measuring_terms.hpp"
+#include "effect/position_terms.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+template <class T>
+constexpr bool is_nothing = std::is_same_v<std::decay_t<T>, std::monostate>;
+
+// A column that is not there is empty; the one column that only probe.lag reads may be.
+void check(const Term& term, const TermContext& at) {
+  for (const auto column :
+       {at.z_mm, at.time_s, at.speed_rad_per_s, at.velocity_mm_per_s, at.x_mm, at.sensed_mm,
+        at.dx_dc, at.dx_dz, at.theta_rad, at.theta_chuck_rad, at.s_mm, at.clamp_force_ratio}) {
+    expects(column.size() == at.size(), "every column of the context has its size");
+  }
+  const auto* response = std::get_if<Response>(&term);
+  const bool second = response != nullptr && response->of == Response::Of::lag;
+  expects(!second || at.d2x_dc2.size() == at.size(), "probe.lag has d2x_dc2");
+  expects(at.z_half_mm > 0.0, "the probed length is not 0");
+}
+
+// The readings [from, from + count) of every column that is there.
+TermContext part_of(const TermContext& at, std::size_t from, std::size_t count) {
+  TermContext part = at;
+  for (auto* column :
+       {&part.c_rad, &part.z_mm, &part.time_s, &part.speed_rad_per_s, &part.velocity_mm_per_s,
+        &part.x_mm, &part.sensed_mm, &part.dx_dc, &part.dx_dz, &part.d2x_dc2, &part.theta_rad,
+        &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
+    if (!column->empty()) *column = column->subspan(from, count);
+  }
+  return part;
+}
+
+constexpr Separator separator_list[] = {
+    {"RV", "the same pass with the spindle reversed"},
+    {"RZ", "a return pass in -Z"},
+    {"2W", "the same pass at a second spindle speed, best in an irrational ratio"},
+    {"DW", "a dwell: turns at constant Z"},
+    {"ST", "a capture with the spindle standing still"},
+    {"RC", "the part re-indexed against the spindle and probed again"},
+    {"RE", "probing from the rear side"},
+    {"MS", "a master cylinder or ball of known size"},
+    {"OZ", "the part shifted along Z and probed again"},
+    {"RM", "re-clamped with less force and probed again"},
+    {"XJ", "a known jog of the X axis"},
+};
+
+std::string_view after_family(std::string_view id) { return id.substr(id.find('.') + 1); }
+
+// The name alone counts too: the family is often not remembered.
+std::size_t unlikeness(std::string_view asked, std::string_view id) {
+  return std::min(edit_distance(asked, id),
+                  edit_distance(after_family(asked), after_family(id)) + 1);
+}
+
+}  // namespace
+
+std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape) {
+  return std::visit(
+      [&](const auto& of) -> kind::Linear {
+        if constexpr (is_nothing<decltype(of)>) {
+          return {};
+        } else {
+          return kind::linear(of, shape);
+        }
+      },
+      term);
+}
+
+std::vector<std::string> shape_parameters(const Term& term) {
+  return std::visit(
+      [](const auto& of) -> kind::Names {
+        if constexpr (is_nothing<decltype(of)>) {
+          return {};
+        } else {
+          return kind::shapes(of);
+        }
+      },
+      term);
+}
+
+void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
+                  std::span<double* const> columns) {
+  check(term, context);
+  expects(columns.size() == linear_parameters(term, shape).size(), "one column a linear parameter");
+  std::vector<double*> out(columns.begin(), columns.end());
+  for (std::size_t from = 0; from < context.size(); from += kind::chunk_size) {
+    const std::size_t count = std::min(kind::chunk_size, context.size() - from);
+    const TermContext part = part_of(context, from, count);
+    std::visit(
+        [&](const auto& of) {
+          if constexpr (!is_nothing<decltype(of)>) kind::fill(of, part, shape, out);
+        },
+        term);
+    for (double*& column : out) column += count;
+  }
+}
+
+double shape_value(const TermShape& shape, std::string_view name) {
+  static constexpr std::pair<std::string_view, double TermShape::*> places[] = {
+      {"order", &TermShape::order},
+      {"lever_from_mm", &TermShape::lever_from_mm},
+      {"decay_length_mm", &TermShape::decay_length_mm},
+      {"period_mm", &TermShape::period_mm},
+      {"frequency_hz", &TermShape::frequency_hz},
+      {"time_constant_s", &TermShape::time_constant_s},
+      {"onset_s", &TermShape::onset_s},
+      {"reference_x_mm", &TermShape::reference_x_mm},
+      {"range_mm", &TermShape::range_mm}};
+  if (name == "degree") return shape.degree;
+  for (const auto& [known, place] : places)
+    if (known == name) return shape.*place;
+  throw ContractViolation("no parameter of a shape: " + std::string(name));
+}
+
+bool is_step(const Term& term) { return std::holds_alternative<PartStep>(term); }
+
+bool has_two_orders(const Term& term) {
+  const auto* harmonic = std::get_if<Harmonic>(&term);
+  return harmonic && harmonic->envelope == Harmonic::Envelope::jaws;
+}
+
+std::size_t TermValue::columns() const {
+  if (!effect) {
+    const bool line = pattern.kind == Pattern::Kind::line;
+    return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
+  }
+  const std::size_t own =
+      free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
+  return own + (with_radial ? 2 : 0);
+}
+
+std::span<const Effect> effect_catalogue() {
+  static const std::vector<Effect> all = [] {
+    std::vector<Effect> list;
+    for (const auto family : {entries::part_roundness, entries::part_profile, entries::spindle,
+                              entries::slide, entries::probe_geometry, entries::probe_response,
+                              entries::encoder_and_time, entries::checks}) {
+      for (Effect& effect : family()) list.push_back(std::move(effect));
+    }
+    return list;
+  }();
+  return all;
+}
+
+const Effect* find_effect(std::string_view id) {
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.id == id) return &effect;
+  }
+  return nullptr;
+}
+
+const EffectParameter* parameter_for(const Effect& effect, std::string_view name) {
+  const auto found = std::ranges::find_if(
+      effect.parameters, [&](const EffectParameter& p) { return p.of == name || p.name == name; });
+  return found == effect.parameters.end() ? nullptr : &*found;
+}
+
+const EffectParameter* size_for(const Effect& effect, std::string_view linear) {
+  const auto found = std::ranges::find_if(effect.parameters, [&](const EffectParameter& p) {
+    return linear.starts_with(p.name) &&
+           (linear.size() == p.name.size() || linear[p.name.size()] == '_');
+  });
+  return found == effect.parameters.end() ? nullptr : &*found;
+}
+
+bool has_free_order(const Effect& effect) {
+  const auto* harmonic = std::get_if<Harmonic>(&effect.term);
+  return harmonic && harmonic->fixed_order == 0.0 && !effect.line;
+}
+
+std::vector<std::string_view> nearest_effects(std::string_view id, std::size_t count) {
+  std::vector<std::string_view> ids;
+  for (const Effect& effect : effect_catalogue()) ids.push_back(effect.id);
+  std::stable_sort(ids.begin(), ids.end(), [&](std::string_view a, std::string_view b) {
+    return unlikeness(id, a) < unlikeness(id, b);
+  });
+  ids.resize(std::min(count, ids.size()));
+  return ids;
+}
+
+std::span<const Separator> separators() { return separator_list; }
+
+std::string_view to_string(Slot slot) {
+  switch (slot) {
+    case Slot::arguments:
+      return "A";
+    case Slot::probe_line:
+      return "B";
+    case Slot::part:
+      return "C";
+    case Slot::machine:
+      return "D";
+    case Slot::sensor:
+      return "E";
+    case Slot::noise:
+      break;
+  }
+  return "noise";
+}
+
+std::string_view to_string(Frame frame) {
+  switch (frame) {
+    case Frame::part:
+      return "part";
+    case Frame::chuck:
+      return "chuck";
+    case Frame::spindle:
+      return "spindle";
+    case Frame::machine:
+      return "machine";
+    case Frame::probe:
+      return "probe";
+    case Frame::time:
+      break;
+  }
+  return "time";
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "trueaxis/effect.hpp"
+
+namespace trueaxis::entries {
+
+std::vector<Effect> encoder_and_time();
+
+}  // namespace trueaxis::entries

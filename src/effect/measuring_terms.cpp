@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effect/measuring_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "effect/geometry.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::kind {
+namespace {
+
+using By = ArgumentShift::By;
+
+double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
+
+using Of = Response::Of;
+
+// The trigger path lies along X, into the material, and varies with the direction ψ of the normal
+// across the stylus, sin of its angle to X being the size.
+void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
+  const double out_of = contact::away(at);
+  contact::Chunk slope, secant, across, psi;
+  contact::dx_dy(at, slope.data());
+  contact::secant(at, 1.0, secant.data());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const double ny = -out_of * slope[i], nz = -out_of * at.dx_dz[i];  // times the secant
+    across[i] = -out_of * std::sqrt(ny * ny + nz * nz) / secant[i];
+    psi[i] = shape.order * std::atan2(ny, nz);
+  }
+  contact::sin_cos(at, psi.data(), out[2], out[1]);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[0][i] = -out_of;
+    out[1][i] *= across[i];
+    out[2][i] *= across[i];
+  }
+}
+
+// d/dT of the indication at T. Turning, X is nearly one harmonic of C and H = 1/(1 + jωT) exactly
+// turns it into X + (−T Ẋ + T² Ẍ)/(1 + ω²T²); along Z the slow motion lags by T.
+double lag(const TermContext& at, double T, std::size_t i) {
+  const double w = at.speed_rad_per_s[i];
+  const double rate = w * at.dx_dc[i], rate2 = w * w * at.d2x_dc2[i];
+  const double q = 1.0 + w * w * T * T;
+  const double turning =
+      ((-rate + 2.0 * T * rate2) * q - (-T * rate + T * T * rate2) * 2.0 * w * w * T) / (q * q);
+  return turning - at.velocity_mm_per_s[i] * at.dx_dz[i];
+}
+
+}  // namespace
+
+Linear linear(const ArgumentShift& term, const TermShape&) {
+  switch (term.by) {
+    case By::delay:
+      return {{"delay", "s"}};
+    case By::backlash:
+      return {{"along", "mm"}, {"across", "mm"}};
+    case By::angle:
+      break;
+  }
+  return {{"angle", "rad"}};
+}
+
+Names shapes(const ArgumentShift&) { return {}; }
+
+void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Columns out) {
+  switch (term.by) {
+    case By::angle:
+      std::copy(at.dx_dc.begin(), at.dx_dc.end(), out[0]);
+      break;
+    case By::delay:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[0][i] = -at.speed_rad_per_s[i] * at.dx_dc[i] - at.velocity_mm_per_s[i] * at.dx_dz[i];
+      }
+      break;
+    case By::backlash:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[1][i] = 0.5 * sign(at.velocity_mm_per_s[i]);
+        out[0][i] = -out[1][i] * at.dx_dz[i];
+      }
+      break;
+  }
+}
+
+Linear linear(const ProbeLine& term, const TermShape&) {
+  switch (term.of) {
+    case ProbeLine::Of::tilt:
+      return {{"tilt", "rad"}};
+    case ProbeLine::Of::ball:
+      return {{"radius", "mm"}};
+    case ProbeLine::Of::height:
+      break;
+  }
+  return {{"height", "mm"}};
+}
+
+Names shapes(const ProbeLine&) { return {}; }
+
+// Tilt: the contact's height on the line is Z + X sin γ. Ball: its centre stands off along the
+// normal, out of the material.
+void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Columns out) {
+  switch (term.of) {
+    case ProbeLine::Of::height:
+      return contact::dx_dy(at, out[0]);
+    case ProbeLine::Of::tilt:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = at.x_mm[i] * at.dx_dz[i];
+      return;
+    case ProbeLine::Of::ball:
+      return contact::secant(at, contact::away(at), out[0]);
+  }
+}
+
+Linear linear(const Response& term, const TermShape&) {
+  switch (term.of) {
+    case Of::nonlinearity:
+      return {{"quadratic", "mm"}, {"cubic", "mm"}};
+    case Of::cyclic:
+      return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+    case Of::pretravel:
+      return {{"amplitude", "mm"}, {"lobing_cos", "mm"}, {"lobing_sin", "mm"}};
+    case Of::lag:
+      return {{"time_constant", "s"}};
+    case Of::gain:
+      break;
+  }
+  return {{"gain", "1"}};
+}
+
+Names shapes(const Response& term) {
+  switch (term.of) {
+    case Of::nonlinearity:
+      return {"reference_x_mm", "range_mm"};
+    case Of::cyclic:
+      return {"period_mm"};
+    case Of::pretravel:
+      return {"order"};
+    case Of::lag:
+      return {"time_constant_s"};
+    case Of::gain:
+      break;
+  }
+  return {"reference_x_mm"};
+}
+
+void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const double side = at.rear ? -1.0 : 1.0;  // behind, the gauge is turned round
+  switch (term.of) {
+    case Of::gain:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        out[0][i] = at.sensed_mm[i] - side * shape.reference_x_mm;
+      }
+      return;
+    case Of::nonlinearity:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double v = (side * at.sensed_mm[i] - shape.reference_x_mm) / shape.range_mm;
+        out[0][i] = side * v * v;
+        out[1][i] = side * v * v * v;
+      }
+      return;
+    case Of::cyclic: {
+      contact::Chunk angle;
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        angle[i] = two_pi * at.sensed_mm[i] / shape.period_mm;
+      }
+      return contact::sin_cos(at, angle.data(), out[1], out[0]);
+    }
+    case Of::pretravel:
+      return fill_pretravel(at, shape, out);
+    case Of::lag:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = lag(at, shape.time_constant_s, i);
+      return;
+  }
+}
+
+Linear linear(const PartStep&, const TermShape&) {
+  return {{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}};
+}
+
+Names shapes(const PartStep&) { return {"onset_s"}; }
+
+// A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
+// motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn.
+void fill(const PartStep&, const TermContext& at, const TermShape& shape, Columns out) {
+  contact::Chunk sine, cosine, slope;
+  contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
+  contact::dx_dy(at, slope.data());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const bool after = at.time_s[i] >= shape.onset_s;
+    out[0][i] = after ? cosine[i] + sine[i] * slope[i] : 0.0;
+    out[1][i] = after ? sine[i] - cosine[i] * slope[i] : 0.0;
+    out[2][i] = after ? -at.dx_dc[i] : 0.0;
+  }
+}
+
+}  // namespace trueaxis::kind

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "effect/position_terms.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/legendre.hpp>
+#include <cmath>
+
+#include "effect/geometry.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::kind {
+namespace {
+
+using Angle = Harmonic::Angle;
+using Envelope = Harmonic::Envelope;
+
+double order_of(const Harmonic& term, const TermShape& shape) {
+  return term.fixed_order > 0.0 ? term.fixed_order : shape.order;
+}
+
+std::span<const double> angle_of(Angle angle, const TermContext& at) {
+  switch (angle) {
+    case Angle::part:
+      return at.theta_rad;
+    case Angle::chuck:
+      return at.theta_chuck_rad;
+    case Angle::spindle:
+      break;
+  }
+  return at.c_rad;
+}
+
+// The factor along Z; 1 is left out. A shift of the axis by δ towards θ = 0 is the form
+// δ cos α cos θ along the normal.
+void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermShape& shape,
+                       Columns out) {
+  contact::Chunk factor;
+  switch (term.envelope) {
+    case Envelope::lever: {
+      const std::span<const double> along = contact::along_mm(term.port, at);
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] = along[i] - shape.lever_from_mm;
+      break;
+    }
+    case Envelope::jaws:
+      for (std::size_t i = 0; i < at.size(); ++i) {
+        const double away = std::abs(at.s_mm[i] - shape.lever_from_mm);
+        factor[i] = at.clamp_force_ratio[i] * std::exp(-away / shape.decay_length_mm);
+      }
+      break;
+    case Envelope::parabola: {
+      contact::normalised(term.port, at, factor.data());
+      const double cosine = 1.0 / std::hypot(1.0, at.tan_half_angle);
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] *= factor[i] * cosine;
+      break;
+    }
+    case Envelope::constant:
+    case Envelope::growing:
+      return;
+  }
+  for (double* column : out) {
+    for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
+  }
+}
+
+void fill_growing(const Harmonic& term, const TermContext& at, Columns out) {
+  contact::Chunk u;
+  contact::normalised(term.port, at, u.data());
+  for (const std::size_t j : {0u, 1u}) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[j + 2][i] = u[i] * out[j][i];
+  }
+}
+
+int last_degree(const PolynomialInZ& term, const TermShape& shape) {
+  return term.last > 0 ? term.last : shape.degree;
+}
+
+}  // namespace
+
+Linear linear(const Harmonic& term, const TermShape&) {
+  const std::string unit = term.envelope == Envelope::lever ? "rad" : unit_of(term.port);
+  Linear list{{"amplitude_cos", unit}, {"amplitude_sin", unit}};
+  if (term.envelope == Envelope::growing) {
+    list.insert(list.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
+  }
+  if (term.envelope == Envelope::jaws) {
+    list.insert(list.end(), {{"second_cos", unit}, {"second_sin", unit}});
+  }
+  return list;
+}
+
+Names shapes(const Harmonic& term) {
+  Names names;
+  if (term.fixed_order == 0.0) names.emplace_back("order");
+  if (term.envelope == Envelope::lever) names.emplace_back("lever_from_mm");
+  if (term.envelope == Envelope::jaws) {
+    names.insert(names.end(), {"lever_from_mm", "decay_length_mm"});
+  }
+  return names;
+}
+
+void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const double n = order_of(term, shape);
+  const std::span<const double> angle = angle_of(term.angle, at);
+  contact::Chunk turned;
+  for (std::size_t i = 0; i < at.size(); ++i) turned[i] = n * angle[i];
+  contact::sin_cos(at, turned.data(), out[1], out[0]);
+  if (term.envelope == Envelope::jaws) {
+    for (std::size_t i = 0; i < at.size(); ++i) turned[i] *= 2.0;
+    contact::sin_cos(at, turned.data(), out[3], out[2]);
+  }
+  const Columns own = term.envelope == Envelope::growing ? out.first(2) : out;
+  scale_by_envelope(term, at, shape, own);
+  contact::scale_by_dx_d(term.port, at, own);
+  if (term.envelope == Envelope::growing) fill_growing(term, at, out);
+}
+
+Linear linear(const PolynomialInZ& term, const TermShape& shape) {
+  if (term.plain) return {{"slope", "rad"}};
+  Linear list;
+  for (int l = term.first; l <= last_degree(term, shape); ++l) {
+    list.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
+  }
+  return list;
+}
+
+Names shapes(const PolynomialInZ& term) { return term.last > 0 ? Names{} : Names{"degree"}; }
+
+// Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
+void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const std::size_t size = at.size();
+  if (term.plain) {
+    const std::span<const double> along = contact::along_mm(term.port, at);
+    std::copy(along.begin(), along.end(), out[0]);
+    return contact::scale_by_dx_d(term.port, at, out);
+  }
+  const int last = last_degree(term, shape);
+  contact::Chunk u, before, now;
+  contact::normalised(term.port, at, u.data());
+  std::fill_n(before.begin(), size, 1.0);
+  std::copy_n(u.begin(), size, now.begin());
+  for (int l = 1; l <= last; ++l) {
+    if (l >= term.first) {
+      std::copy_n(now.begin(), size, out[static_cast<std::size_t>(l - term.first)]);
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      before[i] = boost::math::legendre_next(static_cast<unsigned>(l), u[i], now[i], before[i]);
+    }
+    std::swap(before, now);
+  }
+  contact::scale_by_dx_d(term.port, at, out);
+}
+
+Linear linear(const PeriodicInZ& term, const TermShape&) {
+  return {{"amplitude_cos", unit_of(term.port)}, {"amplitude_sin", unit_of(term.port)}};
+}
+
+Names shapes(const PeriodicInZ&) { return {"period_mm"}; }
+
+void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
+  const double k = two_pi / shape.period_mm;
+  const std::span<const double> along = contact::along_mm(term.port, at);
+  contact::Chunk angle;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    angle[i] = k * along[i] - term.turns * at.theta_rad[i];
+  }
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
+  contact::scale_by_dx_d(term.port, at, out);
+}
+
+Linear linear(const PeriodicInTime&, const TermShape&) {
+  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+}
+
+Names shapes(const PeriodicInTime&) { return {"frequency_hz"}; }
+
+void fill(const PeriodicInTime&, const TermContext& at, const TermShape& shape, Columns out) {
+  const double turning_rad_per_s = two_pi * shape.frequency_hz;
+  contact::Chunk angle;
+  for (std::size_t i = 0; i < at.size(); ++i) angle[i] = turning_rad_per_s * at.time_s[i];
+  contact::sin_cos(at, angle.data(), out[1], out[0]);
+}
+
+Linear linear(const GrowthInTime&, const TermShape&) {
+  return {{"rate", "mm/s"}, {"amplitude", "mm"}};
+}
+
+Names shapes(const GrowthInTime&) { return {"time_constant_s"}; }
+
+void fill(const GrowthInTime&, const TermContext& at, const TermShape& shape, Columns out) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[0][i] = at.time_s[i];
+    out[1][i] = -std::expm1(-at.time_s[i] / shape.time_constant_s);
+  }
+}
+
+}  // namespace trueaxis::kind
