@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/correct.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
+#include "cli/guarded.hpp"
 #include "correct/files/table_csv.hpp"
 #include "fit/files/fit_json.hpp"
 #include "format/file.hpp"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/run.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
+#include "cli/guarded.hpp"
 #include "format/file.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"

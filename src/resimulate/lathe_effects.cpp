@@ -58,7 +58,7 @@ Parameters values_in(const TermValue& term, const LatheFrame& frame) {
 /// Every parameter of the lathe's effect that has a value.
 LatheEffect by_name(const std::string& id, const Parameters& values) {
   LatheEffect effect{id, {}};
-  for (const virtual_lathe::EffectParameter& p : virtual_lathe::find_effect_kind(id).parameters) {
+  for (const auto& p : virtual_lathe::find_effect_kind(id).parameters) {
     const auto found = values.find(catalogue_name(id, p.name));
     if (found != values.end()) effect.parameters[std::string(p.name)] = found->second;
   }
