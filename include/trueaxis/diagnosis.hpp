@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,7 +44,7 @@ struct Finding {
   TermValue term;             ///< of the best explanation: an effect of the catalogue, fitted
   std::vector<Rival> rivals;  ///< what explains it as well, the most probable first
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
-  std::string alias;         ///< another order that the sampling cannot tell from it
+  std::string alias;                     ///< another order that the sampling cannot tell from it
   double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
   double probability = 0.0;  ///< of the named effect among its class
   double rms_mm = 0.0;       ///< of its contribution to the readings
@@ -162,6 +163,9 @@ struct DiagnoseOptions {
   double false_alarm = 0.01;  ///< per stream, over all hypotheses
   int max_findings = 8;       ///< beyond that the surface is the wrong one
   int threads = 0;            ///< 0: as many as there are; the result does not depend on it
+  /// Effects beside the catalogue that may be causes too, ids of their own; they outlive the
+  /// result.
+  std::span<const Effect> own_effects = {};
 };
 
 /// @throws InputError as fit() does. Numerical outcomes are data: see extended.status.

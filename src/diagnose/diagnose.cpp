@@ -7,6 +7,7 @@
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
 #include "diagnose/explain/gain.hpp"
+#include "diagnose/explain/quality.hpp"
 #include "diagnose/explain/rival_axes.hpp"
 #include "diagnose/explain/sources.hpp"
 #include "diagnose/explain/spectrum.hpp"
@@ -14,6 +15,7 @@
 #include "diagnose/refit/relinearised_fit.hpp"
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/search/coarse_to_fine_search.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
@@ -85,7 +87,14 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   std::vector<Rejected> masked = mask_outliers(
       first, small_fourier_legendre_basis(first, resolution), deviation, mask, threads);
   const auto most = static_cast<std::size_t>(options.max_findings);
-  const Problem whole{first, mask, resolution, deviation, options.false_alarm, threads, most};
+  const Problem whole{first,
+                      mask,
+                      resolution,
+                      deviation,
+                      options.false_alarm,
+                      threads,
+                      most,
+                      possible_causes(options.own_effects)};
   CoarseToFineSearch coarse_to_fine(whole);
   std::optional<Timing> timing;
   const std::unique_ptr<RelinearisedFit> refined = relinearise(
@@ -100,6 +109,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       remainder(second, problem.deviation_mm, joint.terms, joint.solution.coefficients);
   out.z_mid_mm = second.z_mid_mm, out.z_half_mm = second.z_half_mm;
 
+  const Model searched = coarse_to_fine.searched_model();
   std::vector<AmbiguousFinding> questions;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {
@@ -108,7 +118,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       out.unexplained.push_back(std::move(left));
       continue;
     }
-    questions.push_back({t, coarse_to_fine.distinguish(t)});
+    questions.push_back({t, distinguish(coarse_to_fine.proposer(), searched, t)});
     if (timing && timing->term == t) narrow(questions.back().found, timing->likelihood_ratio);
     Finding finding = finding_of(problem, model, joint, questions.back().found, resolution, t);
     add_axis_bias(joint, t, finding.axis_shift, finding.cosmetic);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnose/explain/gain.hpp"
+#include "diagnose/search/statistic.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {

@@ -10,13 +10,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-const char* other_of(const Hypothesis& h) {
-  if (!h.effect) return nullptr;
-  return h.effect->id == "probe.lag"       ? "probe.latency"
-         : h.effect->id == "probe.latency" ? "probe.lag"
-                                           : nullptr;
-}
-
 bool is_lag(const Hypothesis& h) {
   const auto* response = h.effect ? std::get_if<Response>(&h.effect->term) : nullptr;
   return response != nullptr && response->of == Response::Of::lag;
@@ -135,10 +128,11 @@ std::unique_ptr<RelinearisedFit> relinearise(const RelinearisedFit::Input& input
                                              std::optional<Timing>& timing) {
   auto best = std::make_unique<RelinearisedFit>(input, model);
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    const char* id = other_of(model.terms[t]);
-    if (id == nullptr) continue;
+    const Effect* effect = model.terms[t].effect;
+    if (!effect || effect->second_order_twin.empty()) continue;
     Model other = model;
-    other.terms[t] = of_effect(id, {.time_constant_s = 0.0});
+    other.terms[t] =
+        of_effect(std::string(effect->second_order_twin).c_str(), {.time_constant_s = 0.0});
     auto rival = std::make_unique<RelinearisedFit>(input, other);
     const auto rows = static_cast<double>(best->joint().equations.count());
     double ratio = rows * std::log(rival->joint().solution.rss / best->joint().solution.rss);

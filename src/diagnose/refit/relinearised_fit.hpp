@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/search/search.hpp"
 
 namespace trueaxis::diagnose_detail {
 

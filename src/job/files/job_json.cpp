@@ -2,7 +2,7 @@
 #include "job/files/job_json.hpp"
 
 #include "diagnose/files/diagnosis_objects.hpp"
-#include "resimulate/files/comparison_object.hpp"
+#include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
