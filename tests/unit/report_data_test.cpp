@@ -108,7 +108,7 @@ TEST(ReportData, DiagnosisIsThatOfTheFile) {
 
 TEST(ReportData, SaysWhyTheLatheDidNotSimulate) {
   JobResult result = example::diagnosed_job(300);
-  const auto simulation = [&] {
+  const auto simulation = [&]() -> json {
     return report_data(result)["references"][0]["diagnosis"]["simulation"];
   };
   const json model = simulation();
