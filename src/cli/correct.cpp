@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
 #include "correct/files/table_csv.hpp"
+#include "correct/files/table_text.hpp"
 #include "fit/files/fit_json.hpp"
 #include "format/file.hpp"
 #include "job/files/job_toml.hpp"

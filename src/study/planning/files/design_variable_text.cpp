@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/design_variable_text.hpp"
+
 #include <charconv>
 #include <cmath>
 
 #include "format/toml_units.hpp"
-#include "study/planning/files/planning_results.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -26,7 +27,7 @@ void check_range(double low, double high, std::string_view whole) {
 
 }  // namespace
 
-study::DesignVariable parse_freedom(std::string_view text) {
+study::DesignVariable parse_design_variable(std::string_view text) {
   const std::size_t equals = text.find('='), colon = text.find(':');
   if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals)
     throw InputError(std::string(text), "is not KEY=LOW:HIGH");

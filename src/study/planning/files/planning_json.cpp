@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/planning_json.hpp"
+
 #include "format/json.hpp"
-#include "study/planning/files/planning_results.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/planning_text.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "format/text_layout.hpp"
-#include "study/planning/files/planning_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

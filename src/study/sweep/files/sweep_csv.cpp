@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/sweep/files/sweep_csv.hpp"
+
 #include <cmath>
 #include <cstdio>
-
-#include "study/sweep/files/sweep_results.hpp"
 
 namespace trueaxis {
 namespace {

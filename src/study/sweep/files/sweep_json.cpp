@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/sweep/files/sweep_json.hpp"
+
 #include "format/json.hpp"
-#include "study/sweep/files/sweep_results.hpp"
 
 namespace trueaxis {
 namespace {
