@@ -43,7 +43,7 @@ struct Finding {
   TermValue term;             ///< of the best explanation: an effect of the catalogue, fitted
   std::vector<Rival> rivals;  ///< what explains it as well, the most probable first
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
-  std::string alias;         ///< another order that the sampling cannot tell from it
+  std::string alias;                     ///< another order that the sampling cannot tell from it
   double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
   double probability = 0.0;  ///< of the named effect among its class
   double rms_mm = 0.0;       ///< of its contribution to the readings

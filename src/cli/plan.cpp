@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/plan.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
 
 #include "cli/checks.hpp"
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "simulate/files/scenario_toml.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "base/edit_distance.hpp"
 #include "effect/entries_checks.hpp"
 #include "effect/entries_encoder_time.hpp"
 #include "effect/entries_machine.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/report_data.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -93,8 +93,8 @@ bool reads_as_then(const Diagnosis& diagnosis, const ProbeStream& measured,
                    const SimulatedReadings& simulated) {
   constexpr double rounding_mm = 1e-6;
   const FitResult& fit = diagnosis.baseline;
-  const Comparison first = compare(measured, simulated, marked(fit.rejected, measured.size()),
-                                   diagnosis.noise.sigma_mm);
+  const Comparison first =
+      compare(measured, simulated, marked(fit.rejected, measured.size()), diagnosis.noise.sigma_mm);
   return std::abs(first.before.rms_mm - fit.rms_mm) <= 0.01 * fit.rms_mm + rounding_mm;
 }
 

@@ -69,8 +69,7 @@ Diagnosis diagnosis_from(const Json& json) {
   d.z_mid_mm = value(json.at("u_frame"), "z_mid");
   d.z_half_mm = value(json.at("u_frame"), "z_half");
   for (const Json& finding : json.at("findings"))
-    d.findings.emplace_back().term =
-        effect_term_from(finding.at("effect"), finding.at("term"));
+    d.findings.emplace_back().term = effect_term_from(finding.at("effect"), finding.at("term"));
   for (const Json& pattern : json.at("unexplained"))
     d.unexplained.emplace_back().term = pattern_term_from(pattern.at("term"));
   d.noise.sigma_mm = value(json.at("noise"), "sigma");

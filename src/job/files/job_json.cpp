@@ -3,7 +3,7 @@
 
 #include "diagnose/files/diagnosis_objects.hpp"
 #include "fit/files/fit_json.hpp"
-#include "resimulate/files/comparison_object.hpp"
+#include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -11,7 +11,7 @@
 #include "job/files/job_json.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "measure/files/stream_csv.hpp"
-#include "resimulate/files/comparison_json.hpp"
+#include "resimulate/files/comparison_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
