@@ -32,7 +32,7 @@ struct DesignVariable {
 
 struct PlanningTask {
   virtual_lathe::Scenario base;
-  std::vector<DesignVariable> free;  ///< each choice once
+  std::vector<DesignVariable> variables;  ///< each choice once
   double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
   double coverage_factor = 2.0;
   std::optional<double> rate_hz;  ///< readings a second that the probe gives, at most
@@ -92,7 +92,7 @@ struct PlanningAnswer {
   bool confirmed = false;  ///< and the simulation of one that is recommended does not miss it
   PlannedMeasurement
       nearest;               ///< smallest U that the ranges, time and rate allow, if they allow any
-  std::vector<Alone> alone;  ///< in the order of `free`
+  std::vector<Alone> alone;  ///< in the order of `variables`
   Choice solved_for = Choice::readings_per_revolution;
   std::vector<TableRow> table;  ///< by the choices that are not solved for; empty without others
   std::vector<Recommendation> recommended;  ///< each met by the bound and confirmed

@@ -66,14 +66,14 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
             {"repeats", task.repeats}};
   json["rate_limit"] = task.rate_hz ? with_unit(*task.rate_hz, "Hz") : Json(nullptr);
   json["time_limit"] = task.time_s ? with_unit(*task.time_s, "s") : Json(nullptr);
-  Json free = Json::array();
-  for (const DesignVariable& one : task.free) {
+  Json variables = Json::array();
+  for (const DesignVariable& one : task.variables) {
     const Named named = name_of(one.choice);
-    free.push_back({{"choice", named.name},
-                    {"low", with_unit(one.low, named.unit)},
-                    {"high", with_unit(one.high, named.unit)}});
+    variables.push_back({{"choice", named.name},
+                         {"low", with_unit(one.low, named.unit)},
+                         {"high", with_unit(one.high, named.unit)}});
   }
-  json["free"] = std::move(free);
+  json["free"] = std::move(variables);
   json["as_given"] = plan_json(answer.as_given);
   json["nearest"] = plan_json(answer.nearest);
   Json alone = Json::array(), table = Json::array(), recommended = Json::array();
