@@ -74,13 +74,13 @@ TEST(PlanningLaw, SolvesForTheLeastThatMeetsTheGoal) {
   const PlanningAnswer answer = plan_measurement(task);
   ASSERT_EQ(answer.alone.size(), task.variables.size());
   for (const Alone& one : answer.alone) {
-    SCOPED_TRACE(path_of(one.choice));
+    SCOPED_TRACE(info_of(one.choice).path);
     ASSERT_TRUE(one.reached);
     EXPECT_LE(one.plan.u_expanded_mm, task.goal_mm * (1.0 + 1e-9));
     const double value = one.plan.of(one.choice);
     const bool more = one.choice == Choice::readings_per_revolution || one.choice == Choice::length;
     virtual_lathe::Scenario less = one.plan.scenario;
-    set_parameter(less, path_of(one.choice), value * (more ? 0.97 : 1.03));
+    set_parameter(less, info_of(one.choice).path, value * (more ? 0.97 : 1.03));
     EXPECT_GT(planned(less, 2.0).u_expanded_mm, task.goal_mm);
     for (const Choice other : choices) {
       if (other != one.choice) {
@@ -133,8 +133,8 @@ TEST(PlanningLaw, SaysHowNearAnUnreachableGoalComes) {
   EXPECT_FALSE(answer.reached);
   EXPECT_TRUE(answer.recommended.empty());
   virtual_lathe::Scenario most = task.base;
-  set_parameter(most, path_of(Choice::readings_per_revolution), 20.0);
-  set_parameter(most, path_of(Choice::length), 60.0);
+  set_parameter(most, info_of(Choice::readings_per_revolution).path, 20.0);
+  set_parameter(most, info_of(Choice::length).path, 60.0);
   EXPECT_NEAR(answer.nearest.u_expanded_mm, planned(most, 2.0).u_expanded_mm, 1e-12);
 }
 
@@ -158,7 +158,7 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
     virtual_lathe::Scenario scenario = task.base;
     for (const DesignVariable& free : task.variables) {
       const double share = static_cast<double>(draw() >> 11) * 0x1p-53;
-      set_parameter(scenario, path_of(free.choice),
+      set_parameter(scenario, info_of(free.choice).path,
                     free.low * std::pow(free.high / free.low, share));
     }
     const PlannedMeasurement plan = planned(scenario, 2.0);
@@ -295,7 +295,8 @@ TEST(PlanningLaw, EveryPlanCanBeSet) {
       const double step = choice == Choice::readings_per_revolution
                               ? 0.1
                               : std::pow(10.0, std::floor(std::log10(value * (1 + 1e-12))) - 2.0);
-      EXPECT_NEAR(value / step, std::round(value / step), 1e-6) << path_of(choice) << ' ' << value;
+      EXPECT_NEAR(value / step, std::round(value / step), 1e-6)
+          << info_of(choice).path << ' ' << value;
     }
   }
 }

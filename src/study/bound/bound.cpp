@@ -161,23 +161,14 @@ const char* to_string(Bound::Kind kind) {
 }
 
 const char* to_string(Bound::Missing missing) {
-  switch (missing) {
-    case Bound::Missing::nothing:
-      break;
-    case Bound::Missing::axis_moves:
-      return "the axis moves between set-ups of one clamping";
-    case Bound::Missing::not_determined:
-      return "the readings do not determine the parameters";
-    case Bound::Missing::no_noise:
-      return "no noise";
-    case Bound::Missing::not_stationary:
-      return "the noise is not stationary";
-    case Bound::Missing::at_a_limit:
-      return "a little more of a parameter could not be probed";
-    case Bound::Missing::no_cone:
-      return "a cone without an angle";
-  }
-  return "";
+  static constexpr const char* words[] = {"",
+                                          "the axis moves between set-ups of one clamping",
+                                          "the readings do not determine the parameters",
+                                          "no noise",
+                                          "the noise is not stationary",
+                                          "a little more of a parameter could not be probed",
+                                          "a cone without an angle"};
+  return words[static_cast<std::size_t>(missing)];
 }
 
 }  // namespace trueaxis::study

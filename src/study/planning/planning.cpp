@@ -162,7 +162,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const PlanSearch& search
         const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
         const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
         const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
-        set_parameter(slow, path_of(Choice::feed),
+        set_parameter(slow, info_of(Choice::feed).path,
                       room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
       }
     }
@@ -237,20 +237,6 @@ void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
     return std::ranges::all_of(choices, [&](Choice c) { return one.plan.of(c) == plan.of(c); });
   });
   if (!there) out.recommended.push_back({what, std::move(plan), {}});
-}
-
-const char* words_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "other readings per revolution alone";
-    case Choice::sigma:
-      return "another probe alone";
-    case Choice::feed:
-      return "another feed alone";
-    case Choice::length:
-      break;
-  }
-  return "another length alone";
 }
 
 /// What is nearest, with the scenario's own probe where that does.
@@ -340,8 +326,9 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   out.alone = each_alone(task, search);
   for (const Alone& one : out.alone) {
     const double change = one.plan.of(one.choice) - out.as_given.of(one.choice);
-    const bool needless = good_as_given && (more_is_better(one.choice) ? change : -change) > 0.0;
-    if (search.good(one.plan) && !needless) recommend(out, words_of(one.choice), one.plan);
+    const bool needless =
+        good_as_given && (info_of(one.choice).more_is_better ? change : -change) > 0.0;
+    if (search.good(one.plan) && !needless) recommend(out, info_of(one.choice).alone, one.plan);
   }
   const bool best_probe = look_for_nearest(task, search, out);
   if (solved) out.table = table_of(task, search, grid, *solved);

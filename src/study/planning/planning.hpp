@@ -21,8 +21,14 @@ enum class Choice { readings_per_revolution, sigma, feed, length };
 inline constexpr std::array choices{Choice::readings_per_revolution, Choice::sigma, Choice::feed,
                                     Choice::length};
 
-/// Path of its number in the scenario (see ScenarioParameter).
-const char* path_of(Choice choice);
+struct ChoiceInfo {
+  const char* path;         ///< of its number in the scenario (see ScenarioParameter)
+  const char *name, *unit;  ///< in results
+  const char* words;        ///< "sigma of a reading"
+  const char* alone;        ///< what a plan is called that changes nothing else
+  bool more_is_better;      ///< whether more of it makes the axis more certain
+};
+const ChoiceInfo& info_of(Choice choice);
 
 /// A number that may be chosen from a range; units inside, 0 < low ≤ high.
 struct DesignVariable {

@@ -24,27 +24,21 @@ constexpr int most_steps = 25;
 
 }  // namespace
 
-const char* path_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "pass.readings_per_revolution";
-    case Choice::sigma:
-      return "noise.sigma_mm";
-    case Choice::feed:
-      return "pass.feed_mm_per_rev";
-    case Choice::length:
-      break;
-  }
-  return "pass.length_mm";
+const ChoiceInfo& info_of(Choice choice) {
+  static constexpr ChoiceInfo all[] = {
+      {"pass.readings_per_revolution", "readings_per_revolution", "1", "readings per revolution",
+       "other readings per revolution alone", true},
+      {"noise.sigma_mm", "sigma", "mm", "sigma of a reading", "another probe alone", false},
+      {"pass.feed_mm_per_rev", "feed_per_rev", "mm", "feed", "another feed alone", false},
+      {"pass.length_mm", "length", "mm", "length", "another length alone", true}};
+  return all[static_cast<std::size_t>(choice)];
 }
 
-double PlannedMeasurement::of(Choice choice) const { return parameter(scenario, path_of(choice)); }
+double PlannedMeasurement::of(Choice choice) const {
+  return parameter(scenario, info_of(choice).path);
+}
 
 namespace planning_detail {
-
-bool more_is_better(Choice choice) {
-  return choice == Choice::readings_per_revolution || choice == Choice::length;
-}
 
 double settable(const DesignVariable& variable, double value) {
   if (variable.choice == Choice::readings_per_revolution) {
@@ -53,8 +47,8 @@ double settable(const DesignVariable& variable, double value) {
     return std::clamp(tenths / 10.0, variable.low, variable.high);
   }
   const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  const double steps = more_is_better(variable.choice) ? std::ceil(value / step - 1e-9)
-                                                       : std::floor(value / step + 1e-9);
+  const double steps = info_of(variable.choice).more_is_better ? std::ceil(value / step - 1e-9)
+                                                               : std::floor(value / step + 1e-9);
   return std::clamp(steps * step, variable.low, variable.high);
 }
 
@@ -93,16 +87,16 @@ bool PlanSearch::allowed(const PlannedMeasurement& plan) const {
 virtual_lathe::Scenario PlanSearch::with(const virtual_lathe::Scenario& scenario,
                                          const DesignVariable& variable, double effort) {
   virtual_lathe::Scenario out = scenario;
-  const double share = more_is_better(variable.choice) ? effort : 1.0 - effort;
+  const double share = info_of(variable.choice).more_is_better ? effort : 1.0 - effort;
   const double value = variable.low * std::pow(variable.high / variable.low, share);
-  set_parameter(out, path_of(variable.choice), std::clamp(value, variable.low, variable.high));
+  set_parameter(out, info_of(variable.choice).path, std::clamp(value, variable.low, variable.high));
   return out;
 }
 
 virtual_lathe::Scenario PlanSearch::with_settable(const virtual_lathe::Scenario& scenario,
                                                   const DesignVariable& variable, double effort) {
   virtual_lathe::Scenario out = with(scenario, variable, effort);
-  const char* const path = path_of(variable.choice);
+  const char* const path = info_of(variable.choice).path;
   set_parameter(out, path, settable(variable, parameter(out, path)));
   return out;
 }
@@ -142,7 +136,8 @@ PlannedMeasurement PlanSearch::solve(const virtual_lathe::Scenario& scenario,
   }
   if (high > 1.0) return at(with(scenario, variable, 1.0));
   virtual_lathe::Scenario rounded = scenario;
-  set_parameter(rounded, path_of(variable.choice), settable(variable, most.of(variable.choice)));
+  set_parameter(rounded, info_of(variable.choice).path,
+                settable(variable, most.of(variable.choice)));
   PlannedMeasurement set = at(rounded);
   return meets(set) ? set : most;
 }

@@ -67,8 +67,6 @@ class PlanSearch {
 /// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
 /// readings inside the range: orders n and M − n would be one column.
 double settable(const DesignVariable& variable, double value);
-/// Whether more of a choice makes the axis more certain.
-bool more_is_better(Choice choice);
 const DesignVariable* find(const std::vector<DesignVariable>& variables, Choice choice);
 
 }  // namespace trueaxis::study::planning_detail

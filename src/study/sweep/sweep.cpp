@@ -115,17 +115,8 @@ std::string_view fitted_surface(const Sweep& sweep) {
 }
 
 const char* to_string(Method method) {
-  switch (method) {
-    case Method::fit:
-      return "fit";
-    case Method::huber:
-      return "huber";
-    case Method::tukey:
-      return "tukey";
-    case Method::diagnosis:
-      return "diagnosis";
-  }
-  return "";
+  static constexpr const char* words[] = {"fit", "huber", "tukey", "diagnosis"};
+  return words[static_cast<std::size_t>(method)];
 }
 
 }  // namespace trueaxis::study

@@ -34,7 +34,7 @@ study::DesignVariable parse_design_variable(std::string_view text) {
   const std::string_view key = text.substr(0, equals);
   std::string known;
   for (const study::Choice choice : study::choices) {
-    for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
+    for (const KeySpelling& spelling : key_spellings(study::info_of(choice).path)) {
       const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
       if (key == whole || key == shorter) {
         const double low = number_of(text.substr(equals + 1, colon - equals - 1), text),
@@ -42,7 +42,7 @@ study::DesignVariable parse_design_variable(std::string_view text) {
         check_range(low, high, text);
         return {choice, low * spelling.factor, high * spelling.factor};
       }
-      if (spelling.key == key_spellings(study::path_of(choice)).front().key)
+      if (spelling.key == key_spellings(study::info_of(choice).path).front().key)
         known += (known.empty() ? "" : ", ") + std::string(shorter);
     }
   }

@@ -8,28 +8,10 @@ namespace {
 
 using namespace study;
 
-struct Named {
-  const char *name, *unit;
-};
-
-Named name_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return {"readings_per_revolution", "1"};
-    case Choice::sigma:
-      return {"sigma", "mm"};
-    case Choice::feed:
-      return {"feed_per_rev", "mm"};
-    case Choice::length:
-      break;
-  }
-  return {"length", "mm"};
-}
-
 Json plan_json(const PlannedMeasurement& plan) {
   Json json;
   for (const Choice choice : choices)
-    json[name_of(choice).name] = with_unit(plan.of(choice), name_of(choice).unit);
+    json[info_of(choice).name] = with_unit(plan.of(choice), info_of(choice).unit);
   json["U"] = with_unit(plan.u_expanded_mm, "mm");
   json["time"] = with_unit(plan.time_s, "s");
   json["rate"] = with_unit(plan.rate_hz, "Hz");
@@ -68,17 +50,17 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
   json["time_limit"] = task.time_s ? with_unit(*task.time_s, "s") : Json(nullptr);
   Json variables = Json::array();
   for (const DesignVariable& one : task.variables) {
-    const Named named = name_of(one.choice);
-    variables.push_back({{"choice", named.name},
-                         {"low", with_unit(one.low, named.unit)},
-                         {"high", with_unit(one.high, named.unit)}});
+    const ChoiceInfo& info = info_of(one.choice);
+    variables.push_back({{"choice", info.name},
+                         {"low", with_unit(one.low, info.unit)},
+                         {"high", with_unit(one.high, info.unit)}});
   }
   json["free"] = std::move(variables);
   json["as_given"] = plan_json(answer.as_given);
   json["nearest"] = plan_json(answer.nearest);
   Json alone = Json::array(), table = Json::array(), recommended = Json::array();
   for (const Alone& one : answer.alone) {
-    alone.push_back({{"choice", name_of(one.choice).name},
+    alone.push_back({{"choice", info_of(one.choice).name},
                      {"reached", one.reached},
                      {"plan", plan_json(one.plan)}});
   }
@@ -90,7 +72,7 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
                            {"confirmed", confirmed_json(one.confirmed)}});
   }
   json["alone"] = std::move(alone);
-  json["solved_for"] = name_of(answer.solved_for).name;
+  json["solved_for"] = info_of(answer.solved_for).name;
   json["table"] = std::move(table);
   json["recommended"] = std::move(recommended);
   json["remarks"] = answer.remarks;

@@ -30,20 +30,6 @@ std::string u_text(double length_mm) {
   return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " µm" : "");
 }
 
-const char* words_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "readings per revolution";
-    case Choice::sigma:
-      return "sigma of a reading";
-    case Choice::feed:
-      return "feed";
-    case Choice::length:
-      break;
-  }
-  return "length";
-}
-
 std::string value_text(const PlannedMeasurement& plan, Choice choice) {
   const double value = plan.of(choice);
   switch (choice) {
@@ -82,7 +68,7 @@ std::string beyond_text(const PlanningTask& task, const PlannedMeasurement& plan
 std::string alone_text(const PlanningTask& task, const PlanningAnswer& answer) {
   std::string text = "\nOne thing changed, the others as they are\n";
   for (const Alone& one : answer.alone) {
-    text += "  " + padded(words_of(one.choice), 26);
+    text += "  " + padded(info_of(one.choice).words, 26);
     text += one.reached ? value_text(one.plan, one.choice)
                         : "not in its range: at " + value_text(one.plan, one.choice) + ' ' +
                               u_text(one.plan.u_expanded_mm);
@@ -148,7 +134,7 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
              task.coverage_factor, head, row_text(answer.as_given));
   if (!answer.alone.empty()) text += alone_text(task, answer);
   if (!answer.table.empty()) {
-    text += format("\nOver the ranges, {} as needed\n  {}", words_of(answer.solved_for), head);
+    text += format("\nOver the ranges, {} as needed\n  {}", info_of(answer.solved_for).words, head);
     for (const TableRow& row : answer.table)
       text += "  " + row_text(row.plan) + (row.reached ? "" : "  misses the goal") +
               beyond_text(task, row.plan) + '\n';
