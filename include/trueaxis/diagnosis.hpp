@@ -43,7 +43,7 @@ struct Finding {
   TermValue term;             ///< of the best explanation: an effect of the catalogue, fitted
   std::vector<Rival> rivals;  ///< what explains it as well, the most probable first
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
-  std::string alias;         ///< another order that the sampling cannot tell from it
+  std::string alias;                     ///< another order that the sampling cannot tell from it
   double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
   double probability = 0.0;  ///< of the named effect among its class
   double rms_mm = 0.0;       ///< of its contribution to the readings
@@ -55,6 +55,11 @@ struct Finding {
   /// The class: every id that explains it as well, the named one first.
   std::vector<std::string> members() const;
   bool may_be(std::string_view effect) const;  ///< whether the class holds it
+
+  /// The estimate of this name. @throws ContractViolation if there is none.
+  const Estimate& parameter(std::string_view name) const {
+    return find_parameter(parameters, name);
+  }
 };
 
 /// A pattern that no catalogued cause explains; it stays in the model as it is.

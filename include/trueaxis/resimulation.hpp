@@ -45,9 +45,9 @@ struct Resimulation {
   std::string why_not;  ///< not empty: there is none, for this reason
 };
 
-/// Measures the part of a diagnosis again at the arguments of its stream: the ideal surface as first
-/// fitted, and the extended model with all that was found. What the virtual lathe cannot play is
-/// data: see Resimulation::why_not.
+/// Measures the part of a diagnosis again at the arguments of its stream: the ideal surface as
+/// first fitted, and the extended model with all that was found. What the virtual lathe cannot play
+/// is data: see Resimulation::why_not.
 /// @param ball_radius_mm as given to the diagnosis; 0: what the stream says
 Resimulation resimulate(const Diagnosis& diagnosis, const ProbeStream& measured,
                         double ball_radius_mm = 0.0);

@@ -7,7 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/simulate_from.hpp"
 #include "format/file.hpp"
-#include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "simulate/files/cut_table_csv.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"

@@ -68,9 +68,12 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.baseline = fit(stream, options.fit);
   out.extended = out.baseline;
   if (!is_diagnosable(out.baseline)) {
-    out.noise.note = out.baseline.surface == "plane"
-                         ? "faces are not diagnosed: the catalogue's terms are those of X_M"
-                         : "the surface was not found: nothing can be said beside it";
+    out.noise.note =
+        out.baseline.surface == SurfaceKind::plane
+            ? "faces are not diagnosed: the catalogue's terms are those of X_M"
+        : out.baseline.surface == SurfaceKind::own
+            ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
+            : "the surface was not found: nothing can be said beside it";
     out.next.why_not = out.noise.note;
     return out;
   }

@@ -149,7 +149,7 @@ json diagnosis_data(const ProbeStream& stream, const Diagnosis& d, const Resimul
           {"status", to_string(d.extended.status)},
           {"message", d.extended.message},
           {"k", d.baseline.coverage_factor},
-          {"surface", d.baseline.surface},
+          {"surface", to_string(d.baseline.surface)},
           {"false_alarm", d.false_alarm},
           {"hypotheses", d.hypotheses},
           {"findings", list_of(d.findings, finding_data)},

@@ -39,7 +39,7 @@ nlohmann::json rejected_data(const std::vector<Rejected>& rejected) {
 }  // namespace
 
 nlohmann::json fit_data(const FitResult& fit) {
-  return {{"surface", fit.surface},
+  return {{"surface", to_string(fit.surface)},
           {"bore", fit.bore},
           {"criterion", fit.criterion},
           {"status", to_string(fit.status)},

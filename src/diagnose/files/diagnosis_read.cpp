@@ -42,7 +42,7 @@ FitResult fit_from(const Json& json) {
   FitResult fit;
   fit.source = json.at("input").at("file");
   fit.input_hash = json.at("input").at("hash");
-  fit.surface = json.at("surface");
+  fit.surface = surface_from_id(json.at("surface").get<std::string>());
   fit.bore = json.at("feature") == "bore";
   fit.status = status_from(json.at("status"));
   if (fit.status != FitStatus::converged) return fit;
@@ -69,8 +69,7 @@ Diagnosis diagnosis_from(const Json& json) {
   d.z_mid_mm = value(json.at("u_frame"), "z_mid");
   d.z_half_mm = value(json.at("u_frame"), "z_half");
   for (const Json& finding : json.at("findings"))
-    d.findings.emplace_back().term =
-        effect_term_from(finding.at("effect"), finding.at("term"));
+    d.findings.emplace_back().term = effect_term_from(finding.at("effect"), finding.at("term"));
   for (const Json& pattern : json.at("unexplained"))
     d.unexplained.emplace_back().term = pattern_term_from(pattern.at("term"));
   d.noise.sigma_mm = value(json.at("noise"), "sigma");

@@ -34,8 +34,8 @@ std::string held_out(const Gain& gain) {
 }
 
 std::string origin(const Diagnosis& d) {
-  std::string text = d.baseline.surface + " of " + d.baseline.source + ": " +
-                     std::to_string(d.baseline.points) + " readings";
+  std::string text = std::string(to_string(d.baseline.surface)) + " of " + d.baseline.source +
+                     ": " + std::to_string(d.baseline.points) + " readings";
   if (d.hypotheses > 0) {
     text += format(", %zu hypotheses tried, false alarm %.3g %% over all of them", d.hypotheses,
                    100.0 * d.false_alarm);
@@ -45,13 +45,15 @@ std::string origin(const Diagnosis& d) {
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return finding.effect() == "part.slip" ? "that of before the slip; the part stands there no longer"
-                                       : "";
+  return finding.effect() == "part.slip"
+             ? "that of before the slip; the part stands there no longer"
+             : "";
 }
 
 std::string finding_block(const Finding& finding, std::size_t number, double k) {
   std::string text = "\n";
-  text += wrapped(format("%2zu  ", number), finding.effect() + "  " + finding_parameters(finding, k));
+  text +=
+      wrapped(format("%2zu  ", number), finding.effect() + "  " + finding_parameters(finding, k));
   if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
   text +=
       wrapped("    axis_bias     ", finding_axis_bias(finding, k) +
@@ -65,8 +67,8 @@ std::string finding_block(const Finding& finding, std::size_t number, double k) 
 }
 
 std::string unexplained_block(const Unexplained& u, double k) {
-  return wrapped(" ?  ", harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) + ", amplitude " +
-                             plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm") +
+  return wrapped(" ?  ", harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) +
+                             ", amplitude " + plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm") +
                              ": no catalogued cause explains it; it stays in the model so that "
                              "the axis is protected; family-wise p " +
                              probability(u.p_value));
@@ -97,8 +99,9 @@ std::string diagnosis_line(const Diagnosis& d) {
   std::string text;
   switch (d.verdict) {
     case DiagnosisVerdict::ideal:
-      return "IDEAL: nothing that the ideal " + d.baseline.surface + " misses was found; RMS " +
-             um(d.baseline.rms_mm) + ", noise of a reading " + um(d.noise.sigma_mm);
+      return "IDEAL: nothing that the ideal " + std::string(to_string(d.baseline.surface)) +
+             " misses was found; RMS " + um(d.baseline.rms_mm) + ", noise of a reading " +
+             um(d.noise.sigma_mm);
     case DiagnosisVerdict::effects:
       text = "EFFECTS: " + causes;
       break;
@@ -114,14 +117,15 @@ std::string findings_text(const Diagnosis& d) {
   const double k = d.baseline.coverage_factor;
   std::string text = wrapped("diagnosis   ", diagnosis_line(d));
   for (const Finding& f : d.findings) {
-    text +=
-        wrapped("  ", f.effect() + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
+    text += wrapped("  ",
+                    f.effect() + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
     if (!f.rivals.empty()) text += wrapped("    ", finding_class(f));
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
   }
   for (const Unexplained& u : d.unexplained) {
-    text += wrapped("  ", "unexplained: " + harmonic_text(u.term.pattern) + ", " + dependence_text(u.term.pattern) + ", amplitude " +
+    text += wrapped("  ", "unexplained: " + harmonic_text(u.term.pattern) + ", " +
+                              dependence_text(u.term.pattern) + ", amplitude " +
                               plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm"));
   }
   return text;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_write.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "format/output_file.hpp"
-#include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_finish.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_number.hpp"
