@@ -48,9 +48,7 @@ target_compile_definitions(trueaxis PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}
 target_link_libraries(trueaxis PRIVATE trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
 # CLI11 is all headers: they are read once, and what they make is not worth optimising.
 target_compile_options(trueaxis PRIVATE $<$<CONFIG:Release>:-O1>)
-if(TRUEAXIS_UNITY)
-  target_precompile_headers(trueaxis PRIVATE <CLI/CLI.hpp>)
-endif()
+trueaxis_read_once(trueaxis <CLI/CLI.hpp>)
 
 # The same sweeps on several machines, where Open MPI is installed.
 find_package(MPI QUIET COMPONENTS CXX)

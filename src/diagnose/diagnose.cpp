@@ -19,9 +19,12 @@ using namespace diagnose_detail;
 namespace {
 
 Diagnosis not_diagnosable(Diagnosis out) {
-  out.noise.note = out.baseline.surface == "plane"
-                       ? "faces are not diagnosed: the catalogue's terms are those of X_M"
-                       : "the surface was not found: nothing can be said beside it";
+  out.noise.note =
+      out.baseline.surface == SurfaceKind::plane
+          ? "faces are not diagnosed: the catalogue's terms are those of X_M"
+      : out.baseline.surface == SurfaceKind::own
+          ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
+          : "the surface was not found: nothing can be said beside it";
   out.next.why_not = out.noise.note;
   return out;
 }

@@ -37,8 +37,8 @@ double stretch(double slope_x, double slope_y) {
 }  // namespace
 
 JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
-                       std::string_view surface, const SurfaceFrame& frame)
-    : size_(stream.size()) {
+                       const CatalogueEntry& surface, const SurfaceFrame& frame)
+    : info_(surface.info), size_(stream.size()) {
   place_frames(stream, set_ups, frame);
   for (const PlacedSetUp& placed : set_ups) {
     if (placed.clamping == first_.size()) first_.push_back(placed.set_up);
@@ -48,7 +48,7 @@ JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>
     part.root = placed.root;
     SurfaceFrame from_side = frames_[placed.clamping];
     from_side.root = placed.root;
-    part.surface = make_surface(surface, from_side);
+    part.surface = surface.make(from_side);
   }
   if (parts_.size() == 1) {
     parts_.front().prepared = std::make_unique<PreparedStream>(stream);

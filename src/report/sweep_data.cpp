@@ -109,12 +109,18 @@ json sweep_data(const Sweep& sweep, const Summary& summary) {
   for (const Quantity& quantity : quantities(fitted_surface(sweep)))
     quantity_list.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
   for (const Method method : sweep.methods) methods.push_back(to_string(method));
-  return {{"schema", "trueaxis.sweep_report/1"}, {"version", TRUEAXIS_VERSION},
-          {"title", sweep_title(sweep)},         {"input_hash", sweep.input_hash},
-          {"seed", std::to_string(sweep.seed)},  {"repeats", sweep.repeats},
-          {"surface", fitted_surface(sweep)},    {"axes", axes_data(sweep)},
-          {"drawn", drawn_data(sweep)},          {"methods", methods},
-          {"quantities", quantity_list},         {"cells", cells_data(sweep, summary)}};
+  return {{"schema", "trueaxis.sweep_report/1"},
+          {"version", TRUEAXIS_VERSION},
+          {"title", sweep_title(sweep)},
+          {"input_hash", sweep.input_hash},
+          {"seed", std::to_string(sweep.seed)},
+          {"repeats", sweep.repeats},
+          {"surface", to_string(fitted_surface(sweep))},
+          {"axes", axes_data(sweep)},
+          {"drawn", drawn_data(sweep)},
+          {"methods", methods},
+          {"quantities", quantity_list},
+          {"cells", cells_data(sweep, summary)}};
 }
 
 }  // namespace trueaxis

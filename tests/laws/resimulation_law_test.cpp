@@ -29,7 +29,7 @@ class ResimulationLaw : public ::testing::TestWithParam<LatheBench> {
   void SetUp() override {
     ideal_ = lathe::simulate(GetParam().scenario());
     FitOptions options;
-    options.surface = GetParam().tangent == 0.0 ? "cylinder" : "cone";
+    options.surface = GetParam().tangent == 0.0 ? SurfaceKind::cylinder : SurfaceKind::cone;
     options.bore = GetParam().bore;
     diagnosis_.baseline = diagnosis_.extended = fit(ideal_, options);
     ASSERT_EQ(diagnosis_.baseline.status, FitStatus::converged);

@@ -102,7 +102,7 @@ EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options
                             const KnownEffect& known) {
   const Effect* effect = find_effect(known.effect);
   expects(effect != nullptr && !effect->check, "an effect of the catalogue");
-  expects(options.surface != "plane", "a lateral surface");
+  expects(options.surface != SurfaceKind::plane, "a lateral surface");
   EffectOnAxis out;
   out.alone = out.extended = fit(stream, options);
   if (out.alone.status != FitStatus::converged) return out;

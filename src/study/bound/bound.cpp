@@ -107,7 +107,7 @@ Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& jacobian) {
 
 }  // namespace
 
-Bound bound_of(const Scenario& scenario, std::string_view surface) {
+Bound bound_of(const Scenario& scenario, SurfaceKind surface) {
   const std::vector<Quantity> all = quantities(surface);
   const std::size_t count = all.size();
   Bound bound;

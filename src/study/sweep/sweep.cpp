@@ -110,8 +110,8 @@ std::uint64_t seed_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) 
   return virtual_lathe::hashed(sweep.seed, cell / sweep.methods.size(), repeat);
 }
 
-std::string_view fitted_surface(const Sweep& sweep) {
-  return sweep.surface.empty() ? surface_of(sweep.base.part.kind) : std::string_view(sweep.surface);
+SurfaceKind fitted_surface(const Sweep& sweep) {
+  return sweep.surface.empty() ? surface_of(sweep.base.part.kind) : surface_from_id(sweep.surface);
 }
 
 const char* to_string(Method method) {

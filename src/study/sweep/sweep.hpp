@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "study/sweep/setting.hpp"
+#include "trueaxis/surface.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
@@ -63,7 +64,7 @@ struct Sweep {
 };
 
 /// Surface that the sweep fits.
-std::string_view fitted_surface(const Sweep& sweep);
+SurfaceKind fitted_surface(const Sweep& sweep);
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.
 struct Cell {

@@ -66,7 +66,7 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
             {"input_hash", sweep.input_hash},
             {"seed", sweep.seed},
             {"repeats", sweep.repeats},
-            {"surface", fitted_surface(sweep)},
+            {"surface", to_string(fitted_surface(sweep))},
             {"axes", axes_json(sweep)},
             {"drawn", drawn_json(sweep)},
             {"coverage_factor", 2.0},
