@@ -2,6 +2,7 @@
 #include "job/files/job_json.hpp"
 
 #include "diagnose/files/diagnosis_objects.hpp"
+#include "fit/files/fit_json.hpp"
 #include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
