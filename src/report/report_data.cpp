@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "diagnose/files/diagnosis_objects.hpp"
+#include "fit/files/fit_json.hpp"
 #include "report/correction_data.hpp"
 #include "report/inputs_data.hpp"
 #include "report/readings_data.hpp"
