@@ -12,16 +12,14 @@
 namespace trueaxis {
 namespace {
 
-using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr const char* no_redundancy =
     "no uncertainty: as many readings as parameters, and no sensor noise given";
 constexpr double cylinder_sds =
     3.0;  // a half angle within 3 u of zero cannot be told from a cylinder
 constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
 
-ObservationMask as_rows(const std::vector<double>& values, Eigen::Index columns) {
-  return Eigen::Map<const ObservationMask>(
+RowMajorMatrix as_rows(const std::vector<double>& values, Eigen::Index columns) {
+  return Eigen::Map<const RowMajorMatrix>(
       values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
 }
 
@@ -33,8 +31,8 @@ Eigen::Index index_of(const std::vector<std::string>& names, std::string_view na
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
 std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
                                             const std::vector<double>& value,
-                                            const ObservationMask& jacobian,
-                                            const ObservationMask& edge,
+                                            const RowMajorMatrix& jacobian,
+                                            const RowMajorMatrix& edge,
                                             const Determination& determination) {
   std::vector<FitParameter> parameters;
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
@@ -134,8 +132,8 @@ void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_up
 struct Standing {
   const Surface& surface;
   std::vector<double> working;
-  Eigen::MatrixXd covariance;       ///< of `working`
-  ObservationMask report_jacobian;  ///< of the reported parameters with respect to the joint ones
+  Eigen::MatrixXd covariance;      ///< of `working`
+  RowMajorMatrix report_jacobian;  ///< of the reported parameters with respect to the joint ones
 };
 
 SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
@@ -143,9 +141,9 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   const Surface& surface = standing.surface;
   SetUpFit out{placed.set_up, placed.root, parameters, {}, surface.shape(standing.working)};
   out.axis.axis = surface.axis(standing.working);
-  const ObservationMask jacobian = as_rows(surface.axis_jacobian(standing.working),
-                                           static_cast<Eigen::Index>(standing.working.size()));
-  const ObservationMask axis = jacobian * standing.covariance * jacobian.transpose();
+  const RowMajorMatrix jacobian = as_rows(surface.axis_jacobian(standing.working),
+                                          static_cast<Eigen::Index>(standing.working.size()));
+  const RowMajorMatrix axis = jacobian * standing.covariance * jacobian.transpose();
   std::copy_n(axis.data(), 16, out.axis.covariance.begin());
   return out;
 }
@@ -172,8 +170,7 @@ void report_derived(const Standing& last, FitResult& result) {
     result.derived.push_back(
         length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
-  const ObservationMask axis =
-      Eigen::Map<const ObservationMask>(result.axis.covariance.data(), 4, 4);
+  const RowMajorMatrix axis = Eigen::Map<const RowMajorMatrix>(result.axis.covariance.data(), 4, 4);
   const Axis& line = result.axis.axis;
   const auto offset = [&](const char* name, double z) {
     Eigen::Matrix<double, 2, 4> at;
@@ -264,14 +261,14 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     const JointPart& part = model.part_of(placed);
     const Eigen::MatrixXd a = model.working_jacobian(joint, part);
     std::vector<double> working = model.working(joint, part);
-    const ObservationMask report =
+    const RowMajorMatrix report =
         as_rows(part.surface->report(working).jacobian, static_cast<Eigen::Index>(working.size()));
     return Standing{*part.surface, std::move(working), a * covariance * a.transpose(), report * a};
   };
   for (const PlacedSetUp& placed : set_ups) {
     const Standing standing = stand(placed);
-    const ObservationMask& jacobian = standing.report_jacobian;
-    const ObservationMask edge = jacobian * covariance * jacobian.transpose();
+    const RowMajorMatrix& jacobian = standing.report_jacobian;
+    const RowMajorMatrix edge = jacobian * covariance * jacobian.transpose();
     result.set_ups.push_back(
         report_set_up(placed, standing,
                       report_parameters(surface_info(result.surface),

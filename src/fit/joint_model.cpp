@@ -205,14 +205,13 @@ NormalMatrix JointModel::accumulate(std::span<const double> joint, const LossSca
     const JointPart& all = parts_.front();
     return trueaxis::accumulate(*all.surface, joint, *all.prepared, loss);
   }
-  using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   NormalMatrix out;
   out.parameters = parameter_count();
   out.jtj.assign(out.parameters * out.parameters, 0.0);
   out.jtr.assign(out.parameters, 0.0);
   const auto p = static_cast<Eigen::Index>(out.parameters);
   const auto q = static_cast<Eigen::Index>(working_names_.size());
-  Eigen::Map<ObservationMask> jtj(out.jtj.data(), p, p);
+  Eigen::Map<RowMajorMatrix> jtj(out.jtj.data(), p, p);
   Eigen::Map<Eigen::VectorXd> jtr(out.jtr.data(), p);
   out.curvature = 0.0;
   for (const JointPart& part : parts_) {
@@ -220,7 +219,7 @@ NormalMatrix JointModel::accumulate(std::span<const double> joint, const LossSca
         trueaxis::accumulate(*part.surface, working(joint, part), *part.prepared, loss);
     if (!of_part.valid) return out;
     const Eigen::MatrixXd a = working_jacobian(joint, part);
-    jtj += a.transpose() * Eigen::Map<const ObservationMask>(of_part.jtj.data(), q, q) * a;
+    jtj += a.transpose() * Eigen::Map<const RowMajorMatrix>(of_part.jtj.data(), q, q) * a;
     jtr += a.transpose() * Eigen::Map<const Eigen::VectorXd>(of_part.jtr.data(), q);
     out.sum_rho += of_part.sum_rho;
     out.curvature += of_part.curvature * static_cast<double>(part.rows.size());

@@ -13,6 +13,8 @@
 
 namespace trueaxis {
 
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// A set-up of the stream, the clamping it stands in (the set-ups from one move of the part to the
 /// next) and the side it was probed from.
 struct PlacedSetUp {

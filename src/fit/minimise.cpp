@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/minimise.hpp"
 
-#include <ceres/ceres.h>
+#include <ceres/cost_function.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
 
 #include <Eigen/Dense>
 #include <algorithm>

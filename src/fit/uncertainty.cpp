@@ -61,9 +61,8 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
         sums(static_cast<Eigen::Index>(j)) += a * block.column[j][i];
     }
   }
-  using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const ObservationMask>(transform.data(), static_cast<Eigen::Index>(p),
-                                           static_cast<Eigen::Index>(columns)) *
+  return Eigen::Map<const RowMajorMatrix>(transform.data(), static_cast<Eigen::Index>(p),
+                                          static_cast<Eigen::Index>(columns)) *
          sums;
 }
 

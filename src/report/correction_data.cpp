@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "job/files/job_json.hpp"
 #include "report/chart_readings.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
@@ -76,48 +77,16 @@ Json map_data(const CorrectionRows& rows, std::size_t turns) {
           {"wanted_um", wanted.to_json(3)}};
 }
 
-Json harmonics_data(const std::vector<CorrectionHarmonic>& harmonics) {
-  Json list = Json::array();
-  for (const CorrectionHarmonic& harmonic : harmonics) {
-    list.push_back({{"order", harmonic.order},
-                    {"amplitude_start_mm", harmonic.amplitude_start_mm},
-                    {"phase_start_deg", harmonic.phase_start_rad / rad_per_deg},
-                    {"amplitude_end_mm", harmonic.amplitude_end_mm},
-                    {"phase_end_deg", harmonic.phase_end_rad / rad_per_deg},
-                    {"gain", harmonic.gain},
-                    {"lag_deg", harmonic.lag_rad / rad_per_deg}});
-  }
-  return list;
-}
-
-Json margin_data(const ActuatorMargin& margin) {
-  return {{"stroke_used_mm", margin.stroke_used_mm},
-          {"stroke_available_mm", margin.stroke_available_mm},
-          {"slew_used_mm_per_s", margin.slew_used_mm_per_s},
-          {"slew_available_mm_per_s", margin.slew_available_mm_per_s},
-          {"highest_frequency_hz", margin.highest_frequency_hz},
-          {"bandwidth_hz", margin.bandwidth_hz},
-          {"set_points_per_revolution", margin.set_points_per_revolution},
-          {"following_uncompensated_mm", margin.following_uncompensated_mm},
-          {"following_mm", margin.following_mm},
-          {"following_limit_mm", margin.following_limit_mm},
-          {"follows", margin.follows},
-          {"breaks", margin.breaks},
-          {"max_speed_rpm", margin.max_speed_rpm}};
-}
-
 }  // namespace
 
 Json correction_data(const Correction& correction) {
   const std::vector<Turn> turns = turns_of(correction.rows);
-  Json data{{"face", correction.target.kind == TargetKind::face},
-            {"rows", correction.rows.revolution.size()},
-            {"revolutions", turns.size()},
-            {"speed_rpm", correction.tool.speed_rpm},
-            {"precompensated", correction.actuator.precompensate},
-            {"turns", Json::array()},
-            {"harmonics", harmonics_data(correction.harmonics)},
-            {"margin", margin_data(correction.margin)}};
+  Json data = correction_object(correction);
+  data["face"] = correction.target.kind == TargetKind::face;
+  data["revolutions"] = turns.size();
+  data["speed_rpm"] = correction.tool.speed_rpm;
+  data["precompensated"] = correction.actuator.precompensate;
+  data["turns"] = Json::array();
   if (turns.empty()) return data;
   data["turns"] = turns_data(correction.rows, turns);
   data["map"] = map_data(correction.rows, turns.size());

@@ -33,7 +33,7 @@ function classTable(finding, titles) {
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
   return table(members.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
     ['Cause', 'Chance'], members.map((member) => [
-      element('span', {}, member.effect, element('small', {}, titles[member.effect] + (member.structural ? ': the same column, no amount of such data helps' : ''))),
+      element('span', {}, member.effect, element('small', {}, (titles[member.effect] ?? '') + (member.structural ? ': the same column, no amount of such data helps' : ''))),
       chance(member.probability)]));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual lathe hides one effect of the catalogue; the diagnosis that names it at its size, as
 // written to a file, plays back the very readings. Nothing of the engine's terms is evaluated: the
-// numbers go from effects.md through the file to the lathe.
+// numbers go from the catalogue through the file to the lathe.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -139,7 +139,7 @@ TEST(Margin, PrecompensationLeadsARamp) {
 }
 
 TEST(Margin, InterpolationErrorsOfTheCatalogue) {
-  // effects.md: A (π/M)²/2 for A = 300 µm: 0.36 µm at 64 rows, 0.011 µm at 360. With an actuator
+  // Eq. 114: A (π/M)²/2 for A = 300 µm: 0.36 µm at 64 rows, 0.011 µm at 360. With an actuator
   // far faster than the rows nothing filters them.
   for (const auto& [rows, um] : {std::pair{64, 0.36}, std::pair{360, 0.0114}}) {
     ToolSetup tool;

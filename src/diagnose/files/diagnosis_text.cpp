@@ -47,7 +47,7 @@ std::string origin(const Diagnosis& d) {
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return finding.effect() == "part.slip"
+  return is_step(finding.term.effect->term)
              ? "that of before the slip; the part stands there no longer"
              : "";
 }

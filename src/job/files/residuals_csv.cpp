@@ -40,13 +40,11 @@ std::string residuals_csv(const ProbeStream& stream, const FitResult& result) {
   const bool face = stream.kind == StreamKind::face;
   std::string text = face ? "row,C[deg],X[mm],Z_M[mm],residual[um],rejected\n"
                           : "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n";
-  std::size_t next = 0;
+  const std::vector<bool> rejected = marked(result.rejected, stream.size());
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    const bool rejected = next < result.rejected.size() && result.rejected[next].row == i + 1;
-    if (rejected) ++next;
     append_reading(text, stream, i);
     fmt::format_to(std::back_inserter(text), ",{:.4f},{}\n", result.residual_mm[i] / mm_per_um,
-                   rejected ? 1 : 0);
+                   rejected[i] ? 1 : 0);
   }
   return text;
 }

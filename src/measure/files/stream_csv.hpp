@@ -16,7 +16,7 @@ struct StreamReadOptions {
   std::size_t max_diagnostics = 1000;       ///< further ones are counted, not listed
 };
 
-/// Reads design.md's CSV from a file, or from standard input when `path` is "-".
+/// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 

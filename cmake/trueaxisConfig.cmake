@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: Apache-2.0
+# find_package(trueaxis COMPONENTS core) gives trueaxis::core; without components also trueaxis::trueaxis, where installed.
+include(CMakeFindDependencyMacro)
+find_dependency(Ceres)
+find_dependency(Eigen3)
+find_dependency(fmt)
+find_dependency(PkgConfig)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
+include("${CMAKE_CURRENT_LIST_DIR}/trueaxisCoreTargets.cmake")
+if(EXISTS "${CMAKE_CURRENT_LIST_DIR}/trueaxisTargets.cmake" AND NOT "${trueaxis_FIND_COMPONENTS}" STREQUAL "core")
+  find_dependency(nlohmann_json)
+  find_dependency(tomlplusplus)
+  pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+  include("${CMAKE_CURRENT_LIST_DIR}/trueaxisTargets.cmake")
+endif()
