@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "correct/repeating_motion.hpp"
+#include "trueaxis/effect.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
@@ -143,6 +143,15 @@ struct ActuatorMargin {
   std::string breaks;          ///< the numbers that break, empty when it follows
   double max_speed_rpm = 0.0;  ///< highest speed at which it would run (at most the bandwidth in
                                ///< revolutions a minute); 0: at none
+};
+
+/// An error motion of the machine that the probe saw along X and that repeats while cutting. The
+/// part (or the slide) is off by m(C, Z) towards the probe; a tool on the same side follows it by
+/// +m, or it would leave −m in the part; one on the other side by −m. In between it is unknown: the
+/// probe saw one direction only.
+struct RepeatingMotion {
+  TermValue term;                          ///< of an effect of the catalogue, fitted
+  double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
 };
 
 struct Correction {

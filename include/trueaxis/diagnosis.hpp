@@ -56,6 +56,11 @@ struct Finding {
   /// The class: every id that explains it as well, the named one first.
   std::vector<std::string> members() const;
   bool may_be(std::string_view effect) const;  ///< whether the class holds it
+
+  /// The estimate of this name. @throws ContractViolation if there is none.
+  const Estimate& parameter(std::string_view name) const {
+    return find_parameter(parameters, name);
+  }
 };
 
 /// A pattern that no catalogued cause explains; it stays in the model as it is.

@@ -6,10 +6,12 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/estimate.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/profile.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
@@ -36,14 +38,16 @@ struct Influence {
 };
 
 struct FitOptions {
-  std::string surface = "cone";  ///< an id of the surface catalogue
+  SurfaceKind surface = SurfaceKind::cone;
+  /// A surface of revolution of one's own in place of `surface`, see profile.hpp.
+  std::shared_ptr<const RevolvedProfile> profile{};
   Loss loss = Loss::plain;
   bool bore = false;  ///< probed from inside: the sign of the ball's radius is reversed
   double ball_radius_mm =
       0.0;  ///< X_M is the ball's centre; 0: as the stream says, else the contact
   std::optional<double>
-      noise_mm;  ///< standard deviation of one reading if known apart from this fit
-  std::vector<Influence> influences;
+      noise_mm{};  ///< standard deviation of one reading if known apart from this fit
+  std::vector<Influence> influences{};
   double coverage_factor = 2.0;  ///< k of U = k u; 2: about 95 % for a normal quantity (GUM 6.3.3)
   int max_iterations = 50;       ///< a good start needs 3 or 4; 50 tells trouble from slowness
 };
@@ -58,6 +62,9 @@ struct FitParameter {
   std::string name;
   Estimate estimate;
 };
+
+/// The estimate of this name. @throws ContractViolation if there is none.
+const Estimate& find_parameter(std::span<const FitParameter> parameters, std::string_view name);
 
 /// A line of the uncertainty budget: what a source contributes to each parameter's u.
 struct BudgetLine {
@@ -79,7 +86,7 @@ struct SetUpFit {
 /// is derived of them, axis and shape are those of the last set-up: so the part is clamped now,
 /// when the correction is cut. `status` says whether the numbers may be used.
 struct FitResult {
-  std::string surface;
+  SurfaceKind surface = SurfaceKind::cone;
   std::string criterion = "probe";
   FitStatus status = FitStatus::too_few;
   std::string message;                      ///< what is wrong and what to do, empty when converged
@@ -113,6 +120,10 @@ struct FitResult {
   double position_min_mm = 0.0, position_max_mm = 0.0;
   std::vector<double> residual_mm;  ///< measured minus model, one per reading
   std::string input_hash, source;
+
+  /// The estimate of this name among `parameters` and `derived`: parameter("half_angle").
+  /// @throws ContractViolation if there is none
+  const Estimate& parameter(std::string_view name) const;
 };
 
 /// Associates a surface with a stream, over all set-ups at once: starting values from the data

@@ -2,8 +2,24 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 namespace trueaxis {
+
+/// The reference surfaces of the catalogue, and `own`: a profile of the user's (profile.hpp).
+enum class SurfaceKind {
+  cone,      ///< x0, y0, l, m, k, half_angle
+  cylinder,  ///< x0, y0, l, m, radius
+  plane,     ///< a face: l, m, d
+  section,   ///< one circle without Z: x0, y0, radius
+  own,
+};
+
+/// The catalogue's id: "cone", "cylinder", "plane", "section"; "own".
+const char* to_string(SurfaceKind kind);
+
+/// @throws InputError naming the ids of the catalogue
+SurfaceKind surface_from_id(std::string_view id);
 
 /// A line nearly along the spindle: part frame, mm; passes (x, y, z_ref) with slopes dx/dz, dy/dz.
 /// Direction cosines (Constantin et al. Eq. 1): l = slope_x n, m = slope_y n, n = 1/sqrt(1 +
@@ -51,7 +67,7 @@ enum class Root {
 };  ///< front: the larger X, where a tool in front works; rear: the smaller
 
 /// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
-/// (effects.md's quadratic with K = 1 + tan²(half angle), no tilt of the line).
+/// (the quadratic of docs/theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line).
 Intersection intersect(const Revolved& surface, double c_rad, double z_mm, double height_mm = 0.0,
                        Root root = Root::front);
 

@@ -10,6 +10,7 @@
 #include "cli/earlier_table.hpp"
 #include "cli/guarded.hpp"
 #include "correct/files/table_csv.hpp"
+#include "correct/files/table_text.hpp"
 #include "fit/files/fit_json.hpp"
 #include "format/file.hpp"
 #include "job/files/job_toml.hpp"

@@ -16,14 +16,14 @@ namespace trueaxis::cli {
 /// How a stream is to be associated, the same for every command that fits one.
 struct AssociationOptions {
   FitOptions fit;
-  std::string loss = "plain";
+  std::string surface = "cone", loss = "plain";
   double noise_um = -1.0;
 
   CLI::Option* add_to(CLI::App& command) {
     std::vector<std::string> surfaces;
     for (const SurfaceInfo& info : surface_catalogue()) surfaces.emplace_back(info.id);
-    CLI::Option* surface = command.add_option("--surface", fit.surface, "reference surface")
-                               ->check(CLI::IsMember(surfaces));
+    CLI::Option* option = command.add_option("--surface", surface, "reference surface")
+                              ->check(CLI::IsMember(surfaces));
     command.add_option("--loss", loss, "plain (default), huber or tukey")
         ->check(CLI::IsMember({"plain", "huber", "tukey"}));
     command.add_flag("--bore", fit.bore, "probed from inside");
@@ -35,13 +35,14 @@ struct AssociationOptions {
         ->check(a_length());
     command.add_option("--coverage-factor", fit.coverage_factor, "k of U = k u (2)")
         ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
-    return surface;
+    return option;
   }
 
   FitOptions chosen() const {
     static const std::map<std::string, Loss> losses{
         {"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}};
     FitOptions options = fit;
+    options.surface = surface_from_id(surface);
     options.loss = losses.at(loss);
     if (noise_um >= 0.0) options.noise_mm = noise_um * mm_per_um;
     return options;

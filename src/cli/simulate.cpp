@@ -9,7 +9,7 @@
 #include "cli/guarded.hpp"
 #include "cli/simulate_from.hpp"
 #include "format/file.hpp"
-#include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "simulate/files/cut_table_csv.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"

@@ -7,6 +7,7 @@
 #include "cli/guarded.hpp"
 #include "diagnose/files/diagnosis_read.hpp"
 #include "format/file.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "resimulate/files/comparison_json.hpp"
 #include "resimulate/files/comparison_text.hpp"

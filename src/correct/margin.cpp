@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int angles = 180;  // of a revolution: a peak of order 1 to 3 is missed by 1e-3 at most
 constexpr int places = 9;    // along the cut; peaks are at its ends unless an axis crosses
 constexpr int phases = 96;   // between two rows or set-points
-// Images either side. ObservationMask: what is left out is 2.5 % of the error of a table that runs
+// Images either side. Rows: what is left out is 2.5 % of the error of a table that runs
 // so slowly that the actuator filters nothing. Set-points: the actuator has long filtered the
 // fourth.
 constexpr int row_images = 24;

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "correct/repeating_motion.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -24,7 +24,7 @@ class Profile {
   double position_start_mm() const { return start_mm_; }
   /// Along the feed, mm per revolution, with the sign of the direction.
   double feed_mm_per_rev() const { return feed_mm_per_rev_; }
-  /// ObservationMask of the table: the fewest whole revolutions of which the last row reaches the
+  /// Rows of the table: the fewest whole revolutions of which the last row reaches the
   /// end.
   std::size_t rows() const { return rows_; }
   double position_mm(std::size_t row) const;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/describe.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "math/statistics.hpp"
@@ -12,16 +13,14 @@
 namespace trueaxis {
 namespace {
 
-using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 constexpr const char* no_redundancy =
     "no uncertainty: as many readings as parameters, and no sensor noise given";
 constexpr double cylinder_sds =
     3.0;  // a half angle within 3 u of zero cannot be told from a cylinder
 constexpr double cylinder_tan = 1e-10;  // below, noise-free: 0.01 nm over 100 mm
 
-ObservationMask as_rows(const std::vector<double>& values, Eigen::Index columns) {
-  return Eigen::Map<const ObservationMask>(
+RowMajorMatrix as_rows(const std::vector<double>& values, Eigen::Index columns) {
+  return Eigen::Map<const RowMajorMatrix>(
       values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
 }
 
@@ -33,8 +32,8 @@ Eigen::Index index_of(const std::vector<std::string>& names, std::string_view na
 /// Parameters with value and u; those that move along an undetermined direction say so instead.
 std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
                                             const std::vector<double>& value,
-                                            const ObservationMask& jacobian,
-                                            const ObservationMask& edge,
+                                            const RowMajorMatrix& jacobian,
+                                            const RowMajorMatrix& edge,
                                             const Determination& determination) {
   std::vector<FitParameter> parameters;
   for (std::size_t i = 0; i < info.parameters.size(); ++i) {
@@ -83,12 +82,9 @@ void check_cone(const JointModel& model, const std::vector<double>& joint,
   // As many readings as parameters have no u: nothing then says that it is a cylinder.
   const double limit = std::isfinite(u) ? std::max(cylinder_sds * u, cylinder_tan) : cylinder_tan;
   if (std::abs(value) > limit) return;
-  char text[160];
-  std::snprintf(
-      text, sizeof text,
-      "k and half_angle: the cone cannot be told from a cylinder, half angle %.2g° ± %.2g°",
-      std::atan(value) / rad_per_deg, u / rad_per_deg);
-  result.not_determined.push_back(text);
+  result.not_determined.push_back(fmt::format(
+      "k and half_angle: the cone cannot be told from a cylinder, half angle {:.2g}° ± {:.2g}°",
+      std::atan(value) / rad_per_deg, u / rad_per_deg));
   withdraw(result, "k", "the cone cannot be told from a cylinder");
   withdraw(result, "half_angle", "the cone cannot be told from a cylinder");
 }
@@ -97,7 +93,7 @@ constexpr double rival_sds = 3.0;  // likelihood ratio e^-4.5: 1 in 90
 
 /// A second minimum as low as the first, outside its uncertainty: the readings do not choose.
 void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
-                 const Association& association, const Noise& noise, FitResult& result) {
+                 const Association& association, const ReadingNoise& noise, FitResult& result) {
   if (!association.rival || !result.not_determined.empty()) return;
   const Minimum& best = association.minimum;
   const Minimum& rival = *association.rival;
@@ -119,11 +115,10 @@ void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_up
       FitParameter& parameter = result.set_ups[s].parameters[i];
       if (std::abs(other.value[i] - parameter.estimate.value) <= rival_sds * parameter.estimate.u)
         continue;
-      char term[120];
-      std::snprintf(term, sizeof term, "%s%s%s %.6g or %.6g", text.empty() ? "" : ", ",
-                    parameter.name.c_str(), where.c_str(), parameter.estimate.value,
-                    other.value[i]);
-      if (!said) text += term;
+      if (!said) {
+        text += fmt::format("{}{}{} {:.6g} or {:.6g}", text.empty() ? "" : ", ", parameter.name,
+                            where, parameter.estimate.value, other.value[i]);
+      }
       withdraw(parameter, "two surfaces fit these readings equally well");
     }
   }
@@ -134,8 +129,8 @@ void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_up
 struct Standing {
   const Surface& surface;
   std::vector<double> working;
-  Eigen::MatrixXd covariance;       ///< of `working`
-  ObservationMask report_jacobian;  ///< of the reported parameters with respect to the joint ones
+  Eigen::MatrixXd covariance;      ///< of `working`
+  RowMajorMatrix report_jacobian;  ///< of the reported parameters with respect to the joint ones
 };
 
 SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
@@ -143,9 +138,9 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   const Surface& surface = standing.surface;
   SetUpFit out{placed.set_up, placed.root, parameters, {}, surface.shape(standing.working)};
   out.axis.axis = surface.axis(standing.working);
-  const ObservationMask jacobian = as_rows(surface.axis_jacobian(standing.working),
-                                           static_cast<Eigen::Index>(standing.working.size()));
-  const ObservationMask axis = jacobian * standing.covariance * jacobian.transpose();
+  const RowMajorMatrix jacobian = as_rows(surface.axis_jacobian(standing.working),
+                                          static_cast<Eigen::Index>(standing.working.size()));
+  const RowMajorMatrix axis = jacobian * standing.covariance * jacobian.transpose();
   std::copy_n(axis.data(), 16, out.axis.covariance.begin());
   return out;
 }
@@ -168,12 +163,11 @@ void report_derived(const Standing& last, FitResult& result) {
   const std::span<const std::string_view> names = last.surface.working_names();
   const auto radius = std::ranges::find(names, "radius") - names.begin();
   const Eigen::MatrixXd& covariance = last.covariance;
-  if (result.surface == "cone" && radius < last.covariance.rows()) {
+  if (result.surface == SurfaceKind::cone && radius < last.covariance.rows()) {
     result.derived.push_back(
         length("radius_mid", result.shape.radius_mm, std::sqrt(covariance(radius, radius))));
   }
-  const ObservationMask axis =
-      Eigen::Map<const ObservationMask>(result.axis.covariance.data(), 4, 4);
+  const RowMajorMatrix axis = Eigen::Map<const RowMajorMatrix>(result.axis.covariance.data(), 4, 4);
   const Axis& line = result.axis.axis;
   const auto offset = [&](const char* name, double z) {
     Eigen::Matrix<double, 2, 4> at;
@@ -182,12 +176,12 @@ void report_derived(const Standing& last, FitResult& result) {
     result.derived.push_back(
         length(name, std::hypot(x, y), u_of_norm({x, y}, at * axis * at.transpose())));
   };
-  if (result.surface == "section") offset("eccentricity", line.z_ref_mm);
-  if (result.surface == "cone" || result.surface == "cylinder") {
+  if (result.surface == SurfaceKind::section) offset("eccentricity", line.z_ref_mm);
+  if (result.surface == SurfaceKind::cone || result.surface == SurfaceKind::cylinder) {
     offset("offset_at_min_z", result.position_min_mm);
     offset("offset_at_max_z", result.position_max_mm);
   }
-  if (result.surface == "section") return;
+  if (result.surface == SurfaceKind::section) return;
   const Eigen::Vector2d slope(line.slope_x, line.slope_y);
   const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
   result.derived.push_back(
@@ -208,14 +202,12 @@ void report_rms(FitResult& result) {
 
 constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
 
-void add_notes(const Noise& noise, FitResult& result) {
-  char text[200];
+void add_notes(const ReadingNoise& noise, FitResult& result) {
   if (noise.u_factor > 1.0) {
-    std::snprintf(
-        text, sizeof text,
-        "neighbouring residuals correlate (%.2f): form or slow noise; every u is widened %.1f-fold",
-        noise.autocorrelation, noise.u_factor);
-    result.notes.emplace_back(text);
+    result.notes.push_back(fmt::format(
+        "neighbouring residuals correlate ({:.2f}): form or slow noise; every u is widened "
+        "{:.1f}-fold",
+        noise.autocorrelation, noise.u_factor));
   }
   if (result.loss != Loss::plain) return;
   std::vector<double> sample;  // spread evenly: enough for a scale
@@ -229,17 +221,15 @@ void add_notes(const Noise& noise, FitResult& result) {
            .abs() > limit)
           .count();
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
-    std::snprintf(text, sizeof text,
-                  "%td readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)",
-                  far);
-    result.notes.emplace_back(text);
+    result.notes.push_back(fmt::format(
+        "{} readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)", far));
   }
 }
 
 }  // namespace
 
 void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
-              Association& association, const Noise& noise, const FitOptions& options,
+              Association& association, const ReadingNoise& noise, const FitOptions& options,
               FitResult& result) {
   const std::vector<double>& joint = association.minimum.working;
   const std::vector<double> scale = model.scale_mm(joint);
@@ -264,19 +254,18 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     const JointPart& part = model.part_of(placed);
     const Eigen::MatrixXd a = model.working_jacobian(joint, part);
     std::vector<double> working = model.working(joint, part);
-    const ObservationMask report =
+    const RowMajorMatrix report =
         as_rows(part.surface->report(working).jacobian, static_cast<Eigen::Index>(working.size()));
     return Standing{*part.surface, std::move(working), a * covariance * a.transpose(), report * a};
   };
   for (const PlacedSetUp& placed : set_ups) {
     const Standing standing = stand(placed);
-    const ObservationMask& jacobian = standing.report_jacobian;
-    const ObservationMask edge = jacobian * covariance * jacobian.transpose();
-    result.set_ups.push_back(
-        report_set_up(placed, standing,
-                      report_parameters(surface_info(result.surface),
-                                        standing.surface.report(standing.working).value, jacobian,
-                                        edge, determination)));
+    const RowMajorMatrix& jacobian = standing.report_jacobian;
+    const RowMajorMatrix edge = jacobian * covariance * jacobian.transpose();
+    result.set_ups.push_back(report_set_up(
+        placed, standing,
+        report_parameters(model.info(), standing.surface.report(standing.working).value, jacobian,
+                          edge, determination)));
     result.covariance.assign(edge.data(), edge.data() + edge.size());
   }
   const Standing last = stand(set_ups.back());

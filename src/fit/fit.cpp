@@ -8,7 +8,7 @@
 #include "fit/describe.hpp"
 #include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
-#include "surface/surface.hpp"
+#include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -71,7 +71,7 @@ void validate(const FitOptions& options) {
 FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
                        const std::array<double, 2>& range_mm) {
   FitResult result;
-  result.surface = options.surface;
+  result.surface = options.profile ? SurfaceKind::own : options.surface;
   result.loss = options.loss;
   result.bore = options.bore;
   result.coverage_factor = options.coverage_factor;
@@ -83,11 +83,20 @@ FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
   return result;
 }
 
+CatalogueEntry surface_entry(const FitOptions& options) {
+  return options.profile ? own_entry(options.profile) : catalogue_entry(options.surface);
+}
+
 /// What may be fitted at all: @throws InputError if not.
 void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
   validate(options);
   expects(stream.size() > 0, "readings");
-  expect_kind(stream, surface_info(options.surface));
+  expect_kind(stream, surface_entry(options).info);
+  const bool ball = stream.ball_radius_mm.value_or(0.0) > 0.0 || options.ball_radius_mm > 0.0;
+  if (options.profile && (ball || stream.indication == Indication::relative)) {
+    throw InputError(stream.source,
+                     "a profile of one's own is fitted to absolute readings of contact points");
+  }
 }
 
 FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
@@ -96,7 +105,7 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
   if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
                      std::to_string(model.parameter_count()) + " parameters of a " +
-                     options.surface + in_clampings(model.clampings());
+                     model.info().id + in_clampings(model.clampings());
     return result;
   }
   FitOptions known = options;
@@ -106,11 +115,11 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
   result.iterations = association.minimum.iterations;
   if (!association.minimum.normal.valid) {
     result.status = FitStatus::max_iterations;
-    result.message =
-        "no surface of this kind meets all probe lines: is the stream a " + options.surface + "?";
+    result.message = "no surface of this kind meets all probe lines: is the stream a " +
+                     std::string(model.info().id) + "?";
     return result;
   }
-  const Noise noise = estimate_noise(association, model.parameter_count(), known);
+  const ReadingNoise noise = estimate_noise(association, model.parameter_count(), known);
   result.status = association.minimum.converged ? FitStatus::converged : FitStatus::max_iterations;
   if (!association.minimum.converged) {
     result.message = "not converged after " + std::to_string(result.iterations) +
@@ -125,7 +134,7 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
 FitResult fit(const ProbeStream& stream, const FitOptions& options) {
   expect_fittable(stream, options);
   const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
-  const JointModel model(stream, set_ups, options.surface, frame_of(stream, options));
+  const JointModel model(stream, set_ups, surface_entry(options), frame_of(stream, options));
   return fit_model(stream, set_ups, model, options);
 }
 
@@ -155,10 +164,21 @@ FitResult RepeatedFit::operator()(std::span<const double> reading_mm) {
     of.model->reload_readings(of.stream);
   } else {
     of.set_ups = std::move(set_ups);
-    of.model = std::make_unique<JointModel>(of.stream, of.set_ups, of.options.surface,
+    of.model = std::make_unique<JointModel>(of.stream, of.set_ups, surface_entry(of.options),
                                             frame_of(of.stream, of.options));
   }
   return fit_model(of.stream, of.set_ups, *of.model, of.options);
+}
+
+const Estimate& find_parameter(std::span<const FitParameter> parameters, std::string_view name) {
+  const auto found = std::ranges::find(parameters, name, &FitParameter::name);
+  expects(found != parameters.end(), "a parameter that there is");
+  return found->estimate;
+}
+
+const Estimate& FitResult::parameter(std::string_view name) const {
+  const bool is_derived = std::ranges::find(derived, name, &FitParameter::name) != derived.end();
+  return find_parameter(is_derived ? derived : parameters, name);
 }
 
 const char* to_string(FitStatus status) {

@@ -37,8 +37,8 @@ double stretch(double slope_x, double slope_y) {
 }  // namespace
 
 JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
-                       std::string_view surface, const SurfaceFrame& frame)
-    : size_(stream.size()) {
+                       const CatalogueEntry& surface, const SurfaceFrame& frame)
+    : info_(surface.info), size_(stream.size()) {
   place_frames(stream, set_ups, frame);
   for (const PlacedSetUp& placed : set_ups) {
     if (placed.clamping == first_.size()) first_.push_back(placed.set_up);
@@ -48,7 +48,7 @@ JointModel::JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>
     part.root = placed.root;
     SurfaceFrame from_side = frames_[placed.clamping];
     from_side.root = placed.root;
-    part.surface = make_surface(surface, from_side);
+    part.surface = surface.make(from_side);
   }
   if (parts_.size() == 1) {
     parts_.front().prepared = std::make_unique<PreparedStream>(stream);
@@ -205,14 +205,13 @@ NormalMatrix JointModel::accumulate(std::span<const double> joint, const LossSca
     const JointPart& all = parts_.front();
     return trueaxis::accumulate(*all.surface, joint, *all.prepared, loss);
   }
-  using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   NormalMatrix out;
   out.parameters = parameter_count();
   out.jtj.assign(out.parameters * out.parameters, 0.0);
   out.jtr.assign(out.parameters, 0.0);
   const auto p = static_cast<Eigen::Index>(out.parameters);
   const auto q = static_cast<Eigen::Index>(working_names_.size());
-  Eigen::Map<ObservationMask> jtj(out.jtj.data(), p, p);
+  Eigen::Map<RowMajorMatrix> jtj(out.jtj.data(), p, p);
   Eigen::Map<Eigen::VectorXd> jtr(out.jtr.data(), p);
   out.curvature = 0.0;
   for (const JointPart& part : parts_) {
@@ -220,7 +219,7 @@ NormalMatrix JointModel::accumulate(std::span<const double> joint, const LossSca
         trueaxis::accumulate(*part.surface, working(joint, part), *part.prepared, loss);
     if (!of_part.valid) return out;
     const Eigen::MatrixXd a = working_jacobian(joint, part);
-    jtj += a.transpose() * Eigen::Map<const ObservationMask>(of_part.jtj.data(), q, q) * a;
+    jtj += a.transpose() * Eigen::Map<const RowMajorMatrix>(of_part.jtj.data(), q, q) * a;
     jtr += a.transpose() * Eigen::Map<const Eigen::VectorXd>(of_part.jtr.data(), q);
     out.sum_rho += of_part.sum_rho;
     out.curvature += of_part.curvature * static_cast<double>(part.rows.size());

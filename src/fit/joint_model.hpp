@@ -8,33 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "fit/place_set_ups.hpp"
 #include "model/normal_matrix.hpp"
+#include "surface/catalogue.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 
-/// A set-up of the stream, the clamping it stands in (the set-ups from one move of the part to the
-/// next) and the side it was probed from.
-struct PlacedSetUp {
-  SetUp set_up;
-  std::size_t clamping = 0;
-  Root root = Root::front;
-  double z_shift_mm =
-      0.0;  ///< of the part; 0 for a face, whose position is X, and for one clamping
-
-  bool operator==(const PlacedSetUp&) const = default;
-};
-
-/// "set-up 2".
-std::string set_up_name(const SetUp& set_up);
-
-/// Clampings are told by the metadata, sides by the metadata or else by the sign of X_M.
-/// @throws InputError where X_M changes sign within a set-up, or contradicts a stated side.
-std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream);
-
-/// Lowest and highest position on the part, Z less its shift (X of a face), for every clamping.
-std::vector<std::array<double, 2>> probed_ranges(const ProbeStream& stream,
-                                                 const std::vector<PlacedSetUp>& set_ups);
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The readings of one clamping from one side, with the surface that they are of.
 struct JointPart {
@@ -57,11 +38,12 @@ class JointModel {
   /// Of `frame` all but side and positions, which are those of each set-up. The stream must outlive
   /// the model.
   JointModel(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
-             std::string_view surface, const SurfaceFrame& frame);
+             const CatalogueEntry& surface, const SurfaceFrame& frame);
 
   /// The stream's readings are other numbers now; C, positions and set-ups are as they were.
   void reload_readings(const ProbeStream& stream);
 
+  const SurfaceInfo& info() const { return info_; }
   std::size_t parameter_count() const { return names_.size(); }
   std::size_t size() const { return size_; }
   Indication indication() const { return parts_.front().prepared->source().indication; }
@@ -97,6 +79,7 @@ class JointModel {
     return clampings() > 1 && radius_ < working_names_.size() && tan_ < working_names_.size();
   }
 
+  SurfaceInfo info_;
   std::vector<JointPart> parts_;
   std::size_t size_;
   std::span<const std::string_view> working_names_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "fit/place_set_ups.hpp"
+
 #include <algorithm>
 #include <limits>
-#include <string>
 
-#include "fit/joint_model.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/error.hpp"
 

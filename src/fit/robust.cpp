@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/robust.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "fit/starts.hpp"
 #include "math/statistics.hpp"
@@ -97,10 +98,9 @@ std::vector<Rejected> list_rejected(const Association& association) {
   for (std::size_t i = 0; i < association.residual_mm.size(); ++i) {
     const double size = std::abs(association.residual_mm[i]);
     if (size < limit) continue;
-    char why[96];
-    std::snprintf(why, sizeof why, "%.4g µm off, %.1f σ%s", association.residual_mm[i] / mm_per_um,
-                  size / association.scale_mm, tukey ? "" : " (little weight)");
-    rejected.push_back({i + 1, why});
+    rejected.push_back(
+        {i + 1, fmt::format("{:.4g} µm off, {:.1f} σ{}", association.residual_mm[i] / mm_per_um,
+                            size / association.scale_mm, tukey ? "" : " (little weight)")});
   }
   return rejected;
 }

@@ -28,7 +28,8 @@ Sample sample_of(const PreparedStream& stream) {
     for (std::size_t i = 0; i < blocks; ++i) take(stream.block(i), stream.filled(i), sample);
     return sample;
   }
-  // 128 readings each: 64 of a block's beginning would do as well; both ends of the stream are in.
+  // The first 64 readings of 16 blocks, among them the first of the stream and the last but one:
+  // the last may hold a single reading.
   constexpr std::size_t parts = 2 * start_blocks, part = block_size / 2;
   for (std::size_t k = 0; k < parts; ++k) {
     const double golden = std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);

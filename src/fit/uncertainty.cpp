@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/uncertainty.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <numeric>
 
@@ -61,17 +62,16 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
         sums(static_cast<Eigen::Index>(j)) += a * block.column[j][i];
     }
   }
-  using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const ObservationMask>(transform.data(), static_cast<Eigen::Index>(p),
-                                           static_cast<Eigen::Index>(columns)) *
+  return Eigen::Map<const RowMajorMatrix>(transform.data(), static_cast<Eigen::Index>(p),
+                                          static_cast<Eigen::Index>(columns)) *
          sums;
 }
 
 }  // namespace
 
-Noise estimate_noise(const Association& association, std::size_t parameters,
-                     const FitOptions& options) {
-  Noise noise;
+ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
+                            const FitOptions& options) {
+  ReadingNoise noise;
   const std::vector<double>& residual = association.residual_mm;
   const auto n = static_cast<double>(residual.size());
   const double redundancy = n - static_cast<double>(parameters);
@@ -149,17 +149,15 @@ std::string name_direction(const Eigen::VectorXd& direction, const std::vector<s
   std::string text;
   for (Eigen::Index i = 0; i < size.size(); ++i) {
     if (std::abs(size(i)) < 0.05) continue;
-    char term[64];
-    std::snprintf(term, sizeof term, "%s%.2f %s",
-                  text.empty() ? (size(i) < 0 ? "-" : "") : (size(i) < 0 ? " - " : " + "),
-                  std::abs(size(i)), names[static_cast<std::size_t>(i)].c_str());
-    text += term;
+    text += fmt::format("{}{:.2f} {}",
+                        text.empty() ? (size(i) < 0 ? "-" : "") : (size(i) < 0 ? " - " : " + "),
+                        std::abs(size(i)), names[static_cast<std::size_t>(i)]);
   }
   return text;
 }
 
 std::vector<Source> budget_sources(const JointModel& model, const Association& association,
-                                   const Determination& determination, const Noise& noise,
+                                   const Determination& determination, const ReadingNoise& noise,
                                    const FitOptions& options) {
   const std::vector<double>& joint = association.minimum.working;
   const double sigma = noise.sigma_mm * noise.u_factor;

@@ -11,7 +11,7 @@
 namespace trueaxis {
 
 /// What the data say about the noise of one reading.
-struct Noise {
+struct ReadingNoise {
   double sigma_mm = 0.0;  ///< NaN: no redundancy and no sensor noise given
   std::string source;
   double autocorrelation = 0.0;
@@ -19,8 +19,8 @@ struct Noise {
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
 
-Noise estimate_noise(const Association& association, std::size_t parameters,
-                     const FitOptions& options);
+ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
+                            const FitOptions& options);
 
 /// Which combinations of the working parameters the data determine.
 struct Determination {
@@ -45,7 +45,7 @@ struct Source {
   Eigen::MatrixXd covariance;
 };
 std::vector<Source> budget_sources(const JointModel& model, const Association& association,
-                                   const Determination& determination, const Noise& noise,
+                                   const Determination& determination, const ReadingNoise& noise,
                                    const FitOptions& options);
 
 }  // namespace trueaxis

@@ -15,7 +15,7 @@ double face_radius(const JobReference& reference, const FitResult& fit,
                    const TargetSurface& target) {
   if (target.kind == TargetKind::face)
     return std::max(target.radius_start_mm, target.radius_end_mm);
-  if (fit.surface != "plane") return 0.0;
+  if (fit.surface != SurfaceKind::plane) return 0.0;
   if (reference.face_radius_mm > 0.0) return reference.face_radius_mm;
   return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
 }

@@ -11,8 +11,12 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::string_view slip = "part.slip";
 constexpr const char* remedy = ": clamp it again and probe again";
+
+bool is_slip(std::string_view id) {
+  const Effect* effect = find_effect(id);
+  return effect && is_step(effect->term);
+}
 
 Estimate parameter_of(const Finding& finding, std::string_view name) {
   for (const FitParameter& p : finding.parameters) {
@@ -51,15 +55,16 @@ std::string named(const Finding& finding, double k) {
   return text + (by.empty() ? "" : " by " + by);
 }
 
-/// As a member of the class of another name.
+/// As a member of the class of another name; empty: it is none.
 std::string possible(const Finding& finding) {
-  std::string text =
-      "the part may have slipped in the chuck, which the data cannot tell from " + finding.effect();
   for (const Rival& rival : finding.rivals) {
-    if (rival.effect == slip)
-      text += fmt::format(" (probability of the slip {:.2g})", rival.probability);
+    if (!is_slip(rival.effect)) continue;
+    return fmt::format(
+        "the part may have slipped in the chuck, which the data cannot tell from {} "
+        "(probability of the slip {:.2g})",
+        finding.effect(), rival.probability);
   }
-  return text;
+  return "";
 }
 
 }  // namespace
@@ -72,9 +77,10 @@ std::string slip_objection(const JobResult& result) {
     const std::string reference = result.job.references[i].name;
     const std::string where = reference.empty() ? "" : reference + ": ";
     for (const Finding& finding : diagnosis.findings) {
-      if (finding.effect() == slip)
+      if (is_step(finding.term.effect->term))
         return where + named(finding, diagnosis.baseline.coverage_factor) + remedy;
-      if (perhaps.empty() && finding.may_be(slip)) perhaps = where + possible(finding) + remedy;
+      const std::string maybe = possible(finding);
+      if (perhaps.empty() && !maybe.empty()) perhaps = where + maybe + remedy;
     }
   }
   return perhaps;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "model/prepared_stream.hpp"
+
 #include <algorithm>
 
 #include "math/sincos.hpp"
 #include "model/column_buffer.hpp"
-#include "model/normal_matrix.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -53,7 +53,7 @@ std::string influence_text(const Influence& influence) {
 }
 
 void add_fit(Options& options, const FitOptions& fit) {
-  options.add("surface", fit.surface + (fit.bore ? ", a bore" : ""));
+  options.add("surface", to_string(fit.surface) + std::string(fit.bore ? ", a bore" : ""));
   options.add("loss", loss_text(fit.loss));
   if (fit.ball_radius_mm > 0.0) options.add("ball radius", fit.ball_radius_mm, "mm");
   if (fit.noise_mm) options.add("noise of one reading", *fit.noise_mm / mm_per_um, "µm");

@@ -64,7 +64,7 @@ void place_part(const FitResult& fit, const ProbeStream& stream, Scenario& scena
   part.m = *now.m;
   part.bore = fit.bore;
   part.radius_mm = fit.shape.radius_mm;
-  if (fit.surface != "cone") return;
+  if (fit.surface != SurfaceKind::cone) return;
   part.kind = PartKind::cone;
   part.half_angle_rad = std::atan(fit.shape.tan_half_angle);
   part.radius_at_mm = (last.z_ref_mm - set_ups.back().z_shift_mm) * secant(last);

@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "surface/cone.hpp"
+#include "surface/cylinder.hpp"
+#include "surface/plane.hpp"
+#include "surface/section.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -16,17 +21,14 @@ const std::array<CatalogueEntry, 4>& entries() {
   return list;
 }
 
-const CatalogueEntry& entry(std::string_view id) {
-  const auto found =
-      std::ranges::find(entries(), id, [](const CatalogueEntry& e) { return e.info.id; });
-  if (found != entries().end()) return *found;
-  std::string known;
-  for (const CatalogueEntry& e : entries())
-    known += (known.empty() ? "" : ", ") + std::string(e.info.id);
-  throw InputError("surface", "unknown surface '" + std::string(id) + "': use one of " + known);
-}
-
 }  // namespace
+
+const CatalogueEntry& catalogue_entry(SurfaceKind kind) {
+  const auto found =
+      std::ranges::find(entries(), kind, [](const CatalogueEntry& e) { return e.info.kind; });
+  expects(found != entries().end(), "a surface of the catalogue");
+  return *found;
+}
 
 std::span<const SurfaceInfo> surface_catalogue() {
   static const auto infos = [] {
@@ -37,10 +39,47 @@ std::span<const SurfaceInfo> surface_catalogue() {
   return infos;
 }
 
-const SurfaceInfo& surface_info(std::string_view id) { return entry(id).info; }
+const SurfaceInfo& surface_info(SurfaceKind kind) { return catalogue_entry(kind).info; }
 
-std::unique_ptr<Surface> make_surface(std::string_view id, const SurfaceFrame& frame) {
-  return entry(id).make(frame);
+std::vector<double> reported_jacobian(SurfaceKind kind, const Revolved& shape, double z_mm) {
+  SurfaceFrame frame;
+  frame.position_ref_mm = z_mm;
+  const std::unique_ptr<Surface> surface = make_surface(kind, frame);
+  const Axis& axis = shape.axis;
+  const auto [x, y] = axis.at(z_mm);
+  const double s_mm = (z_mm - axis.z_ref_mm) * std::hypot(1.0, axis.slope_x, axis.slope_y);
+  const double radius_mm = shape.radius_mm + shape.tan_half_angle * s_mm;
+  const double all[6] = {x, y, axis.slope_x, axis.slope_y, radius_mm, shape.tan_half_angle};
+  constexpr std::size_t section[] = {0, 1, 4}, tilted[] = {0, 1, 2, 3, 4, 5};
+  const std::span<const std::size_t> column =
+      kind == SurfaceKind::section
+          ? std::span<const std::size_t>(section)
+          : std::span<const std::size_t>(tilted).first(surface->parameter_count());
+  std::vector<double> working;
+  for (const std::size_t c : column) working.push_back(all[c]);
+  const Surface::Reported reported = surface->report(working);
+  std::vector<double> jacobian(6 * reported.value.size(), 0.0);
+  for (std::size_t i = 0; i < reported.value.size(); ++i)
+    for (std::size_t j = 0; j < column.size(); ++j)
+      jacobian[6 * i + column[j]] = reported.jacobian[i * column.size() + j];
+  return jacobian;
+}
+
+std::unique_ptr<Surface> make_surface(SurfaceKind kind, const SurfaceFrame& frame) {
+  return catalogue_entry(kind).make(frame);
+}
+
+const char* to_string(SurfaceKind kind) {
+  return kind == SurfaceKind::own ? "own" : surface_info(kind).id;
+}
+
+SurfaceKind surface_from_id(std::string_view id) {
+  std::string known;
+  for (const SurfaceInfo& info : surface_catalogue()) {
+    if (info.id == id) return info.kind;
+    known += (known.empty() ? "" : ", ") + std::string(info.id);
+  }
+  throw InputError("surface", "unknown surface '" + std::string(id) + "': use one of " + known);
 }
 
 }  // namespace trueaxis

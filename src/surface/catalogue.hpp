@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "surface/surface.hpp"
@@ -10,12 +11,10 @@ namespace trueaxis {
 /// A catalogue line and the maker of the surface: one pair per file of this folder.
 struct CatalogueEntry {
   SurfaceInfo info;
-  std::unique_ptr<Surface> (*make)(const SurfaceFrame& frame);
+  std::function<std::unique_ptr<Surface>(const SurfaceFrame& frame)> make;
 };
 
-CatalogueEntry cone_entry();
-CatalogueEntry cylinder_entry();
-CatalogueEntry plane_entry();
-CatalogueEntry section_entry();
+/// The line of a kind other than `own`.
+const CatalogueEntry& catalogue_entry(SurfaceKind kind);
 
 }  // namespace trueaxis

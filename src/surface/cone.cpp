@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/catalogue.hpp"
+#include "surface/cone.hpp"
+
 #include "surface/revolved_surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -26,7 +27,8 @@ class Cone final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry cone_entry() {
-  return {{"cone",
+  return {{SurfaceKind::cone,
+           "cone",
            "cone, apex at k along its axis",
            StreamKind::lateral,
            true,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/catalogue.hpp"
+#include "surface/cylinder.hpp"
+
 #include "surface/revolved_surface.hpp"
 
 namespace trueaxis {
@@ -25,7 +26,8 @@ class Cylinder final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry cylinder_entry() {
-  return {{"cylinder",
+  return {{SurfaceKind::cylinder,
+           "cylinder",
            "cylinder",
            StreamKind::lateral,
            true,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "surface/plane.hpp"
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "surface/catalogue.hpp"
 #include "surface/revolved_surface.hpp"
 
 namespace trueaxis {
@@ -88,7 +89,13 @@ class Plane final : public Surface {
 }  // namespace
 
 CatalogueEntry plane_entry() {
-  return {{"plane", "face, n·p = d", StreamKind::face, true, {"l", "m", "d"}, {"1", "1", "mm"}},
+  return {{SurfaceKind::plane,
+           "plane",
+           "face, n·p = d",
+           StreamKind::face,
+           true,
+           {"l", "m", "d"},
+           {"1", "1", "mm"}},
           [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
             return std::make_unique<Plane>(frame);
           }};

@@ -49,7 +49,7 @@ double RevolvedSurface::gauge_shift(const ReadingBlock& readings, std::size_t co
 
 // The quadric |q|² = K s² + 2 t r s + r², s = ζ + bx (x − x0) + by (y − y0), sorted by x, y and ζ
 // with the axis' cosine taken as 1 and x² bx² dropped; β = bx x0 + by y0:
-//   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (…) y + 2 K bx xζ + 2 K by yζ
+//   x² + y² = 2 (x0 + bx (t r − K β)) x + 2 (y0 + by (t r − K β)) y + 2 K bx xζ + 2 K by yζ
 //             + r² − x0² − y0² − 2 t r β + K β² + 2 (t r − K β) ζ + t² ζ².
 std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::size_t count) const {
   const double shift = gauge_shift(readings, count);

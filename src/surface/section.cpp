@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/catalogue.hpp"
+#include "surface/section.hpp"
+
 #include "surface/revolved_surface.hpp"
 
 namespace trueaxis {
@@ -22,7 +23,8 @@ class Section final : public RevolvedSurface {
 }  // namespace
 
 CatalogueEntry section_entry() {
-  return {{"section",
+  return {{SurfaceKind::section,
+           "section",
            "circle off-centre, one section",
            StreamKind::lateral,
            false,

@@ -46,7 +46,8 @@ struct SurfaceFrame {
 
 /// A line of the catalogue.
 struct SurfaceInfo {
-  std::string_view id;
+  SurfaceKind kind;
+  const char* id;
   std::string_view title;
   StreamKind stream;
   bool needs_position;                              ///< false: fitted without Z
@@ -108,9 +109,14 @@ class Surface {
 /// Every surface the engine knows, in the order it is listed.
 std::span<const SurfaceInfo> surface_catalogue();
 
-/// The catalogue line of `id`. @throws InputError naming the known ids.
-const SurfaceInfo& surface_info(std::string_view id);
+/// The catalogue line of a kind other than `own`.
+const SurfaceInfo& surface_info(SurfaceKind kind);
 
-std::unique_ptr<Surface> make_surface(std::string_view id, const SurfaceFrame& frame);
+/// Derivatives of the reported parameters (edge units, catalogue's order) with respect to the axis
+/// point x, y at `z_mm`, the slopes, the radius there and the tangent of the half angle: row-major,
+/// 6 columns. Of a lateral surface of the catalogue.
+std::vector<double> reported_jacobian(SurfaceKind kind, const Revolved& shape, double z_mm);
+
+std::unique_ptr<Surface> make_surface(SurfaceKind kind, const SurfaceFrame& frame);
 
 }  // namespace trueaxis

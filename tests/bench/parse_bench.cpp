@@ -9,6 +9,7 @@
 #include <string>
 
 #include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "support/command.hpp"
 
 namespace trueaxis::blind {

@@ -39,6 +39,24 @@ TEST(Readme, ConsoleBlockIsTheOutput) {
   EXPECT_GT(lines, 5U);
 }
 
+std::string block_after(const std::string& text, const std::string& opening) {
+  const std::size_t begin = text.find(opening);
+  if (begin == std::string::npos) return "";
+  return text.substr(begin + opening.size(),
+                     text.find("```", begin + opening.size()) - begin - opening.size());
+}
+
+TEST(Readme, CppBlockIsTheExampleAndItsOutput) {
+  const std::string readme = read_text(source + "/README.md");
+  const std::string code = block_after(readme, "```cpp\n");
+  const std::string example = read_text(source + "/examples/fit_cone.cpp");
+  ASSERT_FALSE(code.empty());
+  EXPECT_TRUE(example.ends_with(code)) << code;
+  const CommandResult result = shell(TRUEAXIS_EXAMPLE);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(block_after(readme, "```text\n"), result.output);
+}
+
 class Shipped : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Shipped, StreamIsWhatItsScenarioMakes) {

@@ -37,7 +37,7 @@ void expect_efficient(const Sweep& sweep, double tests, double parameters = 6.0)
   const double lowest = std::sqrt(quantile(square, tail) / n);
   const double highest = std::sqrt(quantile(complement(square, tail)) / n);
   for (const Row& row : summary.rows) {
-    const std::string where = std::string(fitted_surface(sweep)) +
+    const std::string where = std::string(to_string(fitted_surface(sweep))) +
                               (" cell " + std::to_string(row.cell)) + " " + row.quantity;
     if (gauge && (row.quantity.starts_with("radius") || row.quantity == "k")) {  // not shown
       EXPECT_TRUE(std::isnan(row.bound)) << where;
@@ -156,20 +156,20 @@ TEST(Bound, IsReachedByASection) {
 TEST(Bound, IsNotThereWhereTheAxisMovedUnsaid) {
   Scenario scenario = clamped_twice(PartKind::cylinder);
   scenario.plan.setups[0].reindex_rad = scenario.plan.setups[0].z_shift_mm = 0.0;
-  const Bound bound = bound_of(scenario, "cylinder");
+  const Bound bound = bound_of(scenario, SurfaceKind::cylinder);
   for (const double sd : bound.sd) EXPECT_TRUE(std::isnan(sd));
   EXPECT_EQ(bound.missing, Bound::Missing::axis_moves);
 }
 
 TEST(Bound, IsNotThereWithoutNoise) {
   Scenario scenario = probed_part(PartKind::cylinder);
-  EXPECT_EQ(bound_of(scenario, "cylinder").missing, Bound::Missing::nothing);
+  EXPECT_EQ(bound_of(scenario, SurfaceKind::cylinder).missing, Bound::Missing::nothing);
   scenario.noise = {};
-  const Bound bound = bound_of(scenario, "cylinder");
+  const Bound bound = bound_of(scenario, SurfaceKind::cylinder);
   EXPECT_TRUE(std::isnan(bound.sd.front()));
   EXPECT_EQ(bound.missing, Bound::Missing::no_noise);
   scenario.noise.quantisation_mm = 1e-3;  // rounding is noise
-  EXPECT_EQ(bound_of(scenario, "cylinder").missing, Bound::Missing::nothing);
+  EXPECT_EQ(bound_of(scenario, SurfaceKind::cylinder).missing, Bound::Missing::nothing);
 }
 
 TEST(Bound, KnowsTheKindOfNoise) {
@@ -236,19 +236,19 @@ TEST(Bound, WhitensAsTheInverseCovarianceDoes) {
       correlation.push_back(one.phi[0] * correlation[k - 1] + second * correlation[k - 2]);
     }
     const Eigen::VectorXd expected = sd_written_out(scenario, correlation);
-    const Bound bound = bound_of(scenario, "plane");
+    const Bound bound = bound_of(scenario, SurfaceKind::plane);
     EXPECT_EQ(bound.kind,
               one.uniform_mm > 0.0 ? Bound::Kind::gauss_markov : Bound::Kind::cramer_rao);
     for (std::size_t i = 0; i < 3; ++i)
       EXPECT_NEAR(bound.sd[i] / expected(static_cast<Eigen::Index>(i)), 1.0, 1e-7) << i;
   }
   scenario.noise.autoregression = {}, scenario.noise.rho = 0.7;
-  const std::vector<double> by_rho = bound_of(scenario, "plane").sd;
+  const std::vector<double> by_rho = bound_of(scenario, SurfaceKind::plane).sd;
   scenario.noise.autoregression = {0.7}, scenario.noise.rho = 0.0;
-  EXPECT_EQ(by_rho, bound_of(scenario, "plane").sd);
+  EXPECT_EQ(by_rho, bound_of(scenario, SurfaceKind::plane).sd);
   scenario.noise.autoregression = {1.2, -0.1};
-  EXPECT_EQ(bound_of(scenario, "plane").missing, Bound::Missing::not_stationary);
-  for (const double sd : bound_of(scenario, "plane").sd) EXPECT_TRUE(std::isnan(sd));
+  EXPECT_EQ(bound_of(scenario, SurfaceKind::plane).missing, Bound::Missing::not_stationary);
+  for (const double sd : bound_of(scenario, SurfaceKind::plane).sd) EXPECT_TRUE(std::isnan(sd));
 }
 
 // A tilted cylinder at one Z: x0 and l are one but for what the tilt makes of the section's shape,
@@ -258,7 +258,7 @@ TEST(Bound, IsNotThereWhereItIsBeyondWhatDerivativesSay) {
   scenario.plan.passes[0].end_mm = scenario.plan.passes[0].start_mm;
   scenario.plan.passes[0].revolutions = 20.0;
   scenario.noise.sigma_mm = 0.05;
-  for (const double sd : bound_of(scenario, "cylinder").sd) EXPECT_TRUE(std::isnan(sd));
+  for (const double sd : bound_of(scenario, SurfaceKind::cylinder).sd) EXPECT_TRUE(std::isnan(sd));
 }
 
 TEST(Bound, IsNotThereWhereTheReadingsDoNotDetermineTheParameters) {

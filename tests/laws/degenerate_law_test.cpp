@@ -144,7 +144,7 @@ TEST(Degenerate, TheSameReadingAgainAndAgain) {
 
 TEST(Degenerate, FewReadings) {
   for (const std::string& id : catalogue_ids()) {
-    const std::size_t p = surface_info(id).parameters.size();
+    const std::size_t p = surface_info(surface_from_id(id)).parameters.size();
     for (std::size_t n = 1; n <= p + 1; ++n) {
       LawCase c;
       c.surface = id, c.x_mm = 1.5, c.noise_mm = 1e-4;

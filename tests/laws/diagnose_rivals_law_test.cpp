@@ -49,12 +49,12 @@ TEST(DiagnosedRivals, WidenTheUncertaintyOfTheAxis) {
     scenario.seed = first_seed + static_cast<std::uint64_t>(i);
     const ProbeStream stream = simulate(scenario);
     DiagnoseOptions options;
-    options.fit.surface = "cone";
+    options.fit.surface = SurfaceKind::cone;
     options.threads = 1;
     const FitResult fit = diagnose(stream, options).extended;
     ambiguous += fit.budget.size() > 1 ? 1 : 0;
     const std::vector<double> truth =
-        study::true_values(scenario, study::probed_length(stream), "cone");
+        study::true_values(scenario, study::probed_length(stream), SurfaceKind::cone);
     for (std::size_t p = 0; p < names.size(); ++p) {
       const double error = std::abs(fit.parameters[p].estimate.value - truth[p]);
       covered[p] += error <= 2.0 * fit.parameters[p].estimate.u ? 1 : 0;

@@ -26,7 +26,7 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   const double dx = GetParam(), dy = 0.5 * GetParam();
   scenario.effects = {{"part.slip", {{"time_s", 12.0}, {"dx_mm", dx}, {"dy_mm", dy}}}};
   DiagnoseOptions options;
-  options.fit.surface = "cylinder";
+  options.fit.surface = SurfaceKind::cylinder;
   options.threads = 1;
   const Diagnosis diagnosis = diagnose(simulate(scenario), options);
   const auto slip = std::ranges::find(diagnosis.findings, "part.slip", &Finding::effect);

@@ -44,7 +44,7 @@ TEST_P(DiagnosedTiming, IsToldAndMovesTheAxisByNoSecondOrder) {
   const double angle = 240.0 / 60.0 * 360.0 * rad_per_deg * seconds;
   const double second_order_mm = 0.5 * std::hypot(0.2, 0.1) * angle * angle;
   DiagnoseOptions options;
-  options.fit.surface = "cone";
+  options.fit.surface = SurfaceKind::cone;
   options.threads = 1;
   const ProbeStream stream = simulate(scenario);
   const Diagnosis diagnosis = diagnose(stream, options);
@@ -52,9 +52,9 @@ TEST_P(DiagnosedTiming, IsToldAndMovesTheAxisByNoSecondOrder) {
   const Finding& finding = diagnosis.findings[0];
   EXPECT_EQ(finding.members(), std::vector<std::string>{GetParam().effect});
   const std::vector<double> truth =
-      study::true_values(scenario, study::probed_length(stream), "cone");
+      study::true_values(scenario, study::probed_length(stream), SurfaceKind::cone);
   const study::Estimated found = study::estimated(diagnosis.extended);
-  const std::vector<study::Quantity> names = study::quantities("cone");
+  const std::vector<study::Quantity> names = study::quantities(SurfaceKind::cone);
   for (std::size_t i = 0; i < names.size(); ++i) {
     EXPECT_LT(std::abs(found.value[i] - truth[i]), 4.0 * found.u[i]) << names[i].name;
     if (names[i].name.ends_with("_at_max_z")) {

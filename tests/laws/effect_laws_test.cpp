@@ -49,7 +49,7 @@ TEST(EffectLaws, EntriesExplainThemselves) {
       EXPECT_LE(parameter.low, parameter.high) << parameter.name;
       EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
     }
-    EXPECT_EQ(std::holds_alternative<std::monostate>(effect.term), effect.check);
+    EXPECT_EQ(std::holds_alternative<std::monostate>(effect.term), effect.check.has_value());
     if (effect.check) continue;
     EXPECT_NE(effect.slot, Slot::noise);
     EXPECT_FALSE(effect.confounders.empty());
@@ -66,6 +66,54 @@ TEST(EffectLaws, ConfusionIsMutualAndNeverWithACheck) {
       EXPECT_FALSE(other->check || effect.check) << effect.id << ", " << id;
       EXPECT_EQ(std::count(other->confounders.begin(), other->confounders.end(), effect.id), 1)
           << id << " does not name " << effect.id;
+    }
+  }
+}
+
+// What a diagnosis does with an entry is about parameters that its term has.
+TEST(EffectLaws, SearchesFitTheirTerms) {
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.check) continue;
+    SCOPED_TRACE(effect.id);
+    TermShape shape;
+    shape.degree = std::max(shape.degree, effect.search.highest_degree);
+    const auto linear = linear_parameters(effect.term, shape);
+    const auto names = shape_parameters(effect.term);
+    for (const EffectParameter& p : effect.parameters) {
+      const bool told = p.of.empty() || std::ranges::count(names, p.of) == 1 ||
+                        std::ranges::count(linear, p.of, &LinearParameter::name) == 1;
+      EXPECT_TRUE(told) << p.name << " of " << p.of;
+    }
+    // Another value of a parameter that the term reads is told by its name.
+    const auto reads = [&](double TermShape::*parameter) {
+      TermShape other = shape;
+      other.*parameter += 1.0;
+      return std::ranges::any_of(names, [&](const std::string& name) {
+        return shape_value(shape, name) != shape_value(other, name);
+      });
+    };
+    for (const ShapeValues& v : effect.typical) {
+      EXPECT_TRUE(reads(v.parameter));
+      EXPECT_FALSE(v.values.empty());
+    }
+    ASSERT_FALSE(effect.search.forms.empty());
+    for (const Form& form : effect.search.forms) {
+      for (const std::size_t j : form.free) EXPECT_LT(j, linear.size());
+      EXPECT_EQ(form.starts.parameter == nullptr, form.starts.values.empty());
+      if (!form.starts.parameter) continue;
+      EXPECT_TRUE(reads(form.starts.parameter));
+      EXPECT_LT(form.starts.alone, form.starts.values.size());
+    }
+    if (effect.refinement) {
+      EXPECT_TRUE(reads(effect.refinement->parameter));
+    }
+    if (effect.line) {
+      EXPECT_LT(effect.line->low, effect.line->high);
+    }
+    const std::string_view twin = effect.second_order_twin;
+    if (!twin.empty()) {
+      ASSERT_NE(find_effect(twin), nullptr);
+      EXPECT_EQ(find_effect(twin)->second_order_twin, effect.id);
     }
   }
 }

@@ -12,7 +12,7 @@ namespace {
 
 void expect_refused(const ProbeStream& stream, const std::string& surface, const char* hint) {
   FitOptions options;
-  options.surface = surface;
+  options.surface = surface_from_id(surface);
   try {
     fit(stream, options);
     ADD_FAILURE() << surface << ": accepted";
@@ -30,7 +30,7 @@ LawCase case_of(const std::string& surface) {
 
 TEST(InputLaw, StreamsOfAnotherKind) {
   for (const std::string& id : catalogue_ids()) {
-    const SurfaceInfo& info = surface_info(id);
+    const SurfaceInfo& info = surface_info(surface_from_id(id));
     if (info.stream == StreamKind::face) {
       expect_refused(probe(case_of("cylinder")), id, "Z_M");
     } else {

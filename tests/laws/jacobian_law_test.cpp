@@ -56,7 +56,7 @@ TEST_P(JacobianLaw, PredictionAgainstDifferencesOfResiduals) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ' ' << to_literal(c));
     const ProbeStream stream = probe(c);
     const PreparedStream prepared(stream);
-    const auto surface = make_surface(GetParam(), frame_of(c));
+    const auto surface = make_surface(surface_from_id(GetParam()), frame_of(c));
     const std::vector<double> working = working_of(c);
     const std::size_t p = surface->parameter_count(), columns = surface->column_count();
     ASSERT_EQ(working.size(), p);
@@ -96,7 +96,7 @@ TEST_P(JacobianLaw, ReportedParametersAndAxisAgainstDifferences) {
   for (int i = 0; i < 300; ++i) {
     const LawCase c = random_case(GetParam(), draw);
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ' ' << to_literal(c));
-    const auto surface = make_surface(GetParam(), frame_of(c));
+    const auto surface = make_surface(surface_from_id(GetParam()), frame_of(c));
     const std::vector<double> working = working_of(c);
     const std::size_t p = working.size();
     const Surface::Reported reported = surface->report(working);
@@ -136,7 +136,7 @@ TEST_P(JacobianLaw, InfluencesAgainstDifferences) {
     LawCase c = random_case(GetParam(), draw);
     c.relative = false;
     SCOPED_TRACE(::testing::Message() << "seed " << seed << ' ' << to_literal(c));
-    const auto surface = make_surface(GetParam(), frame_of(c));
+    const auto surface = make_surface(surface_from_id(GetParam()), frame_of(c));
     const double c_rad = draw.uniform(-4.0, 4.0);
     const double position = draw.uniform(c.start_mm, c.end_mm);
     const auto at = surface->influences(working_of(c), c_rad, position);

@@ -49,7 +49,8 @@ struct Probed {
 };
 
 Probed probed_of(const LawCase& c) {
-  Probed probed{c, probe(c), working_of(c), make_surface(c.surface, frame_of(c)), {}};
+  Probed probed{
+      c, probe(c), working_of(c), make_surface(surface_from_id(c.surface), frame_of(c)), {}};
   probed.path = probed.surface->shape(probed.working);
   const double t = probed.path.tan_half_angle, ball = c.bore ? -c.ball_mm : c.ball_mm;
   probed.path.radius_mm += ball * std::sqrt(1.0 + t * t);

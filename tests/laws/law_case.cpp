@@ -105,7 +105,7 @@ double single_reading(const LawCase& c, double c_rad, double position_mm, double
 
 FitOptions options_of(const LawCase& c) {
   FitOptions options;
-  options.surface = c.surface;
+  options.surface = surface_from_id(c.surface);
   options.bore = c.bore;
   options.ball_radius_mm = c.ball_mm;
   return options;
@@ -178,8 +178,9 @@ std::vector<std::string> catalogue_ids() {
 
 std::vector<std::string> lateral_ids() {
   std::vector<std::string> ids = catalogue_ids();
-  std::erase_if(ids,
-                [](const std::string& id) { return surface_info(id).stream == StreamKind::face; });
+  std::erase_if(ids, [](const std::string& id) {
+    return surface_info(surface_from_id(id)).stream == StreamKind::face;
+  });
   return ids;
 }
 

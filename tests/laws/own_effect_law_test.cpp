@@ -74,7 +74,7 @@ TEST(OwnEffect, IsFoundByItsEntry) {
   ASSERT_EQ(known.findings.size(), 1u);
   EXPECT_EQ(known.verdict, DiagnosisVerdict::effects);
   const Finding& found = known.findings[0];
-  EXPECT_EQ(found.effect, five_at_the_ends.id);
+  EXPECT_EQ(found.effect(), five_at_the_ends.id);
   const double tolerance = five_u_mm(stream, 0.2);  // ∫ u⁴ over −1 … 1 is 2/5
   EXPECT_NEAR(parameter_of(found, "amplitude")->value, amplitude_mm, tolerance);
   EXPECT_NEAR(parameter_of(found, "phase")->value * rad_per_deg, phase_rad,
@@ -93,7 +93,7 @@ TEST(OwnEffect, IsScannedForAsALine) {
   const Diagnosis known = diagnosed(stream, own);
   ASSERT_EQ(known.findings.size(), 1u);
   const Finding& found = known.findings[0];
-  EXPECT_EQ(found.effect, three_starts.id);
+  EXPECT_EQ(found.effect(), three_starts.id);
   const double tolerance = five_u_mm(stream, 1.0);
   EXPECT_NEAR(parameter_of(found, "amplitude")->value, amplitude_mm, tolerance);
   // u of a frequency over a length L is u of the phase times √12/L.

@@ -67,15 +67,15 @@ TEST(RepeatedFit, GivesTheBitsOfFit) {
       for (const int set_ups : {1, 2}) {
         FitOptions options;
         options.loss = loss;
-        options.surface = "cone";
+        options.surface = SurfaceKind::cone;
         expect_same_fits(shaft(PartKind::cone, set_ups, rear), options);
-        options.surface = "cylinder";
+        options.surface = SurfaceKind::cylinder;
         expect_same_fits(shaft(PartKind::cylinder, set_ups, rear), options);
       }
     }
     FitOptions options;
     options.loss = loss;
-    options.surface = "plane";
+    options.surface = SurfaceKind::plane;
     expect_same_fits(shaft(PartKind::face, 1, false), options);
   }
 }

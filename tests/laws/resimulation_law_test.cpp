@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual lathe hides one effect of the catalogue; the diagnosis that names it at its size, as
 // written to a file, plays back the very readings. Nothing of the engine's terms is evaluated: the
-// numbers go from effects.md through the file to the lathe.
+// numbers go from the catalogue through the file to the lathe.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ class ResimulationLaw : public ::testing::TestWithParam<LatheBench> {
   void SetUp() override {
     ideal_ = lathe::simulate(GetParam().scenario());
     FitOptions options;
-    options.surface = GetParam().tangent == 0.0 ? "cylinder" : "cone";
+    options.surface = GetParam().tangent == 0.0 ? SurfaceKind::cylinder : SurfaceKind::cone;
     options.bore = GetParam().bore;
     diagnosis_.baseline = diagnosis_.extended = fit(ideal_, options);
     ASSERT_EQ(diagnosis_.baseline.status, FitStatus::converged);

@@ -18,7 +18,7 @@ constexpr double known_noise_mm = 1e-6;  // makes u / known_noise the √ of the
 
 FitOptions options_for(const std::string& surface) {
   FitOptions options;
-  options.surface = surface;
+  options.surface = surface_from_id(surface);
   return options;
 }
 

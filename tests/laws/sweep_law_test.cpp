@@ -5,6 +5,7 @@
 #include <set>
 
 #include "study/bound/quantities.hpp"
+#include "study/sweep/block_bytes.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/units.hpp"
@@ -75,7 +76,7 @@ TEST(Quantities, AreThoseOfThePart) {
   scenario.part.apex_mm.reset();
   scenario.part.radius_mm = 30.0, scenario.part.radius_at_mm = 10.0;
   scenario.part.half_angle_rad = -0.1;  // falls with Z: the apex lies beyond
-  const std::vector<double> truth = true_values(scenario, {10.0, 40.0}, "cone");
+  const std::vector<double> truth = true_values(scenario, {10.0, 40.0}, SurfaceKind::cone);
   EXPECT_NEAR(truth[4], 10.0 + 30.0 / std::tan(0.1), 1e-9);
   EXPECT_NEAR(truth[5], 0.1 / rad_per_deg, 1e-12);
   const double n = std::sqrt(1.0 - 4e-4 * 4e-4 - 7e-4 * 7e-4);

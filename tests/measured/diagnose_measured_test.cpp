@@ -44,7 +44,7 @@ class Tube : public ::testing::Test {
   void SetUp() override {
     const std::string path = measured("tube_6in.csv");
     if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-    options_.fit.surface = "cylinder";
+    options_.fit.surface = SurfaceKind::cylinder;
     stream_ = read_stream_csv(path);
     found_ = diagnose(stream_, options_);
     print(found_);
@@ -161,7 +161,7 @@ class Trace : public ::testing::Test {
     read.nominal_radius_mm = 14.5;
     stream_ = read_stream_csv(path, read);
     DiagnoseOptions options;
-    options.fit.surface = "section";
+    options.fit.surface = SurfaceKind::section;
     found_ = diagnose(stream_, options);
     print(found_);
   }

@@ -30,7 +30,7 @@ TEST(MeasuredFit, TubeAsACone) {
   const std::string path = measured("tube_6in.csv");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const FitResult result = fit(read_stream_csv(path), FitOptions());
-  EXPECT_EQ(result.surface, "cone");
+  EXPECT_EQ(result.surface, SurfaceKind::cone);
   EXPECT_NEAR(result.rms_mm, 0.0976, 0.01 * 0.0976);
   EXPECT_EQ(result.points, 60u);
   // Its taper of 0.76 mrad (0.044°) is below 3 u of a form that is 0.1 mm out: no cone, and told
@@ -43,7 +43,7 @@ FitResult roundness(const std::string& path, Loss loss) {
   options.indication = Indication::relative;
   options.nominal_radius_mm = 14.5;
   FitOptions fit_options;
-  fit_options.surface = "section";
+  fit_options.surface = SurfaceKind::section;
   fit_options.loss = loss;
   return fit(read_stream_csv(path, options), fit_options);
 }

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -DBUILD=<build tree> -DSOURCE=<this folder> -DSCRATCH=<folder> -DCOMPILER=<c++> -P consume.cmake
-# Installs the build into a scratch prefix, builds a program with find_package and runs it.
+# cmake -DBUILD=<build tree> -DSOURCE=<project> -DSCRATCH=<folder> -DCOMPILER=<c++> -DFLAGS=… -P consume.cmake
+# The project without Apache ECharts still configures. The core installed in a scratch prefix is found by the
+# examples, which are built apart from the project and run; the command is installed with everything else.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY COMMAND_ECHO STDOUT)
 endfunction()
+set(tools -G Ninja "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
 
 file(REMOVE_RECURSE "${SCRATCH}")
+run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}" -B "${SCRATCH}/core" -DTRUEAXIS_ECHARTS=/nonexistent)
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${SCRATCH}/core_prefix" --component core)
+run("${CMAKE_COMMAND}" ${tools} -S "${SOURCE}/examples" -B "${SCRATCH}/examples"
+  "-DCMAKE_PREFIX_PATH=${SCRATCH}/core_prefix")
+run("${CMAKE_COMMAND}" --build "${SCRATCH}/examples")
+run("${CMAKE_CTEST_COMMAND}" --test-dir "${SCRATCH}/examples" --output-on-failure)
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${SCRATCH}/prefix")
-run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}" -B "${SCRATCH}/build" "-DCMAKE_PREFIX_PATH=${SCRATCH}/prefix"
-    "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${FLAGS}" -DCMAKE_BUILD_TYPE=Release)
-run("${CMAKE_COMMAND}" --build "${SCRATCH}/build")
-run("${SCRATCH}/build/consumer")
 run("${SCRATCH}/prefix/bin/trueaxis" --version)

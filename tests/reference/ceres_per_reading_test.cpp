@@ -131,7 +131,7 @@ class CeresPerReading : public testing::TestWithParam<Case> {
 
   FitOptions options_for(Loss loss) const {
     FitOptions options;
-    options.surface = GetParam().surface;
+    options.surface = surface_from_id(GetParam().surface);
     options.loss = loss;
     return options;
   }

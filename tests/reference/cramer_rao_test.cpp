@@ -86,7 +86,7 @@ Trial run_trial(ProbeStream stream, const SurfaceCase& c, Loss loss, int number)
   std::normal_distribution<double> noise(0.0, sigma_mm);
   for (double& x_mm : stream.reading_mm) x_mm += noise(random);
   FitOptions options;
-  options.surface = c.surface;
+  options.surface = surface_from_id(c.surface);
   options.loss = loss;
   const FitResult result = fit(stream, options);
   Trial trial;

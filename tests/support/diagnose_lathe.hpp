@@ -34,8 +34,9 @@ inline virtual_lathe::Scenario one_pass(double tangent, double turns, double sig
 
 inline DiagnoseOptions on_one_core(const virtual_lathe::Scenario& scenario) {
   DiagnoseOptions options;
-  options.fit.surface =
-      scenario.part.kind == virtual_lathe::PartKind::cylinder ? "cylinder" : "cone";
+  options.fit.surface = scenario.part.kind == virtual_lathe::PartKind::cylinder
+                            ? SurfaceKind::cylinder
+                            : SurfaceKind::cone;
   options.threads = 1;
   return options;
 }

@@ -92,7 +92,7 @@ inline void read_surface(ProbeStream& stream, FitResult& fit, const Revolved& su
 
 inline FitResult cone_fit(ProbeStream& stream) {
   FitResult fit;
-  fit.surface = "cone";
+  fit.surface = SurfaceKind::cone;
   const Revolved cone = true_cone();
   read_surface(stream, fit, cone);
   const Axis axis = cone.axis;
@@ -201,7 +201,7 @@ inline JobResult section_job() {
   JobResult result = cone_job(180);
   ProbeStream& stream = result.streams.front();
   FitResult& fit = result.fits.front();
-  fit.surface = "section";
+  fit.surface = SurfaceKind::section;
   const auto [x, y] = true_axis().at(12.0);
   fit.shape = {{x, y, 0.0, 0.0, 0.0}, 50.0, 0.0};
   fit.axis.axis = fit.shape.axis;
@@ -223,7 +223,7 @@ inline void add_face(JobResult& result) {
   stream.source = "face.csv";
   stream.input_hash = "xxh3-64:fedcba9876543210";
   FitResult fit;
-  fit.surface = "plane";
+  fit.surface = SurfaceKind::plane;
   std::mt19937_64 random(seed + 1);
   std::normal_distribution<double> noise(0.0, noise_mm);
   const Axis axis{0.0, 0.0, 4e-4, -2e-4, 0.0};
@@ -252,7 +252,7 @@ inline void add_face(JobResult& result) {
   JobReference reference;
   reference.name = "shoulder face";
   reference.stream = "face.csv";
-  reference.fit.surface = "plane";
+  reference.fit.surface = SurfaceKind::plane;
   reference.weight = 0.5;
   reference.face_radius_mm = 45.0;
   result.job.references.push_back(reference);
@@ -274,7 +274,7 @@ inline JobResult shaft_and_face_job() {
     stream.reading_mm[i] =
         contact_mm(cylinder, stream.c_rad[i], stream.position_mm[i]) - 49.7 + fit.residual_mm[i];
   }
-  fit.surface = "cylinder";
+  fit.surface = SurfaceKind::cylinder;
   fit.shape = cylinder;
   fit.parameters.resize(4);
   fit.parameters.push_back(

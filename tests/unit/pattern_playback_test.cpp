@@ -38,7 +38,7 @@ ProbeStream measured() {
 Diagnosis diagnosed(const Unexplained& pattern) {
   Diagnosis d;
   FitResult& fit = d.baseline;
-  fit.surface = "cylinder";
+  fit.surface = SurfaceKind::cylinder;
   fit.status = FitStatus::converged;
   fit.shape.radius_mm = radius_mm;
   d.extended = fit;

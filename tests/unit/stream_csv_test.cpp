@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@
 
 #include "format/file.hpp"
 #include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

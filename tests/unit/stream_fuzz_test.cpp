@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/error.hpp"
 

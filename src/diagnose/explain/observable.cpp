@@ -113,10 +113,7 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     for (std::size_t j = 0; j < std::min<std::size_t>(own.size(), 2); ++j) {
       const auto c = static_cast<Eigen::Index>(own[j]);
       kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
-      Eigen::VectorXd right(static_cast<Eigen::Index>(taken.size()));
-      for (Eigen::Index i = 0; i < right.size(); ++i)
-        right(i) = joint.equations.total()(
-            static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]), c);
+      const Eigen::VectorXd right = joint.equations.total()(taken, c);
       const Eigen::VectorXd change = (joint.solution.inverse * right).head(n);
       worst = std::max(worst, axis_shift(point, change, Eigen::MatrixXd::Zero(n, n)).value_mm);
     }

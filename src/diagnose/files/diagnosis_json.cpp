@@ -110,7 +110,7 @@ Json spectrum_object(const std::vector<SpectrumBin>& spectrum) {
 }
 
 Json options_object(const Diagnosis& d) {
-  return {{"surface", d.baseline.surface},
+  return {{"surface", to_string(d.baseline.surface)},
           {"feature", d.baseline.bore ? "bore" : "shaft"},
           {"loss", to_string(d.baseline.loss)},
           {"coverage_factor", number(d.baseline.coverage_factor)},

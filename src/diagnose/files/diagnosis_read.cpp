@@ -42,7 +42,7 @@ FitResult fit_from(const Json& json) {
   FitResult fit;
   fit.source = json.at("input").at("file");
   fit.input_hash = json.at("input").at("hash");
-  fit.surface = json.at("surface");
+  fit.surface = surface_from_id(json.at("surface").get<std::string>());
   fit.bore = json.at("feature") == "bore";
   fit.status = status_from(json.at("status"));
   if (fit.status != FitStatus::converged) return fit;

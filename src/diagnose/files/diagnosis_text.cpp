@@ -36,8 +36,8 @@ std::string held_out(const Gain& gain) {
 }
 
 std::string origin(const Diagnosis& d) {
-  std::string text = d.baseline.surface + " of " + d.baseline.source + ": " +
-                     std::to_string(d.baseline.points) + " readings";
+  std::string text = std::string(to_string(d.baseline.surface)) + " of " + d.baseline.source +
+                     ": " + std::to_string(d.baseline.points) + " readings";
   if (d.hypotheses > 0) {
     text += fmt::format(", {} hypotheses tried, false alarm {:.3g} % over all of them",
                         d.hypotheses, 100.0 * d.false_alarm);
@@ -58,7 +58,7 @@ std::string finding_block(const Finding& finding, std::size_t number, double k) 
                   finding.effect() + "  " + finding_parameters(finding, k));
   if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
   text +=
-      wrapped("    axis_bias     ", finding_axis_bias(finding, k) +
+      wrapped("    bias     ", finding_axis_bias(finding, k) +
                                         "; RMS of its part of the readings " + um(finding.rms_mm));
   const std::string axis = axis_note(finding);
   if (!axis.empty()) text += wrapped("    axis     ", axis);

@@ -9,7 +9,8 @@
 namespace trueaxis::diagnose_detail {
 
 bool is_diagnosable(const FitResult& fit) {
-  return fit.surface != "plane" && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+  return fit.surface != SurfaceKind::plane && fit.surface != SurfaceKind::own &&
+         !fit.set_ups.empty() && !fit.residual_mm.empty() &&
          (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
 }
@@ -38,8 +39,8 @@ std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
 BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
                  const std::vector<Clamping>& clampings) {
   BaseKind base;
-  base.tilts = fit.surface != "section";
-  base.tapers = fit.surface == "cone";
+  base.tilts = fit.surface != SurfaceKind::section;
+  base.tapers = fit.surface == SurfaceKind::cone;
   base.offset = stream.indication == Indication::relative;
   base.axes = clampings.back().axis + 1;
   return base;

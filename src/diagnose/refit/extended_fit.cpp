@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -27,27 +28,15 @@ ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
   return out;
 }
 
-/// ∂(reported parameter)/∂(x, y, slopes at mid length; radius; tan of the half angle), edge units.
-Eigen::RowVectorXd reported_slope(const std::string& name, const Revolved& shape, double z_mid) {
+/// ∂(derived quantity)/∂(x, y, slopes at mid length; radius; tan of the half angle), edge units.
+Eigen::RowVectorXd derived_slope(const std::string& name, const Axis& axis) {
   Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(6);
-  const double t = shape.tan_half_angle;
-  const auto [x, y] = shape.axis.at(z_mid);
-  if (name == "x0") g(0) = 1.0, g(2) = -z_mid;
-  if (name == "y0") g(1) = 1.0, g(3) = -z_mid;
-  if (name == "l") g(2) = 1.0;
-  if (name == "m") g(3) = 1.0;
-  if (name == "radius" || name == "radius_mid") g(4) = 1.0;
-  if (name == "half_angle") g(5) = std::copysign(1.0, t) / (1.0 + t * t) / rad_per_deg;
-  // The apex is radius/tan below the middle of the length.
-  const double radius = shape.radius_mm + t * (z_mid - shape.axis.z_ref_mm);
-  if (name == "k" && t != 0.0) g(4) = -1.0 / t, g(5) = radius / (t * t);
-  if (name == "tilt") {
-    const double slope = std::hypot(shape.axis.slope_x, shape.axis.slope_y);
-    if (slope > 0.0)
-      g(2) = shape.axis.slope_x / slope / rad_per_deg,
-      g(3) = shape.axis.slope_y / slope / rad_per_deg;
+  if (name == "radius_mid") g(4) = 1.0;
+  const double slope = std::hypot(axis.slope_x, axis.slope_y);
+  if (name == "tilt" && slope > 0.0) {
+    g(2) = axis.slope_x / slope / rad_per_deg;
+    g(3) = axis.slope_y / slope / rad_per_deg;
   }
-  (void)x, (void)y;
   return g;
 }
 
@@ -100,10 +89,9 @@ FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::Matr
   const Eigen::MatrixXd covariance = of_noise + of_causes;
   const double z_mid = point.z_mid_mm;
   const std::size_t n = result.parameters.size();
-  Eigen::MatrixXd slope(static_cast<Eigen::Index>(n), 6);
-  for (std::size_t p = 0; p < n; ++p)
-    slope.row(static_cast<Eigen::Index>(p)) =
-        reported_slope(result.parameters[p].name, result.shape, z_mid);
+  const std::vector<double> jacobian = reported_jacobian(result.surface, result.shape, z_mid);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>> slope(
+      jacobian.data(), static_cast<Eigen::Index>(n), 6);
   const Eigen::MatrixXd joint_covariance = slope * covariance * slope.transpose();
   const Eigen::VectorXd from_noise = (slope * of_noise * slope.transpose()).diagonal(),
                         from_causes = (slope * of_causes * slope.transpose()).diagonal();
@@ -144,7 +132,7 @@ FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::Matr
       d.estimate.u = std::max(d.estimate.u, result.axis.u_at(z));
       continue;
     }
-    const Eigen::RowVectorXd g = reported_slope(d.name, result.shape, z_mid);
+    const Eigen::RowVectorXd g = derived_slope(d.name, result.axis.axis);
     const double variance = (g * covariance * g.transpose())(0, 0);
     if (variance > 0.0) d.estimate.u = std::max(d.estimate.u, std::sqrt(variance));
   }

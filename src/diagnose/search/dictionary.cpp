@@ -42,7 +42,7 @@ std::vector<std::pair<double, int>> functions_of(const Hypothesis& h) {
   const auto* around = std::get_if<Harmonic>(&h.effect->term);
   const auto* along = std::get_if<PolynomialInZ>(&h.effect->term);
   if (around && around->angle == Harmonic::Angle::part && has_free_order(*h.effect) &&
-      around->envelope == Harmonic::Envelope::growing) {
+      around->envelope == Harmonic::Envelope::growing && around->port == Port::normal) {
     out.emplace_back(h.shape.order, 0);
     if (h.free.empty()) out.emplace_back(h.shape.order, 1);
   } else if (along && along->port == Port::normal && !along->plain) {

@@ -75,14 +75,18 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
       for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
   }
   if (resolution.one_variable || resolution.sections) return basis;
+  std::vector<const Effect*> shown;
   for (const Effect& effect : effect_catalogue()) {
-    if (!effect.between_passes || (effect.needs.length && resolution.degrees <= 0) ||
-        (effect.needs.time && !point.has_time))
-      continue;
+    if (effect.between_passes > 0 && (!effect.needs.length || resolution.degrees > 0) &&
+        (!effect.needs.time || point.has_time))
+      shown.push_back(&effect);
+  }
+  std::ranges::sort(shown, {}, &Effect::between_passes);
+  for (const Effect* effect : shown) {
     TermShape sensor;
     sensor.reference_x_mm = point.reference_x_mm;
     sensor.range_mm = point.range_x_mm;
-    Hypothesis h = of_effect(effect, sensor);
+    Hypothesis h = of_effect(*effect, sensor);
     columns += h.columns();
     if (columns <= most) basis.push_back(std::move(h));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/search/causes.hpp"
@@ -47,17 +48,10 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
     c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
     Eigen::VectorXd size = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(own.size()));
     if (s.rank == own.size()) {
-      Eigen::MatrixXd part(size.size() + 1, size.size() + 1);
-      Columns all{0};
-      all.insert(all.end(), own.begin(), own.end());
-      for (Eigen::Index i = 0; i < part.rows(); ++i) {
-        for (Eigen::Index j = 0; j < part.cols(); ++j)
-          part(i, j) = projection.gram(static_cast<Eigen::Index>(all[static_cast<std::size_t>(i)]),
-                                       static_cast<Eigen::Index>(all[static_cast<std::size_t>(j)]));
-      }
-      Columns local(own.size());
-      for (std::size_t j = 0; j < local.size(); ++j) local[j] = j + 1;
-      size = solve(part, local).coefficients;
+      Columns all(own.size() + 1, 0), local(own.size());
+      std::ranges::copy(own, all.begin() + 1);
+      std::iota(local.begin(), local.end(), std::size_t{1});
+      size = solve(projection.gram(all, all), local).coefficients;
     }
     c.criterion = freedom * std::log(std::max(1.0 - s.gain / projection.rss, 1e-12)) +
                   penalty(list[h], s.rank, equations.count(), size);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -45,12 +47,11 @@ double Family::p_value(double single_p) const {
 }
 
 double Family::threshold(double level) const {
-  double low = 0.0, high = 400.0;  // e^(−z/2) is the p-value of a statistic z
-  for (int i = 0; i < 60; ++i) {
-    const double z = 0.5 * (low + high);
-    (p_value(std::exp(-0.5 * z)) > level ? low : high) = z;
-  }
-  return high;
+  // e^(−z/2) is the p-value of a statistic z. Bisected until two numbers have none between them.
+  const auto excess = [&](double z) { return p_value(std::exp(-0.5 * z)) - level; };
+  const auto never = [](double, double) { return false; };
+  std::uintmax_t steps = 100;
+  return boost::math::tools::bisect(excess, 0.0, 400.0, never, steps).second;
 }
 
 double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count,
@@ -83,15 +84,8 @@ double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count
 
 double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns) {
   const Solution s = solve(total - fold, columns);
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  Eigen::VectorXd right(n);
-  Eigen::MatrixXd left(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
-    right(i) = fold(a, 0);
-    for (Eigen::Index j = 0; j < n; ++j)
-      left(i, j) = fold(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
-  }
+  const Eigen::VectorXd right = fold(columns, 0);
+  const Eigen::MatrixXd left = fold(columns, columns);
   return fold(0, 0) - 2.0 * s.coefficients.dot(right) + s.coefficients.dot(left * s.coefficients);
 }
 

@@ -124,7 +124,7 @@ Json fit_object(const FitResult& result) {
   json["schema"] = "trueaxis.fit/1";
   json["version"] = TRUEAXIS_VERSION;
   json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
-  json["surface"] = result.surface;
+  json["surface"] = to_string(result.surface);
   json["feature"] = result.bore ? "bore" : "shaft";
   json["criterion"] = result.criterion;
   json["loss"] = to_string(result.loss);
@@ -167,7 +167,7 @@ FitResult read_fit_json(const std::string& path) {
                                  "): no correction from it");
     }
     result.status = FitStatus::converged;
-    result.surface = json.at("surface");
+    result.surface = surface_from_id(json.at("surface").get<std::string>());
     result.bore = json.at("feature") == "bore";
     result.source = path;
     result.input_hash = json.at("input").at("hash");

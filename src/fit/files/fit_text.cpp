@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fit/files/fit_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
+#include <iterator>
 #include <string>
+#include <utility>
 
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-  char line[256];
-  std::va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(line, sizeof line, format, arguments);
-  va_end(arguments);
-  text += line;
+template <typename... T>
+void append(std::string& text, fmt::format_string<T...> form, T&&... values) {
+  fmt::format_to(std::back_inserter(text), form, std::forward<T>(values)...);
 }
 
 void append_parameters(std::string& text, const std::vector<FitParameter>& parameters, double k) {
@@ -25,29 +23,28 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
     const Estimate& e = p.estimate;
     const double U = k * e.u;
     if (!e.determined()) {
-      append(text, "  %-16s %16s  %s\n", p.name.c_str(), "-", e.why_not.c_str());
+      append(text, "  {:<16} {:>16}  {}\n", p.name, "-", e.why_not);
     } else if (!std::isfinite(U)) {
-      append(text, "  %-16s %16.6f  %-3s  (%s)\n", p.name.c_str(), e.value, e.unit.c_str(),
-             e.why_not.c_str());
+      append(text, "  {:<16} {:16.6f}  {:<3}  ({})\n", p.name, e.value, e.unit, e.why_not);
     } else {
-      append(text, "  %-16s %16.*f ± %-10.2g %s\n", p.name.c_str(), decimals_of(U), e.value, U,
-             e.unit.c_str());
+      append(text, "  {:<16} {:16.{}f} ± {:<10.2g} {}\n", p.name, e.value, decimals_of(U), U,
+             e.unit);
     }
   }
 }
 
 /// "set-up 2  rear: x0 0.3012 ± 0.0004 mm, …".
 void append_set_up(std::string& text, const SetUpFit& one, double k) {
-  append(text, "  %-16s", ("set-up " + std::to_string(one.set_up.number)).c_str());
+  append(text, "  {:<16}", "set-up " + std::to_string(one.set_up.number));
   text += one.side == Root::rear ? " rear: " : " front:";
   for (const FitParameter& p : one.parameters) {
     const Estimate& e = p.estimate;
     text += &p == one.parameters.data() ? " " : ", ";
     if (!e.determined() || !std::isfinite(k * e.u)) {
-      append(text, "%s -", p.name.c_str());
+      append(text, "{} -", p.name);
     } else {
-      append(text, "%s %.*f ± %.2g%s%s", p.name.c_str(), decimals_of(k * e.u), e.value, k * e.u,
-             e.unit == "1" ? "" : " ", e.unit == "1" ? "" : e.unit.c_str());
+      append(text, "{} {:.{}f} ± {:.2g}{}", p.name, e.value, decimals_of(k * e.u), k * e.u,
+             e.unit == "1" ? "" : " " + e.unit);
     }
   }
   text += "\n";
@@ -57,25 +54,24 @@ void append_set_up(std::string& text, const SetUpFit& one, double k) {
 
 std::string fit_text(const FitResult& result) {
   std::string text;
-  append(text, "%s of %s: %s, %zu readings, %zu rejected, loss %s\n", result.surface.c_str(),
-         result.source.c_str(), to_string(result.status), result.points, result.rejected.size(),
+  append(text, "{} of {}: {}, {} readings, {} rejected, loss {}\n", to_string(result.surface),
+         result.source, to_string(result.status), result.points, result.rejected.size(),
          to_string(result.loss));
   if (!result.message.empty()) text += "  " + result.message + "\n";
-  append(text, "  parameters ± U (k = %.3g)\n", result.coverage_factor);
+  append(text, "  parameters ± U (k = {:.3g})\n", result.coverage_factor);
   append_parameters(text, result.parameters, result.coverage_factor);
   append_parameters(text, result.derived, result.coverage_factor);
   if (result.set_ups.size() > 1) {
     for (const SetUpFit& one : result.set_ups) append_set_up(text, one, result.coverage_factor);
   }
-  append(text, "  RMS %.4g µm, σ %.4g µm (from %s)\n", result.rms_mm / mm_per_um,
-         result.sigma_mm / mm_per_um, result.sigma_source.c_str());
+  append(text, "  RMS {:.4g} µm, σ {:.4g} µm (from {})\n", result.rms_mm / mm_per_um,
+         result.sigma_mm / mm_per_um, result.sigma_source);
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";
   for (std::size_t i = 0; i < result.rejected.size() && i < 10; ++i) {
-    append(text, "  rejected: row %zu, %s\n", result.rejected[i].row,
-           result.rejected[i].why.c_str());
+    append(text, "  rejected: row {}, {}\n", result.rejected[i].row, result.rejected[i].why);
   }
   if (result.rejected.size() > 10)
-    append(text, "  rejected: %zu more, all of them in the JSON\n", result.rejected.size() - 10);
+    append(text, "  rejected: {} more, all of them in the JSON\n", result.rejected.size() - 10);
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "correct/files/table_csv.hpp"
+#include "correct/files/table_text.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "fit/files/fit_text.hpp"

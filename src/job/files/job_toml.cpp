@@ -43,10 +43,10 @@ Sensor read_sensor(TomlTable table) {
 JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor) {
   JobReference reference;
   reference.stream = table.required_path("stream");
-  reference.fit.surface = table.required_text("surface");
-  reference.name = table.text("name", reference.fit.surface);
+  const std::string surface = table.required_text("surface");
+  reference.name = table.text("name", surface);
   try {
-    if (!reference.fit.surface.empty()) surface_info(reference.fit.surface);
+    if (!surface.empty()) reference.fit.surface = surface_from_id(surface);
   } catch (const InputError& error) {
     table.complain("surface", "is an " + error.diagnostics().front().message);
   }
@@ -230,7 +230,7 @@ Job read_job_toml(const std::string& path) {
     root.complain("reference", "is missing: add a [[reference]] with stream and surface");
   read_cut(root, job, false);
   for (const JobReference& reference : job.references) {
-    if (job.target && reference.fit.surface == "section") {
+    if (job.target && reference.fit.surface == SurfaceKind::section) {
       root.complain("target", "reference '" + reference.name +
                                   "' is one section, which shows no direction of an axis: probe it "
                                   "along Z as a cylinder or cone");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -17,12 +16,8 @@ struct StreamReadOptions {
   std::size_t max_diagnostics = 1000;       ///< further ones are counted, not listed
 };
 
-/// Reads design.md's CSV from a file, or from standard input when `path` is "-".
+/// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
-
-/// Writes `stream` so that read(write(stream)) is the same to the last bit (mm, rad).
-/// The file is written beside and renamed, so no half-written file stays; "-" is standard output.
-void write_stream_csv(const ProbeStream& stream, const std::string& path);
 
 }  // namespace trueaxis

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cstdint>
+#include <string>
 #include <system_error>
 
 namespace trueaxis {
@@ -46,6 +47,19 @@ inline const char* csv_number(const char* p, const char* end, double& value, std
   const auto [stop, why] = std::from_chars(start, end, value);
   error = why;
   return stop == start ? p : stop;
+}
+
+/// The shortest text that reads back as the same number, appended.
+template <class Number>
+void csv_append(std::string& text, Number value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+inline std::string csv_text(double value) {
+  std::string text;
+  csv_append(text, value);
+  return text;
 }
 
 }  // namespace trueaxis

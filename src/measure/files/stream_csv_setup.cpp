@@ -61,11 +61,6 @@ constexpr Quantity quantities[] = {
      "the force over that of the first clamping, 0 or more and without unit, such as 0.6"},
 };
 
-std::string shortest(double value) {
-  char digits[32];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
 }  // namespace
 
 bool csv_is_setup_key(std::string_view key) { return key.starts_with(prefix); }
@@ -115,7 +110,7 @@ void csv_put_setups(const ProbeStream& stream, const std::map<int, SetUp>& state
     for (const Quantity& quantity : quantities) {
       const double value = set_up.*quantity.member;
       if (value != said.*quantity.member)
-        metadata[key(quantity.what)] = shortest(value) + quantity.unit;
+        metadata[key(quantity.what)] = csv_text(value) + quantity.unit;
     }
     if (set_up.rear != said.rear) metadata[key("side")] = set_up.rear ? "rear" : "front";
   }

@@ -1,30 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "measure/files/stream_csv_write.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "format/output_file.hpp"
-#include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_finish.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
+#include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_setup.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-template <class Number>
-void append_number(std::string& text, Number value) {
-  char digits[32];
-  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
-}
-
-std::string shortest(double value) {
-  std::string text;
-  append_number(text, value);
-  return text;
-}
 
 std::string metadata_line(const std::string& key, const std::string& value) {
   return std::string("# ").append(key).append(": ").append(value);
@@ -50,11 +39,11 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
       out.erase(key);
     }
   };
-  const auto length = [](double value_mm) { return shortest(value_mm) + " mm"; };
+  const auto length = [](double value_mm) { return csv_text(value_mm) + " mm"; };
   set("nominal_radius", stream.nominal_radius_mm, said.known.nominal_radius_mm, length);
   set("sensor_noise", stream.sensor_noise_mm, said.known.sensor_noise_mm, length);
   set("ball_radius", stream.ball_radius_mm, said.known.ball_radius_mm, length);
-  set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, shortest);
+  set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, csv_text);
   if (stream.indication != said.known.indication.value_or(Indication::absolute)) {
     out["reading"] = stream.indication == Indication::relative ? "relative" : "absolute";
   }
@@ -106,10 +95,10 @@ void write_stream_csv(const ProbeStream& stream, const std::string& path) {
   OutputFile sink(path);
   const auto add = [&](auto value) {
     text += ',';
-    append_number(text, value);
+    csv_append(text, value);
   };
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    append_number(text, reading_factor * stream.reading_mm[i]);
+    csv_append(text, reading_factor * stream.reading_mm[i]);
     add(stream.c_rad[i]);
     if (stream.has_position()) add(position_factor * stream.position_mm[i]);
     if (!stream.time_s.empty()) add(stream.time_s[i]);

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/surface.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::study {
@@ -37,7 +38,7 @@ struct Bound {
 /// everywhere where the readings do not determine the parameters and where the metadata tell one
 /// clamping but the axis moved; the radius under a relative gauge.
 /// @param surface fitted: that of the part, or "section"
-Bound bound_of(const virtual_lathe::Scenario& scenario, std::string_view surface);
+Bound bound_of(const virtual_lathe::Scenario& scenario, SurfaceKind surface);
 
 /// "cramer_rao" or "gauss_markov".
 const char* to_string(Bound::Kind kind);

@@ -30,14 +30,14 @@ class Estimable {
  public:
   /// Nothing if set-ups of one clamping have axes of their own: no surface of the model is that.
   static std::optional<Estimable> of(const virtual_lathe::Scenario& scenario,
-                                     const ProbeStream& probed, std::string_view surface);
+                                     const ProbeStream& probed, SurfaceKind surface);
 
   virtual_lathe::Scenario& scenario() { return scenario_; }
   const virtual_lathe::Scenario& scenario() const { return scenario_; }
 
   /// Axis (section: centre) or face of every clamping, then radius and half angle of the part,
   /// which all share. A relative gauge does not show the radius.
-  std::vector<EstimatedParameter> levers();
+  std::vector<EstimatedParameter> estimated_parameters();
 
   /// Clamping of every reading where the gauge's zero is estimated, one a clamping; else empty.
   const std::vector<std::size_t>& gauge_zero_of() const { return gauge_zero_of_; }
@@ -47,7 +47,7 @@ class Estimable {
   void place_radius(const ProbeStream& probed);
 
   virtual_lathe::Scenario scenario_;
-  std::string_view surface_;
+  SurfaceKind surface_ = SurfaceKind::cone;
   std::vector<std::vector<int>> set_ups_;  ///< numbers, clamping by clamping
   std::vector<std::size_t> gauge_zero_of_;
 };

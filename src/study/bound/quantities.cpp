@@ -73,19 +73,21 @@ std::vector<double> face_of(const Scenario& scenario) {
 
 }  // namespace
 
-const char* surface_of(PartKind kind) {
-  return kind == PartKind::cone ? "cone" : kind == PartKind::cylinder ? "cylinder" : "plane";
+SurfaceKind surface_of(PartKind kind) {
+  return kind == PartKind::cone       ? SurfaceKind::cone
+         : kind == PartKind::cylinder ? SurfaceKind::cylinder
+                                      : SurfaceKind::plane;
 }
 
-std::vector<Quantity> quantities(std::string_view surface) {
+std::vector<Quantity> quantities(SurfaceKind surface) {
   const SurfaceInfo& info = surface_info(surface);
   std::vector<Quantity> out;
   for (std::size_t i = 0; i < info.parameters.size(); ++i)
     out.push_back({std::string(info.parameters[i]), std::string(info.units[i])});
-  if (surface == "plane" || surface == "section") return out;
+  if (surface == SurfaceKind::plane || surface == SurfaceKind::section) return out;
   for (const char* name : {"x_at_min_z", "y_at_min_z", "x_at_max_z", "y_at_max_z"})
     out.push_back({name, "mm"});
-  if (surface == "cone") out.push_back({"radius_mid", "mm"});
+  if (surface == SurfaceKind::cone) out.push_back({"radius_mid", "mm"});
   return out;
 }
 
@@ -105,13 +107,13 @@ Probed probed_length(const ProbeStream& stream) {
 }
 
 std::vector<double> true_values(const Scenario& scenario, const Probed& probed,
-                                std::string_view surface) {
+                                SurfaceKind surface) {
   const Part& part = scenario.part;
   if (part.kind == PartKind::face) return face_of(scenario);
   const TrueAxis axis = axis_of(scenario);
   std::vector<double> out{axis.x0, axis.y0, axis.l, axis.m};
   const double apex = apex_of(part) + axis.from_origin_mm;
-  if (surface == "section") {
+  if (surface == SurfaceKind::section) {
     const double z = 0.5 * (probed.low_mm + probed.high_mm);
     const bool tapers = part.kind == PartKind::cone && part.half_angle_rad != 0.0;
     return {axis.x_at(z), axis.y_at(z),
@@ -139,7 +141,7 @@ Estimated estimated(const FitResult& fit) {
   };
   for (const FitParameter& parameter : fit.parameters)
     put(parameter.estimate.value, parameter.estimate.u);
-  if (fit.surface == "plane" || fit.surface == "section") return out;
+  if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::section) return out;
   const Axis& axis = fit.axis.axis;
   const auto& c = fit.axis.covariance;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {

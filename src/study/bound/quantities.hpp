@@ -16,10 +16,10 @@ namespace trueaxis::study {
 struct Quantity {
   std::string name, unit;
 };
-std::vector<Quantity> quantities(std::string_view surface);
+std::vector<Quantity> quantities(SurfaceKind surface);
 
 /// Surface of the catalogue that a part is.
-const char* surface_of(virtual_lathe::PartKind kind);
+SurfaceKind surface_of(virtual_lathe::PartKind kind);
 
 /// Lowest and highest position of the readings since the part was last moved.
 struct Probed {
@@ -31,7 +31,7 @@ Probed probed_length(const ProbeStream& stream);
 /// where there is none (the apex of a cone of half angle 0). A section lies in the middle of
 /// `probed`.
 std::vector<double> true_values(const virtual_lathe::Scenario& scenario, const Probed& probed,
-                                std::string_view surface);
+                                SurfaceKind surface);
 
 /// The same of a fit, with standard uncertainties; NaN where the fit withholds a number.
 struct Estimated {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "study/sweep/setting.hpp"
+#include "trueaxis/surface.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 /// Robustness studies: a scenario of the virtual lathe over a grid, repeated with other noise, and
@@ -63,7 +64,7 @@ struct Sweep {
 };
 
 /// Surface that the sweep fits.
-std::string_view fitted_surface(const Sweep& sweep);
+SurfaceKind fitted_surface(const Sweep& sweep);
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.
 struct Cell {
@@ -73,6 +74,8 @@ struct Cell {
 };
 std::size_t cell_count(const Sweep& sweep);
 Cell cell_at(const Sweep& sweep, std::size_t cell);
+/// The labels of its point, one an axis.
+std::vector<std::string> labels_of(const Sweep& sweep, const Cell& cell);
 
 /// The scenario of a cell: first the lists of its cases, then the sweep's settings, then the
 /// numbers of all axes together. Its noise is seeded for repeat 0 and nothing drawn: a drawn number

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simulate/chain.hpp"
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <string>
 
-#include "simulate/chain.hpp"
 #include "simulate/effects_extra.hpp"
 #include "simulate/effects_machine.hpp"
 #include "simulate/effects_part.hpp"
 #include "simulate/effects_probe.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

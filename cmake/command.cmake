@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+# trueaxis::trueaxis adds every format in and out and the report to the core; the commands are built on it.
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tomlplusplus REQUIRED)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+
+file(GLOB TRUEAXIS_ASSETS CONFIGURE_DEPENDS src/report/*.js src/report/*.css src/report/*.html)
+add_library(trueaxis_lib STATIC ${TRUEAXIS_FILES})
+add_library(trueaxis::trueaxis ALIAS trueaxis_lib)
+set_target_properties(trueaxis_lib PROPERTIES OUTPUT_NAME trueaxis EXPORT_NAME trueaxis)
+target_include_directories(trueaxis_lib PRIVATE src)
+target_compile_definitions(trueaxis_lib PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
+target_link_libraries(trueaxis_lib PUBLIC trueaxis_core PRIVATE $<BUILD_INTERFACE:trueaxis_flags>
+  Eigen3::Eigen nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH)
+set_source_files_properties(src/report/assets.S PROPERTIES COMPILE_DEFINITIONS TRUEAXIS_ECHARTS="${TRUEAXIS_ECHARTS}"
+  OBJECT_DEPENDS "${TRUEAXIS_ECHARTS};${TRUEAXIS_ASSETS}")
+trueaxis_compile_rooms_as_one(trueaxis_lib)
+
+# A journal says which build wrote it: a hash of the library's files, one small source.
+file(GLOB_RECURSE TRUEAXIS_PRIVATE_HEADERS CONFIGURE_DEPENDS src/*.hpp)
+list(FILTER TRUEAXIS_PRIVATE_HEADERS EXCLUDE REGEX "/src/(cli|mpi)/")
+set(TRUEAXIS_HASHED ${TRUEAXIS_SOURCES} ${TRUEAXIS_HEADERS} ${TRUEAXIS_PRIVATE_HEADERS} ${TRUEAXIS_ASSETS})
+list(TRANSFORM TRUEAXIS_HASHED REPLACE "^${PROJECT_SOURCE_DIR}/" "")
+list(SORT TRUEAXIS_HASHED)
+add_custom_command(OUTPUT "${PROJECT_BINARY_DIR}/build_id.cpp"
+  COMMAND "${CMAKE_COMMAND}" "-DFILES=${TRUEAXIS_HASHED}" "-DOUT=${PROJECT_BINARY_DIR}/build_id.cpp"
+    -P src/base/build_id.cmake
+  DEPENDS ${TRUEAXIS_HASHED} src/base/build_id.cmake
+  WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" COMMENT "Build id" VERBATIM)
+target_sources(trueaxis_lib PRIVATE "${PROJECT_BINARY_DIR}/build_id.cpp")
+
+# Studies beside the library: what only the command needs.
+file(GLOB_RECURSE TRUEAXIS_STUDIES CONFIGURE_DEPENDS studies/*.cpp studies/*.S)
+file(GLOB_RECURSE TRUEAXIS_STUDY_SCRIPTS CONFIGURE_DEPENDS studies/*.js)
+add_library(trueaxis_studies STATIC ${TRUEAXIS_STUDIES})
+target_include_directories(trueaxis_studies PUBLIC "${PROJECT_SOURCE_DIR}" PRIVATE src)
+target_compile_definitions(trueaxis_studies PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
+target_link_libraries(trueaxis_studies PUBLIC trueaxis_lib PRIVATE trueaxis_flags
+  Eigen3::Eigen nlohmann_json::nlohmann_json fmt::fmt)
+trueaxis_compile_rooms_as_one(trueaxis_studies)
+set_source_files_properties(studies/published/assets.S PROPERTIES OBJECT_DEPENDS "${TRUEAXIS_STUDY_SCRIPTS}")
+
+file(GLOB TRUEAXIS_CLI CONFIGURE_DEPENDS src/cli/*.cpp)
+add_executable(trueaxis ${TRUEAXIS_CLI})
+target_include_directories(trueaxis PRIVATE src)
+target_compile_definitions(trueaxis PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
+target_link_libraries(trueaxis PRIVATE trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
+# CLI11 is all headers: they are read once, and what they make is not worth optimising.
+target_compile_options(trueaxis PRIVATE $<$<CONFIG:Release>:-O1>)
+trueaxis_read_once(trueaxis <CLI/CLI.hpp>)
+
+# The same sweeps on several machines, where Open MPI is installed.
+find_package(MPI QUIET COMPONENTS CXX)
+if(MPI_CXX_FOUND)
+  file(GLOB TRUEAXIS_MPI CONFIGURE_DEPENDS src/mpi/*.cpp)
+  add_executable(trueaxis-mpi ${TRUEAXIS_MPI} src/cli/guarded.cpp src/cli/progress.cpp src/cli/sweep_run.cpp)
+  target_include_directories(trueaxis-mpi PRIVATE src)
+  target_compile_definitions(trueaxis-mpi PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}"
+    OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(trueaxis-mpi PRIVATE trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog MPI::MPI_CXX)
+endif()

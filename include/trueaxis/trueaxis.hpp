@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Everything that trueaxis::core offers, from arrays to arrays. Inside mm, rad and s; X is a
+// radius; results for people (FitParameter) are in mm, deg and 1, each with its unit. Files and the
+// report belong to the command.
+
+#include "trueaxis/correction.hpp"     // target axis, correction table, actuator
+#include "trueaxis/diagnosis.hpp"      // what the ideal surface misses
+#include "trueaxis/effect.hpp"         // the catalogue of effects
+#include "trueaxis/error.hpp"          // InputError, ContractViolation
+#include "trueaxis/estimate.hpp"       // a value with its uncertainty
+#include "trueaxis/fit.hpp"            // association of a surface
+#include "trueaxis/job.hpp"            // streams in, verdict and table out
+#include "trueaxis/probe_stream.hpp"   // the readings
+#include "trueaxis/profile.hpp"        // a surface of one's own
+#include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
+#include "trueaxis/study.hpp"          // repeats against the Cramér-Rao bound
+#include "trueaxis/surface.hpp"        // axis, cone and cylinder, exact intersection
+#include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg
+#include "trueaxis/virtual_lathe.hpp"  // simulated streams with known truth

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// A profile of one's own that is a cone finds what the catalogue's cone finds. Both minimise the
+// same sum, so they differ by where the iteration ends only: a thousandth of u is far above that.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class Conical final : public RevolvedProfile {
+ public:
+  std::vector<Parameter> parameters() const override {
+    return {{.name = "radius_at_0", .unit = "mm", .start = 30.0},
+            {.name = "taper", .unit = "1", .start = 0.0, .length_mm = 40.0}};
+  }
+  Radius radius(double height_mm, std::span<const double> p) const override {
+    return {.mm = p[0] + p[1] * height_mm, .per_height = p[1], .per_parameter = {1.0, height_mm}};
+  }
+};
+
+ProbeStream tilted_cone() {
+  virtual_lathe::Scenario scenario;
+  scenario.part.kind = virtual_lathe::PartKind::cone;
+  scenario.part.half_angle_rad = 0.2, scenario.part.radius_mm = 40.0;
+  scenario.part.x0_mm = 0.16, scenario.part.y0_mm = -0.12;
+  scenario.part.l = 8e-4, scenario.part.m = 6e-4;
+  virtual_lathe::PlannedPass pass;
+  pass.end_mm = 60.0, pass.feed_mm_per_rev = 2.0, pass.readings_per_revolution = 23.7;
+  scenario.plan.passes = {pass};
+  scenario.noise.sigma_mm = 0.002;
+  return virtual_lathe::simulate(scenario);
+}
+
+TEST(OwnSurface, AConeIsTheCataloguesCone) {
+  const ProbeStream stream = tilted_cone();
+  for (const Loss loss : {Loss::plain, Loss::tukey}) {
+    FitOptions options;
+    options.loss = loss;
+    options.influences = {{Influence::Kind::probe_height, 0.01}, {Influence::Kind::c_offset, 1e-3}};
+    const FitResult cone = fit(stream, options);
+    options.profile = std::make_shared<Conical>();
+    const FitResult own = fit(stream, options);
+    ASSERT_EQ(own.status, FitStatus::converged) << own.message;
+    EXPECT_EQ(own.surface, SurfaceKind::own);
+    for (const char* name : {"x0", "y0", "l", "m"}) {
+      const Estimate &a = cone.parameter(name), &b = own.parameter(name);
+      EXPECT_NEAR(a.value, b.value, 1e-3 * a.u) << name;
+      EXPECT_NEAR(a.u, b.u, 1e-4 * a.u) << name;
+    }
+    const Estimate& taper = own.parameter("taper");
+    EXPECT_NEAR(std::atan(taper.value), cone.parameter("half_angle").value * M_PI / 180.0,
+                1e-3 * taper.u);
+    EXPECT_NEAR(own.parameter("radius_at_0").value / taper.value, -cone.parameter("k").value,
+                1e-3 * cone.parameter("k").u);
+  }
+}
+
+TEST(OwnSurface, ReadingsThatItDoesNotKnowAreRefused) {
+  ProbeStream stream = tilted_cone();
+  FitOptions options;
+  options.profile = std::make_shared<Conical>();
+  stream.ball_radius_mm = 1.0;
+  EXPECT_THROW(fit(stream, options), InputError);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
