@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A shaft whose seat has three lobes is diagnosed: what does the ideal cylinder miss?
+// A shaft whose seat has five lobes is diagnosed: what does the ideal cylinder miss?
 #include <cstdio>
 #include <trueaxis/trueaxis.hpp>
 
@@ -16,14 +16,17 @@ int main() {
     scenario.plan.passes.push_back(pass);
   }
   scenario.noise.sigma_mm = 1e-3;
-  scenario.effects = {{"part.roundness", {{"order", 3.0}, {"amplitude_mm", 4e-3}}}};
+  scenario.effects = {{"part.roundness", {{"order", 5.0}, {"amplitude_mm", 4e-3}}}};
 
   DiagnoseOptions options;
   options.fit.surface = SurfaceKind::cylinder;
   const Diagnosis diagnosis = diagnose(virtual_lathe::simulate(scenario), options);
   std::printf("%s, noise %.2f µm\n", to_string(diagnosis.verdict), 1e3 * diagnosis.noise.sigma_mm);
   for (const Finding& finding : diagnosis.findings) {
-    std::printf("%s, p %.1e\n", finding.effect().c_str(), finding.p_value);
+    std::printf("%s, p %.1e; explained as well by:", finding.effect().c_str(), finding.p_value);
+    for (const std::string& member : finding.members())
+      if (member != finding.effect()) std::printf(" %s", member.c_str());
+    std::printf("\n");
     for (const auto& [name, estimate] : finding.parameters)
       std::printf("  %-12s %.5g ± %.2g %s\n", name.c_str(), estimate.value, 2 * estimate.u,
                   estimate.unit.c_str());

@@ -16,6 +16,6 @@ int main() {
   options.surface = trueaxis::SurfaceKind::cone;
   const trueaxis::FitResult result = trueaxis::fit(stream, options);
   for (const auto& [name, estimate] : result.parameters)
-    std::printf("%-10s %11.5f ± %.5f %s\n", name.c_str(), estimate.value, 2.0 * estimate.u,
+    std::printf("%-10s %11.6f ± %.6f %s\n", name.c_str(), estimate.value, 2.0 * estimate.u,
                 estimate.unit.c_str());
 }
