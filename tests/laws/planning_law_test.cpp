@@ -156,10 +156,10 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   int met = 0;
   for (int i = 0; i < 150; ++i) {
     virtual_lathe::Scenario scenario = task.base;
-    for (const DesignVariable& free : task.variables) {
+    for (const DesignVariable& variable : task.variables) {
       const double share = static_cast<double>(draw() >> 11) * 0x1p-53;
-      set_parameter(scenario, info_of(free.choice).path,
-                    free.low * std::pow(free.high / free.low, share));
+      set_parameter(scenario, info_of(variable.choice).path,
+                    variable.low * std::pow(variable.high / variable.low, share));
     }
     const PlannedMeasurement plan = planned(scenario, 2.0);
     if (plan.u_expanded_mm > task.goal_mm) continue;
@@ -188,10 +188,10 @@ TEST(PlanningLaw, RefusesWhatHasNoAnswer) {
   perfect.base.noise.sigma_mm = 0.0;
   EXPECT_THROW(plan_measurement(perfect), InputError);
   PlanningTask twice = cylinder_task();
-  twice.free = {{Choice::feed, 0.1, 1.0}, {Choice::feed, 0.2, 1.0}};
+  twice.variables = {{Choice::feed, 0.1, 1.0}, {Choice::feed, 0.2, 1.0}};
   EXPECT_THROW(plan_measurement(twice), InputError);
   PlanningTask slow = cylinder_task();
-  slow.free = {{Choice::readings_per_revolution, 4.0, 20.0}};
+  slow.variables = {{Choice::readings_per_revolution, 4.0, 20.0}};
   slow.rate_hz = 2.0;
   EXPECT_THROW(plan_measurement(slow), InputError);
   PlanningTask gauge = cylinder_task();
@@ -220,7 +220,7 @@ TEST(PlanningLaw, PlansWithAGaugeAndAfterClampingAgain) {
   // known from its own readings: what can be said of it is as with one pass of an absolute probe.
   const double plain = plan_measurement(cylinder_task()).as_given.u_expanded_mm;
   for (PlanningTask* task : {&gauge, &again}) {
-    task->free = {{Choice::readings_per_revolution, 4.0, 500.0}};
+    task->variables = {{Choice::readings_per_revolution, 4.0, 500.0}};
     task->goal_mm = 0.7 * plain;
     const PlanningAnswer answer = plan_measurement(*task);
     EXPECT_NEAR(answer.as_given.u_expanded_mm, plain, 0.01 * plain);

@@ -22,7 +22,7 @@ Json parameter_object(const EffectParameter& parameter) {
 }
 
 /// What a scenario's [[effect]] takes; a key without a default must be given.
-Json scenario_keys(std::string_view id) {
+Json scenario_keys_json(std::string_view id) {
   Json keys = Json::array();
   for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
     if (kind.id != id) continue;
@@ -49,7 +49,7 @@ Json effect_object(const Effect& effect) {
             {"frame", to_string(effect.frame)},
             {"formula", effect.formula},
             {"parameters", parameters},
-            {"scenario_keys", scenario_keys(effect.id)},
+            {"scenario_keys", scenario_keys_json(effect.id)},
             {"signature", effect.signature},
             {"confounders", effect.confounders},
             {"absorbed_by", effect.absorbed_by},

@@ -63,7 +63,7 @@ std::string line(std::string_view name, std::string_view value) {
 }
 
 /// What a scenario's [[effect]] takes of the virtual lathe's effect of this id.
-std::string scenario_keys(std::string_view id) {
+std::string scenario_keys_text(std::string_view id) {
   std::string out;
   for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
     if (kind.id != id) continue;
@@ -107,7 +107,7 @@ std::string effect_text(const Effect& effect) {
         line(&parameter == effect.parameters.data() ? "parameters" : " ",
              format("{:<15}{:<26}{}", parameter.name, typical_size(parameter), parameter.meaning));
   }
-  out += scenario_keys(effect.id);
+  out += scenario_keys_text(effect.id);
   out += line("signature", effect.signature);
   out += line("confused with", format("{}", fmt::join(effect.confounders, ", ")));
   out += line("absorbed by", effect.absorbed_by);

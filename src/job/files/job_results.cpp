@@ -17,7 +17,7 @@
 namespace trueaxis {
 namespace {
 
-std::string diagnosis_of(const JobResult& result, std::size_t i) {
+std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
   if (!result.diagnoses[i]) {
     const bool face = result.streams[i].kind == StreamKind::face;
     return face ? "diagnosis   none: a face is not diagnosed\n" : "";
@@ -68,7 +68,7 @@ std::vector<ResultFile> job_files(const JobResult& result) {
 std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
-    text += fit_text(result.fits[i]) + diagnosis_of(result, i) + "\n";
+    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
   for (const Inclusion& inclusion : result.inclusions) text += inclusion_text(inclusion);
   if (result.correction) text += correction_preview(*result.correction) + "\n";
   return text;
