@@ -35,10 +35,10 @@ struct Actuator {
 
   /// Position over set-point at a frequency ≥ 0 (e^{+iωt} convention): second order or measured
   /// response, delay, and the hold of the sampling: H = ω_n²/(ω_n² − ω² + 2iζω_nω) e^{−iωτ} sinc
-  /// e^{−iωT/2}.
+  /// e^{−iωT/2} (Eq. 112).
   std::complex<double> response(double frequency_hz) const;
 
-  /// Lowest frequency at which |response| falls to −3 dB, Hz.
+  /// Lowest frequency at which |response| falls to −3 dB, Hz (Eq. 117).
   double bandwidth_hz() const;
 
   void validate() const;  ///< @throws ContractViolation naming quantity, value and limit
@@ -71,6 +71,7 @@ struct TargetAxis {
 
 /// The axis that minimises Σ w_i ∫ |Δ_i(Z)|² dZ over [z_start, z_end] (key idea 4 of Constantin et
 /// al.), Δ_i the vector from reference axis i; a plane enters as tilt × face radius. Closed form.
+/// Eqs. 106, 107, 119.
 /// @throws Refusal if the references leave it open (planes alone fix no position).
 /// A face asks for a direction only: with `needs_position` false, planes alone are enough and the
 /// axis then passes the spindle axis at mid length.
@@ -78,7 +79,7 @@ TargetAxis solve_target_axis(std::span<const Reference> references, double z_sta
                              double z_end_mm, bool needs_position = true);
 
 /// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
-/// diameter, mm.
+/// diameter, mm (Eq. 118).
 double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm, double z_end_mm);
 
 enum class TargetKind { cylinder, cone, face };

@@ -56,7 +56,7 @@ enum class Port {
   z        ///< argument Z: ∂X/∂Z
 };
 
-/// cos, sin (n angle) × envelope along Z.
+/// cos, sin (n angle) × envelope along Z (Eqs. 39, 40).
 struct Harmonic {
   enum class Angle { part, chuck, spindle };
   enum class Envelope {
@@ -72,29 +72,29 @@ struct Harmonic {
   double fixed_order = 0.0;  ///< 0: the shape's
 };
 
-/// P_first … P_last(u); last 0: up to the shape's degree. `plain`: Z itself instead.
+/// P_first … P_last(u); last 0: up to the shape's degree. `plain`: Z itself instead (Eq. 42).
 struct PolynomialInZ {
   int first = 1, last = 1;
   Port port = Port::x;
   bool plain = false;
 };
 
-/// cos, sin (2π z/period − turns θ).
+/// cos, sin (2π z/period − turns θ) (Eq. 43).
 struct PeriodicInZ {
   Port port = Port::normal;
   double turns = 0.0;
 };
 
-/// cos, sin (2π f t), in X.
+/// cos, sin (2π f t), in X (Eq. 44).
 struct PeriodicInTime {};
 
-/// t and 1 − exp(−t/τ), in X.
+/// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// From an instant on: the part moved by x, y of the spindle frame, and turned.
+/// From an instant on: the part moved by x, y of the spindle frame, and turned (Eq. 46).
 struct PartStep {};
 
-/// Constant shifts of the arguments.
+/// Constant shifts of the arguments (Eqs. 47, 48).
 struct ArgumentShift {
   enum class By {
     angle,    ///< C' = C + c
@@ -104,13 +104,13 @@ struct ArgumentShift {
   By by = By::angle;
 };
 
-/// Geometry of the probe: line Y = h, its tilt in X-Z, its ball.
+/// Geometry of the probe: line Y = h, its tilt in X-Z, its ball (Eq. 49).
 struct ProbeLine {
   enum class Of { height, tilt, ball };
   Of of = Of::height;
 };
 
-/// Functions of what the sensor meets.
+/// Functions of what the sensor meets (Eq. 50).
 struct Response {
   enum class Of {
     gain,          ///< X − X_ref
@@ -138,6 +138,7 @@ std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape
 
 /// Writes ∂X_M/∂(linear parameter) at zero amplitude over the readings of `context`;
 /// `columns[j]` has room for context.size() values. What a term needs of the context must be there.
+/// Eq. 37.
 /// @throws ContractViolation when a column is missing or their number is not that of
 /// linear_parameters.
 void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
@@ -301,7 +302,7 @@ struct Effect {
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of
-/// (order × angle − 2π ν s) × a Legendre polynomial, or a local bump.
+/// (order × angle − 2π ν s) × a Legendre polynomial, or a local bump (Eqs. 73–75).
 struct Pattern {
   enum class Kind {
     fourier_legendre,  ///< order × Legendre degree along s or time

@@ -52,6 +52,7 @@ struct Resimulation {
 Resimulation resimulate(const Diagnosis& diagnosis, const ProbeStream& measured,
                         double ball_radius_mm = 0.0);
 
+/// Eqs. 103, 104.
 /// @param sigma_mm standard deviation of a reading
 /// @param autoregression φ of its noise ε_i = Σ φ_j ε_{i−j} + e_i; empty: white
 Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulated,
@@ -63,7 +64,7 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
 /// standard uncertainty u. Beyond chance is λ > 2.33 u, 1 % on one side: the C test of Davidson &
 /// MacKinnon, Econometrica 49 (1981) 781, of two models that do not contain each other. That alone
 /// would refute too much: linearised terms move λ of a right finding (a nonlinearity of 20 µm:
-/// 0.2).
+/// 0.2) (Eq. 105).
 bool refuted(const Comparison& comparison);
 
 }  // namespace trueaxis

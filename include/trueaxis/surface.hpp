@@ -40,7 +40,7 @@ struct AxisEstimate {
   std::array<double, 16> covariance{};
 
   /// Standard uncertainty of the axis point at z in its worse direction, mm: the square root of the
-  /// largest eigenvalue of the 2 × 2 covariance of (x(z), y(z)).
+  /// largest eigenvalue of the 2 × 2 covariance of (x(z), y(z)) (Eq. 36).
   double u_at(double z_mm) const;
 };
 
@@ -68,6 +68,7 @@ enum class Root {
 
 /// Exact intersection at spindle angle C and height Z of the line Y = height parallel to X
 /// (the quadratic of docs/theory.md, Eq. 7, with K = 1 + tan²(half angle), no tilt of the line).
+/// Eqs. 5–9.
 Intersection intersect(const Revolved& surface, double c_rad, double z_mm, double height_mm = 0.0,
                        Root root = Root::front);
 

@@ -12,6 +12,7 @@
 namespace trueaxis {
 namespace {
 
+/// Eq. 111.
 CorrectionRows wanted_rows(const Profile& profile) {
   const std::size_t count = profile.rows();
   CorrectionRows rows;

@@ -118,6 +118,7 @@ struct Demand {
   double slew_mm_per_s = 0.0, following_mm = 0.0;
 };
 
+/// Eq. 116.
 Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted, bool precompensated,
                  const std::vector<Complex>& turn) {
   const std::size_t orders = chain.paths.size();

@@ -20,7 +20,7 @@ Motion motion_of(const Profile& profile, double speed_rpm);
 /// The response at a frequency of either sign: that of a real system.
 std::complex<double> signed_response(const Actuator& actuator, double frequency_hz);
 
-/// Share of a harmonic that linear interpolation between rows keeps: sinc²(n/M).
+/// Share of a harmonic that linear interpolation between rows keeps: sinc²(n/M) (Eq. 114).
 double kept_by_interpolation(int order, int rows_per_revolution);
 
 /// What becomes of one harmonic on its way from the table to the tool: the table is interpolated
@@ -41,7 +41,7 @@ std::vector<HarmonicPath> harmonic_paths(const Actuator& actuator, const Motion&
 std::complex<double> commanded(const HarmonicPath& path, const SlowAmplitude& wanted,
                                double position_mm_per_s);
 
-/// Adds Σ Re{(b_n − a_n) e^{inψ}} to the wanted values of the rows.
+/// Adds Σ Re{(b_n − a_n) e^{inψ}} to the wanted values of the rows (Eq. 115).
 void precompensate(const Spectrum& spectrum, const Actuator& actuator, const Motion& motion,
                    CorrectionRows& rows);
 

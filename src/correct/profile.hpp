@@ -33,7 +33,9 @@ class Profile {
   const ToolSetup& tool() const { return tool_; }
 
  private:
+  /// Eq. 109.
   double nose_centre_mm(const Revolved& surface, double c_rad, double z_mm) const;
+  /// Eq. 110.
   double face_mm(double c_rad, double x_mm) const;
 
   TargetSurface target_;

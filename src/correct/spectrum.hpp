@@ -10,7 +10,7 @@ namespace trueaxis {
 
 /// Complex amplitudes of the harmonics of one revolution at fixed position, by order:
 /// profile(ψ) = Σ Re{a_n e^{inψ}}, ψ the angle turned since the first row in the sense of cutting.
-/// The machine angle is C = c_start + sense · ψ.
+/// The machine angle is C = c_start + sense · ψ (Eq. 113).
 std::vector<std::complex<double>> harmonics_at(const Profile& profile, double position_mm,
                                                int max_order);
 

@@ -21,6 +21,7 @@ inline void sin_cos(const TermContext& at, const double* angle_rad, double* sine
   sincos({angle_rad, at.size()}, {sine, at.size()}, {cosine, at.size()});
 }
 
+/// Eq. 38.
 inline void dx_dy(const TermContext& at, double* out) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     out[i] = (at.dx_dc[i] - at.height_mm) / at.x_mm[i];
@@ -39,7 +40,7 @@ inline void secant(const TermContext& at, double sign, double* out) {
 inline double away(const TermContext& at) { return at.rear == at.bore ? 1.0 : -1.0; }
 
 /// Multiplies by dX/d(value of `port`). Form is positive away from the part's axis: at the rear
-/// that is towards smaller X.
+/// that is towards smaller X (Eq. 37).
 inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* const> columns) {
   if (port == Port::x) return;
   Chunk normal;

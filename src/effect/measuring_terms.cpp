@@ -17,7 +17,7 @@ double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
 using Of = Response::Of;
 
 // The trigger path lies along X, into the material, and varies with the direction ψ of the normal
-// across the stylus, sin of its angle to X being the size.
+// across the stylus, sin of its angle to X being the size (Eq. 51).
 void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
   const double out_of = contact::away(at);
   contact::Chunk slope, secant, across, psi;
@@ -37,7 +37,7 @@ void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) 
 }
 
 // d/dT of the indication at T. Turning, X is nearly one harmonic of C and H = 1/(1 + jωT) exactly
-// turns it into X + (−T Ẋ + T² Ẍ)/(1 + ω²T²); along Z the slow motion lags by T.
+// turns it into X + (−T Ẋ + T² Ẍ)/(1 + ω²T²); along Z the slow motion lags by T (Eqs. 52, 53).
 double lag(const TermContext& at, double T, std::size_t i) {
   const double w = at.speed_rad_per_s[i];
   const double rate = w * at.dx_dc[i], rate2 = w * w * at.d2x_dc2[i];

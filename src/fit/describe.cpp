@@ -92,6 +92,7 @@ void check_cone(const JointModel& model, const std::vector<double>& joint,
 constexpr double rival_sds = 3.0;  // likelihood ratio e^-4.5: 1 in 90
 
 /// A second minimum as low as the first, outside its uncertainty: the readings do not choose.
+/// Eq. 25.
 void check_rival(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
                  const Association& association, const ReadingNoise& noise, FitResult& result) {
   if (!association.rival || !result.not_determined.empty()) return;

@@ -32,7 +32,7 @@ struct JointPart {
 /// own, taken in the middle of its readings and first in the joint parameters; radius and half
 /// angle follow, which all share. They belong to the part: radius(s) = radius + tan · (s − ref), s
 /// along the axis from where it pierces the plane Z = z_shift, ref the middle of all readings. One
-/// clamping: the parameters are the working parameters of the surface themselves.
+/// clamping: the parameters are the working parameters of the surface themselves (Eqs. 29, 30).
 class JointModel {
  public:
   /// Of `frame` all but side and positions, which are those of each set-up. The stream must outlive
@@ -65,6 +65,7 @@ class JointModel {
   bool tilt_may_be_mirrored(std::span<const double> joint, std::size_t clamping) const;
 
   /// As the functions of these names for one surface; residuals in the order of the stream.
+  /// Eq. 20.
   NormalMatrix accumulate(std::span<const double> joint, const LossScale& loss) const;
   bool residuals(std::span<const double> joint, std::span<double> out_mm) const;
 

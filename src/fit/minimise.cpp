@@ -27,6 +27,7 @@ constexpr double least_curvature = 0.3;  // below, readings without weight drive
 
 /// The factor R of JᵀJ = RᵀR and z = R⁻ᵀ Jᵀr; a singular matrix gets a factor of its own rank.
 template <int Most>
+/// Eq. 21.
 void factorise(const NormalMatrix& normal, Square<Most>& r, Column<Most>& z) {
   using Matrix = Square<Most>;
   using Vector = Column<Most>;
@@ -56,6 +57,7 @@ void factorise(const NormalMatrix& normal, Square<Most>& r, Column<Most>& z) {
 /// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
 /// for the cost of a candidate first and, when it is taken, for the Jacobian at the same point.
 template <int Most>
+/// Eq. 22.
 class CompressedCost final : public ceres::CostFunction {
   using Matrix = Square<Most>;
   using Vector = Column<Most>;

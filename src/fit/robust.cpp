@@ -16,6 +16,7 @@ namespace {
 constexpr double huber_k = 1.345, tukey_c = 4.685;  // 95 % efficiency on Gaussian noise
 constexpr double huber_listed = 6.0;                // σ: beyond it a Huber weight is below 0.23
 
+/// Eq. 28.
 LossScale loss_scale(Loss loss, double sigma_mm) {
   if (loss == Loss::huber) return {LossScale::Kind::huber, huber_k * sigma_mm};
   if (loss == Loss::tukey) return {LossScale::Kind::tukey, tukey_c * sigma_mm};
@@ -73,16 +74,16 @@ Association associate(const JointModel& model, Loss loss, int max_iterations) {
   return association;
 }
 
-psi_and_derivative influence(const LossScale& loss, double residual_mm) {
+PsiAndDerivative psi_and_derivative(const LossScale& loss, double residual_mm) {
   const double c = loss.threshold_mm, r = residual_mm;
   switch (loss.kind) {
     case LossScale::Kind::huber:
-      return std::abs(r) <= c ? psi_and_derivative{r, 1.0}
-                              : psi_and_derivative{std::copysign(c, r), 0.0};
+      return std::abs(r) <= c ? PsiAndDerivative{r, 1.0}
+                              : PsiAndDerivative{std::copysign(c, r), 0.0};
     case LossScale::Kind::tukey: {
       const double v = (r / c) * (r / c);
-      return v >= 1.0 ? psi_and_derivative{0.0, 0.0}
-                      : psi_and_derivative{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
+      return v >= 1.0 ? PsiAndDerivative{0.0, 0.0}
+                      : PsiAndDerivative{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
     }
     case LossScale::Kind::plain:
       break;

@@ -23,11 +23,11 @@ struct Association {
 /// found in turn until the scale stands (Huber, Robust Statistics, 1981, section 7.8).
 Association associate(const JointModel& model, Loss loss, int max_iterations);
 
-/// ψ and ψ' of a loss at a residual.
-struct psi_and_derivative {
+/// ψ and ψ' of a loss at a residual (Eqs. 26, 27).
+struct PsiAndDerivative {
   double psi, slope;
 };
-psi_and_derivative influence(const LossScale& loss, double residual_mm);
+PsiAndDerivative psi_and_derivative(const LossScale& loss, double residual_mm);
 
 /// The readings without weight (Tukey), or beyond 6 σ (Huber).
 std::vector<Rejected> list_rejected(const Association& association);

@@ -23,7 +23,7 @@ Sample sample_of(const PreparedStream& stream);
 std::vector<Sample> samples_of(const JointModel& model);
 
 /// The algebraic start; for a robust loss refitted on the readings near it. Where a probe line
-/// misses it, the level start.
+/// misses it, the level start (Eq. 24).
 std::vector<double> find_start(const JointModel& model, const std::vector<Sample>& samples,
                                Loss loss);
 
@@ -34,7 +34,7 @@ struct Minima {
 };
 
 /// Minimises from `start`; where that fails, or a mirrored tilt may do as well, also from the level
-/// start and from the minimum's tilt reversed, one clamping after the other.
+/// start and from the minimum's tilt reversed, one clamping after the other (Eq. 25).
 Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& samples,
                       const std::vector<double>& start, const LossScale& loss, int max_iterations);
 

@@ -84,10 +84,10 @@ ReadingNoise estimate_noise(const Association& association, std::size_t paramete
     noise.sigma_mm = *options.noise_mm;
     noise.source = "sensor";
   }
-  if (robust && redundancy > 0) {  // Huber 1981, Eq. 7.6.11
+  if (robust && redundancy > 0) {  // Eq. 33; Huber 1981, section 7.6
     double psi2 = 0.0, slope = 0.0, slope2 = 0.0;
     for (const double r : residual) {
-      const auto [psi, derivative] = influence(association.loss, r);
+      const auto [psi, derivative] = psi_and_derivative(association.loss, r);
       psi2 += psi * psi;
       slope += derivative;
       slope2 += derivative * derivative;

@@ -19,6 +19,7 @@ struct ReadingNoise {
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
 
+/// Eqs. 32–34.
 ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
                             const FitOptions& options);
 
@@ -30,7 +31,7 @@ struct Determination {
 
 /// A direction is undetermined where JᵀJ is singular to rounding, or where `coverage` standard
 /// uncertainties exceed a tenth of the surface's own size, beyond which the linearisation means
-/// nothing.
+/// nothing (Eq. 31).
 Determination determine(const NormalMatrix& normal, const std::vector<double>& scale_mm,
                         double size_mm, double sigma_mm, double coverage);
 
@@ -44,6 +45,7 @@ struct Source {
   char type = 'A';
   Eigen::MatrixXd covariance;
 };
+/// Eq. 35.
 std::vector<Source> budget_sources(const JointModel& model, const Association& association,
                                    const Determination& determination, const ReadingNoise& noise,
                                    const FitOptions& options);

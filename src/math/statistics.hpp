@@ -7,6 +7,7 @@
 namespace trueaxis {
 
 /// Consistent estimate of a Gaussian σ from absolute deviations about zero: median(|r|) / Φ⁻¹(3/4).
+/// Eq. 28.
 double mad_sigma(std::span<const double> residuals);
 
 /// Correlation of neighbours after clipping at ± `clip`; 0 for fewer than three values or none that

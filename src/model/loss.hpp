@@ -11,6 +11,7 @@ struct LossSums {
 };
 
 /// Scales columns and residual of a block by the square root of the loss's weight.
+/// Eqs. 23, 26, 27.
 void apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,
                 PredictionBlock& block, LossSums& sums);
 

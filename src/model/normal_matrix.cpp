@@ -26,7 +26,7 @@ double entry(const Gram& gram, std::size_t i, std::size_t j) {
   return gram[gram_index(std::max(i, j), std::min(i, j))];
 }
 
-// J = T · columns for every reading: JᵀJ = T M Tᵀ.
+// J = T · columns for every reading: JᵀJ = T M Tᵀ (Eq. 20).
 void transform_gram(const Gram& gram, const double* transform, std::size_t columns,
                     NormalMatrix& out) {
   const std::size_t p = out.parameters;

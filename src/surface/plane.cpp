@@ -13,7 +13,7 @@ namespace {
 
 /// Face n·p = d with cosines l, m, n > 0, probed in Z at (C, X): Z = c + px X cos C + py X sin C,
 /// linear in the working parameters c (mm), px, py. Normal ∝ (−px, −py, 1); l = −px n, m = −py n, d
-/// = c n.
+/// = c n (Eq. 11).
 class Plane final : public Surface {
  public:
   explicit Plane(const SurfaceFrame& frame) : frame_(frame) {}

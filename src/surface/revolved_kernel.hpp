@@ -11,7 +11,7 @@ enum RevolvedColumn { w_gx, w_gy, w_s_gx, w_s_gy, w_r, w_r_s, w_one, revolved_co
 
 /// Prediction of one block: the root in X of the quadratic of Eq. 7 (height 0, no tilt), with
 /// one division and one square root a reading. `offset_mm` is added to the prediction (a relative
-/// gauge).
+/// gauge) (Eqs. 7, 8, 16).
 void evaluate_revolved(const Revolved& surface, Root root, double offset_mm,
                        const ReadingBlock& readings, PredictionBlock& out);
 

@@ -80,6 +80,7 @@ class RevolvedSurface : public Surface {
 
 /// Values and exact Jacobian of `function(const T* working, T* out)` by dual numbers.
 template <std::size_t N, typename Function>
+/// Eq. 15.
 Surface::Reported differentiate(std::span<const double> working, std::size_t outputs,
                                 Function function) {
   using Jet = ceres::Jet<double, static_cast<int>(N)>;

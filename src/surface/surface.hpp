@@ -76,7 +76,7 @@ class Surface {
     return {};
   }
   /// Whether the axis tilted the other way may be a second minimum: tilt then bends the sections
-  /// (K R slope²) as much as it shifts them (slope × length), as on a short, large part.
+  /// (K R slope²) as much as it shifts them (slope × length), as on a short, large part (Eq. 25).
   virtual bool tilt_may_be_mirrored(std::span<const double> /*working*/) const { return false; }
   /// Residuals and Jacobian columns of one block.
   virtual void evaluate(std::span<const double> working, const ReadingBlock& readings,

@@ -54,6 +54,7 @@ struct AxisBiasRow {
 };
 
 /// Fits noise-free readings of the virtual lathe. The scenario's noise and effects are left out.
+/// Eq. 129.
 /// @throws InputError when the part cannot be probed, the surface not be fitted, or the axis moves
 /// between set-ups of one clamping.
 AxisBiasRow axis_bias_of(const virtual_lathe::Scenario& scenario, const AxisBiasCase& of);

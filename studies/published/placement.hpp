@@ -60,6 +60,7 @@ struct Placement {
 /// reading's factor, plus d²/12 for a number printed to steps of d; an error printed as c times the
 /// quantity's is divided by c. χ² = eᵀV⁻¹e. Log-likelihoods are of the printed numbers (densities
 /// per mm, 1 and degree), so that readings compare. Nothing is placed where there is no bound.
+/// Eq. 126.
 Placement place_published(const Sweep& sweep, const Published& published,
                           const std::vector<BlockResult>& results);
 

@@ -18,7 +18,7 @@ struct Advice {
 
 /// The measurement that raises Φ(d/2) of the classes most per minute, from the Jacobians of what
 /// was measured and of what each plan would add; without a class, the one that shows the most
-/// harmful of the hidden effects.
+/// harmful of the hidden effects (Eqs. 99, 100).
 Advice advise(const Problem& problem, const Model& model, const ProbeStream& stream,
               const std::vector<Clamping>& clampings,
               const std::vector<AmbiguousFinding>& questions,

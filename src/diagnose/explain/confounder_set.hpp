@@ -8,7 +8,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A finding with everything that explains it as well: the named cause first.
+/// A finding with everything that explains it as well: the named cause first (Eq. 87).
 struct ConfounderSet {
   std::vector<Candidate> members;
   std::vector<Rival> rivals;  ///< one per member but the first
@@ -23,11 +23,11 @@ struct AmbiguousFinding {
 
 /// The class of a term of the model that was searched. A rival belongs to it when its best fit is
 /// nearer to the named prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood
-/// ratio does not tell.
+/// ratio does not tell (Eqs. 87–93).
 ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t term);
 
 /// The class of one of two effects that are one in the first order with what the second order says:
-/// −2 ln of the likelihood of the other over that of the named one.
+/// −2 ln of the likelihood of the other over that of the named one (Eq. 94).
 void narrow(ConfounderSet& found, double likelihood_ratio);
 
 }  // namespace trueaxis::diagnose_detail

@@ -19,7 +19,7 @@ TermValue fitted(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficien
 Eigen::MatrixXd covariance_of(const Joint& joint, std::size_t term);
 
 /// Parameters of a term with their uncertainties: those of the joint fit, and of the shape that the
-/// search has refined (curvature of the profile likelihood), by the law of propagation.
+/// search has refined (curvature of the profile likelihood), by the law of propagation (Eq. 84).
 std::vector<FitParameter> parameters_of(const Problem& problem, const Model& model,
                                         const Joint& joint, std::size_t term);
 
@@ -27,6 +27,7 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
 Unexplained unexplained_of(const Joint& joint, std::size_t term);
 
 /// "12 (sampled 15 times a revolution, orders n and 15 − n are one column)"; empty: no alias.
+/// Eq. 76.
 std::string alias_of(const Hypothesis& hypothesis, const Resolution& resolution);
 
 }  // namespace trueaxis::diagnose_detail

@@ -9,6 +9,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+/// Eq. 85.
 void add_axis_bias(const Joint& joint, std::size_t term, Estimate& shift, bool& cosmetic) {
   const Solution without = joint.without(term);
   const auto n = static_cast<Eigen::Index>(joint.equations.base().size());

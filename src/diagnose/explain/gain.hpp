@@ -6,7 +6,7 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Before and after: the surface alone and with all terms, block by block held out.
+/// Before and after: the surface alone and with all terms, block by block held out (Eqs. 101, 102).
 /// @param between covariance of the base that causes add which the data cannot tell
 Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
                   double noise_floor_mm);

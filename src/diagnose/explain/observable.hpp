@@ -23,10 +23,10 @@ struct Typical {
 std::vector<Typical> typical_effects(const Problem& problem);
 
 /// Probability that a statistic with `columns` degrees of freedom and noncentrality λ passes the
-/// threshold of a family of tests.
+/// threshold of a family of tests (Eq. 97).
 double detection_power(double lambda, std::size_t columns, const Family& family, double level);
 
-/// λ of a typical size beside columns taken out of a Gram matrix: averaged over its phase.
+/// λ of a typical size beside columns taken out of a Gram matrix: averaged over its phase (Eq. 96).
 double typical_lambda(const Projection& projection, const Columns& columns, double size,
                       double sigma_mm);
 
@@ -37,6 +37,7 @@ struct Unobservable {
   double axis_bias_mm = 0.0;  ///< at the typical size
   double power = 0.0;
 };
+/// Eq. 98.
 std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
                                                double sigma_mm);
 

@@ -17,7 +17,7 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
 
 /// That the second harmonic of X is that of an off-centre circle, e²/(4R), and how much ovality is
 /// left beside it; nothing where the one is below the other's uncertainty, or an effect of two
-/// undulations is in the model.
+/// undulations is in the model (Eq. 12).
 std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model);
 
 }  // namespace trueaxis::diagnose_detail

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t enough = 20;
 
-/// Variance of an AR process over that of its innovations, by its impulse response.
+/// Variance of an AR process over that of its innovations, by its impulse response (Eq. 68).
 double gain_of(const std::vector<double>& phi) {
   std::vector<double> response{1.0};
   double sum = 1.0;
@@ -46,6 +46,7 @@ std::optional<double> stationary_sigma(const LinearisationPoint& point, const Ob
 }
 
 /// Differences between a reading and the next revolution at the same angle, interpolated there.
+/// Eq. 67.
 std::optional<double> revolution_sigma(const LinearisationPoint& point, const ObservationMask& mask,
                                        const std::vector<double>& left) {
   double sum = 0.0, count = 0.0;

@@ -10,6 +10,7 @@
 namespace trueaxis::diagnose_detail {
 
 /// σ of a reading from each source that the data have, the best one chosen; gaps and interruptions.
+/// Eq. 67.
 /// @param residual_mm readings minus the extended model
 NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                          const std::vector<double>& residual_mm, std::vector<Rejected> masked,

@@ -57,7 +57,7 @@ struct LinearisationPoint : LinearisationFacts {
   /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
   TermContext context(std::size_t begin, std::size_t end) const;
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
-  /// half angle. Rigid motions of the part: exact to first order.
+  /// half angle. Rigid motions of the part: exact to first order (Eqs. 55–57).
   void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
 };
 

@@ -24,7 +24,7 @@ CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
                        const std::vector<Rejected>& masked, const FitResult* ideal = nullptr);
 
 /// The same with u of axis and parameters from the joint covariance, so that what a term takes from
-/// the axis widens it.
+/// the axis widens it (Eq. 86).
 /// @param between covariance of the base that other causes add, or nothing
 FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::MatrixXd& between = {});
 

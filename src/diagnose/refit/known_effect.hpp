@@ -40,6 +40,7 @@ struct EffectOnAxis {
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< of the terms: u = (s − z_mid)/z_half, ±1 at the ends
 };
 
+/// Eq. 128.
 /// @throws InputError as fit() does, ContractViolation for an unknown effect, a check, or a face.
 EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options,
                             const KnownEffect& known);

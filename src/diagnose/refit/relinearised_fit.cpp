@@ -38,7 +38,7 @@ std::vector<double> contribution_of(const Hypothesis& h, const LinearisationPoin
   return contribution(point, {&h, 1}, span_of(linear));
 }
 
-/// What a lag does to X: the integral of its column from 0 to T (Simpson).
+/// What a lag does to X: the integral of its column from 0 to T (Simpson) (Eqs. 61, 62).
 std::vector<double> response_of(const Hypothesis& lag, const LinearisationPoint& point) {
   const double T = lag.shape.time_constant_s;
   std::vector<double> out(point.size(), 0.0);

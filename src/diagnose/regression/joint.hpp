@@ -10,6 +10,7 @@
 namespace trueaxis::diagnose_detail {
 
 /// Surface and terms fitted together, about the point; and what each question of the report needs.
+/// Eqs. 54, 83.
 struct Joint {
   NormalEquations equations;
   std::vector<Columns> places;  ///< of every term
@@ -36,6 +37,7 @@ struct Joint {
 struct AxisShift {
   double value_mm = 0.0, u_mm = 0.0;
 };
+/// Eq. 85.
 AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& change,
                      const Eigen::MatrixXd& covariance);
 

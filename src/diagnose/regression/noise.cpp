@@ -42,7 +42,7 @@ struct Lagged {
     return sum;
   }
 
-  /// Twice the restricted log likelihood, up to a constant (Patterson and Thompson 1971).
+  /// Twice the restricted log likelihood, up to a constant (Patterson and Thompson 1971) (Eq. 65).
   double likelihood2(double phi1, double phi2) const {
     const Matrix all = whitened(phi1, phi2);
     const Eigen::Index m = all.rows() - 1;

@@ -15,7 +15,7 @@ std::vector<double> remainder(const LinearisationPoint& point, std::span<const d
                               std::span<const Hypothesis> terms, const Eigen::VectorXd& solution);
 
 /// Masks readings farther than 8 robust σ from the surface with what `basis` lets it deviate by,
-/// and what clings to them, until nothing changes. @returns why, a line a reading.
+/// and what clings to them, until nothing changes. @returns why, a line a reading (Eq. 63).
 std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const Hypothesis> basis,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
@@ -23,7 +23,7 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
 
 /// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
 /// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,
-/// each one only where the likelihood ratio passes 5 %. Few readings: none.
+/// each one only where the likelihood ratio passes 5 %. Few readings: none (Eqs. 64, 65).
 std::vector<double> autoregression(const LinearisationPoint& point, const ObservationMask& mask,
                                    std::span<const double> deviation_mm,
                                    std::span<const Hypothesis> terms);

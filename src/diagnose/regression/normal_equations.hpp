@@ -71,6 +71,7 @@ struct Projection {
   double rss = 0.0;       ///< of column 0
   std::size_t rank = 0;   ///< of what was taken out
 };
+/// Eq. 58.
 Projection project(const Eigen::MatrixXd& gram, const Columns& taken);
 
 /// What more columns take off the sum of squares.
@@ -78,6 +79,7 @@ struct Score {
   double gain = 0.0;     ///< decrease of the residual sum of squares
   std::size_t rank = 0;  ///< columns that are not absorbed
 };
+/// Eq. 59.
 Score score(const Projection& projection, const Columns& columns);
 
 /// Least squares over some columns: coefficients (0 where a combination is undetermined) and the

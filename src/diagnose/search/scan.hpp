@@ -25,6 +25,7 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+/// Eq. 72.
 /// @param equations of the readings of `problem`
 /// @param remainder_mm deviation minus base and terms, not whitened
 /// @param means 1: all lines; more: only those that means of so many readings weaken by 10 %
@@ -40,6 +41,7 @@ bool is_line(const Hypothesis& hypothesis);
 const std::vector<double>& variable_of(const Hypothesis& line, const LinearisationPoint& point);
 
 /// Σ⁻¹ times what is left, up to the innovation's variance: WᵀW e; 0 where a row does not count.
+/// Eq. 66.
 std::vector<double> weighted(const NormalEquations& equations,
                              std::span<const double> remainder_mm);
 

@@ -149,7 +149,7 @@ class StepwiseSearch {
     return changed;
   }
 
-  /// ν ln RSS and the penalties: what two models with the same noise are compared by.
+  /// ν ln RSS and the penalties: what two models with the same noise are compared by (Eq. 81).
   double criterion(const Model& model) const {
     const Fitted f = fitted(model);
     Columns all = f.equations.base();

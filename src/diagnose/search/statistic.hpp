@@ -6,7 +6,7 @@
 namespace trueaxis::diagnose_detail {
 
 /// How many tests a verdict is the best of: those one by one, and those of the periodograms, whose
-/// number grows with the statistic (Rice's rate of upcrossings; Baluev 2008, eq. 6).
+/// number grows with the statistic (Rice's rate of upcrossings; Baluev 2008, eq. 6) (Eqs. 70, 71).
 struct Family {
   double single = 0.0;
   double bandwidth = 0.0;
@@ -18,14 +18,15 @@ struct Family {
 };
 
 /// ln n per column, twice the log of the choice among its kind (Chen and Chen 2008), and what an
-/// implausible size costs.
+/// implausible size costs (Eqs. 78–80).
 double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count,
                const Eigen::VectorXd& coefficients);
 
 /// ln p of an F test: `gain` for `rank` columns off `rss` with `freedom` degrees of freedom before.
+/// Eq. 69.
 double log_p_value(double gain, double rank, double rss, double freedom);
 
-/// Sum of squares of a block that was held out, predicted by columns fitted to the others.
+/// Sum of squares of a block that was held out, predicted by columns fitted to the others (Eq. 82).
 double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns);
 
 }  // namespace trueaxis::diagnose_detail

@@ -22,6 +22,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 /// d of(scenario) / d parameters, one column each: (4 D(h/2) − D(h)) / 3 of central differences D.
 template <class Of>
+/// Eq. 122.
 Eigen::MatrixXd derivatives(Estimable model, const Of& of) {
   const std::vector<EstimatedParameter> all = model.estimated_parameters();
   Eigen::MatrixXd out;
@@ -85,6 +86,7 @@ bool is_determined(Estimable model, const Eigen::MatrixXd& covariance) {
 }
 
 /// Fisher information of one reading of Student's t over that of a Gaussian of its variance.
+/// Eq. 124.
 double information_of(const Noise& noise) {
   const double v = noise.student_dof;
   return v > 2.0 && noise.uniform_mm == 0.0 ? v * (v + 1.0) / ((v - 2.0) * (v + 3.0)) : 1.0;

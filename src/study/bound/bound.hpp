@@ -36,7 +36,7 @@ struct Bound {
 /// that is fitted enters. Every clamping has an axis of its own and, with a relative gauge, a zero
 /// of its own, as in the fit. Effects are taken as known, outliers as recognised and free. NaN
 /// everywhere where the readings do not determine the parameters and where the metadata tell one
-/// clamping but the axis moved; the radius under a relative gauge.
+/// clamping but the axis moved; the radius under a relative gauge (Eq. 121).
 /// @param surface fitted: that of the part, or "section"
 Bound bound_of(const virtual_lathe::Scenario& scenario, SurfaceKind surface);
 

@@ -18,6 +18,7 @@ struct WorstOfAxis {
   double sd_mm = 0.0;
   std::array<double, 4> weight{};
 };
+/// Eq. 127.
 WorstOfAxis worst_of_axis(const virtual_lathe::Scenario& scenario, const Bound& bound);
 std::size_t place_of_ends(const virtual_lathe::Scenario& scenario);
 

@@ -68,7 +68,7 @@ struct Summary {
 /// Chance that some row of efficient fits is said not to be at its bound.
 inline constexpr double bonferroni_level = 0.01;
 
-/// From the results of all blocks, in any order. Does not depend on who ran them.
+/// From the results of all blocks, in any order. Does not depend on who ran them (Eq. 125).
 /// @throws ContractViolation when a block is missing or there twice.
 Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results);
 
