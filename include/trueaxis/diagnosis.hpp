@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -167,6 +168,9 @@ struct DiagnoseOptions {
   double false_alarm = 0.01;  ///< per stream, over all hypotheses
   int max_findings = 8;       ///< beyond that the surface is the wrong one
   int threads = 0;            ///< 0: as many as there are; the result does not depend on it
+  /// Effects beside the catalogue that may be causes too, ids of their own; they outlive the
+  /// result.
+  std::span<const Effect> own_effects = {};
 };
 
 /// @throws InputError as fit() does. Numerical outcomes are data: see extended.status.

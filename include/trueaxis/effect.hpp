@@ -295,7 +295,8 @@ struct Effect {
   std::optional<Line> line = {};
   std::optional<Refinement> refinement = {};
   std::string_view second_order_twin = {};  ///< id: one in the first order, told in the second
-  bool between_passes = false;   ///< shows from pass to pass: beside it the noise is judged
+  int between_passes = 0;  ///< place among those that show from pass to pass, beside which the
+                           ///< noise is judged, as many as it can bear; 0: none of them
   bool repeats_at_tool = false;  ///< a motion that the tool meets as the probe did
 };
 

@@ -153,7 +153,7 @@ struct Scenario {
 };
 
 /// A parameter of an effect. The unit inside is the suffix of its name; none: a pure number.
-struct EffectParameter {
+struct LatheParameter {
   std::string_view name;
   std::optional<double> fallback;  ///< absent: the scenario must give it
 };
@@ -162,7 +162,7 @@ struct EffectParameter {
 struct EffectKind {
   std::string_view id;
   std::string_view what;  ///< its term, in one line
-  std::span<const EffectParameter> parameters;
+  std::span<const LatheParameter> parameters;
 };
 
 /// All of them, in the order of the measuring chain.

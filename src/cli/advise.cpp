@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/advise.hpp"
+
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
+#include "cli/guarded.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"

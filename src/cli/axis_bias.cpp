@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/axis_bias.hpp"
+
 #include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "simulate/files/scenario_toml.hpp"

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/correct.hpp"
+
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/earlier_table.hpp"
+#include "cli/guarded.hpp"
 #include "correct/files/table_csv.hpp"
+#include "correct/files/table_text.hpp"
 #include "fit/files/fit_json.hpp"
 #include "format/file.hpp"
 #include "job/files/job_toml.hpp"
@@ -21,10 +25,10 @@ struct Options {
 };
 
 std::string at_speed(double rpm) {
-  char text[64];
-  std::snprintf(text, sizeof text, rpm >= 10.0 ? "at %.0f rpm or less" : "at %.2g rpm or less",
-                std::floor(10.0 * rpm) / 10.0);
-  return rpm > 0.0 ? text : "at no speed";
+  if (!(rpm > 0.0)) return "at no speed";
+  const double down = std::floor(10.0 * rpm) / 10.0;
+  return rpm >= 10.0 ? fmt::format("at {:.0f} rpm or less", down)
+                     : fmt::format("at {:.2g} rpm or less", down);
 }
 
 int execute(const Options& options) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/effects.hpp"
+
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "effect/files/effects_json.hpp"
 #include "effect/files/effects_markdown.hpp"
 #include "effect/files/effects_text.hpp"

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/fit.hpp"
+#include "cli/fit.hpp"
 
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
 #include "cli/fit_options.hpp"
+#include "cli/guarded.hpp"
 #include "fit/files/fit_json.hpp"
 #include "fit/files/fit_text.hpp"
 #include "format/file.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <new>
 
-#include "cli/commands.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {

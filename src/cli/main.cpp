@@ -3,8 +3,17 @@
 
 #include <iostream>
 
-#include "cli/commands.hpp"
+#include "cli/advise.hpp"
+#include "cli/axis_bias.hpp"
+#include "cli/correct.hpp"
+#include "cli/diagnose.hpp"
+#include "cli/effects.hpp"
+#include "cli/fit.hpp"
 #include "cli/guarded.hpp"
+#include "cli/plan.hpp"
+#include "cli/run.hpp"
+#include "cli/simulate.hpp"
+#include "cli/sweep.hpp"
 #include "trueaxis/error.hpp"
 
 namespace {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/plan.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
 
 #include "cli/checks.hpp"
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "simulate/files/scenario_toml.hpp"
-#include "study/planning/files/planning_results.hpp"
+#include "study/planning/files/design_variable_text.hpp"
+#include "study/planning/files/planning_json.hpp"
+#include "study/planning/files/planning_text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -89,11 +93,11 @@ int execute(Options options) {
   task.goal_mm = options.goal_um * mm_per_um;
   try {
     for (const std::string& text : options.free) {
-      const study::DesignVariable free = parse_freedom(text);
-      if (std::ranges::find(task.free, free.choice, &study::DesignVariable::choice) !=
-          task.free.end())
+      const study::DesignVariable variable = parse_design_variable(text);
+      if (std::ranges::find(task.variables, variable.choice, &study::DesignVariable::choice) !=
+          task.variables.end())
         throw InputError(text, "this choice has a range already: give it one");
-      task.free.push_back(free);
+      task.variables.push_back(variable);
     }
   } catch (const InputError& error) {
     throw CLI::ValidationError("--free", error.what());

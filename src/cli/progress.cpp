@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/progress.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -11,15 +12,9 @@ namespace trueaxis::cli {
 namespace {
 
 std::string duration_text(double seconds) {
-  char text[48];
-  if (seconds < 100.0) {
-    std::snprintf(text, sizeof text, "%.0f s", std::ceil(seconds));
-  } else if (seconds < 6000.0) {
-    std::snprintf(text, sizeof text, "%.0f min", std::ceil(seconds / 60.0));
-  } else {
-    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
-  }
-  return text;
+  if (seconds < 100.0) return fmt::format("{:.0f} s", std::ceil(seconds));
+  if (seconds < 6000.0) return fmt::format("{:.0f} min", std::ceil(seconds / 60.0));
+  return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
 }  // namespace
@@ -44,9 +39,9 @@ void Progress::show() {
   const double seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
   const double rate = static_cast<double>(done_) / seconds;
   const double share = static_cast<double>(before_ + done_) / static_cast<double>(before_ + to_do_);
-  std::fprintf(stderr, "\r\033[K%3.0f %%  %zu of %zu %s, %.*f/s, %s left", 100.0 * share,
-               before_ + done_, before_ + to_do_, unit_.c_str(), rate < 10.0 ? 1 : 0, rate,
-               duration_text(static_cast<double>(to_do_ - done_) / rate).c_str());
+  fmt::print(stderr, "\r\033[K{:3.0f} %  {} of {} {}, {:.{}f}/s, {} left", 100.0 * share,
+             before_ + done_, before_ + to_do_, unit_, rate, rate < 10.0 ? 1 : 0,
+             duration_text(static_cast<double>(to_do_ - done_) / rate));
   std::fflush(stderr);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/commands.hpp"
+#include "cli/run.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "cli/earlier_table.hpp"
+#include "cli/guarded.hpp"
 #include "format/file.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/simulate.hpp"
+
 #include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
 
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "cli/simulate_from.hpp"
 #include "format/file.hpp"
 #include "measure/files/stream_csv_write.hpp"

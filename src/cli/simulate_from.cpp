@@ -4,12 +4,13 @@
 #include <filesystem>
 #include <iostream>
 
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "diagnose/files/diagnosis_read.hpp"
 #include "format/file.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "resimulate/files/comparison_json.hpp"
+#include "resimulate/files/comparison_text.hpp"
 #include "simulate/files/truth_json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "cli/sweep.hpp"
+
 #include <iostream>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
 #include "cli/sweep_run.hpp"
 #include "studies/published/published_toml.hpp"
 #include "study/sweep/run.hpp"

@@ -26,7 +26,8 @@ double motion_mm(const RepeatingMotion& motion, double c_rad, double z_mm, doubl
   const std::vector<double>& linear = motion.term.linear;
   expects(linear.size() <= most, "a motion of 32 parameters or fewer");
   for (std::size_t j = 0; j < most; ++j) columns[j] = &value[j];
-  fill_columns(motion.term.effect->term, at, motion.term.shape, std::span(columns).first(linear.size()));
+  fill_columns(motion.term.effect->term, at, motion.term.shape,
+               std::span(columns).first(linear.size()));
   double sum = 0.0;
   for (std::size_t j = 0; j < linear.size(); ++j) sum += linear[j] * value[j];
   return sum;

@@ -162,7 +162,7 @@ std::vector<Effect> slide() {
        .source = "ISO 230-2 (reversal error)",
        .needs = {.length = true, .both_feeds = true},
        .search = {.forms = {{{0}}, {{1}}, {}}},
-       .between_passes = true},
+       .between_passes = 1},
   };
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/file.hpp"
 
+#include <fmt/format.h>
 #include <xxhash.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -42,10 +42,7 @@ std::string read_file(const std::string& path) {
 }
 
 std::string content_hash(std::string_view bytes) {
-  char text[32];
-  std::snprintf(text, sizeof text, "xxh3-64:%016llx",
-                static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
-  return text;
+  return fmt::format("xxh3-64:{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
 }
 
 }  // namespace trueaxis

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "trueaxis/estimate.hpp"
-#include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 
@@ -31,8 +30,5 @@ inline Json to_json(const Estimate& estimate) {
 inline std::string json_text(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
-
-/// The fit as an object, for results that hold one.
-Json fit_object(const FitResult& result);
 
 }  // namespace trueaxis

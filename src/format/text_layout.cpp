@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/text_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
-#include <vector>
 
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::layout {
-
-std::string format(const char* pattern, ...) {
-  std::va_list arguments, again;
-  va_start(arguments, pattern);
-  va_copy(again, arguments);
-  const int size = std::vsnprintf(nullptr, 0, pattern, arguments);
-  va_end(arguments);
-  std::vector<char> text(static_cast<std::size_t>(size) + 1);
-  std::vsnprintf(text.data(), text.size(), pattern, again);
-  va_end(again);
-  return text.data();
-}
 
 std::size_t width(std::string_view text) {
   std::size_t count = 0;
@@ -61,7 +48,7 @@ std::string wrapped(const std::string& head, std::string_view text) {
 
 std::string um(double length_mm) {
   if (!std::isfinite(length_mm)) return "not determined";
-  return format("%.3g µm", length_mm / mm_per_um);
+  return fmt::format("{:.3g} µm", length_mm / mm_per_um);
 }
 
 std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
@@ -72,17 +59,17 @@ std::string plus_minus(const Estimate& estimate, double coverage_factor, double 
   const double U = scale * coverage_factor * estimate.u;
   if (!std::isfinite(U)) {
     const std::string why = estimate.why_not.empty() ? "" : " (" + estimate.why_not + ")";
-    return format("%.4g", scale * estimate.value) + behind + why;
+    return fmt::format("{:.4g}", scale * estimate.value) + behind + why;
   }
   const int decimals = decimals_of(U, 0);
-  return format("%.*f ± %.*f", decimals, scale * estimate.value, decimals, U) + behind;
+  return fmt::format("{0:.{2}f} ± {1:.{2}f}{3}", scale * estimate.value, U, decimals, behind);
 }
 
 std::string probability(double value) {
   if (!std::isfinite(value)) return "not determined";
   if (value < 0.001) return "< 0.001";
   if (value > 0.999 && value < 1.0) return "> 0.999";
-  return format("%.2g", value);
+  return fmt::format("{:.2g}", value);
 }
 
 }  // namespace trueaxis::layout

@@ -11,9 +11,6 @@ namespace trueaxis::layout {
 
 inline constexpr std::size_t columns = 100;
 
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);
-
 /// Characters that a terminal shows of UTF-8.
 std::size_t width(std::string_view text);
 

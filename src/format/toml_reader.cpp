@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/toml_reader.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
+#include <tuple>
 
+#include "format/file.hpp"
 #include "format/toml_state.hpp"
 #include "format/toml_units.hpp"
 
@@ -218,12 +222,14 @@ std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
                                                    bool required) {
   const std::vector<std::string> list(words.begin(), words.end());
   const State::Found found = state_->find(key);
-  if (!found.node && required) state_->missing(key, "one of: " + join_words(list));
+  if (!found.node && required)
+    state_->missing(key, "one of: " + fmt::format("{}", fmt::join(list, ", ")));
   const std::optional<std::string> word = maybe_text(key);
   if (!word) return std::nullopt;
   const auto place = std::find(list.begin(), list.end(), *word);
   if (place != list.end()) return static_cast<std::size_t>(place - list.begin());
-  state_->wrong(found, "is \"" + *word + "\" but must be one of: " + join_words(list));
+  state_->wrong(found, "is \"" + *word +
+                           "\" but must be one of: " + fmt::format("{}", fmt::join(list, ", ")));
   return std::nullopt;
 }
 
@@ -290,6 +296,59 @@ const std::string& TomlTable::name() const { return state_->name; }
 
 Diagnostic TomlTable::here(std::string message) const {
   return {state_->document->path, state_->place.line, state_->place.column, std::move(message)};
+}
+
+void TomlDocument::Impl::parse(std::string_view content) {
+  try {
+    root = toml::parse(content, path);
+  } catch (const toml::parse_error& error) {
+    throw InputError({{path, error.source().begin.line, error.source().begin.column,
+                       "is no TOML: " + std::string(error.description())}});
+  }
+  open(&root, "", {1, 1});
+}
+
+void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
+  if (!state.table || state.rest_ignored) return;
+  for (const auto& [key, node] : *state.table) {
+    const std::string word(key.str());
+    const auto& accepted = state.accepted;
+    if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) continue;
+    const std::string near = nearest_word(word, accepted);
+    const toml::source_position at = key.source().begin ? key.source().begin : node.source().begin;
+    diagnostics.push_back({path, at.line, at.column,
+                           state.where() + " has no key `" + word + "`" +
+                               (near.empty() ? "." : ", did you mean `" + near + "`?") +
+                               " Known keys: " + fmt::format("{}", fmt::join(state.known, ", "))});
+  }
+}
+
+TomlDocument::TomlDocument(const std::string& path) : TomlDocument(read_file(path), path) {}
+
+TomlDocument::TomlDocument(std::string_view content, const std::string& path)
+    : impl_(std::make_unique<Impl>()) {
+  impl_->path = path;
+  impl_->parse(content);
+}
+
+TomlDocument::~TomlDocument() = default;
+
+TomlTable TomlDocument::root() { return TomlTable(&impl_->states.front()); }
+
+void TomlDocument::add(Diagnostic diagnostic) {
+  impl_->diagnostics.push_back(std::move(diagnostic));
+}
+
+bool TomlDocument::ok() const { return impl_->diagnostics.empty(); }
+
+void TomlDocument::finish() {
+  for (const TomlTable::State& state : impl_->states) impl_->report_unknown(state);
+  std::vector<Diagnostic>& all = impl_->diagnostics;
+  const auto by_place = [](const Diagnostic& a, const Diagnostic& b) {
+    return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+  };
+  std::stable_sort(all.begin(), all.end(), by_place);
+  if (!all.empty()) throw InputError(std::move(all));
 }
 
 }  // namespace trueaxis

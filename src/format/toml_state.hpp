@@ -45,7 +45,4 @@ struct TomlDocument::Impl {
   void report_unknown(const TomlTable::State& state);
 };
 
-/// "a, b, c".
-std::string join_words(std::span<const std::string> words);
-
 }  // namespace trueaxis

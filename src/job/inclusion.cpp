@@ -2,7 +2,6 @@
 #include "job/inclusion.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "trueaxis/effect.hpp"
@@ -11,11 +10,10 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::array<std::string_view, 4> repeating{
-    "spindle.radial_synchronous", "spindle.tilt_synchronous", "spindle.axial_synchronous",
-    "slide.z_straightness"};
-
-bool repeats(std::string_view id) { return std::ranges::find(repeating, id) != repeating.end(); }
+bool repeats(std::string_view id) {
+  const Effect* effect = find_effect(id);
+  return effect && effect->repeats_at_tool;
+}
 
 /// Why a finding must not be cut with; empty: it may.
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
@@ -49,7 +47,15 @@ bool known_already(const std::vector<RepeatingMotion>& motions, const Finding& f
 
 }  // namespace
 
-std::span<const std::string_view> repeating_effects() { return repeating; }
+std::span<const std::string_view> repeating_effects() {
+  static const std::vector<std::string_view> ids = [] {
+    std::vector<std::string_view> list;
+    for (const Effect& effect : effect_catalogue())
+      if (effect.repeats_at_tool) list.push_back(effect.id);
+    return list;
+  }();
+  return ids;
+}
 
 std::vector<RepeatingMotion> included_motions(JobResult& result) {
   std::vector<RepeatingMotion> motions;

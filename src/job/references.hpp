@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// The references of a job with a target as the target axis sees them: axis of the fit used, weight,
-/// and the radius at which a tilt counts.
+/// The references of a job with a target as the target axis sees them: axis of the fit used,
+/// weight, and the radius at which a tilt counts.
 std::vector<Reference> references_of(const JobResult& result);
 
 }  // namespace trueaxis

@@ -74,8 +74,7 @@ std::string slip_objection(const JobResult& result) {
     for (const Finding& finding : diagnosis.findings) {
       if (finding.effect() == slip)
         return where + named(finding, diagnosis.baseline.coverage_factor) + remedy;
-      if (perhaps.empty() && finding.may_be(slip))
-        perhaps = where + possible(finding) + remedy;
+      if (perhaps.empty() && finding.may_be(slip)) perhaps = where + possible(finding) + remedy;
     }
   }
   return perhaps;

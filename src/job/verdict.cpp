@@ -51,7 +51,8 @@ std::string numbers_of(const Verdict& v, TargetKind kind) {
   const double U = v.coverage_factor * v.u_coaxiality_mm;
   return fmt::format("{} {} with the table (U = {}), {} without it",
                      kind == TargetKind::face ? "axial run-out" : "coaxiality",
-                     in_um(v.coaxiality_after_mm, U), in_um(U, U), in_um(v.coaxiality_before_mm, U));
+                     in_um(v.coaxiality_after_mm, U), in_um(U, U),
+                     in_um(v.coaxiality_before_mm, U));
 }
 
 std::string cannot_follow(const ActuatorMargin& margin) {

@@ -42,8 +42,8 @@ std::vector<double> kernel_transform(std::size_t modes, std::size_t grid) {
 
 }  // namespace
 
-struct FourierSums::Plan {
-  Plan(std::span<const double> t, double w0, double dw, std::size_t K);
+struct FourierSums::Spreading {
+  Spreading(std::span<const double> t, double w0, double dw, std::size_t K);
   void place(std::span<const double> t, double middle, double w0, double dw);
   void correct(double middle, double w0, double dw);
   Sums sums_of(const SpreadColumn& column, FastFourier::Workspace& workspace) const;
@@ -55,7 +55,7 @@ struct FourierSums::Plan {
   std::vector<std::complex<double>> factor;  ///< of order k: of the middle of t, of the kernel
 };
 
-FourierSums::Plan::Plan(std::span<const double> t, double w0, double dw, std::size_t K)
+FourierSums::Spreading::Spreading(std::span<const double> t, double w0, double dw, std::size_t K)
     : orders(K), transform(smooth_even_size(std::max(2 * K, 2 * spread_width))) {
   double middle = 0.0;
   if (!t.empty()) {
@@ -67,7 +67,7 @@ FourierSums::Plan::Plan(std::span<const double> t, double w0, double dw, std::si
 }
 
 // Orders are counted from the middle one, abscissae from the middle of t.
-void FourierSums::Plan::place(std::span<const double> t, double middle, double w0, double dw) {
+void FourierSums::Spreading::place(std::span<const double> t, double middle, double w0, double dw) {
   const auto grid = static_cast<long double>(transform.size());
   const long double turns = turns_per_rad * dw;
   const long double middle_turns = turns_per_rad * (w0 + static_cast<long double>(orders / 2) * dw);
@@ -87,7 +87,7 @@ void FourierSums::Plan::place(std::span<const double> t, double middle, double w
   sincos(angle, sine, cosine);
 }
 
-void FourierSums::Plan::correct(double middle, double w0, double dw) {
+void FourierSums::Spreading::correct(double middle, double w0, double dw) {
   const std::size_t half = orders / 2;
   const std::vector<double> kernel = kernel_transform(half + 1, transform.size());
   std::vector<double> angle(orders), sine_of(orders), cosine_of(orders);
@@ -108,14 +108,14 @@ FourierSums::FourierSums(std::span<const double> t, double w0, double dw, std::s
   expects(std::isfinite(w0) && std::isfinite(dw), "finite frequencies");
   expects(std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); }),
           "finite abscissae");
-  plan_ = std::make_shared<const Plan>(t, w0, dw, K);
+  spreading_ = std::make_shared<const Spreading>(t, w0, dw, K);
 }
 
-std::size_t FourierSums::orders() const { return plan_->orders; }
+std::size_t FourierSums::orders() const { return spreading_->orders; }
 
 // F from the grids of a column.
-FourierSums::Sums FourierSums::Plan::sums_of(const SpreadColumn& column,
-                                             FastFourier::Workspace& workspace) const {
+FourierSums::Sums FourierSums::Spreading::sums_of(const SpreadColumn& column,
+                                                  FastFourier::Workspace& workspace) const {
   const std::size_t grid = transform.size(), half = orders / 2;
   for (std::size_t l = 0; l < spread_width; ++l) {  // the grid is a ring
     column.real[l] += column.real[grid + l];
@@ -133,11 +133,11 @@ FourierSums::Sums FourierSums::Plan::sums_of(const SpreadColumn& column,
 }
 
 std::vector<FourierSums::Sums> FourierSums::of(std::span<const std::span<const double>> w) const {
-  const Plan& plan = *plan_;
-  const std::size_t length = plan.transform.size() + spread_width;
+  const Spreading& spreading = *spreading_;
+  const std::size_t length = spreading.transform.size() + spread_width;
   // Columns spread at a time: their grids stay in the second cache.
   const std::size_t most = std::clamp(grid_cache / length, std::size_t{1}, w.size() + 1);
-  FastFourier::Workspace workspace = plan.transform.workspace();
+  FastFourier::Workspace workspace = spreading.transform.workspace();
   std::vector<Sums> result;
   std::vector<double> grids;
   for (std::size_t from = 0; from < w.size(); from += most) {
@@ -145,12 +145,13 @@ std::vector<FourierSums::Sums> FourierSums::of(std::span<const std::span<const d
     grids.assign(2 * part.size() * length, 0.0);
     std::vector<SpreadColumn> columns;
     for (const std::span<const double> values : part) {
-      expects(values.size() == plan.first.size(), "a value an abscissa");
+      expects(values.size() == spreading.first.size(), "a value an abscissa");
       double* real = grids.data() + 2 * columns.size() * length;
       columns.push_back({values.data(), real, real + length});
     }
-    spread({plan.first, plan.distance, plan.cosine, plan.sine}, columns);
-    for (const SpreadColumn& column : columns) result.push_back(plan.sums_of(column, workspace));
+    spread({spreading.first, spreading.distance, spreading.cosine, spreading.sine}, columns);
+    for (const SpreadColumn& column : columns)
+      result.push_back(spreading.sums_of(column, workspace));
   }
   return result;
 }

@@ -18,7 +18,7 @@ namespace trueaxis {
 /// w0, dw are free but inverse to each other.
 ///
 /// The object keeps what depends on t alone: 28 bytes a reading and 16 an order k; `of` works with
-/// about 110 bytes an order. Fastest for t nearly in order. Copies share the plan; `of` may be
+/// about 110 bytes an order. Fastest for t nearly in order. Copies share it; `of` may be
 /// called from several threads.
 class FourierSums {
  public:
@@ -35,8 +35,8 @@ class FourierSums {
   std::vector<Sums> of(std::span<const std::span<const double>> w) const;
 
  private:
-  struct Plan;
-  std::shared_ptr<const Plan> plan_;
+  struct Spreading;
+  std::shared_ptr<const Spreading> spreading_;
 };
 
 }  // namespace trueaxis

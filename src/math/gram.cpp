@@ -13,17 +13,17 @@ namespace hn = hwy::HWY_NAMESPACE;
 constexpr std::size_t tile =
     4;  // 4 × 4 sums and their operands fit into 32 registers, nearly into 16
 
-// ObservationMask [row0, row0 + ObservationMask) against columns [column0, column0 + tile), or, on
+// Rows [row0, row0 + Rows) against columns [column0, column0 + tile), or, on
 // the diagonal, against the rows themselves: the sums stay in registers over the block.
-template <std::size_t ObservationMask, bool Diagonal>
+template <std::size_t Rows, bool Diagonal>
 HWY_INLINE void add_tile(const double* const* column, std::size_t row0, std::size_t column0,
                          LaneSums& sums) {
   const hn::CappedTag<double, LaneSums::lanes> tag;
   using V = hn::Vec<decltype(tag)>;
-  constexpr std::size_t columns = Diagonal ? ObservationMask : tile;
-  V sum[ObservationMask][columns];
+  constexpr std::size_t columns = Diagonal ? Rows : tile;
+  V sum[Rows][columns];
   const auto used = [](std::size_t i, std::size_t j) { return !Diagonal || j <= i; };
-  for (std::size_t i = 0; i < ObservationMask; ++i) {
+  for (std::size_t i = 0; i < Rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) {
       sum[i][j] =
           used(i, j) ? hn::Load(tag, sums.value[gram_index(row0 + i, column0 + j)]) : hn::Zero(tag);
@@ -32,25 +32,24 @@ HWY_INLINE void add_tile(const double* const* column, std::size_t row0, std::siz
   for (std::size_t at = 0; at < block_size; at += hn::Lanes(tag)) {
     V right[columns];
     for (std::size_t j = 0; j < columns; ++j) right[j] = hn::Load(tag, column[column0 + j] + at);
-    for (std::size_t i = 0; i < ObservationMask; ++i) {
+    for (std::size_t i = 0; i < Rows; ++i) {
       const V left = Diagonal ? right[Diagonal ? i : 0] : hn::Load(tag, column[row0 + i] + at);
       for (std::size_t j = 0; j < columns; ++j) {
         if (used(i, j)) sum[i][j] = hn::MulAdd(left, right[j], sum[i][j]);
       }
     }
   }
-  for (std::size_t i = 0; i < ObservationMask; ++i) {
+  for (std::size_t i = 0; i < Rows; ++i) {
     for (std::size_t j = 0; j < columns; ++j) {
       if (used(i, j)) hn::Store(sum[i][j], tag, sums.value[gram_index(row0 + i, column0 + j)]);
     }
   }
 }
 
-template <std::size_t ObservationMask>
+template <std::size_t Rows>
 HWY_INLINE void add_rows(const double* const* column, std::size_t row0, LaneSums& sums) {
-  for (std::size_t j = 0; j < row0; j += tile)
-    add_tile<ObservationMask, false>(column, row0, j, sums);
-  add_tile<ObservationMask, true>(column, row0, row0, sums);
+  for (std::size_t j = 0; j < row0; j += tile) add_tile<Rows, false>(column, row0, j, sums);
+  add_tile<Rows, true>(column, row0, row0, sums);
 }
 
 void products(const double* const* column, std::size_t rows, LaneSums& sums) {

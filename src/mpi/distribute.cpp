@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "study/sweep/block_bytes.hpp"
+
 namespace trueaxis::mpi {
 namespace {
 

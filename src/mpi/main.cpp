@@ -10,7 +10,6 @@
 #include <string>
 #include <string_view>
 
-#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/sweep_run.hpp"
 #include "mpi/distribute.hpp"

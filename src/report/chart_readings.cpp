@@ -4,17 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/report_data.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::vector<bool> kept_readings(const ProbeStream& stream, const FitResult& fit) {
-  std::vector<bool> kept(stream.size(), true);
-  for (const Rejected& rejected : fit.rejected) {
-    if (rejected.row >= 1 && rejected.row <= kept.size()) kept[rejected.row - 1] = false;
-  }
+  std::vector<bool> kept = marked(fit.rejected, stream.size());
+  kept.flip();
   return kept;
 }
 

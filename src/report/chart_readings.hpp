@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "format/json.hpp"
 #include "report/coaxial_nominal.hpp"
 #include "report/thinning.hpp"
 
@@ -29,11 +29,6 @@ ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,
 /// turns of a helix would stay blank).
 inline constexpr Bins map_columns{0.0, 360.0, 120};
 Bins map_rows(const ChartReadings& all);
-
-/// Up to three polar sections (both ends and the middle): the readings of about one revolution
-/// nearest to each height, means per degree where there are more than 360, and the model's curve
-/// there.
-nlohmann::json sections_data(const ChartReadings& all, const CoaxialNominal& nominal);
 
 /// C wrapped to [0, 360) degrees.
 double wrapped_deg(double c_rad);

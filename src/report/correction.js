@@ -63,9 +63,9 @@ function harmonicsTable(correction) {
   const phase = (order, amplitude, value) => order === 0 || amplitude < 5e-7 || !isNumber(value) ? '–' : deg(value);
   return table(`Harmonics of the correction, A cos(nC − φ), and the actuator at ${tick(correction.speed_rpm)} rpm`,
     ['Per revolution', 'A at start', 'φ at start', 'A at end', 'φ at end', 'Frequency', 'Actuator gain', 'Actuator lag'],
-    correction.harmonics.map((h) => [String(h.order), um(h.amplitude_start_mm), phase(h.order, h.amplitude_start_mm, h.phase_start_deg),
-      um(h.amplitude_end_mm), phase(h.order, h.amplitude_end_mm, h.phase_end_deg), `${significant(h.order * correction.speed_rpm / 60, 3)}${nbsp}Hz`,
-      fixed(h.gain, 5), deg(h.lag_deg)]));
+    correction.harmonics.map((h) => [String(h.order), um(h.amplitude_start.value), phase(h.order, h.amplitude_start.value, h.phase_start.value),
+      um(h.amplitude_end.value), phase(h.order, h.amplitude_end.value, h.phase_end.value), `${significant(h.order * correction.speed_rpm / 60, 3)}${nbsp}Hz`,
+      fixed(h.actuator_gain, 5), deg(h.actuator_lag.value)]));
 }
 
 /** A profile number, which the machine runs as it stands: 1 nm steps. */
@@ -86,10 +86,10 @@ function correctionSection(data) {
 }
 
 const marginLines = (m) => [
-  {name: 'stroke', used: m.stroke_used_mm, limit: m.stroke_available_mm, show: (v) => micrometres(v), what: 'peak to peak, after the reserve'},
-  {name: 'slew rate', used: m.slew_used_mm_per_s, limit: m.slew_available_mm_per_s, show: (v) => `${significant(v, 3)}${nbsp}mm/s`, what: 'fastest motion'},
-  {name: 'bandwidth', used: m.highest_frequency_hz, limit: m.bandwidth_hz, show: (v) => `${significant(v, 3)}${nbsp}Hz`, what: 'highest harmonic above 10 nm'},
-  {name: 'following error', used: m.following_mm, limit: m.following_limit_mm, show: (v) => micrometres(v), what: 'predicted peak'},
+  {name: 'stroke', used: m.stroke_used.value, limit: m.stroke_available.value, show: (v) => micrometres(v), what: 'peak to peak, after the reserve'},
+  {name: 'slew rate', used: m.slew_used.value, limit: m.slew_available.value, show: (v) => `${significant(v, 3)}${nbsp}mm/s`, what: 'fastest motion'},
+  {name: 'bandwidth', used: m.highest_frequency.value, limit: m.bandwidth.value, show: (v) => `${significant(v, 3)}${nbsp}Hz`, what: 'highest harmonic above 10 nm'},
+  {name: 'following error', used: m.following.value, limit: m.following_limit.value, show: (v) => micrometres(v), what: 'predicted peak'},
 ].map((line) => ({...line, share: line.limit > 0 && isNumber(line.used) ? line.used / line.limit : null}));
 
 function marginChart(lines) {
@@ -118,9 +118,9 @@ function marginSection(data) {
     : paragraph(`The actuator cannot follow the correction: do not run the table.${margin.breaks ? ` What breaks: ${margin.breaks}.` : ''}`, 'alert')];
   parts.push(facts([
     ['Speed of the job', rpm(speed)],
-    ['Highest speed that works', margin.max_speed_rpm > 0 ? rpm(margin.max_speed_rpm) : 'none'],
-    ['Following error if sent uncorrected', micrometres(margin.following_uncompensated_mm)],
-    ['Following error with this table', micrometres(margin.following_mm)],
+    ['Highest speed that works', margin.max_speed.value > 0 ? rpm(margin.max_speed.value) : 'none'],
+    ['Following error if sent uncorrected', micrometres(margin.following_uncompensated.value)],
+    ['Following error with this table', micrometres(margin.following.value)],
     ['Set-points per revolution', tick(Number(margin.set_points_per_revolution.toPrecision(4)))],
   ]));
   parts.push(element('div', {class: 'pair'}, marginChart(lines),

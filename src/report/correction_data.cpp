@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/correction_data.hpp"
+
 #include <algorithm>
 
+#include "job/files/job_json.hpp"
 #include "report/chart_readings.hpp"
-#include "report/report_data.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
@@ -23,7 +25,7 @@ std::vector<Turn> turns_of(const CorrectionRows& rows) {
   return turns;
 }
 
-nlohmann::json turn_data(const CorrectionRows& rows, Turn turn) {
+Json turn_data(const CorrectionRows& rows, Turn turn) {
   std::vector<std::size_t> order;
   std::vector<double> c_deg, wanted, command, sorted_c;
   const std::size_t step = std::max<std::size_t>(1, (turn.end - turn.begin) / 720);
@@ -47,19 +49,19 @@ nlohmann::json turn_data(const CorrectionRows& rows, Turn turn) {
 }
 
 /// First, middle and last complete revolution.
-nlohmann::json turns_data(const CorrectionRows& rows, std::vector<Turn> turns) {
+Json turns_data(const CorrectionRows& rows, std::vector<Turn> turns) {
   const auto length = [](Turn turn) { return turn.end - turn.begin; };
   std::size_t longest = 0;
   for (const Turn turn : turns) longest = std::max(longest, length(turn));
   std::erase_if(turns, [&](Turn turn) { return length(turn) < longest; });
   std::vector<std::size_t> shown{0, turns.size() / 2, turns.size() - 1};
   shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
-  nlohmann::json list = nlohmann::json::array();
+  Json list = Json::array();
   for (const std::size_t i : shown) list.push_back(turn_data(rows, turns[i]));
   return list;
 }
 
-nlohmann::json map_data(const CorrectionRows& rows, std::size_t turns) {
+Json map_data(const CorrectionRows& rows, std::size_t turns) {
   const auto [low, high] = std::minmax_element(rows.position_mm.begin(), rows.position_mm.end());
   const Bins c{0.0, 360.0, 120};
   const Bins position{*low, *high > *low ? *high : *low + 1.0,
@@ -75,48 +77,16 @@ nlohmann::json map_data(const CorrectionRows& rows, std::size_t turns) {
           {"wanted_um", wanted.to_json(3)}};
 }
 
-nlohmann::json harmonics_data(const std::vector<CorrectionHarmonic>& harmonics) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const CorrectionHarmonic& harmonic : harmonics) {
-    list.push_back({{"order", harmonic.order},
-                    {"amplitude_start_mm", harmonic.amplitude_start_mm},
-                    {"phase_start_deg", harmonic.phase_start_rad / rad_per_deg},
-                    {"amplitude_end_mm", harmonic.amplitude_end_mm},
-                    {"phase_end_deg", harmonic.phase_end_rad / rad_per_deg},
-                    {"gain", harmonic.gain},
-                    {"lag_deg", harmonic.lag_rad / rad_per_deg}});
-  }
-  return list;
-}
-
-nlohmann::json margin_data(const ActuatorMargin& margin) {
-  return {{"stroke_used_mm", margin.stroke_used_mm},
-          {"stroke_available_mm", margin.stroke_available_mm},
-          {"slew_used_mm_per_s", margin.slew_used_mm_per_s},
-          {"slew_available_mm_per_s", margin.slew_available_mm_per_s},
-          {"highest_frequency_hz", margin.highest_frequency_hz},
-          {"bandwidth_hz", margin.bandwidth_hz},
-          {"set_points_per_revolution", margin.set_points_per_revolution},
-          {"following_uncompensated_mm", margin.following_uncompensated_mm},
-          {"following_mm", margin.following_mm},
-          {"following_limit_mm", margin.following_limit_mm},
-          {"follows", margin.follows},
-          {"breaks", margin.breaks},
-          {"max_speed_rpm", margin.max_speed_rpm}};
-}
-
 }  // namespace
 
-nlohmann::json correction_data(const Correction& correction) {
+Json correction_data(const Correction& correction) {
   const std::vector<Turn> turns = turns_of(correction.rows);
-  nlohmann::json data{{"face", correction.target.kind == TargetKind::face},
-                      {"rows", correction.rows.revolution.size()},
-                      {"revolutions", turns.size()},
-                      {"speed_rpm", correction.tool.speed_rpm},
-                      {"precompensated", correction.actuator.precompensate},
-                      {"turns", nlohmann::json::array()},
-                      {"harmonics", harmonics_data(correction.harmonics)},
-                      {"margin", margin_data(correction.margin)}};
+  Json data = correction_object(correction);
+  data["face"] = correction.target.kind == TargetKind::face;
+  data["revolutions"] = turns.size();
+  data["speed_rpm"] = correction.tool.speed_rpm;
+  data["precompensated"] = correction.actuator.precompensate;
+  data["turns"] = Json::array();
   if (turns.empty()) return data;
   data["turns"] = turns_data(correction.rows, turns);
   data["map"] = map_data(correction.rows, turns.size());

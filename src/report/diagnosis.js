@@ -11,45 +11,48 @@ const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${signific
 const spoken = (name) => name.replaceAll('_', ' ');
 
 /** "value ± U" of an estimate in the unit that suits its size, or why it is not there. */
-function estimated({value, u, unit, why_not: why}, k) {
+function estimated({value, u, unit, why}, k) {
   if (!isNumber(value)) return `not determined${why ? `: ${why}` : ''}`;
   if (u === 0 && (unit === '1' || unit === '')) return tick(Number(value.toPrecision(6)));
   const shown = quantity(value, isNumber(u) ? k * u : null, unit);
   return isNumber(u) && u > 0 ? `${shown} ± ${uncertainty(k * u, unit)}` : shown;
 }
 
+/** With `power` or, of the next measurement, `power_after`. */
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.before)} → ${chance(plan.after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min${otherPlans(plan)}.`;
+  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min${otherPlans(plan)}.`;
 }
 
 function otherPlans({others = []}) {
-  return others.map((o) => `; or ${o.plan} (→ ${chance(o.after)}, ${tick(Number(o.minutes.toPrecision(3)))} min)`).join('');
+  return others.map((o) => `; or ${o.plan} (→ ${chance(o.power)}, ${tick(Number(o.minutes.toPrecision(3)))} min)`).join('');
 }
 
-function classTable(finding) {
-  return table(finding.class.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
-    ['Cause', 'Chance'], finding.class.map((member) => [
-      element('span', {}, member.effect, element('small', {}, member.title + (member.structural ? ': the same column, no amount of such data helps' : ''))),
+function classTable(finding, titles) {
+  const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
+  return table(members.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
+    ['Cause', 'Chance'], members.map((member) => [
+      element('span', {}, member.effect, element('small', {}, (titles[member.effect] ?? '') + (member.structural ? ': the same column, no amount of such data helps' : ''))),
       chance(member.probability)]));
 }
 
-function findingCard(finding, number, k) {
-  const list = finding.parameters.map((p) => [spoken(p.name), estimated(p, k)]);
-  list.push(['Part of the readings (RMS)', micrometres(finding.rms_mm)],
-    ['Axis shift when left out', estimated(finding.axis_shift, k)],
+function findingCard(finding, number, k, titles) {
+  const {axis_shift: shift, cosmetic} = finding.axis_bias;
+  const list = named(finding.parameters).map((p) => [spoken(p.name), estimated(p, k)]);
+  list.push(['Part of the readings (RMS)', micrometres(finding.rms.value)],
+    ['Axis shift when left out', estimated(shift, k)],
     ['False-alarm probability (all hypotheses counted)', isNumber(finding.p_value) ? (finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)) : '–']);
-  const parts = [element('h4', {}, `${number}. ${finding.effect}`, finding.cosmetic ? element('span', {class: 'pill neutral'}, 'cosmetic for coaxiality') : null),
-    paragraph(finding.title, 'quiet'), facts(list), classTable(finding)];
+  const parts = [element('h4', {}, `${number}. ${finding.effect}`, cosmetic ? element('span', {class: 'pill neutral'}, 'cosmetic for coaxiality') : null),
+    paragraph(titles[finding.effect], 'quiet'), facts(list), classTable(finding, titles)];
   if (finding.alias) parts.push(paragraph(`The sampling cannot tell it from ${finding.alias}.`, 'quiet'));
   if (finding.separate_with) parts.push(paragraph(`To tell apart: ${measurementWords(finding.separate_with)}`));
   return element('div', {class: 'card'}, parts);
 }
 
-function findingsBlock({findings, unexplained, k}) {
+function findingsBlock({findings, unexplained, titles, options: {coverage_factor: k}}) {
   if (!findings.length && !unexplained.length) return null;
-  const cards = findings.map((f, i) => findingCard(f, i + 1, k));
+  const cards = findings.map((f, i) => findingCard(f, i + 1, k, titles));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
     element('h4', {}, `Unexplained: ${u.harmonic}`), paragraph(u.dependence, 'quiet'), facts([['Amplitude', estimated(u.amplitude, k)]]),
     paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
@@ -59,13 +62,13 @@ function findingsBlock({findings, unexplained, k}) {
 const spread = ({value, low, high}) => isNumber(value) && value > 0
   ? `${micrometres(value)}${isNumber(low) && high > low ? ` (95 % ${micrometres(low).replace(nbsp + 'µm', '')} to ${micrometres(high)})` : ''}` : 'not determined';
 
-function gainFacts({gain, k}) {
+function gainFacts({gain, options: {coverage_factor: k}}) {
   const ratio = gain.held_out_ratio;
   return facts([
-    ['Held-out RMS, ideal surface', spread(gain.held_out_before_mm)],
-    ['Held-out RMS, extended model', spread(gain.held_out_after_mm)],
+    ['Held-out RMS, ideal surface', spread(gain.held_out_rms_before)],
+    ['Held-out RMS, extended model', spread(gain.held_out_rms_after)],
     ['Ratio (95 %)', isNumber(ratio.value) && ratio.value > 0 ? `${fixed(ratio.value, 2)} (${fixed(ratio.low ?? ratio.value, 2)} to ${fixed(ratio.high ?? ratio.value, 2)})` : 'not determined'],
-    ['Noise floor', micrometres(gain.noise_floor_mm)],
+    ['Noise floor', micrometres(gain.noise_floor.value)],
     ['Shift of the axis', estimated(gain.axis_shift, k)],
     ['Coaxiality cut from the ideal surface', estimated(gain.coaxiality_before, k)],
     ['Coaxiality cut from the extended model', estimated(gain.coaxiality_after, k)],
@@ -102,7 +105,7 @@ function simulationBlock(reference) {
   return block('Measured against simulated, before and after', ...parts);
 }
 
-const axisBiasUnit = ({value, unit, why_not: why}) => {
+const axisBiasUnit = ({value, unit, why}) => {
   if (!isNumber(value)) return why || 'not known';
   const per = unit.startsWith('mm/') ? unit.slice(3).replace(/[()]/g, '') : null;
   if (per === null) return `${significant(value, 3)} ${unit}`;
@@ -110,7 +113,7 @@ const axisBiasUnit = ({value, unit, why_not: why}) => {
 };
 
 /** The size that would be found, two digits. */
-function seenFrom({detectable: size, detectable_unit: unit}) {
+function seenFrom({detectable: {value: size, unit}}) {
   if (!isNumber(size)) return 'no size';
   if (unit === 'mm' && size < 1) return `${significant(size * 1000, 2)} µm`;
   return `${significant(size, 2)}${unit === '1' || unit === '' ? '' : ` ${unit}`}`;
@@ -118,7 +121,7 @@ function seenFrom({detectable: size, detectable_unit: unit}) {
 
 const harmlessMm = 1e-5;
 
-function notObservableTable({not_observable: all}) {
+function notObservableTable({not_observable: all, titles}) {
   if (!all.length) return null;
   const isHarmless = (n) => isNumber(n.axis_bias_typical?.value) && n.axis_bias_typical.value < harmlessMm;
   const list = all.filter((n) => !isHarmless(n)), harmless = all.filter(isHarmless);
@@ -127,29 +130,29 @@ function notObservableTable({not_observable: all}) {
   if (!list.length) return block('What these readings cannot show', rest);
   return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
-      element('span', {}, n.effect, element('small', {}, n.title)), n.why,
+      element('span', {}, n.effect, element('small', {}, titles[n.effect])), n.why,
       n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
-      axisBiasUnit(n.axis_bias), seenFrom(n)]), 3), rest);
+      axisBiasUnit(n.axis_bias_per_unit), seenFrom(n)]), 3), rest);
 }
 
-function noiseBlock({noise, checks, remarks, k}) {
-  const list = [['σ of one reading', estimated({value: noise.sigma_mm, u: noise.u_sigma_mm, unit: 'mm'}, k)], ['Source', noise.source || 'none']];
-  for (const [name, key] of [['stationary capture', 'stationary_mm'], ['repeated passes', 'repeated_mm'], ['revolution differences', 'revolutions_mm'], ['stated', 'stated_mm']]) {
-    if (isNumber(noise[key])) list.push([`σ, ${name}`, micrometres(noise[key])]);
+function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: k}}) {
+  const list = [['σ of one reading', estimated(noise.sigma, k)], ['Source', noise.source || 'none']];
+  for (const [name, key] of [['stationary capture', 'stationary'], ['repeated passes', 'repeated'], ['revolution differences', 'revolutions'], ['stated', 'stated']]) {
+    if (isNumber(noise[key].value)) list.push([`σ, ${name}`, micrometres(noise[key].value)]);
   }
   list.push(['Autoregression', noise.autoregression.length ? noise.autoregression.map((phi) => fixed(phi, 2)).join(', ') : 'none: white'],
     ['Readings left out', String(noise.masked)]);
-  if (noise.interruptions) list.push(['Interruptions', String(noise.interruptions)]);
+  if (noise.interruptions > 0) list.push(['Interruptions', String(noise.interruptions)]);
   if (noise.gaps.length) list.push(['Gaps', noise.gaps.join('; ')]);
   const found = checks.filter((check) => check.found);
   return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
     found.length ? table('Checks that found something', ['Check', 'What was seen'],
-      found.map((check) => [element('span', {}, check.effect, element('small', {}, check.title)), check.text]), 2)
+      found.map((check) => [element('span', {}, check.effect, element('small', {}, titles[check.effect])), check.text]), 2)
       : paragraph('No check of the data found anything.', 'quiet'),
     ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
 }
 
-function nextBlock({next, plans}) {
+function nextBlock({next_measurement: next, plans}) {
   if (!next.plan && !next.why_not && !plans.length) return null;
   const what = next.plan ? measurementWords(next) + (next.separates.length ? ` It separates ${next.separates.join(', ')}.` : '')
     : next.why_not ? `None: ${next.why_not}.` : 'None: there is nothing to tell apart.';
@@ -170,7 +173,8 @@ function diagnosisSection(reference, index) {
     parts.push(paragraph(`${hypotheses} hypotheses were tried; the chance of any finding in a stream that has none is ${percent(alarm)}.` +
       (reference.extended ? ' The correction takes the axis of the extended model.' : ''), 'quiet'));
   }
-  if (diagnosis.status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[diagnosis.status] ?? diagnosis.status}. ${diagnosis.message}`, 'alert'));
+  const {status, message} = diagnosis.extended;
+  if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
   if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis));
   parts.push(findingsBlock(diagnosis), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
   return section(`diagnosis-${index + 1}`, title, ...parts);

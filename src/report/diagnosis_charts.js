@@ -58,13 +58,19 @@ const sectionDifferences = (readings, extended) => sectionChart(readings, [['bef
   ...(extended ? [['after_um', 'measured − after', colours.model]] : [])],
 'Measured minus simulated over the spindle angle.');
 
-function spectrumChart({simulation: {spectrum}, lines}, extended) {
+/** Orders that have a name: of harmonics found, and of unexplained patterns. */
+const foundLines = ({findings, unexplained}) => [
+  ...findings.map((f) => ({order: f.parameters.order?.value, name: f.effect})).filter(({order}) => isNumber(order)),
+  ...unexplained.map((u) => ({order: Math.abs(u.term.pattern.order ?? 0), name: 'unexplained'})).filter(({order}) => order > 0)];
+
+function spectrumChart(diagnosis, extended) {
+  const {spectrum} = diagnosis.simulation;
   const {order, before_um: before, after_um: after} = spectrum;
   const most = Math.max(largest(before), largest(after));
   const nearest = (line) => order.reduce((best, o, i) => Math.abs(o - line.order) < Math.abs(order[best] - line.order) ? i : best, 0);
   // One mark a bin: several names there share it.
   const marks = new Map();
-  lines.forEach((line) => {
+  foundLines(diagnosis).forEach((line) => {
     const i = nearest(line);
     marks.set(i, [...(marks.get(i) ?? []), `${line.name.split('.').pop().replaceAll('_', ' ')} (${tick(Number(line.order.toPrecision(4)))})`]);
   });
@@ -91,7 +97,7 @@ function spectrumChart({simulation: {spectrum}, lines}, extended) {
 
 /** What every plan would do to the chance of the right name. */
 function plansChart(plans) {
-  const shown = plans.filter((plan) => !plan.why_not && isNumber(plan.before) && isNumber(plan.after));
+  const shown = plans.filter((plan) => !plan.why_not && isNumber(plan.power_before) && isNumber(plan.power));
   if (!shown.length) return null;
   const share = (v) => Number((100 * v).toPrecision(4));
   const bars = (name, key, colour) => ({name, type: 'bar', barWidth: '34%', emphasis: {disabled: true}, itemStyle: {color: colour},
@@ -102,7 +108,7 @@ function plansChart(plans) {
     xAxis: axis('chance of the right name in %', {min: 0, max: 100}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => `${plan.plan}, ${tick(Number(plan.minutes.toPrecision(3)))} min`),
       axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink}}),
-    series: [bars('with the data at hand', 'before', colours.grey), bars('with the measurement added', 'after', colours.series[2])],
+    series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',
     description: 'Chance of the right name before and after each plan.', size: shown.length > 5 ? 'map' : 'short', renderer: 'svg', build});

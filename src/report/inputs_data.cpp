@@ -1,29 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
+#include "report/inputs_data.hpp"
 
-#include "report/report_data.hpp"
+#include <fmt/format.h>
+
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::string number(double value, const char* unit) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.7g%s%s", value, *unit == '\0' ? "" : " ", unit);
-  return text;
+  return fmt::format("{:.7g}{}{}", value, *unit == '\0' ? "" : " ", unit);
 }
 
 /// Labels and texts of one block of options, in the order in which they are shown.
 class Options {
  public:
-  explicit Options(const std::string& title)
-      : block_{{"title", title}, {"lines", nlohmann::json::array()}} {}
+  explicit Options(const std::string& title) : block_{{"title", title}, {"lines", Json::array()}} {}
   void add(const char* label, const std::string& text) { block_["lines"].push_back({label, text}); }
   void add(const char* label, double value, const char* unit) { add(label, number(value, unit)); }
-  const nlohmann::json& block() const { return block_; }
+  const Json& block() const { return block_; }
 
  private:
-  nlohmann::json block_;
+  Json block_;
 };
 
 const char* loss_text(Loss loss) {
@@ -65,7 +63,7 @@ void add_fit(Options& options, const FitOptions& fit) {
   options.add("coverage factor k", fit.coverage_factor, "");
 }
 
-nlohmann::json reference_block(const JobResult& result, std::size_t i) {
+Json reference_block(const JobResult& result, std::size_t i) {
   const JobReference& reference = result.job.references[i];
   Options options("Reference: " + reference.name);
   options.add("stream", reference.stream);
@@ -83,7 +81,7 @@ nlohmann::json reference_block(const JobResult& result, std::size_t i) {
   return options.block();
 }
 
-nlohmann::json cut_block(const TargetSurface& target, const ToolSetup& tool) {
+Json cut_block(const TargetSurface& target, const ToolSetup& tool) {
   Options options("Cut");
   const bool face = target.kind == TargetKind::face;
   const char* kind = face ? "face" : target.kind == TargetKind::cone ? "cone" : "cylinder";
@@ -109,7 +107,7 @@ nlohmann::json cut_block(const TargetSurface& target, const ToolSetup& tool) {
   return options.block();
 }
 
-nlohmann::json actuator_block(const Actuator& actuator) {
+Json actuator_block(const Actuator& actuator) {
   Options options("Actuator");
   options.add("stroke", actuator.stroke_mm / mm_per_um, "µm");
   options.add("stroke kept in reserve", 100.0 * actuator.stroke_reserve, "%");
@@ -129,8 +127,8 @@ nlohmann::json actuator_block(const Actuator& actuator) {
 
 }  // namespace
 
-nlohmann::json inputs_data(const JobResult& result) {
-  nlohmann::json blocks = nlohmann::json::array();
+Json inputs_data(const JobResult& result) {
+  Json blocks = Json::array();
   for (std::size_t i = 0; i < result.job.references.size(); ++i) {
     blocks.push_back(reference_block(result, i));
   }

@@ -34,8 +34,8 @@ std::string escape_html(std::string_view text) {
   return escaped;
 }
 
-std::string json_for_script(const nlohmann::json& data) {
-  const std::string text = data.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+std::string json_for_script(const Json& data) {
+  const std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char letter : text) {

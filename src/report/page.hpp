@@ -2,10 +2,11 @@
 #pragma once
 
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "format/json.hpp"
 
 namespace trueaxis {
 
@@ -14,7 +15,7 @@ std::string escape_html(std::string_view text);
 
 /// `data` as ASCII JSON in which no character can end or open an HTML element: < > & are written as
 /// \u003c \u003e \u0026. Bytes that are not UTF-8 become U+FFFD; NaN becomes null.
-std::string json_for_script(const nlohmann::json& data);
+std::string json_for_script(const Json& data);
 
 /// Puts each text at its {{place}} in one sweep, so that no text is searched for places itself.
 /// @throws ContractViolation if the template has a place without text.

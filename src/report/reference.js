@@ -29,7 +29,7 @@ function parameterName(name) {
 }
 
 /** Rows of value, u and U; what is not determined says why. */
-function parameterRow({name, value, u, unit, why_not: why}, k) {
+function parameterRow({name, value, u, unit, why}, k) {
   const has = isNumber(value);
   const cells = [parameterName(name), has ? quantity(value, u, unit) : 'not determined', has ? uncertainty(u, unit) : '–',
     has ? uncertainty(isNumber(u) ? k * u : null, unit) : '–'];
@@ -37,21 +37,24 @@ function parameterRow({name, value, u, unit, why_not: why}, k) {
   return {cells, lost: !has, note: missing ? `${has ? 'no uncertainty: ' : ''}${why || 'the readings do not fix it'}` : null};
 }
 
-const parameterTable = (caption, list, k) =>
-  table(caption, ['Quantity', 'Value', 'u', `U (k = ${tick(k)})`], list.map((p) => parameterRow(p, k)));
+/** Named quantities of the files, {NAME: {value, u, unit, why}}, as a list. */
+const named = (quantities) => Object.entries(quantities).map(([name, quantity]) => ({name, ...quantity}));
+
+const parameterTable = (caption, quantities, k) =>
+  table(caption, ['Quantity', 'Value', 'u', `U (k = ${tick(k)})`], named(quantities).map((p) => parameterRow(p, k)));
 
 function statusBlock(reference) {
   const good = reference.status === 'converged';
   const size = (mm) => micrometres(mm);
   const list = [
     ['Status', pill(statusWords[reference.status] ?? reference.status, good)],
-    ['Surface', `${reference.surface}${reference.bore ? ' (bore)' : ''}`],
+    ['Surface', `${reference.surface}${reference.feature === 'bore' ? ' (bore)' : ''}`],
     ['Readings', `${reference.points}, ${reference.rejected.count} rejected`],
   ];
   if (good || reference.status === 'max_iterations') {
-    list.push(['RMS of the residuals', size(reference.rms_mm)],
-      ['σ of one reading', `${size(reference.sigma_mm)} (from ${reference.sigma_source || 'the fit'})`],
-      ['Correlation of neighbours', `${fixed(reference.autocorrelation ?? 0, 2)} (widens u ${fixed(reference.u_factor ?? 1, 2)} times)`],
+    list.push(['RMS of the residuals', size(reference.rms.value)],
+      ['σ of one reading', `${size(reference.noise.sigma.value)} (from ${reference.noise.source || 'the fit'})`],
+      ['Correlation of neighbours', `${fixed(reference.noise.autocorrelation ?? 0, 2)} (widens u ${fixed(reference.noise.u_factor ?? 1, 2)} times)`],
       ['Iterations', String(reference.iterations)]);
   }
   const parts = [facts(list)];
@@ -64,28 +67,29 @@ function statusBlock(reference) {
 }
 
 function budgetTable(reference) {
-  const names = reference.parameters.map((p) => parameterWords[p.name]?.[0] ?? p.name);
+  const parameters = named(reference.parameters);
+  const names = parameters.map((p) => parameterWords[p.name]?.[0] ?? p.name);
   const rows = reference.budget.map((line) => [line.source, line.type,
-    ...reference.parameters.map((p, i) => uncertainty(line.u[i], p.unit))]);
-  rows.push(['together', '', ...reference.parameters.map((p) => uncertainty(p.u, p.unit))]);
+    ...parameters.map((p) => uncertainty(line.u[p.name].value, p.unit))]);
+  rows.push(['together', '', ...parameters.map((p) => uncertainty(p.u, p.unit))]);
   return table('Uncertainty budget: what each source adds to the standard uncertainty u (A: from the readings, B: other knowledge)',
     ['Source', 'Type', ...names], rows, 2);
 }
 
 /** Share of each source in the variance of each parameter. */
 function budgetChart(reference) {
-  const determined = reference.parameters.map((p, i) => ({name: parameterWords[p.name]?.[0] ?? p.name, i}))
-    .filter(({i}) => reference.budget.some((line) => line.u[i] > 0));
-  const total = ({i}) => reference.budget.reduce((sum, line) => sum + (line.u[i] ?? 0) ** 2, 0);
+  const share = (line, name) => line.u[name].value ?? 0;
+  const determined = Object.keys(reference.parameters).filter((name) => reference.budget.some((line) => share(line, name) > 0));
+  const total = (name) => reference.budget.reduce((sum, line) => sum + share(line, name) ** 2, 0);
   const build = (width) => ({
     grid: grid({top: width < 480 ? 76 : 40, bottom: 34}),
     legend: legend({left: 0, right: 0}),
     xAxis: axis('share of the variance u² in %', {min: 0, max: 100}),
-    yAxis: axis('', {type: 'category', inverse: true, data: determined.map((p) => p.name), axisTick: {show: false}, splitLine: {show: false},
+    yAxis: axis('', {type: 'category', inverse: true, data: determined.map((name) => parameterWords[name]?.[0] ?? name), axisTick: {show: false}, splitLine: {show: false},
       axisLabel: {color: colours.ink}}),
     series: reference.budget.map((line, s) => ({name: line.source, type: 'bar', stack: 'u', barWidth: '60%', emphasis: {disabled: true},
       itemStyle: {color: colours.series[s % colours.series.length]},
-      data: determined.map((p) => 100 * (line.u[p.i] ?? 0) ** 2 / total(p))})),
+      data: determined.map((name) => 100 * share(line, name) ** 2 / total(name))})),
   });
   return figure({caption: 'Which source an uncertainty comes from. A long bar is where better knowledge pays.',
     description: 'Share of each source in the variance of each parameter.', size: 'short', renderer: 'svg', build});
@@ -126,18 +130,18 @@ function chartBlocks(reference) {
     return blocks;
   }
   const residuals = residualCharts(readings);
-  if (readings.histogram) residuals.push(histogramChart(readings.histogram, reference.sigma_mm, reference.sigma_source));
+  if (readings.histogram) residuals.push(histogramChart(readings.histogram, reference.noise.sigma.value, reference.noise.source));
   blocks.push(block('Residuals', element('div', {class: 'pair'}, residuals)));
   return blocks;
 }
 
 function referenceSection(reference, index) {
-  const k = reference.k;
+  const k = reference.coverage_factor;
   const relative = reference.relative ? [paragraph('The stream is of a gauge that reads differences: the radius is not measured, it is the nominal one.', 'quiet')] : [];
   const tables = element('div', {class: 'pair tables'},
     element('div', {}, parameterTable('Parameters of the associated surface', reference.parameters, k)),
-    element('div', {}, reference.derived.length ? parameterTable('Derived quantities', reference.derived, k) : null,
-      reference.budget.length > 1 && reference.budget.some((line) => line.u.some((u) => u > 0)) ? budgetChart(reference) : null));
+    element('div', {}, Object.keys(reference.derived).length ? parameterTable('Derived quantities', reference.derived, k) : null,
+      reference.budget.length > 1 && reference.budget.some((line) => Object.values(line.u).some((u) => u.value > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
   return section(`reference-${index + 1}`, `Reference surface: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
     block('Rejected readings', rejectedBlock(reference.rejected)), ...chartBlocks(reference));

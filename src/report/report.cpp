@@ -9,7 +9,7 @@ namespace trueaxis {
 
 std::string render_report(const JobResult& result) {
   const ReportAssets assets = report_assets();
-  const nlohmann::json data = report_data(result);
+  const Json data = report_data(result);
   const std::string title = escape_html("TrueAxis report: " + job_title(result.job));
   const std::string verdict = escape_html(result.verdict.line);
   const std::string json = json_for_script(data);

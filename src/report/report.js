@@ -41,7 +41,7 @@ function inputsSection() {
 function build() {
   const sections = [...data.references.flatMap((r, i) => [diagnosisSection(r, i), referenceSection(r, i)]), targetSection(data), correctionSection(data), marginSection(data),
     inputsSection(), glossarySection()].filter(Boolean);
-  const hashes = data.references.map((r) => r.input_hash).filter(Boolean).join('\n');
+  const hashes = data.references.map((r) => r.input.hash).filter(Boolean).join('\n');
   document.getElementById('page').replaceChildren(
     element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`), element('h1', {}, data.title),
       facts([['Job', data.file], ['Input', hashes || 'no hash']], 'facts origin')),

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report_data.hpp"
 
+#include <algorithm>
 #include <limits>
+
+#include "diagnose/files/diagnosis_objects.hpp"
+#include "fit/files/fit_json.hpp"
+#include "report/correction_data.hpp"
+#include "report/inputs_data.hpp"
+#include "report/readings_data.hpp"
+#include "report/simulation_data.hpp"
+#include "report/target_data.hpp"
 
 namespace trueaxis {
 namespace {
@@ -13,10 +22,9 @@ const char* outcome(const JobResult& result) {
   return judged ? "go" : "done";
 }
 
-nlohmann::json verdict_data(const JobResult& result) {
+Json verdict_data(const JobResult& result) {
   const Verdict& verdict = result.verdict;
-  nlohmann::json data{
-      {"outcome", outcome(result)}, {"line", verdict.line}, {"k", verdict.coverage_factor}};
+  Json data{{"outcome", outcome(result)}, {"line", verdict.line}, {"k", verdict.coverage_factor}};
   data["tolerance_mm"] =
       result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
   if (result.target_axis) {
@@ -27,12 +35,33 @@ nlohmann::json verdict_data(const JobResult& result) {
   return data;
 }
 
-nlohmann::json reference_data(const JobResult& result, std::size_t i) {
-  nlohmann::json data = fit_data(result.fits[i]);
+/// What each effect that the page names is called.
+Json titles_of(const Diagnosis& diagnosis) {
+  Json titles = Json::object();
+  for (const Effect& effect : effect_catalogue()) titles[std::string(effect.id)] = effect.title;
+  for (const Finding& finding : diagnosis.findings)
+    titles[finding.effect()] = finding.term.effect->title;
+  return titles;
+}
+
+/// A diagnosis as in its file, without what the page has elsewhere or only counts.
+Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
+                    const Resimulation* again) {
+  Json data = diagnosis_object(diagnosis);
+  for (const char* key : {"baseline", "spectrum", "u_frame"}) data.erase(key);
+  data["extended"] = {{"status", to_string(diagnosis.extended.status)},
+                      {"message", diagnosis.extended.message}};
+  data["noise"]["masked"] = diagnosis.noise.masked.size();
+  data["noise"]["interruptions"] = diagnosis.noise.interruptions.size();
+  data["titles"] = titles_of(diagnosis);
+  data["simulation"] = simulation_data(stream, diagnosis, again);
+  return data;
+}
+
+Json reference_data(const JobResult& result, std::size_t i) {
+  Json data = fit_data(result.fits[i]);
   const bool named = i < result.job.references.size() && !result.job.references[i].name.empty();
   data["name"] = named ? result.job.references[i].name : "reference " + std::to_string(i + 1);
-  data["source"] = result.fits[i].source;
-  data["input_hash"] = result.fits[i].input_hash;
   if (i < result.streams.size()) {
     data["readings"] = readings_data(result.streams[i], result.fits[i]);
     if (i < result.diagnoses.size() && result.diagnoses[i]) {
@@ -50,11 +79,21 @@ nlohmann::json reference_data(const JobResult& result, std::size_t i) {
 
 std::string job_title(const Job& job) { return job.name.empty() ? job.path : job.name; }
 
-nlohmann::json report_data(const JobResult& result) {
-  nlohmann::json data{{"schema", "trueaxis.report/1"},   {"version", TRUEAXIS_VERSION},
-                      {"title", job_title(result.job)},  {"file", result.job.path},
-                      {"verdict", verdict_data(result)}, {"inputs", inputs_data(result)},
-                      {"target", target_data(result)},   {"references", nlohmann::json::array()}};
+Json fit_data(const FitResult& fit) {
+  Json data = fit_object(fit);
+  const auto listed =
+      static_cast<std::ptrdiff_t>(std::min(fit.rejected.size(), max_rejected_listed));
+  const Json rows = data["rejected"];
+  data["rejected"] = {{"count", fit.rejected.size()},
+                      {"listed", Json::array_t(rows.begin(), rows.begin() + listed)}};
+  return data;
+}
+
+Json report_data(const JobResult& result) {
+  Json data{{"schema", "trueaxis.report/2"},   {"version", TRUEAXIS_VERSION},
+            {"title", job_title(result.job)},  {"file", result.job.path},
+            {"verdict", verdict_data(result)}, {"inputs", inputs_data(result)},
+            {"target", target_data(result)},   {"references", Json::array()}};
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     data["references"].push_back(reference_data(result, i));
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/sections_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "report/chart_readings.hpp"
-#include "report/report_data.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
@@ -37,7 +38,7 @@ Indices nearest(const ChartReadings& all, Indices from, double position_mm, std:
   return from;
 }
 
-nlohmann::json measured(const ChartReadings& all, const Indices& section) {
+Json measured(const ChartReadings& all, const Indices& section) {
   std::vector<double> c_deg, value;
   if (section.size() <= 360) {
     for (const std::size_t i : section) {
@@ -60,7 +61,7 @@ nlohmann::json measured(const ChartReadings& all, const Indices& section) {
   return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", true}};
 }
 
-nlohmann::json curve(const CoaxialNominal& nominal, double position_mm) {
+Json curve(const CoaxialNominal& nominal, double position_mm) {
   std::vector<double> value;
   for (int degree = 0; degree <= 360; degree += 3) {
     value.push_back(nominal.model_deviation_mm(degree * rad_per_deg, position_mm) / mm_per_um);
@@ -68,27 +69,27 @@ nlohmann::json curve(const CoaxialNominal& nominal, double position_mm) {
   return {{"step_deg", 3}, {"um", column(value, 3)}};
 }
 
-nlohmann::json section_at(const ChartReadings& all, const CoaxialNominal& nominal,
-                          const Indices& kept, double position_mm) {
+Json section_at(const ChartReadings& all, const CoaxialNominal& nominal, const Indices& kept,
+                double position_mm) {
   const std::size_t wanted = static_cast<std::size_t>(std::max(24.0, all.readings_per_turn));
   const Indices section = nearest(all, kept, position_mm, all.has_position ? wanted : kept.size());
   double half_width = 0.0;
   for (const std::size_t i : section) {
     half_width = std::max(half_width, std::abs(all.position_mm[i] - position_mm));
   }
-  nlohmann::json data{{"position_mm", rounded(position_mm, 3)},
-                      {"half_width_mm", rounded(half_width, 3)},
-                      {"nominal_mm", rounded(nominal.reading_mm(position_mm), 4)},
-                      {"readings", section.size()},
-                      {"measured", measured(all, section)}};
+  Json data{{"position_mm", rounded(position_mm, 3)},
+            {"half_width_mm", rounded(half_width, 3)},
+            {"nominal_mm", rounded(nominal.reading_mm(position_mm), 4)},
+            {"readings", section.size()},
+            {"measured", measured(all, section)}};
   if (nominal.from_fit()) data["model"] = curve(nominal, position_mm);
   return data;
 }
 
 }  // namespace
 
-nlohmann::json sections_data(const ChartReadings& all, const CoaxialNominal& nominal) {
-  nlohmann::json sections = nlohmann::json::array();
+Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal) {
+  Json sections = Json::array();
   const Indices kept = kept_indices(all);
   if (kept.empty()) return sections;
   double low = all.position_mm[kept.front()], high = low;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/simulation_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "report/chart_readings.hpp"
-#include "report/report_data.hpp"
 #include "report/thinning.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-using nlohmann::json;
 
 bool complete(const Diagnosis& d, std::size_t count) {
   return count > 0 && d.residual_before_mm.size() == count && d.residual_after_mm.size() == count;
@@ -18,10 +18,7 @@ bool complete(const Diagnosis& d, std::size_t count) {
 
 /// Readings that the diagnosis left out, or where the model was not evaluated.
 std::vector<bool> masked_readings(const Diagnosis& d) {
-  std::vector<bool> masked(d.residual_before_mm.size(), false);
-  for (const Rejected& r : d.noise.masked) {
-    if (r.row >= 1 && r.row <= masked.size()) masked[r.row - 1] = true;
-  }
+  std::vector<bool> masked = marked(d.noise.masked, d.residual_before_mm.size());
   for (std::size_t i = 0; i < masked.size(); ++i) {
     if (!std::isfinite(d.residual_before_mm[i] + d.residual_after_mm[i])) masked[i] = true;
   }
@@ -41,7 +38,7 @@ Resimulation by_model(const ProbeStream& stream, const Diagnosis& d,
 }
 
 /// No more bins than a chart has pixels: the highest of each group stands for it.
-json spectrum_data(const std::vector<SpectrumBin>& bins) {
+Json spectrum_data(const std::vector<SpectrumBin>& bins) {
   constexpr std::size_t most = 1000;
   const std::size_t group = (bins.size() + most - 1) / most;
   std::vector<double> order, before, after;
@@ -73,7 +70,7 @@ std::vector<double> difference_um(const std::vector<double>& measured_mm,
 }
 
 /// A column of a map: one value a reading, or means of cells.
-json map_column(const ChartReadings& all, const std::vector<double>& um, bool thinned) {
+Json map_column(const ChartReadings& all, const std::vector<double>& um, bool thinned) {
   if (!thinned) return column(um, 3);
   CellMeans cells(map_columns, map_rows(all));
   for (std::size_t i = 0; i < um.size(); ++i) {
@@ -83,10 +80,10 @@ json map_column(const ChartReadings& all, const std::vector<double>& um, bool th
 }
 
 /// Measured against a true-running surface, and measured minus both simulations.
-json maps_data(const ProbeStream& stream, const SimulatedReadings& simulated,
+Json maps_data(const ProbeStream& stream, const SimulatedReadings& simulated,
                const ChartReadings& all) {
   const bool thinned = stream.size() > max_points;
-  json data = json::object();
+  Json data = Json::object();
   if (!thinned || all.has_position) {
     const auto before = difference_um(stream.reading_mm, simulated.before_mm),
                after = difference_um(stream.reading_mm, simulated.after_mm);
@@ -95,7 +92,7 @@ json maps_data(const ProbeStream& stream, const SimulatedReadings& simulated,
             {"after_um", map_column(all, after, thinned)}};
   }
   if (thinned) return data;
-  data["rejected"] = json::array();
+  data["rejected"] = Json::array();
   for (std::size_t i = 0; i < all.kept.size(); ++i) {
     if (!all.kept[i]) data["rejected"].push_back(i);
   }
@@ -104,7 +101,7 @@ json maps_data(const ProbeStream& stream, const SimulatedReadings& simulated,
 
 }  // namespace
 
-json simulation_data(const ProbeStream& stream, const Diagnosis& d, const Resimulation* again) {
+Json simulation_data(const ProbeStream& stream, const Diagnosis& d, const Resimulation* again) {
   if (!complete(d, stream.size())) return nullptr;
   const std::vector<bool> masked = masked_readings(d);
   const bool by_lathe = again != nullptr && again->why_not.empty();

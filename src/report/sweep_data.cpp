@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/sweep_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 
@@ -75,13 +76,11 @@ json row_data(const Row& row) {
 
 json cells_data(const Sweep& sweep, const Summary& summary) {
   json cells = json::array();
-  std::size_t next = 0;
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
     const Cell at = cell_at(sweep, cell);
     const CellSummary& of = summary.cells[cell];
     json rows = json::array();
-    for (; next < summary.rows.size() && summary.rows[next].cell == cell; ++next)
-      rows.push_back(row_data(summary.rows[next]));
+    for (const Row& row : summary.rows_of(cell)) rows.push_back(row_data(row));
     cells.push_back({{"at", at.point},
                      {"method", to_string(at.method)},
                      {"readings", of.readings},
@@ -100,9 +99,7 @@ json cells_data(const Sweep& sweep, const Summary& summary) {
 
 double to_six_digits(double value) {
   if (!std::isfinite(value)) return value;
-  char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return std::strtod(text, nullptr);
+  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
 }
 
 std::string sweep_title(const Sweep& sweep) { return sweep.name.empty() ? "Sweep" : sweep.name; }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/target_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "report/report_data.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -27,10 +28,10 @@ double offset_mm(const Axis& axis, double z_mm) {
   return std::hypot(x, y);
 }
 
-nlohmann::json axis_data(const AxisEstimate& estimate, double z_start_mm, double z_end_mm) {
+Json axis_data(const AxisEstimate& estimate, double z_start_mm, double z_end_mm) {
   const auto end = [&estimate](double z_mm) {
     const auto [x, y] = estimate.axis.at(z_mm);
-    return nlohmann::json{{"z_mm", z_mm}, {"x_mm", x}, {"y_mm", y}, {"u_mm", estimate.u_at(z_mm)}};
+    return Json{{"z_mm", z_mm}, {"x_mm", x}, {"y_mm", y}, {"u_mm", estimate.u_at(z_mm)}};
   };
   return {{"start", end(z_start_mm)},
           {"end", end(z_end_mm)},
@@ -40,8 +41,7 @@ nlohmann::json axis_data(const AxisEstimate& estimate, double z_start_mm, double
 
 /// Coaxiality with the spindle axis as the datum, as it would be cut without correction; a face: 2
 /// R tilt.
-nlohmann::json before(const AxisEstimate& estimate, double face_radius_mm,
-                      std::pair<double, double> length) {
+Json before(const AxisEstimate& estimate, double face_radius_mm, std::pair<double, double> length) {
   const auto [z_start, z_end] = length;
   if (face_radius_mm > 0.0) {
     const double tilt = std::hypot(estimate.axis.slope_x, estimate.axis.slope_y);
@@ -75,7 +75,7 @@ double face_radius(const JobResult& result, std::size_t i) {
   return given > 0.0 ? given : result.fits[i].position_max_mm;
 }
 
-nlohmann::json remainder_data(const Remainder& left) {
+Json remainder_data(const Remainder& left) {
   return {{"offset_start_mm", left.offset_start_mm},
           {"offset_end_mm", left.offset_end_mm},
           {"tilt_deg", left.tilt_rad / rad_per_deg},
@@ -85,18 +85,18 @@ nlohmann::json remainder_data(const Remainder& left) {
 
 }  // namespace
 
-nlohmann::json target_data(const JobResult& result) {
+Json target_data(const JobResult& result) {
   const std::pair<double, double> length = length_shown(result);
-  nlohmann::json data{{"z_start_mm", length.first},
-                      {"z_end_mm", length.second},
-                      {"of_cut", result.job.target.has_value()},
-                      {"references", nlohmann::json::array()}};
+  Json data{{"z_start_mm", length.first},
+            {"z_end_mm", length.second},
+            {"of_cut", result.job.target.has_value()},
+            {"references", Json::array()}};
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
     const bool solved =
         fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations;
     const double radius = face_radius(result, i);
-    nlohmann::json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
+    Json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
     if (i < result.job.references.size()) reference["weight"] = result.job.references[i].weight;
     if (solved) {
       reference["axis"] = axis_data(fit.axis, length.first, length.second);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "report/report_data.hpp"
-
 namespace trueaxis {
 namespace {
 
@@ -34,8 +32,8 @@ void CellMeans::add(double x, double y, double value) {
   ++count_[cell];
 }
 
-nlohmann::json CellMeans::to_json(int decimals) const {
-  nlohmann::json means = nlohmann::json::array();
+Json CellMeans::to_json(int decimals) const {
+  Json means = Json::array();
   for (std::size_t cell = 0; cell < sum_.size(); ++cell) {
     const double count = static_cast<double>(count_[cell]);
     means.push_back(count_[cell] == 0 ? not_there : rounded(sum_[cell] / count, decimals));
@@ -58,7 +56,7 @@ void Envelope::add(double x, double value) {
   ++count_[bin];
 }
 
-nlohmann::json Envelope::to_json(int decimals) const {
+Json Envelope::to_json(int decimals) const {
   std::vector<double> low(x_.count, not_there), high = low, mean = low;
   for (std::size_t bin = 0; bin < x_.count; ++bin) {
     if (count_[bin] == 0) continue;
@@ -73,7 +71,7 @@ nlohmann::json Envelope::to_json(int decimals) const {
           {"mean", column(mean, decimals)}};
 }
 
-nlohmann::json histogram(std::vector<double> values, int decimals) {
+Json histogram(std::vector<double> values, int decimals) {
   if (values.size() < 2) return nullptr;
   std::sort(values.begin(), values.end());
   const double low = values.front(), high = values.back();
@@ -92,8 +90,8 @@ nlohmann::json histogram(std::vector<double> values, int decimals) {
           {"width", rounded(bins.width(), decimals + 2)}};
 }
 
-nlohmann::json column(const std::vector<double>& values, int decimals) {
-  nlohmann::json list = nlohmann::json::array();
+Json column(const std::vector<double>& values, int decimals) {
+  Json list = Json::array();
   for (const double value : values) list.push_back(rounded(value, decimals));
   return list;
 }

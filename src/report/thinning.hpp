@@ -2,10 +2,17 @@
 #pragma once
 
 #include <cstddef>
-#include <nlohmann/json.hpp>
 #include <vector>
 
+#include "format/json.hpp"
+
 namespace trueaxis {
+
+/// More readings than this are shown as means of cells and envelopes of bins.
+inline constexpr std::size_t max_points = 20000;
+
+/// `value` to `decimals` places: keeps the page small and its bytes free of the last bits.
+double rounded(double value, int decimals);
 
 /// An interval cut into equal bins.
 struct Bins {
@@ -27,7 +34,7 @@ class CellMeans {
   CellMeans(Bins x, Bins y);
   void add(double x, double y, double value);
   /// Row by row from the lowest y; an empty cell is NaN.
-  nlohmann::json to_json(int decimals) const;
+  Json to_json(int decimals) const;
 
  private:
   Bins x_, y_;
@@ -41,7 +48,7 @@ class Envelope {
   explicit Envelope(Bins x);
   void add(double x, double value);
   /// {"low", "high", "min", "max", "mean"}, one entry a bin; an empty bin is NaN.
-  nlohmann::json to_json(int decimals) const;
+  Json to_json(int decimals) const;
 
  private:
   Bins x_;
@@ -51,9 +58,9 @@ class Envelope {
 
 /// Counts of `values` in equal bins over their range: {"center", "count", "width"}; the number of
 /// bins is the Freedman-Diaconis one within [8, 80].
-nlohmann::json histogram(std::vector<double> values, int decimals);
+Json histogram(std::vector<double> values, int decimals);
 
 /// `values` with each one rounded to `decimals` places.
-nlohmann::json column(const std::vector<double>& values, int decimals);
+Json column(const std::vector<double>& values, int decimals);
 
 }  // namespace trueaxis

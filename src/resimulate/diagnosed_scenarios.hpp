@@ -21,8 +21,8 @@ struct DiagnosedScenarios {
 /// set-ups; u's frame; the terms; σ and autoregression of the noise.
 /// @param measured its stream: set-ups, gauge and clock
 /// @param ball_radius_mm as given to the diagnosis; 0: what the stream says
-/// @throws InputError when the diagnosis is of another stream (hash), a fit did not converge, or the
-/// lathe cannot play a term.
+/// @throws InputError when the diagnosis is of another stream (hash), a fit did not converge, or
+/// the lathe cannot play a term.
 DiagnosedScenarios diagnosed_scenarios(const Diagnosis& diagnosis, const ProbeStream& measured,
                                        double ball_radius_mm = 0.0);
 

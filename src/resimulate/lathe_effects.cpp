@@ -24,9 +24,12 @@ struct Renamed {
   std::string_view id, lathe, catalogue;
 };
 constexpr Renamed renamed[] = {
-    {"", "reference", "reference_x"},     {"part.bow", "sagitta", "amplitude"},
-    {"part.bow", "direction", "phase"},   {"part.slip", "time", "onset"},
-    {"probe.pretravel", "phase", "lobing_phase"}, {"probe.tilt", "angle", "tilt"},
+    {"", "reference", "reference_x"},
+    {"part.bow", "sagitta", "amplitude"},
+    {"part.bow", "direction", "phase"},
+    {"part.slip", "time", "onset"},
+    {"probe.pretravel", "phase", "lobing_phase"},
+    {"probe.tilt", "angle", "tilt"},
 };
 
 /// The lathe's name without the unit that ends it.
@@ -55,7 +58,7 @@ Parameters values_in(const TermValue& term, const LatheFrame& frame) {
 /// Every parameter of the lathe's effect that has a value.
 LatheEffect by_name(const std::string& id, const Parameters& values) {
   LatheEffect effect{id, {}};
-  for (const virtual_lathe::EffectParameter& p : virtual_lathe::find_effect_kind(id).parameters) {
+  for (const auto& p : virtual_lathe::find_effect_kind(id).parameters) {
     const auto found = values.find(catalogue_name(id, p.name));
     if (found != values.end()) effect.parameters[std::string(p.name)] = found->second;
   }
@@ -125,8 +128,8 @@ LatheEffect of_pattern(const TermValue& term, const LatheFrame& frame) {
              {"position_mm", p.position_mm},
              {"length_mm", p.length_mm}}};
   }
-  Parameters wave{{"order", p.order}, {"amplitude_mm", std::hypot(c, s)},
-                  {"phase_rad", std::atan2(s, c)}};
+  Parameters wave{
+      {"order", p.order}, {"amplitude_mm", std::hypot(c, s)}, {"phase_rad", std::atan2(s, c)}};
   if (p.kind == Pattern::Kind::line) {
     if (p.in_time) {
       wave["frequency_hz"] = p.frequency;

@@ -87,15 +87,10 @@ class Values {
 
 /// A catalogue line of the lathe: the kind and how it enters the chain.
 struct EffectEntry {
-  EffectKind kind;
+  std::string_view id, what;
+  LatheParameter parameters[6];  ///< those behind the last have no name
   void (*enter)(const Values&, Chain&);
 };
-
-std::span<const EffectEntry> part_effects();
-std::span<const EffectEntry> machine_effects();
-std::span<const EffectEntry> probe_effects();
-std::span<const EffectEntry> extra_effects();
-std::span<const EffectEntry> pattern_effects();
 
 /// The chain of the effects, in the order of the catalogue whatever their order in the scenario.
 /// @throws InputError.

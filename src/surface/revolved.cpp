@@ -36,7 +36,7 @@ Intersection intersect(const Revolved& surface, double c_rad, double z_mm, doubl
   const Vec3 across = fma(-s0, d, q0);
   const double distance = std::sqrt(dot(across, across));
 
-  // effects.md's quadratic a X² + 2 b X + c = 0 with γ = 0.
+  // Eq. 7: a X² + 2 b X + c = 0 with γ = 0.
   const double a = 1.0 - g * g * (1.0 + t * t);
   const double b = dot(e, across) - g * t * r0;
   const double c = (distance - r0) * (distance + r0);

@@ -139,7 +139,7 @@ TEST_F(BadFit, IsToldFromAFit) {
   expect_refused("", "bad.json: cannot be read as trueaxis.fit/1");
   expect_refused("[1, 2", "bad.json: cannot be read as trueaxis.fit/1");
   expect_refused("{}", "schema");
-  expect_refused("{\"schema\": \"trueaxis.run/1\"}", "is no trueaxis.fit/1");
+  expect_refused("{\"schema\": \"trueaxis.run/2\"}", "is no trueaxis.fit/1");
   for (const char* broken : {"/axis/x/value", "/axis/covariance/matrix/0/0", "/status"}) {
     nlohmann::json fit = good;
     fit[nlohmann::json::json_pointer(broken)] = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exit codes of design.md, several cases each, and what the command does with odd places.
+// The exit codes of README.md, several cases each, and what the command does with odd places.
 #include <cstdlib>
 
 #include "support/command_fixture.hpp"

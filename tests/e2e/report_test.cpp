@@ -73,7 +73,7 @@ TEST_F(ReportPage, HostileNamesOfADiagnosisStayText) {
   JobResult result = example::diagnosed_job(200);
   Diagnosis& d = *result.diagnoses.front();
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
-  d.findings.front().alias = d.unexplained.front().harmonic = d.noise.note = d.next.what = hostile;
+  d.findings.front().alias = d.noise.note = d.next.what = hostile;
   d.not_observable.front().why = d.checks.front().text = hostile;
   result.resimulations = {Resimulation{{}, {}, hostile}};
   expect_sound(result, "diagnosis_hostile");

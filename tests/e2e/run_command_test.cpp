@@ -33,7 +33,7 @@ TEST_F(RunCommand, GoWithTableResultAndReport) {
   EXPECT_EQ(done.out.substr(0, 4), "GO: ");
   EXPECT_EQ(files_in(folder_ / "out"), all_results);
   const json found = result("out/result.json");
-  EXPECT_EQ(found.at("schema"), "trueaxis.run/1");
+  EXPECT_EQ(found.at("schema"), "trueaxis.run/2");
   EXPECT_EQ(found.at("job"), "seat");
   EXPECT_TRUE(found.at("verdict").at("go").get<bool>());
   EXPECT_EQ(found.at("verdict").at("line"), first_line(done.out));
@@ -128,7 +128,7 @@ TEST_F(RunCommand, EachReferenceHasItsDiagnosis) {
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
   ASSERT_EQ(command("diagnose part.csv --surface cylinder --json alone.json").exit_code, 0);
   json of_job = result("out/diagnosis_1_cylinder.json"), alone = result("alone.json");
-  EXPECT_EQ(of_job.at("schema"), "trueaxis.diagnosis/1");
+  EXPECT_EQ(of_job.at("schema"), "trueaxis.diagnosis/2");
   for (json* diagnosis : {&of_job, &alone}) {  // the job names its stream by another path
     diagnosis->at("input").erase("file");
     for (const char* fit : {"baseline", "extended"}) diagnosis->at(fit).at("input").erase("file");

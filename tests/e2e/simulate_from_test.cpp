@@ -31,7 +31,7 @@ class SimulateFrom : public CommandTest {
 TEST_F(SimulateFrom, LobesAreGoneFromTheDiscrepancy) {
   hide({});
   const json c = compared();
-  EXPECT_EQ(c.at("schema"), "trueaxis.comparison/1");
+  EXPECT_EQ(c.at("schema"), "trueaxis.comparison/2");
   EXPECT_EQ(c.at("diagnosis"), "d.json");
   EXPECT_EQ(c.at("input").at("hash"), result("d.json").at("input").at("hash"));
   expect_effect_taken_out(c, hidden_);
@@ -150,11 +150,11 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
                      "is the diagnosis of another stream");
   expect_input_error("simulate --from d.json --diameter --compare", "--diameter");
   expect_input_error("simulate --from gone.json --compare", "gone.json: cannot be read");
-  expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/1");
+  expect_input_error("simulate --from part.csv --compare", "trueaxis.diagnosis/2");
   file("empty.json", "{}");
-  expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/1");
+  expect_input_error("simulate --from empty.json --compare", "trueaxis.diagnosis/2");
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
-  expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/1");
+  expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/2");
   json open = result("d.json");
   open.at("extended").at("status") = "rank_deficient";
   file("open.json", open.dump());

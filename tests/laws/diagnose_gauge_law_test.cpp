@@ -43,7 +43,7 @@ TEST_P(DiagnoseGauge, ItsZeroIsNeitherNoiseNorForm) {
   EXPECT_NEAR(gauge.noise.sigma_mm, plain.noise.sigma_mm, 0.01 * sigma_mm);
   ASSERT_EQ(plain.findings.size(), 1u);
   ASSERT_EQ(gauge.findings.size(), 1u);
-  EXPECT_EQ(gauge.findings[0].members, plain.findings[0].members);
+  EXPECT_EQ(gauge.findings[0].members(), plain.findings[0].members());
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, DiagnoseGauge, ::testing::Values(5.3, 20.3));

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "diagnose/files/pattern_text.hpp"
 #include "diagnose/refit/extended_fit.hpp"
 #include "laws/lathe_cases.hpp"
 #include "support/diagnose_bench.hpp"
@@ -20,7 +21,7 @@ namespace {
 constexpr double sigma_mm = 0.5e-3;
 constexpr std::uint64_t seed = 12;
 
-/// Every kind of pass of effects.md's plan P8, in a few hundred readings: out, back at a second
+/// Every kind of pass of the plan P8 of docs/theory.md, in a few hundred readings: out, back at a second
 /// speed, reversed, a dwell, a stationary capture, from the rear, and clamped anew turned by 70°
 /// with less force and a jog of X.
 virtual_lathe::Scenario all_passes(double tangent, double turns = 7.3, double end_mm = 60.0) {
@@ -90,10 +91,11 @@ std::string classes_of(const Diagnosis& d) {
   std::string text;
   for (const Finding& f : d.findings) {
     text += '[';
-    for (const std::string& id : f.members) text += ' ' + id;
+    for (const std::string& id : f.members()) text += ' ' + id;
     text += " ]";
   }
-  for (const Unexplained& u : d.unexplained) text += '<' + u.harmonic + ' ' + u.dependence + '>';
+  for (const Unexplained& u : d.unexplained)
+    text += '<' + harmonic_text(u.term.pattern) + ' ' + dependence_text(u.term.pattern) + '>';
   return text;
 }
 
@@ -140,14 +142,14 @@ bool told_in_other_words(const std::string& id) {
 /// Parameters of the finding that bears the planted effect's name, beside what was planted:
 /// lengths, times and pure numbers (an angle has a zero of its own).
 void expect_planted_sizes(const Finding& finding, const std::map<std::string, double>& planted) {
-  if (told_in_other_words(finding.effect)) return;
+  if (told_in_other_words(finding.effect())) return;
   for (const auto& [key, truth] : planted) {
     for (const FitParameter& p : finding.parameters) {
       const std::string& unit = p.estimate.unit;
       if (key != p.name + '_' + unit && !(unit == "1" && key == p.name)) continue;
       // 4 u, and the second order: below a twentieth of the first (lathe_cases.hpp).
       EXPECT_NEAR(p.estimate.value, truth, 4.0 * p.estimate.u + 0.05 * std::abs(truth))
-          << finding.effect << ' ' << key;
+          << finding.effect() << ' ' << key;
     }
   }
 }
@@ -176,7 +178,7 @@ TEST_P(EveryEffect, IsFoundWithItsCauseInTheClassOrCannotBeSeen) {
     EXPECT_NE(finding_with(found, c.id), nullptr)
         << c.id << " of " << t * detectable << ": " << classes_of(found);
     for (const Finding& f : found.findings)
-      if (f.effect == c.id) expect_planted_sizes(f, c.lathe(t * detectable));
+      if (f.effect() == c.id) expect_planted_sizes(f, c.lathe(t * detectable));
   }
   if (seen || c.id == "part.taper") return;  // a taper of a cone is its angle, and no effect
   const Diagnosis nothing = bench.diagnosis({});

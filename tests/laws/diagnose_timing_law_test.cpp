@@ -50,7 +50,7 @@ TEST_P(DiagnosedTiming, IsToldAndMovesTheAxisByNoSecondOrder) {
   const Diagnosis diagnosis = diagnose(stream, options);
   ASSERT_EQ(diagnosis.findings.size(), 1U);
   const Finding& finding = diagnosis.findings[0];
-  EXPECT_EQ(finding.members, std::vector<std::string>{GetParam().effect});
+  EXPECT_EQ(finding.members(), std::vector<std::string>{GetParam().effect});
   const std::vector<double> truth =
       study::true_values(scenario, study::probed_length(stream), SurfaceKind::cone);
   const study::Estimated found = study::estimated(diagnosis.extended);

@@ -14,7 +14,7 @@ namespace trueaxis::testing {
 
 inline constexpr double phi = 0.7;  ///< phase of all that have one
 
-/// An effect of the virtual lathe at a size, and the linear parameters that effects.md gives it per
+/// An effect of the virtual lathe at a size, and the linear parameters that docs/theory.md gives it per
 /// unit of the size.
 struct LatheCase {
   std::string id;

@@ -66,21 +66,21 @@ TEST(PlanningLaw, UncertaintyGoesWithNoiseAndOneOverTheRootOfReadings) {
 // needed: a step (a tenth of a reading, the third digit) less misses.
 TEST(PlanningLaw, SolvesForTheLeastThatMeetsTheGoal) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::readings_per_revolution, 4.0, 64.0},
-               {Choice::sigma, 1e-4, 1e-2},
-               {Choice::feed, 0.1, 2.0},
-               {Choice::length, 20.0, 200.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 64.0},
+                    {Choice::sigma, 1e-4, 1e-2},
+                    {Choice::feed, 0.1, 2.0},
+                    {Choice::length, 20.0, 200.0}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
-  ASSERT_EQ(answer.alone.size(), task.free.size());
+  ASSERT_EQ(answer.alone.size(), task.variables.size());
   for (const Alone& one : answer.alone) {
-    SCOPED_TRACE(path_of(one.choice));
+    SCOPED_TRACE(info_of(one.choice).path);
     ASSERT_TRUE(one.reached);
     EXPECT_LE(one.plan.u_expanded_mm, task.goal_mm * (1.0 + 1e-9));
     const double value = one.plan.of(one.choice);
     const bool more = one.choice == Choice::readings_per_revolution || one.choice == Choice::length;
     virtual_lathe::Scenario less = one.plan.scenario;
-    set_parameter(less, path_of(one.choice), value * (more ? 0.97 : 1.03));
+    set_parameter(less, info_of(one.choice).path, value * (more ? 0.97 : 1.03));
     EXPECT_GT(planned(less, 2.0).u_expanded_mm, task.goal_mm);
     for (const Choice other : choices) {
       if (other != one.choice) {
@@ -94,7 +94,7 @@ TEST(PlanningLaw, SolvesForTheLeastThatMeetsTheGoal) {
 // hold the bound, and five standard errors, 5/√(2n), the ratio.
 TEST(PlanningLaw, SimulationConfirmsWhatIsRecommended) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::feed, 0.05, 2.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::feed, 0.05, 2.0}};
   const PlanningAnswer answer = plan_measurement(task);
   EXPECT_TRUE(answer.reached);
   ASSERT_GE(answer.recommended.size(), 2U);
@@ -113,7 +113,7 @@ TEST(PlanningLaw, SimulationConfirmsWhatIsRecommended) {
 // says so: 2 % of 0.1 mm are 14 µm RMS beside 3.
 TEST(PlanningLaw, SimulationDoesNotConfirmWhatTheFitCannotDo) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::readings_per_revolution, 4.0, 64.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 64.0}};
   task.base.noise.outlier_fraction = 0.02, task.base.noise.outlier_size_mm = 0.1;
   const PlanningAnswer answer = plan_measurement(task);
   ASSERT_FALSE(answer.recommended.empty());
@@ -128,13 +128,13 @@ TEST(PlanningLaw, SimulationDoesNotConfirmWhatTheFitCannotDo) {
 TEST(PlanningLaw, SaysHowNearAnUnreachableGoalComes) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 1e-5;
-  task.free = {{Choice::readings_per_revolution, 4.0, 20.0}, {Choice::length, 20.0, 60.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 20.0}, {Choice::length, 20.0, 60.0}};
   const PlanningAnswer answer = plan_measurement(task);
   EXPECT_FALSE(answer.reached);
   EXPECT_TRUE(answer.recommended.empty());
   virtual_lathe::Scenario most = task.base;
-  set_parameter(most, path_of(Choice::readings_per_revolution), 20.0);
-  set_parameter(most, path_of(Choice::length), 60.0);
+  set_parameter(most, info_of(Choice::readings_per_revolution).path, 20.0);
+  set_parameter(most, info_of(Choice::length).path, 60.0);
   EXPECT_NEAR(answer.nearest.u_expanded_mm, planned(most, 2.0).u_expanded_mm, 1e-12);
 }
 
@@ -142,9 +142,9 @@ TEST(PlanningLaw, SaysHowNearAnUnreachableGoalComes) {
 TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 1e-3;
-  task.free = {{Choice::readings_per_revolution, 4.0, 30.0},
-               {Choice::feed, 0.1, 4.0},
-               {Choice::length, 10.0, 60.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 30.0},
+                    {Choice::feed, 0.1, 4.0},
+                    {Choice::length, 10.0, 60.0}};
   task.repeats = 100;
   task.time_s = 40.0;
   const PlanningAnswer answer = plan_measurement(task);
@@ -156,9 +156,9 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
   int met = 0;
   for (int i = 0; i < 150; ++i) {
     virtual_lathe::Scenario scenario = task.base;
-    for (const DesignVariable& free : task.free) {
+    for (const DesignVariable& free : task.variables) {
       const double share = static_cast<double>(draw() >> 11) * 0x1p-53;
-      set_parameter(scenario, path_of(free.choice),
+      set_parameter(scenario, info_of(free.choice).path,
                     free.low * std::pow(free.high / free.low, share));
     }
     const PlannedMeasurement plan = planned(scenario, 2.0);
@@ -172,7 +172,7 @@ TEST(PlanningLaw, NothingThatMeetsTheGoalIsQuicker) {
 // With the length alone to choose, the least length is the quickest: one recommendation, not two.
 TEST(PlanningLaw, TheLeastLengthIsTheQuickest) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::length, 20.0, 200.0}};
+  task.variables = {{Choice::length, 20.0, 200.0}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
   ASSERT_EQ(answer.recommended.size(), 1U);
@@ -279,10 +279,10 @@ TEST(PlanningLaw, EveryPlanCanBeSet) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 0.3e-3;
   task.time_s = 60.0;
-  task.free = {{Choice::readings_per_revolution, 4.0, 60.0},
-               {Choice::sigma, 5e-4, 3e-3},
-               {Choice::feed, 0.1, 2.0},
-               {Choice::length, 20.0, 100.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 60.0},
+                    {Choice::sigma, 5e-4, 3e-3},
+                    {Choice::feed, 0.1, 2.0},
+                    {Choice::length, 20.0, 100.0}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
   std::vector<const PlannedMeasurement*> plans{&answer.nearest};
@@ -295,7 +295,8 @@ TEST(PlanningLaw, EveryPlanCanBeSet) {
       const double step = choice == Choice::readings_per_revolution
                               ? 0.1
                               : std::pow(10.0, std::floor(std::log10(value * (1 + 1e-12))) - 2.0);
-      EXPECT_NEAR(value / step, std::round(value / step), 1e-6) << path_of(choice) << ' ' << value;
+      EXPECT_NEAR(value / step, std::round(value / step), 1e-6)
+          << info_of(choice).path << ' ' << value;
     }
   }
 }
@@ -303,7 +304,7 @@ TEST(PlanningLaw, EveryPlanCanBeSet) {
 TEST(PlanningLaw, AsksForNoBetterProbeThanTheOneThatDoes) {
   PlanningTask task = cylinder_task();
   task.goal_mm = 2e-3;  // as given 2 × 3 √(8/985) = 0.54 µm
-  task.free = {{Choice::sigma, 1e-4, 1e-3}};
+  task.variables = {{Choice::sigma, 1e-4, 1e-3}};
   task.repeats = 100;
   const PlanningAnswer answer = plan_measurement(task);
   EXPECT_TRUE(answer.reached);
@@ -317,11 +318,11 @@ TEST(PlanningLaw, RecommendsNothingThatTheProbeCannotFollow) {
   task.goal_mm = 2e-3;
   task.rate_hz = 10.0;
   task.repeats = 100;
-  task.free = {{Choice::length, 20.0, 60.0}};
+  task.variables = {{Choice::length, 20.0, 60.0}};
   const PlanningAnswer stuck = plan_measurement(task);
   EXPECT_FALSE(stuck.reached);
   EXPECT_TRUE(stuck.recommended.empty());
-  task.free.push_back({Choice::readings_per_revolution, 4.0, 60.0});
+  task.variables.push_back({Choice::readings_per_revolution, 4.0, 60.0});
   const PlanningAnswer slower = plan_measurement(task);
   EXPECT_TRUE(slower.reached);
   ASSERT_FALSE(slower.recommended.empty());
@@ -330,7 +331,7 @@ TEST(PlanningLaw, RecommendsNothingThatTheProbeCannotFollow) {
 
 TEST(PlanningLaw, TellsEveryStepOneAtATime) {
   PlanningTask task = cylinder_task();
-  task.free = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::length, 20.0, 60.0}};
+  task.variables = {{Choice::readings_per_revolution, 4.0, 64.0}, {Choice::length, 20.0, 60.0}};
   task.threads = 3;
   std::size_t last = 0, of_simulation = 0;
   PlanningStage at = PlanningStage::search;

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The virtual lathe hides one effect of the catalogue; the diagnosis that names it at its size, as
 // written to a file, plays back the very readings. Nothing of the engine's terms is evaluated: the
-// numbers go from effects.md through the file to the lathe.
+// numbers go from the catalogue through the file to the lathe.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_read.hpp"
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
-#include "resimulate/diagnosis_scenario.hpp"
-#include "simulate/resimulate.hpp"
-#include "trueaxis/error.hpp"
-#include "trueaxis/job.hpp"
+#include "trueaxis/resimulation.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -46,17 +44,15 @@ class ResimulationLaw : public ::testing::TestWithParam<LatheBench> {
   }
 
   SimulatedReadings again(const ProbeStream& stream, const Diagnosis& diagnosis) const {
-    DiagnosedScenarios scenarios =
-        diagnosed_scenarios(diagnosis_json(diagnosis), "diagnosis.json", stream);
-    return {lathe::resimulate(scenarios.before, stream, scenarios.masked),
-            lathe::resimulate(scenarios.after, stream, scenarios.masked)};
+    return resimulate(diagnosis_from_json(diagnosis_json(diagnosis), "diagnosis.json"), stream)
+        .readings;
   }
 
   Diagnosis found(const LatheCase& one) const {
     Finding finding;
-    finding.effect = one.id;
-    finding.shape = one.shape;
-    for (const double linear : one.linear) finding.linear.push_back(one.size * linear);
+    finding.term.effect = find_effect(one.id);
+    finding.term.shape = one.shape;
+    for (const double linear : one.linear) finding.term.linear.push_back(one.size * linear);
     Diagnosis diagnosis = diagnosis_;
     diagnosis.findings = {finding};
     return diagnosis;

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "study/bound/quantities.hpp"
+#include "study/sweep/block_bytes.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/units.hpp"

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <set>
 
+#include "diagnose/files/pattern_text.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/units.hpp"
@@ -23,13 +24,14 @@ std::string measured(const char* name) {
 
 void print(const Diagnosis& d) {
   for (const Finding& f : d.findings) {
-    std::cout << f.effect;
+    std::cout << f.effect();
     for (const FitParameter& p : f.parameters)
       std::cout << ' ' << p.name << ' ' << p.estimate.value << ' ' << p.estimate.unit;
     std::cout << '\n';
   }
   for (const Unexplained& u : d.unexplained)
-    std::cout << u.harmonic << ' ' << u.dependence << ' ' << u.amplitude.value << '\n';
+    std::cout << harmonic_text(u.term.pattern) << ' ' << dependence_text(u.term.pattern) << ' '
+              << u.amplitude.value << '\n';
 }
 
 double value(const Finding& finding, const char* name) {
@@ -49,7 +51,7 @@ class Tube : public ::testing::Test {
   }
   const Finding* ovality() const {
     for (const Finding& f : found_.findings)
-      if ((f.effect == "part.roundness" || f.effect == "spindle.tilt_synchronous") &&
+      if ((f.effect() == "part.roundness" || f.effect() == "spindle.tilt_synchronous") &&
           value(f, "order") == 2.0)
         return &f;
     return nullptr;
@@ -63,7 +65,7 @@ class Tube : public ::testing::Test {
 TEST_F(Tube, OvalityLinearInZ) {
   const Finding* f = ovality();
   ASSERT_NE(f, nullptr);
-  EXPECT_EQ(f->effect, "part.roundness");
+  EXPECT_EQ(f->effect(), "part.roundness");
   EXPECT_NEAR(value(*f, "growth"), 0.5 * (0.206 + 0.025), 0.02);
   EXPECT_LT(f->p_value, 0.01);
 }
@@ -106,10 +108,12 @@ TEST_F(Tube, NoConstantFourOrFiveLobes) {
     const bool grows = std::ranges::any_of(f.parameters, [](const FitParameter& p) {
       return p.name == "growth" || p.name == "bearing";
     });
-    EXPECT_FALSE((order == 4.0 || order == 5.0) && !grows) << f.effect;
+    EXPECT_FALSE((order == 4.0 || order == 5.0) && !grows) << f.effect();
   }
-  for (const Unexplained& u : found_.unexplained)
-    EXPECT_FALSE((u.order == 4.0 || u.order == 5.0) && u.degree == 0) << u.harmonic;
+  for (const Unexplained& u : found_.unexplained) const Pattern& p = u.term.pattern;
+  const bool cell = p.kind == Pattern::Kind::fourier_legendre && p.degree == 0;
+  EXPECT_FALSE((p.order == 4.0 || p.order == 5.0) && cell) << harmonic_text(p);
+  }
 }
 
 // 60 readings, no repeats, sections 34 mm apart.
@@ -125,7 +129,7 @@ TEST_F(Tube, TwinsAreNamedAndWhatSplitsThemIsAdvised) {
   const Finding* f = ovality();
   ASSERT_NE(f, nullptr);
   EXPECT_TRUE(std::ranges::any_of(
-      f->members, [](const std::string& id) { return id.starts_with("spindle."); }));
+      f->members(), [](const std::string& id) { return id.starts_with("spindle."); }));
   ASSERT_TRUE(f->separate_with.has_value());
   const std::string& plan = f->separate_with->plan;
   EXPECT_TRUE(plan == "RC" || plan == "RE") << plan << ' ' << f->separate_with->why_not;
@@ -168,8 +172,8 @@ class Trace : public ::testing::Test {
 // H2 is that of the off-centre circle at R = 14.5 mm: nothing of order 2 remains. What remains is
 // fitted here, about a circle of its own, to the baseline's residuals of readings not masked.
 TEST_F(Trace, HasNoOvality) {
-  for (const Finding& f : found_.findings) EXPECT_NE(value(f, "order"), 2.0) << f.effect;
-  for (const Unexplained& u : found_.unexplained) EXPECT_NE(u.order, 2.0) << u.harmonic;
+  for (const Finding& f : found_.findings) EXPECT_NE(value(f, "order"), 2.0) << f.effect();
+  for (const Unexplained& u : found_.unexplained) EXPECT_NE(u.term.pattern.order, 2.0);
   std::set<std::size_t> masked;
   for (const Rejected& r : found_.noise.masked) masked.insert(r.row - 1);
   const auto kept = static_cast<Eigen::Index>(stream_.size() - masked.size());

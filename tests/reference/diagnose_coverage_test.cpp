@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 
+#include "diagnose/files/pattern_text.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/units.hpp"
 
@@ -33,7 +34,8 @@ TEST(DiagnoseWhiteNoise, AlarmsAtItsLevel) {
     if (found.verdict == DiagnosisVerdict::ideal) continue;
     ++alarms;
     std::cout << "seed " << scenario.seed << ": "
-              << (found.findings.empty() ? found.unexplained[0].harmonic : found.findings[0].effect)
+              << (found.findings.empty() ? harmonic_text(found.unexplained[0].term.pattern)
+                                         : found.findings[0].effect())
               << '\n';
   }
   const boost::math::binomial hits(streams, options.false_alarm);
@@ -52,12 +54,13 @@ std::optional<Estimate> hertz_of(const Finding& finding) {
     const double slope = (to_hz(e->value + step) - to_hz(e->value - step)) / (2.0 * step);
     return Estimate{to_hz(e->value), std::abs(slope) * e->u, "Hz", ""};
   };
-  if (finding.effect == "environment.vibration")
+  if (finding.effect() == "environment.vibration")
     return scaled("frequency", [](double f) { return f; });
-  if (finding.effect == "spindle.asynchronous") return scaled("order", [](double k) { return k; });
-  if (finding.effect == "part.waviness")
+  if (finding.effect() == "spindle.asynchronous")
+    return scaled("order", [](double k) { return k; });
+  if (finding.effect() == "part.waviness")
     return scaled("wavelength", [](double mm) { return lead_mm / mm; });
-  if (finding.effect == "part.feed_marks")
+  if (finding.effect() == "part.feed_marks")
     return scaled("feed", [](double mm) { return lead_mm / mm - 1.0; });
   return std::nullopt;
 }
@@ -88,9 +91,9 @@ TEST(DiagnoseEffects, UCovers) {
     scenario.seed = seed + static_cast<std::uint64_t>(s);
     const Diagnosis found = diagnose(virtual_lathe::simulate(scenario), options);
     for (const Finding& f : found.findings) {
-      ++names[f.effect];
+      ++names[f.effect()];
       const Estimate* order = testing::parameter_of(f, "order");
-      if ((f.effect == "part.roundness" || f.effect == "spindle.radial_synchronous") && order &&
+      if ((f.effect() == "part.roundness" || f.effect() == "spindle.radial_synchronous") && order &&
           order->value == 3.0) {
         ask("amplitude", testing::parameter_of(f, "amplitude"), amplitude_mm);
         ask("phase", testing::parameter_of(f, "phase"), phase_rad / rad_per_deg);
@@ -99,7 +102,8 @@ TEST(DiagnoseEffects, UCovers) {
       if (frequency && std::abs(frequency->value - line_hz) < 0.5 / turns)
         ask("frequency", &*frequency, line_hz);
     }
-    for (const Unexplained& u : found.unexplained) ++names[u.harmonic + ' ' + u.dependence];
+    for (const Unexplained& u : found.unexplained)
+      ++names[harmonic_text(u.term.pattern) + ' ' + dependence_text(u.term.pattern)];
   }
   for (const auto& [name, count] : names) std::cout << count << " x " << name << '\n';
   const boost::math::students_t student(turns * readings_per_turn - 10.0);

@@ -44,7 +44,7 @@ inline DiagnoseOptions on_one_core(const virtual_lathe::Scenario& scenario) {
 /// The finding whose class holds an effect; nullptr: none.
 inline const Finding* finding_with(const Diagnosis& diagnosis, const std::string& effect) {
   for (const Finding& f : diagnosis.findings)
-    if (std::ranges::find(f.members, effect) != f.members.end()) return &f;
+    if (f.may_be(effect)) return &f;
   return nullptr;
 }
 

@@ -14,16 +14,24 @@ namespace trueaxis::example {
 
 inline constexpr double lobes_mm = 0.006, lobes_phase_deg = 40.0, wander_mm = 0.0012;
 
+inline TermValue fitted(const char* effect, const TermShape& shape, std::vector<double> linear) {
+  TermValue term;
+  term.effect = find_effect(effect);
+  term.shape = shape;
+  term.linear = std::move(linear);
+  return term;
+}
+
 inline Finding lobes() {
+  const double phase = lobes_phase_deg * rad_per_deg;
   Finding finding;
-  finding.effect = "part.roundness";
-  finding.members = {"part.roundness", "spindle.radial_synchronous"};
+  finding.term = fitted("part.roundness", {.order = 3.0},
+                        {lobes_mm * std::cos(phase), lobes_mm * std::sin(phase), 0.0, 0.0});
   finding.rivals = {{"spindle.radial_synchronous", 0.0, -0.3, 0.5, true}};
   finding.parameters = {parameter("order", 3.0, 0.0, "1"),
                         parameter("amplitude", lobes_mm, 1.1e-4, "mm"),
                         parameter("phase", lobes_phase_deg, 1.05, "deg")};
   finding.alias = "order 7, which the sampling folds onto it";
-  finding.frame = "part";
   finding.p_value = 1e-5;
   finding.probability = 0.5;
   finding.rms_mm = lobes_mm / std::sqrt(2.0);
@@ -31,36 +39,26 @@ inline Finding lobes() {
   finding.cosmetic = true;
   finding.separate_with =
       Separating{"RC", "the part re-indexed by 70 deg", 0.5, 0.993, 12.0, "", {}};
-  finding.shape.order = 3.0;
-  const double phase = lobes_phase_deg * rad_per_deg;
-  finding.linear = {lobes_mm * std::cos(phase), lobes_mm * std::sin(phase), 0.0, 0.0};
   return finding;
 }
 
 inline Finding tilt_motion() {
   Finding finding;
-  finding.effect = "spindle.tilt_synchronous";
-  finding.members = {finding.effect};
+  finding.term =
+      fitted("spindle.tilt_synchronous", {.order = 2.0, .lever_from_mm = -120.0}, {1.9e-5, -2e-6});
   finding.parameters = {parameter("amplitude", 0.0011, 1e-4, "deg")};
-  finding.frame = "spindle";
   finding.p_value = 0.004;
   finding.probability = 1.0;
   finding.axis_shift = {std::nan(""), std::nan(""), "mm", "the extended axis is not determined"};
-  finding.shape.order = 2.0;
-  finding.shape.lever_from_mm = -120.0;
-  finding.linear = {1.9e-5, -2e-6};
   return finding;
 }
 
 inline Unexplained wander() {
   Unexplained pattern;
-  pattern.harmonic = "order 7.41";
-  pattern.dependence = "constant along Z";
+  pattern.term.pattern = {.order = 7.41, .spindle = true};
+  pattern.term.linear = {wander_mm, 0.0};
   pattern.amplitude = {wander_mm, 1e-4, "mm", ""};
   pattern.p_value = 0.002;
-  pattern.order = 7.41;
-  pattern.degree = 0;
-  pattern.linear = {wander_mm, 0.0};
   return pattern;
 }
 
@@ -146,6 +144,7 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
 inline JobResult diagnosed_job(std::size_t readings = 1500) {
   JobResult result = cone_job(readings);
   result.diagnoses = {diagnosed(result.streams.front(), result.fits.front())};
+  result.resimulations = {std::nullopt};
   return result;
 }
 

@@ -32,7 +32,7 @@ struct HiddenEffect {
   double variance_mm2() const { return amplitude_mm * amplitude_mm * mean_square; }
 };
 
-/// Of trueaxis.comparison/1, or of what result.json says. The seed is in the scenario.
+/// Of trueaxis.comparison/2, or of what result.json says. The seed is in the scenario.
 inline void expect_effect_taken_out(const nlohmann::json& comparison, const HiddenEffect& hidden) {
   const auto of = [&](const char* which, const char* key) -> const nlohmann::json& {
     return comparison.at(which).at(key);

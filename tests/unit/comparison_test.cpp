@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "resimulate/files/comparison_json.hpp"
+#include "resimulate/files/comparison_text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/units.hpp"

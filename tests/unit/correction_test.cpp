@@ -108,7 +108,7 @@ TEST(Correction, PutsTheNoseOnTheTargetSurface) {
 }
 
 TEST(Correction, NoseOfTheCatalogue) {
-  // effects.md: the centre's offset r_n(√(1+s²) − 1), s = θ cos(C − φ) on a cylinder.
+  // Eq. 109: the centre's offset r_n(√(1+s²) − 1), s = θ cos(C − φ) on a cylinder.
   ToolSetup setup = tool();
   setup.height_mm = 0.0;
   const Axis axis{0, 0, 2e-3, 0, 0};
@@ -146,7 +146,7 @@ TEST(Correction, IsContinuousWhereATableFrozenPerRevolutionSteps) {
   setup.feed_mm_per_rev = 0.2;
   const AxisEstimate axis{{0.0, 0.0, 1e-3, 0.0, 0.0}, {}};
   const Profile profile(axis.axis, cylinder(), setup);
-  // effects.md: frozen at the Z of its start, a revolution ends θ f = 0.2 µm off at 1 mrad, 0.2
+  // Eq. 111: frozen at the Z of its start, a revolution ends θ f = 0.2 µm off at 1 mrad, 0.2
   // mm/rev.
   EXPECT_NEAR(profile.at(0.0, 0.4) - profile.at(0.0, 0.2), 1e-3 * 0.2, 1e-9);
   const CorrectionRows rows = make_correction(axis, cylinder(), setup, {}).rows;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnose/explain/gain.hpp"
+#include "diagnose/search/statistic.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {
@@ -111,7 +111,7 @@ TEST(ScoreOfColumns, IsTheDecreaseOfTheSumOfSquares) {
   EXPECT_NEAR(twice.gain, b.rss({2, 3}) - b.rss({1, 2, 3}), 1e-9 * before);
 }
 
-// effects.md: an effect regressed on the base fit's residuals shrinks by exactly ρ²; fitted jointly
+// Eq. 60: an effect regressed on the base fit's residuals shrinks by exactly ρ²; fitted jointly
 // it does not. A bent part, s² from one end on beside the line in s, keeps 1/36 = 2.8 %: on [0, 1]
 // the variance of s² about its line is 1/180, its mean square 1/5. A helix of 60 turns is that
 // integral to one part in its turns.

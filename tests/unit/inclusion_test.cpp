@@ -13,10 +13,9 @@ namespace {
 
 Finding spindle_lobes() {
   Finding finding = example::lobes();
-  finding.effect = "spindle.radial_synchronous";
-  finding.members = {finding.effect};
+  finding.term.effect = find_effect("spindle.radial_synchronous");
   finding.rivals.clear();
-  finding.linear.resize(2);
+  finding.term.linear.resize(2);
   return finding;
 }
 
@@ -36,12 +35,13 @@ TEST(Inclusion, AMotionOfTheSpindleAloneIsFollowed) {
 
 TEST(Inclusion, AClassThatHoldsTheFormIsRefusedByName) {
   Finding finding = spindle_lobes();
-  finding.members.push_back("part.roundness");
+  finding.rivals = {{"part.roundness", 0.0, 0.0, 0.5, true}};
   JobResult result = asked(finding);
   EXPECT_TRUE(included_motions(result).empty());
   EXPECT_TRUE(result.inclusions.at(0).refused);
   EXPECT_NE(result.inclusions.at(0).why.find("part.roundness"), std::string::npos);
-  finding.members = {"probe.nonlinearity", "spindle.radial_synchronous"};
+  finding.term.effect = find_effect("probe.nonlinearity");
+  finding.rivals = {{"spindle.radial_synchronous", 0.0, 0.0, 0.5, true}};
   result = asked(finding);
   EXPECT_TRUE(included_motions(result).empty());
   EXPECT_NE(result.inclusions.at(0).why.find("probe.nonlinearity"), std::string::npos);
@@ -85,11 +85,8 @@ TEST(Inclusion, TheCutPartIsTrueOnBothSides) {
 
 /// An axial motion moves X by tan α of the surface that is cut: a cylinder does not see it.
 TEST(Inclusion, AnAxialMotionActsThroughTheSlopeOfTheTarget) {
-  RepeatingMotion axial{"spindle.axial_synchronous",
-                        find_effect("spindle.axial_synchronous")->term,
-                        {},
-                        {0.004, 0.0}};
-  axial.shape.order = 2.0;
+  const RepeatingMotion axial{
+      example::fitted("spindle.axial_synchronous", {.order = 2.0}, {0.004, 0.0})};
   EXPECT_EQ(motion_mm(axial, 0.3, 10.0, 0.0), 0.0);
   EXPECT_NEAR(motion_mm(axial, 0.3, 10.0, 0.1), 0.1 * 0.004 * std::cos(0.6), 1e-15);
 }

@@ -139,7 +139,7 @@ TEST(Margin, PrecompensationLeadsARamp) {
 }
 
 TEST(Margin, InterpolationErrorsOfTheCatalogue) {
-  // effects.md: A (π/M)²/2 for A = 300 µm: 0.36 µm at 64 rows, 0.011 µm at 360. With an actuator
+  // Eq. 114: A (π/M)²/2 for A = 300 µm: 0.36 µm at 64 rows, 0.011 µm at 360. With an actuator
   // far faster than the rows nothing filters them.
   for (const auto& [rows, um] : {std::pair{64, 0.36}, std::pair{360, 0.0114}}) {
     ToolSetup tool;
@@ -165,7 +165,7 @@ TEST(Margin, StrokeAndSlewAreThoseOfTheCommand) {
   for (std::size_t i = 1; i < x.size(); ++i) {
     slew = std::max(slew, std::abs(x[i] - x[i - 1]) * rows_per_s);
   }
-  // ObservationMask and grid each miss a peak by (π/180)²/2; the margin takes the extremes at their
+  // Rows and grid each miss a peak by (π/180)²/2; the margin takes the extremes at their
   // worst place.
   EXPECT_NEAR(correction.margin.stroke_used_mm, *high - *low, 5e-4 * (*high - *low));
   EXPECT_NEAR(correction.margin.slew_used_mm_per_s, slew, 5e-4 * slew);

@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "resimulate/diagnosis_scenario.hpp"
-#include "simulate/resimulate.hpp"
+#include "diagnose/files/diagnosis_read.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -51,10 +51,10 @@ Diagnosis diagnosed(const Unexplained& pattern) {
 void expect_played(const Unexplained& pattern, const std::function<double(const At&)>& formula,
                    double tolerance_mm = 1e-12) {
   const ProbeStream stream = measured();
-  DiagnosedScenarios scenarios =
-      diagnosed_scenarios(diagnosis_json(diagnosed(pattern)), "diagnosis.json", stream);
-  const auto before = virtual_lathe::resimulate(scenarios.before, stream, scenarios.masked);
-  const auto after = virtual_lathe::resimulate(scenarios.after, stream, scenarios.masked);
+  const Diagnosis diagnosis =
+      diagnosis_from_json(diagnosis_json(diagnosed(pattern)), "diagnosis.json");
+  const auto [before, after] = resimulate(diagnosis, stream).readings;
+  ASSERT_EQ(after.size(), stream.size());
   ASSERT_GT(stream.size(), 500u);
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const At at{stream.c_rad[i], stream.position_mm[i], stream.time_s[i]};
@@ -64,12 +64,10 @@ void expect_played(const Unexplained& pattern, const std::function<double(const 
   }
 }
 
-Unexplained pattern(double order, int degree) {
+Unexplained pattern(const Pattern& of) {
   Unexplained out;
-  out.harmonic = "a pattern";
-  out.order = order;
-  out.degree = degree;
-  out.linear = {a, b};
+  out.term.pattern = of;
+  out.term.linear = {a, b};
   return out;
 }
 
@@ -78,31 +76,27 @@ double p2(double u) { return 0.5 * (3.0 * u * u - 1.0); }
 
 TEST(PatternPlayback, CellAlongZ) {
   for (const bool of_part : {false, true}) {
-    Unexplained cell = pattern(5.0, 2);
-    cell.part_frame = of_part;
-    expect_played(cell, [](const At& at) { return p2(at.u()) * wave(5.0 * at.c); });
+    const Pattern cell{.order = 5.0, .spindle = !of_part, .degree = 2};
+    expect_played(pattern(cell), [](const At& at) { return p2(at.u()) * wave(5.0 * at.c); });
   }
 }
 
 TEST(PatternPlayback, CellWithoutAnOrderHasOneFactor) {
-  Unexplained cell = pattern(0.0, 2);
-  cell.linear = {a};
-  cell.part_frame = true;
+  Unexplained cell = pattern({.degree = 2});
+  cell.term.linear = {a};
   expect_played(cell, [](const At& at) { return a * p2(at.u()); });
 }
 
 TEST(PatternPlayback, CellAlongTime) {
-  Unexplained cell = pattern(2.0, 1);
-  cell.in_time = true;
+  const Unexplained cell = pattern({.order = 2.0, .spindle = true, .degree = 1, .in_time = true});
   const double lasted = measured().time_s.back();
   expect_played(cell, [=](const At& at) { return (2.0 * at.t / lasted - 1.0) * wave(2.0 * at.c); });
 }
 
 TEST(PatternPlayback, LineAlongZ) {
   for (const double per_mm : {0.14, -0.09, 0.0}) {
-    Unexplained line = pattern(7.41, -1);
-    line.z_frequency = per_mm;
-    line.part_frame = true;
+    const Unexplained line =
+        pattern({.kind = Pattern::Kind::line, .order = 7.41, .frequency = per_mm});
     // The angle of a part that turned n times is that of its last turn: an order that is no whole
     // number starts anew at ±180°.
     expect_played(line, [=](const At& at) {
@@ -112,40 +106,42 @@ TEST(PatternPlayback, LineAlongZ) {
 }
 
 TEST(PatternPlayback, LineInTime) {
-  Unexplained line = pattern(1.0, -1);
-  line.in_time = true;
-  line.dependence = "turning with 3.25 Hz";
+  const Unexplained line = pattern({.kind = Pattern::Kind::line,
+                                    .order = 1.0,
+                                    .spindle = true,
+                                    .in_time = true,
+                                    .frequency = 3.25});
   expect_played(line, [](const At& at) { return wave(at.c - two_pi * 3.25 * at.t); });
 }
 
 TEST(PatternPlayback, LocalForm) {
-  Unexplained bump;
-  bump.harmonic = "local form";
-  bump.dependence = "at 70.0° (± 12.5°), Z 18.00 mm (± 3.50 mm)";
-  bump.part_frame = true;
-  bump.linear = {a};
+  Unexplained bump = pattern({.kind = Pattern::Kind::bump,
+                              .angle_rad = 70.0 * rad_per_deg,
+                              .position_mm = 18.0,
+                              .width_rad = 12.5 * rad_per_deg,
+                              .length_mm = 3.5});
+  bump.term.linear = {a};
   const auto over_angle = [](double c) {
     return std::remainder(c - 70.0 * rad_per_deg, two_pi) / (12.5 * rad_per_deg);
   };
   expect_played(bump, [&](const At& at) {
     return a * std::exp(-0.5 * (std::pow(over_angle(at.c), 2) + std::pow((at.z - 18) / 3.5, 2)));
   });
-  bump.dependence = "at 70.0° (± 12.5°)";
+  bump.term.pattern.length_mm = 0.0;
   expect_played(bump,
                 [&](const At& at) { return a * std::exp(-0.5 * std::pow(over_angle(at.c), 2)); });
 }
 
 TEST(PatternPlayback, WhatHasNoPlaceIsRefused) {
   const ProbeStream stream = measured();
-  Unexplained changing = pattern(3.0, 1);
-  changing.in_time = changing.part_frame = true;
-  Unexplained placeless;
-  placeless.harmonic = "local form";
-  placeless.linear = {a};
-  Unexplained empty = pattern(3.0, 0);
-  empty.linear = {};
+  const Unexplained changing = pattern({.order = 3.0, .degree = 1, .in_time = true});
+  Unexplained placeless = pattern({.kind = Pattern::Kind::bump});
+  placeless.term.linear = {a};
+  Unexplained empty = pattern({.order = 3.0});
+  empty.term.linear = {};
   for (const Unexplained& bad : {changing, placeless, empty}) {
-    EXPECT_THROW(diagnosed_scenarios(diagnosis_json(diagnosed(bad)), "d.json", stream), InputError);
+    EXPECT_THROW(diagnosed_scenarios(diagnosed(bad), stream), InputError);
+    EXPECT_NE(resimulate(diagnosed(bad), stream).why_not, "");
   }
 }
 

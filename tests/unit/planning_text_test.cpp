@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/planning_text.hpp"
+
 #include <gtest/gtest.h>
 
-#include "study/planning/files/planning_results.hpp"
 #include "support/sweep_examples.hpp"
 
 namespace trueaxis {

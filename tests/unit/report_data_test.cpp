@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/files/diagnosis_json.hpp"
 #include "report/page.hpp"
 #include "report/report.hpp"
 #include "report/thinning.hpp"
@@ -74,9 +75,6 @@ TEST(ReportData, MapsLeaveMaskedReadingsOut) {
   EXPECT_EQ(maps["before_um"].size(), 1500u);
   const json& rejected = maps["rejected"];
   EXPECT_NE(std::find(rejected.begin(), rejected.end(), 200), rejected.end()) << "row 201";
-  const json lines = report_data(example::diagnosed_job())["references"][0]["diagnosis"]["lines"];
-  EXPECT_EQ(lines[0]["order"], 3.0);
-  EXPECT_EQ(lines[1]["order"], 7.41);
 }
 
 TEST(ReportData, MapsAreOfTheLathesReadings) {
@@ -94,6 +92,18 @@ TEST(ReportData, MapsAreOfTheLathesReadings) {
   EXPECT_NEAR(maps["after_um"][7], 1000.0 * d.residual_after_mm[7] - 125.0, 1e-3);
   EXPECT_EQ(maps["measured_um"], reference["readings"]["points"]["deviation_um"]);
   EXPECT_EQ(simulation["left_share"], result.resimulations.front()->comparison.after.share);
+}
+
+/// The page reads the objects of the files, and names every effect that it shows.
+TEST(ReportData, DiagnosisIsThatOfTheFile) {
+  const JobResult result = example::diagnosed_job();
+  const json shown = report_data(result)["references"][0]["diagnosis"];
+  const json file = json::parse(diagnosis_json(*result.diagnoses.front()));
+  for (const char* key : {"findings", "unexplained", "gain", "plans", "next_measurement"})
+    EXPECT_EQ(shown[key], file[key]) << key;
+  EXPECT_EQ(shown["noise"]["masked"], result.diagnoses.front()->noise.masked.size());
+  for (const json& finding : shown["findings"])
+    EXPECT_FALSE(shown["titles"][finding["effect"]].get<std::string>().empty());
 }
 
 TEST(ReportData, SaysWhyTheLatheDidNotSimulate) {
@@ -209,8 +219,8 @@ TEST(ReportData, WhatIsNotDeterminedIsNullAndSaysWhy) {
   const json data = json::parse(json_for_script(report_data(example::rank_deficient_job())));
   const json& reference = data["references"][0];
   EXPECT_EQ(reference["status"], "rank_deficient");
-  EXPECT_TRUE(reference["parameters"][4]["value"].is_null());
-  EXPECT_EQ(reference["parameters"][4]["why_not"], "one height only: every taper fits");
+  EXPECT_TRUE(reference["parameters"]["k"]["value"].is_null());
+  EXPECT_EQ(reference["parameters"]["k"]["why"], "one height only: every taper fits");
   EXPECT_FALSE(reference["readings"]["has_model"]);
   EXPECT_TRUE(reference["readings"]["histogram"].is_null());
   EXPECT_FALSE(data.contains("correction"));

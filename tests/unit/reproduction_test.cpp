@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// A go is taken back where the second simulation is farther from the readings than the first.
+// There is no go where the second simulation is farther from the readings than the first.
 #include <gtest/gtest.h>
 
 #include <random>
 
+#include "job/verdict.hpp"
 #include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
 namespace {
 
-JobResult judged(bool wrong_way) {
+/// A job whose numbers are a go; with `wrong_way` its second simulation is the first.
+JobResult resimulated(bool wrong_way) {
   JobResult result = example::resimulated_job(600);
-  result.verdict.go = true;
-  result.verdict.line = "GO: as before";
+  result.job.references.front().name = "seat";
   Resimulation& again = *result.resimulations.front();
   if (wrong_way) {
     std::swap(again.readings.before_mm, again.readings.after_mm);
@@ -24,18 +25,16 @@ JobResult judged(bool wrong_way) {
 }
 
 TEST(Reproduction, AModelThatReproducesTheReadingsKeepsTheGo) {
-  JobResult result = judged(false);
-  judge_resimulations(result);
-  EXPECT_TRUE(result.verdict.go);
-  EXPECT_EQ(result.verdict.line, "GO: as before");
+  const Verdict verdict = decide(resimulated(false));
+  EXPECT_TRUE(verdict.go);
+  EXPECT_EQ(verdict.line.rfind("GO: coaxiality ", 0), 0u) << verdict.line;
 }
 
-TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceTakesItBack) {
-  JobResult result = judged(true);
-  result.job.references.front().name = "seat";
-  judge_resimulations(result);
-  EXPECT_FALSE(result.verdict.go);
-  const std::string& line = result.verdict.line;
+TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceIsNoGo) {
+  const JobResult result = resimulated(true);
+  const Verdict verdict = decide(result);
+  EXPECT_FALSE(verdict.go);
+  const std::string& line = verdict.line;
   EXPECT_EQ(line.rfind("NO-GO: seat: what was found does not reproduce the readings: ", 0), 0u);
   const Comparison& c = result.resimulations.front()->comparison;
   char share[32];
@@ -45,22 +44,31 @@ TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceTakesItBack) {
   EXPECT_NE(line.find(result.diagnoses.front()->next.what), std::string::npos) << line;
 }
 
-TEST(Reproduction, WithoutASimulationNothingIsRefuted) {
-  JobResult result = judged(true);
-  result.resimulations.front()->why_not = "the virtual lathe has no such effect";
-  judge_resimulations(result);
-  EXPECT_TRUE(result.verdict.go);
-  result.resimulations.clear();
-  judge_resimulations(result);
-  EXPECT_TRUE(result.verdict.go);
+/// The number that would be held against a tolerance is that of a wrong model.
+TEST(Reproduction, WhatIsRefutedIsNotHeldAgainstATolerance) {
+  JobResult result = resimulated(true);
+  for (const double tolerance_mm : {1e-6, 1.0}) {
+    result.job.coaxiality_tolerance_mm = tolerance_mm;
+    EXPECT_NE(decide(result).line.find("does not reproduce"), std::string::npos) << tolerance_mm;
+  }
+  result.job.target.reset();
+  result.target_axis.reset();
+  result.correction.reset();
+  EXPECT_FALSE(decide(result).go);
 }
 
-TEST(Reproduction, AnEarlierReasonStands) {
-  JobResult result = judged(true);
-  result.verdict.go = false;
-  result.verdict.line = "NO-GO: the actuator cannot follow";
-  judge_resimulations(result);
-  EXPECT_EQ(result.verdict.line, "NO-GO: the actuator cannot follow");
+TEST(Reproduction, WithoutASimulationNothingIsRefuted) {
+  JobResult result = resimulated(true);
+  result.resimulations.front()->why_not = "the virtual lathe has no such effect";
+  EXPECT_TRUE(decide(result).go);
+  result.resimulations.front().reset();
+  EXPECT_TRUE(decide(result).go);
+}
+
+TEST(Reproduction, AnActuatorThatCannotFollowIsSaidFirst) {
+  JobResult result = resimulated(true);
+  result.correction->margin.follows = false;
+  EXPECT_EQ(decide(result).line.rfind("NO-GO: the actuator cannot follow", 0), 0u);
 }
 
 TEST(Reproduction, HalfWayBackAndBeyondChance) {

@@ -52,7 +52,7 @@ TEST(Intersect, EccentricCircleHasTheHarmonicsOfTheCatalogue) {
     const double x = intersect({{e, 0, 0, 0, 0}, radius, 0.0}, c, 0.0).x_mm - radius;
     dc += x / m, h1 += 2.0 * x * std::cos(c) / m, h2 += 2.0 * x * std::cos(2.0 * c) / m;
   }
-  // effects.md: H1 = e, H2 = e²/(4R), DC = −e²/(4R); the next terms are e⁴/R³ ~ 3e-8.
+  // Eq. 12: H1 = e, H2 = e²/(4R), DC = −e²/(4R); the next terms are e⁴/R³ ~ 3e-8.
   EXPECT_NEAR(h1, e, 1e-12);
   EXPECT_NEAR(h2, e * e / (4.0 * radius), 1e-8);
   EXPECT_NEAR(dc, -e * e / (4.0 * radius), 1e-8);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each effect against its signature in effects.md, written down independently.
+// Each effect against its signature in docs/effects.md, written down independently.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -315,11 +315,11 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
              name == "step_mm";
     };
     const bool limits = kind.id == "probe.saturation";
-    for (const EffectParameter& parameter : kind.parameters) {
+    for (const LatheParameter& parameter : kind.parameters) {
       if (!parameter.fallback) effect.parameters[std::string(parameter.name)] = 1.0;
     }
     for (const double size : {0.0, 0.01}) {
-      for (const EffectParameter& parameter : kind.parameters) {
+      for (const LatheParameter& parameter : kind.parameters) {
         const bool sized = is_size(parameter.name) && !limits;
         if (sized && !(parameter.name == "time_constant_s" && kind.id != "probe.lag")) {
           effect.parameters[std::string(parameter.name)] = size;

@@ -78,7 +78,7 @@ TEST(SimulateProbe, EccentricCircleHasItsSecondHarmonic) {
   Scenario scenario = dwell(40.0);
   scenario.part.x0_mm = 0.2;
   const ProbeStream stream = simulate(scenario);
-  // effects.md: H1 = e, H2 = e²/4R, DC −e²/4R; next terms are of order e⁴/R³ = 2.5e-8 mm.
+  // Eq. 12: H1 = e, H2 = e²/4R, DC −e²/4R; next terms are of order e⁴/R³ = 2.5e-8 mm.
   EXPECT_NEAR(std::abs(harmonic(stream, 1)), 0.2, exact_mm);
   EXPECT_NEAR(harmonic(stream, 2).real(), 0.04 / 160.0, 3e-8);
   EXPECT_NEAR(harmonic(stream, 0).real(), 40.0 - 0.04 / 160.0, 3e-8);

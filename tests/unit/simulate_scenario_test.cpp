@@ -114,7 +114,7 @@ TEST(SimulateScenario, EveryEffectCanBeReadFromItsOwnDescription) {
   for (const EffectKind& kind : effect_kinds()) {
     std::string text = CYLINDER PASS "[[effect]]\nid = '" + std::string(kind.id) + "'\n";
     Effect expected{std::string(kind.id), {}};
-    for (const EffectParameter& parameter : kind.parameters) {
+    for (const LatheParameter& parameter : kind.parameters) {
       std::string name(parameter.name);
       expected.parameters[name] = 2.0;
       text += name + " = 2\n";

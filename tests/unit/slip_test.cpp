@@ -12,8 +12,7 @@ namespace {
 
 Finding slipped(std::vector<FitParameter> parameters) {
   Finding finding;
-  finding.effect = "part.slip";
-  finding.members = {finding.effect};
+  finding.term.effect = find_effect("part.slip");
   finding.parameters = std::move(parameters);
   finding.parameters.push_back(example::parameter("onset", 11.982, 0.012, "s"));
   finding.probability = 1.0;
@@ -47,8 +46,7 @@ TEST(Slip, ATurnIsGivenInDegrees) {
 
 TEST(Slip, AMemberOfTheClassMayHaveBeenOne) {
   Finding bow = example::tilt_motion();
-  bow.effect = "part.bow";
-  bow.members = {"part.bow", "part.slip"};
+  bow.term.effect = find_effect("part.bow");
   bow.rivals = {{"part.slip", 0.4, 1.1, 0.37, false}};
   EXPECT_EQ(
       slip_objection(found({bow})),
@@ -58,7 +56,7 @@ TEST(Slip, AMemberOfTheClassMayHaveBeenOne) {
 
 TEST(Slip, TheNamedOneGoesBeforeThePossibleOne) {
   Finding bow = example::tilt_motion();
-  bow.members = {"spindle.tilt_synchronous", "part.slip"};
+  bow.rivals = {{"part.slip", 0.4, 1.1, 0.37, false}};
   const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
   EXPECT_NE(slip_objection(found({bow, turn})).find("the part slipped"), std::string::npos);
 }

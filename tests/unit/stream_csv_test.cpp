@@ -14,6 +14,7 @@
 
 #include "format/file.hpp"
 #include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_write.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "correct/files/table_text.hpp"
+
 namespace trueaxis {
 namespace {
 

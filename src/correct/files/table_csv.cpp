@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "correct/files/table_text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -14,10 +14,4 @@ namespace trueaxis {
 /// correction 7 (0.1 nm).
 std::string correction_csv(const Correction& correction);
 
-/// The header alone, every line with its `#`.
-std::string correction_header(const Correction& correction);
-
-/// Extremes, harmonics and the actuator's margin as text, µm and degrees.
-std::string correction_preview(const Correction& correction);
-
 }  // namespace trueaxis

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "correct/files/table_text.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
-#include "correct/files/table_csv.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -14,39 +16,20 @@ constexpr double um = 1.0 / mm_per_um;
 
 /// `value` with `decimals`, without the sign of a negative zero.
 std::string fixed(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  const bool zero =
-      text[0] == '-' && std::string(text).find_first_of("123456789") == std::string::npos;
-  return zero ? text + 1 : text;
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text[0] == '-' && text.find_first_of("123456789") == std::string::npos;
+  return zero ? text.substr(1) : text;
 }
-
-std::string significant(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.6g", value);
-  return text;
-}
-
-class Lines {
- public:
-  void add(const std::string& key, const std::string& value) {
-    text_ += "# " + key + ": " + value + '\n';
-  }
-  std::string take() { return std::move(text_); }
-
- private:
-  std::string text_;
-};
 
 std::string actuator_text(const Actuator& actuator) {
-  std::string text = "stroke " + significant(actuator.stroke_mm * um) + " µm, ";
-  text += actuator.measured.empty() ? significant(actuator.natural_frequency_hz) + " Hz, damping " +
-                                          significant(actuator.damping)
-                                    : "frequency response measured at " +
-                                          std::to_string(actuator.measured.size()) + " frequencies";
-  return text + ", delay " + significant(actuator.delay_s * 1e3) + " ms, slew " +
-         significant(actuator.slew_mm_per_s) + " mm/s, sampling " +
-         significant(actuator.sampling_hz) + " Hz";
+  const std::string response =
+      actuator.measured.empty()
+          ? fmt::format("{:.6g} Hz, damping {:.6g}", actuator.natural_frequency_hz,
+                        actuator.damping)
+          : fmt::format("frequency response measured at {} frequencies", actuator.measured.size());
+  return fmt::format("stroke {:.6g} µm, {}, delay {:.6g} ms, slew {:.6g} mm/s, sampling {:.6g} Hz",
+                     actuator.stroke_mm * um, response, actuator.delay_s * 1e3,
+                     actuator.slew_mm_per_s, actuator.sampling_hz);
 }
 
 std::string target_text(const TargetSurface& target) {
@@ -85,35 +68,36 @@ std::string correction_header(const Correction& correction) {
   const ToolSetup& tool = correction.tool;
   const ActuatorMargin& margin = correction.margin;
   const bool face = correction.target.kind == TargetKind::face;
-  Lines lines;
-  lines.add("schema", "trueaxis.correction/1");
-  lines.add("version", TRUEAXIS_VERSION);
-  lines.add("units", "mm, deg; X is a radius");
-  lines.add(face ? "Z_fts" : "X_fts",
-            face ? "Z commanded - Z programmed at this X, positive along +Z"
-                 : "X commanded - X programmed at this Z, positive away from the spindle axis");
-  lines.add(face ? "Z_command" : "X_command", correction.actuator.precompensate
-                                                  ? "precompensated for the actuator"
-                                                  : "as wanted, no precompensation");
-  lines.add("c_zero", "that of the probe stream");
-  lines.add("c_sense", tool.sense > 0 ? "+1 while cutting" : "-1 while cutting");
-  lines.add(face ? "x_datum" : "z_datum",
-            face ? "spindle axis; the centre of the tool's nose"
-                 : "that of the probe stream; the centre of the tool's nose");
-  lines.add("target", target_text(correction.target));
-  lines.add("tool_height", fixed(tool.height_mm, 6) + " mm");
-  lines.add("tool_angle_from_probe", fixed(tool.angle_from_probe_rad / rad_per_deg, 6) + " deg");
-  lines.add("nose_radius", fixed(tool.nose_radius_mm, 6) + " mm");
-  lines.add("speed", significant(tool.speed_rpm) + " rpm");
-  lines.add("feed", significant(tool.feed_mm_per_rev) + " mm/rev");
-  lines.add("rows_per_revolution",
-            std::to_string(tool.rows_per_revolution) + ", linear in between");
-  lines.add("actuator", actuator_text(correction.actuator));
-  lines.add("stroke_used", fixed(margin.stroke_used_mm * um, 3) + " µm of " +
-                               fixed(margin.stroke_available_mm * um, 3) + " µm");
-  lines.add("following_error", following_text(margin));
-  lines.add("target_axis", axis_text(correction.axis));
-  return lines.take();
+  const std::string along = face ? "Z" : "X";
+  const std::pair<std::string, std::string> lines[] = {
+      {"schema", "trueaxis.correction/1"},
+      {"version", TRUEAXIS_VERSION},
+      {"units", "mm, deg; X is a radius"},
+      {along + "_fts",
+       face ? "Z commanded - Z programmed at this X, positive along +Z"
+            : "X commanded - X programmed at this Z, positive away from the spindle axis"},
+      {along + "_command", correction.actuator.precompensate ? "precompensated for the actuator"
+                                                             : "as wanted, no precompensation"},
+      {"c_zero", "that of the probe stream"},
+      {"c_sense", tool.sense > 0 ? "+1 while cutting" : "-1 while cutting"},
+      {face ? "x_datum" : "z_datum", face ? "spindle axis; the centre of the tool's nose"
+                                          : "that of the probe stream; the centre of the tool's "
+                                            "nose"},
+      {"target", target_text(correction.target)},
+      {"tool_height", fixed(tool.height_mm, 6) + " mm"},
+      {"tool_angle_from_probe", fixed(tool.angle_from_probe_rad / rad_per_deg, 6) + " deg"},
+      {"nose_radius", fixed(tool.nose_radius_mm, 6) + " mm"},
+      {"speed", fmt::format("{:.6g} rpm", tool.speed_rpm)},
+      {"feed", fmt::format("{:.6g} mm/rev", tool.feed_mm_per_rev)},
+      {"rows_per_revolution", fmt::format("{}, linear in between", tool.rows_per_revolution)},
+      {"actuator", actuator_text(correction.actuator)},
+      {"stroke_used", fixed(margin.stroke_used_mm * um, 3) + " µm of " +
+                          fixed(margin.stroke_available_mm * um, 3) + " µm"},
+      {"following_error", following_text(margin)},
+      {"target_axis", axis_text(correction.axis)}};
+  std::string text;
+  for (const auto& [key, value] : lines) text += fmt::format("# {}: {}\n", key, value);
+  return text;
 }
 
 std::string correction_preview(const Correction& correction) {
@@ -133,14 +117,11 @@ std::string correction_preview(const Correction& correction) {
   text += std::string(face ? "Z_command   " : "X_command   ") + range(rows.command_mm) + '\n';
   text += "harmonics   A cos(nC - phase), at the start and the end of the cut\n";
   for (const CorrectionHarmonic& h : correction.harmonics) {
-    char line[200];
-    std::snprintf(line, sizeof line,
-                  "  n = %d   %10.4f µm %9.3f deg   %10.4f µm %9.3f deg   actuator gain %.5f, lag "
-                  "%.3f deg\n",
-                  h.order, h.amplitude_start_mm * um, h.phase_start_rad / rad_per_deg,
-                  h.amplitude_end_mm * um, h.phase_end_rad / rad_per_deg, h.gain,
-                  h.lag_rad / rad_per_deg);
-    text += line;
+    text += fmt::format(
+        "  n = {}   {:10.4f} µm {:9.3f} deg   {:10.4f} µm {:9.3f} deg   actuator gain {:.5f}, lag "
+        "{:.3f} deg\n",
+        h.order, h.amplitude_start_mm * um, h.phase_start_rad / rad_per_deg,
+        h.amplitude_end_mm * um, h.phase_end_rad / rad_per_deg, h.gain, h.lag_rad / rad_per_deg);
   }
   if (correction.harmonics.empty()) text += "  none above 1 nm\n";
   text += "stroke      " + fixed(margin.stroke_used_mm * um, 3) + " of " +

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/advise/advise.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "diagnose/advise/candidate_measurements.hpp"
 #include "diagnose/search/causes.hpp"
@@ -14,7 +15,9 @@ namespace {
 
 constexpr double share_of_best = 0.8;  // of the largest rise: among these the fastest is taken
 constexpr double worth_taking = 0.02;
-constexpr double told_for_sure = 0.98;  // d = 4.1: a rival so far is behind by 7 in 2 ln L in 90 %
+// d = 4.1: 2 ln L of the true cause over a rival is Gaussian about d² with variance 4 d², so that
+// it is above 7, which tells (confounder_set.cpp), in Φ((d² − 7)/(2 d)) = 89 %.
+constexpr double told_for_sure = 0.98;
 constexpr double found_for_sure = 0.9;
 constexpr double shape_step = 0.06;  // what a rival may give way in its shape
 
@@ -127,10 +130,9 @@ Separating choose(const std::vector<CandidateMeasurement>& plans, double before,
   if (most < worth_taking) return nothing_helps(before, nothing);
   if (*top < sure) {
     const CandidateMeasurement& p = plans[static_cast<std::size_t>(top - after.begin())];
-    char text[160];
-    std::snprintf(text, sizeof text, "%s for sure: the best, %s, raises the probability to %.2f",
-                  nothing.c_str(), p.code.c_str(), *top);
-    return nothing_helps(before, text);
+    return nothing_helps(
+        before, fmt::format("{} for sure: the best, {}, raises the probability to {:.2f}", nothing,
+                            p.code, *top));
   }
   const CandidateMeasurement* best = nullptr;
   double power = 0.0;
@@ -151,7 +153,7 @@ Separating choose(const std::vector<CandidateMeasurement>& plans, double before,
 double longest_wave(const std::vector<AmbiguousFinding>& questions) {
   for (const AmbiguousFinding& q : questions)
     for (const Candidate& c : q.found.members)
-      if (c.hypothesis.effect && c.hypothesis.effect->id == "part.waviness")
+      if (c.hypothesis.effect->line && c.hypothesis.effect->line->in == Line::In::length)
         return c.hypothesis.shape.period_mm;
   return 0.0;
 }

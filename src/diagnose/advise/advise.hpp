@@ -9,12 +9,6 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// A term of the model with the class it was found to be one of.
-struct AmbiguousFinding {
-  std::size_t term = 0;
-  ConfounderSet found;
-};
-
 struct Advice {
   NextMeasurement next;
   std::vector<Separating> plans;                     ///< best first

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/advise/candidate_measurements.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 
 #include "trueaxis/units.hpp"
@@ -110,7 +111,6 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const double turns = std::abs(m.z_end - m.z_start) / m.feed * m.sign;
   const double rpm = m.speed * 60.0 / two_pi;
   std::vector<CandidateMeasurement> list;
-  char text[200];
 
   const auto add = [&](const char* code, const std::string& what, double minutes,
                        const std::vector<Motion>& motions,
@@ -136,30 +136,28 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const bool timed = point.has_time;
   const bool along = point.has_position && m.z_start != m.z_end;
   if (along) {
-    std::snprintf(text, sizeof text, "probe back from Z %.4g to %.4g mm at %.4g rpm", m.z_end,
-                  m.z_start, rpm);
-    add("RZ", text, pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
+    add("RZ",
+        fmt::format("probe back from Z {:.4g} to {:.4g} mm at {:.4g} rpm", m.z_end, m.z_start, rpm),
+        pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
   }
   if (timed) {
-    std::snprintf(text, sizeof text, "probe back at %.4g rpm, the same feed a turn",
-                  rpm * second_speed);
-    add("2W", text, pass_minutes / second_speed,
-        {{m.z_end, m.z_start, turns, m.seconds / second_speed}}, nullptr);
-    std::snprintf(text, sizeof text, "probe again with the spindle reversed, %.4g rpm",
-                  -rpm * m.sign);
-    add("RV", text, pass_minutes, {{m.z_start, m.z_end, -turns, m.seconds}}, nullptr);
+    add("2W", fmt::format("probe back at {:.4g} rpm, the same feed a turn", rpm * second_speed),
+        pass_minutes / second_speed, {{m.z_end, m.z_start, turns, m.seconds / second_speed}},
+        nullptr);
+    add("RV", fmt::format("probe again with the spindle reversed, {:.4g} rpm", -rpm * m.sign),
+        pass_minutes, {{m.z_start, m.z_end, -turns, m.seconds}}, nullptr);
   }
   const double middle = 0.5 * (m.z_start + m.z_end),
                dwell = std::max(10.0, std::min(60.0, m.seconds));
-  std::snprintf(text, sizeof text, "dwell %.3g s at Z %.4g mm, %.4g rpm", dwell, middle, rpm);
-  add("DW", text, dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}},
-      nullptr);
+  add("DW", fmt::format("dwell {:.3g} s at Z {:.4g} mm, {:.4g} rpm", dwell, middle, rpm),
+      dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}}, nullptr);
   if (timed) {
-    std::snprintf(text, sizeof text,
-                  "10 s at Z %.4g mm with the spindle standing still, and 10 s a quarter turn on",
-                  middle);
-    add("ST", text, 20.0 / 60.0,
-        {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}}, nullptr);
+    add("ST",
+        fmt::format(
+            "10 s at Z {:.4g} mm with the spindle standing still, and 10 s a quarter turn on",
+            middle),
+        20.0 / 60.0, {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}},
+        nullptr);
   }
   add("RC", "turn the part by 70° against the spindle, clamp it again and probe it again",
       pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
@@ -173,12 +171,13 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
       [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
   if (along) {
     const double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
-    std::snprintf(text, sizeof text,
-                  "shift the part by %.3g mm along Z, clamp it again and probe it again", shift);
-    add("OZ", text, pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
-      c.z_shift_mm += shift, c.axis += 1;
-      c.shape.axis.z_ref_mm += shift;
-    });
+    add("OZ",
+        fmt::format("shift the part by {:.3g} mm along Z, clamp it again and probe it again",
+                    shift),
+        pass_minutes + minutes_to_clamp, same, [&](Clamping& c) {
+          c.z_shift_mm += shift, c.axis += 1;
+          c.shape.axis.z_ref_mm += shift;
+        });
   }
   add("RM", "clamp the part again with half the force and probe it again",
       pass_minutes + minutes_to_clamp, same,

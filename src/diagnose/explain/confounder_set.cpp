@@ -9,8 +9,11 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double told_apart = 3.2897;     // d with Φ(d/2) = 0.95
-constexpr double likelihood_tells = 7.0;  // a true cause is farther behind in 0.4 % of cases
+constexpr double told_apart = 3.2897;  // d with Φ(d/2) = 0.95
+// Where the rival at distance d is the true cause, 2 ln(L_named/L_rival) is Gaussian about −d² with
+// variance 4 d², and above t with probability Φ(−(t + d²)/(2 d)) ≤ Φ(−√t), the most at
+// d² = t: of 7, 0.4 %.
+constexpr double likelihood_tells = 7.0;
 constexpr double structural = 0.999;
 constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
 
@@ -38,21 +41,21 @@ Distance distance(const NormalEquations& equations, const Columns& others, const
 
 }  // namespace
 
-ConfounderSet distinguish(const Problem& problem, const Model& model, std::size_t term) {
+ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t term) {
   std::vector<Hypothesis> others = model.terms;
   others.erase(others.begin() + static_cast<long>(term));
   const Hypothesis& named = model.terms[term];
-  Proposal proposal = propose(problem, model.phi, others, &named);
-  std::erase_if(proposal.causes, [](const Candidate& c) { return c.rank == 0; });
+  std::vector<Candidate> causes = proposer.rivals(named, others, model.phi);
+  std::erase_if(causes, [](const Candidate& c) { return c.rank == 0; });
   // The search has weighed the named one against all others jointly; its own refined form leads.
   const auto own = std::ranges::find_if(
-      proposal.causes, [&](const Candidate& c) { return c.hypothesis.effect == named.effect; });
-  if (own != proposal.causes.end()) std::rotate(proposal.causes.begin(), own, own + 1);
+      causes, [&](const Candidate& c) { return c.hypothesis.effect == named.effect; });
+  if (own != causes.end()) std::rotate(causes.begin(), own, own + 1);
 
   std::vector<Hypothesis> list = others;
   list.push_back(named);
-  for (const Candidate& c : proposal.causes) list.push_back(c.hypothesis);
-  const Joint joint(problem, model.phi, list, others.size() + 1);
+  for (const Candidate& c : causes) list.push_back(c.hypothesis);
+  const Joint joint(proposer.problem(), model.phi, list, others.size() + 1);
   Columns base = joint.equations.base();
   for (std::size_t t = 0; t < others.size(); ++t)
     base.insert(base.end(), joint.places[t].begin(), joint.places[t].end());
@@ -63,8 +66,8 @@ ConfounderSet distinguish(const Problem& problem, const Model& model, std::size_
   const Score best = score(beside, joint.places[others.size()]);
 
   ConfounderSet out;
-  for (std::size_t k = 0; k < proposal.causes.size(); ++k) {
-    const Candidate& c = proposal.causes[k];
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    const Candidate& c = causes[k];
     if (c.hypothesis.effect == named.effect) {
       if (out.members.empty()) out.members.push_back(c);
       continue;
@@ -112,9 +115,8 @@ ConfounderSet distinguish(const Problem& problem, const Model& model, std::size_
 }
 
 void narrow(ConfounderSet& found, double likelihood_ratio) {
-  const auto at = std::ranges::find_if(found.rivals, [](const Rival& r) {
-    return r.effect == "probe.lag" || r.effect == "probe.latency";
-  });
+  const Effect& named = *found.members.front().hypothesis.effect;
+  const auto at = std::ranges::find(found.rivals, named.second_order_twin, &Rival::effect);
   if (at == found.rivals.end()) return;
   const double both = found.probability + at->probability;
   const double other = both / (1.0 + std::exp(0.5 * likelihood_ratio));

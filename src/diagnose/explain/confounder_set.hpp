@@ -15,12 +15,19 @@ struct ConfounderSet {
   double probability = 1.0;   ///< of the first
 };
 
-/// The class of term i of a model. A rival belongs to it when its best fit is nearer to the named
-/// prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood ratio does not tell.
-ConfounderSet distinguish(const Problem& problem, const Model& model, std::size_t term);
+/// A term of the model with the class it was found to be one of.
+struct AmbiguousFinding {
+  std::size_t term = 0;
+  ConfounderSet found;
+};
 
-/// The class of a lag or a delay with what the second order says: −2 ln of the likelihood of the
-/// other over that of the named one.
+/// The class of a term of the model that was searched. A rival belongs to it when its best fit is
+/// nearer to the named prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood
+/// ratio does not tell.
+ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t term);
+
+/// The class of one of two effects that are one in the first order with what the second order says:
+/// −2 ln of the likelihood of the other over that of the named one.
 void narrow(ConfounderSet& found, double likelihood_ratio);
 
 }  // namespace trueaxis::diagnose_detail

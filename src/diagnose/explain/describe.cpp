@@ -22,16 +22,14 @@ std::vector<Hypothesis> either_side(const Hypothesis& h, const LinearisationPoin
     const double f = frequency_of(h), df = 1e-3 * f;
     return {at_frequency(h, f - df), at_frequency(h, f + df)};
   }
-  if (!h.effect || h.effect->id == "part.slip") return {};
+  if (!h.effect || is_step(h.effect->term)) return {};
   return neighbours(h, point, 0.01);
 }
 
 double scanned_value(const Hypothesis& h) {
   if (is_line(h)) return frequency_of(h);
-  const auto id = h.effect->id;
-  if (id == "spindle.tilt_synchronous") return h.shape.lever_from_mm;
-  if (id == "part.chuck_lobing") return h.shape.decay_length_mm;
-  return h.shape.time_constant_s;
+  const auto& refined = h.effect->refinement;
+  return refined ? h.shape.*refined->parameter : h.shape.time_constant_s;
 }
 
 /// Of the term's coefficients, in the joint solution.

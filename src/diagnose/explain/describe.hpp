@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/search/search.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "diagnose/search/statistic.hpp"
+
 namespace trueaxis::diagnose_detail {
 namespace {
 
@@ -40,20 +42,6 @@ Interval interval(const std::vector<Block>& blocks, Statistic statistic) {
 }
 
 }  // namespace
-
-double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns) {
-  const Solution s = solve(total - fold, columns);
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  Eigen::VectorXd right(n);
-  Eigen::MatrixXd left(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
-    right(i) = fold(a, 0);
-    for (Eigen::Index j = 0; j < n; ++j)
-      left(i, j) = fold(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
-  }
-  return fold(0, 0) - 2.0 * s.coefficients.dot(right) + s.coefficients.dot(left * s.coefficients);
-}
 
 Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
                   double noise_floor_mm) {

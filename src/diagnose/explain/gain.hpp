@@ -11,7 +11,4 @@ namespace trueaxis::diagnose_detail {
 Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
                   double noise_floor_mm);
 
-/// Sum of squares of a block that was held out.
-double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns);
-
 }  // namespace trueaxis::diagnose_detail

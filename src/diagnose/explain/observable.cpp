@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/explain/observable.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "diagnose/search/causes.hpp"
 #include "math/statistics.hpp"
@@ -13,91 +14,45 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double seen = 0.5;           // power below which an effect counts as not observable
-constexpr double no_prior_rad = 1e-2;  // a size for those whose catalogue entry names none
+constexpr double seen = 0.5;      // power below which an effect counts as not observable
+constexpr double no_size = 1e-2;  // mm or rad, where the entry names none
 constexpr double nearly_absorbed = 0.05;
 constexpr double typical_range_mm = 0.5;  // of a gauge, what its nonlinearity is a share of
 
-bool possible(const Effect& effect, const LinearisationPoint& point, std::string& why) {
-  const auto id = effect.id;
-  if (!point.has_time && (id == "thermal.drift" || id == "environment.vibration" ||
-                          id == "probe.latency" || id == "probe.lag" || id == "part.slip")) {
-    why = "the stream has no t: give a time for every reading";
-    return false;
-  }
-  const bool along =
-      id == "part.barrel" || id == "part.taper" || id == "part.bow" || id == "part.waviness" ||
-      id == "part.feed_marks" || id == "part.chuck_lobing" || id == "slide.z_straightness" ||
-      id == "slide.xz_parallelism" || id == "slide.leadscrew_periodic" || id == "slide.backlash" ||
-      id == "spindle.tilt_synchronous" || id == "probe.tilt";
-  if (!point.has_position && along) {
-    why = "one section shows nothing along Z";
-    return false;
-  }
-  return true;
+/// Why the stream cannot show an effect at all; empty: it may.
+std::string why_not(const Requirement& needs, const LinearisationPoint& point) {
+  if (needs.time && !point.has_time) return "the stream has no t: give a time for every reading";
+  if (needs.length && !point.has_position) return "one section shows nothing along Z";
+  return "";
 }
 
 double size_of(const Effect& effect, const LinearParameter& linear) {
-  for (const EffectParameter& p : effect.parameters) {
-    const bool same = linear.name == p.name ||
-                      (linear.name.starts_with(p.name) && linear.name.size() > p.name.size() &&
-                       linear.name[p.name.size()] == '_');
-    if (same && p.high > 0.0) return p.high;
-  }
-  return linear.unit == "rad" ? no_prior_rad : 1e-2;
+  const EffectParameter* p = size_for(effect, linear.name);
+  return p && p->high > 0.0 ? p->high : no_size;
 }
 
-TermShape typical_shape(const Effect& effect, const LinearisationPoint& point) {
-  TermShape s;
-  s.reference_x_mm = point.reference_x_mm;
-  s.range_mm = std::max(typical_range_mm, point.range_x_mm);
-  s.lever_from_mm = effect.id == "part.chuck_lobing" ? point.z_mid_mm - point.z_half_mm : -250.0;
-  s.decay_length_mm = 40.0;
-  s.time_constant_s = 0.0;
-  if (effect.id == "part.chuck_lobing" || effect.id == "probe.pretravel") s.order = 3.0;
-  if (effect.id == "spindle.asynchronous") s.order = 0.43;
-  if (effect.id == "part.waviness" || effect.id == "slide.leadscrew_periodic")
-    s.period_mm = 2.0 * point.z_half_mm / 7.3;
-  if (effect.id == "part.feed_marks") s.period_mm = 0.173;
-  if (effect.id == "probe.cyclic") s.period_mm = 0.137;
-  if (effect.id == "environment.vibration") s.frequency_hz = 7.3;
-  if (effect.id == "thermal.drift") s.time_constant_s = 600.0;
-  if (effect.id == "part.slip") s.onset_s = point.time[point.size() / 2];
-  return s;
-}
-
-std::vector<std::size_t> typical_free(std::string_view id) {
-  if (id == "part.chuck_lobing" || id == "part.roundness" || id == "part.slip") return {0, 1};
-  if (id == "part.barrel" || id == "slide.backlash" || id == "probe.nonlinearity" ||
-      id == "probe.pretravel" || id == "thermal.drift")
-    return {0};
-  return {};
+/// An effect at its typical shape; and in a form that is told of apart.
+Typical typical_of(const Effect& effect, const Form& form, const LinearisationPoint& point) {
+  TermShape shape = typical_shape(effect, point);
+  shape.range_mm = std::max(typical_range_mm, point.range_x_mm);
+  if (!form.told.empty() && form.starts.parameter)
+    shape.*form.starts.parameter = value_in(form.starts.in, form.starts.values.front(), point);
+  const LinearParameter linear = linear_parameters(effect.term, shape)[0];
+  const bool angle = linear.unit == "rad";
+  return {of_effect(effect, shape, form.free), size_of(effect, linear), angle ? "deg" : linear.unit,
+          angle ? 1.0 / rad_per_deg : 1.0, std::string(form.told)};
 }
 
 }  // namespace
 
-std::vector<Typical> typical_effects(const LinearisationPoint& point) {
+std::vector<Typical> typical_effects(const Problem& problem) {
   std::vector<Typical> list;
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.check || std::holds_alternative<std::monostate>(effect.term)) continue;
-    if (effect.id == "part.taper" && point.base.tapers) continue;
-    const TermShape shape = typical_shape(effect, point);
-    const auto linear = linear_parameters(effect.term, shape);
-    Typical t{of_effect(effect.id.data(), shape, typical_free(effect.id)),
-              size_of(effect, linear[0]), linear[0].unit == "rad" ? "deg" : linear[0].unit,
-              linear[0].unit == "rad" ? 1.0 / rad_per_deg : 1.0, ""};
-    list.push_back(std::move(t));
-    Typical other = list.back();
-    if (effect.id == "probe.nonlinearity") {
-      other.form = "of the third degree: ";
-      other.hypothesis.free = {1};
-    } else if (effect.id == "probe.cyclic") {
-      other.form = "of a period twice what is sensed: ";
-      other.hypothesis.shape.period_mm = 2.0 * std::max(sensed_swing(point), least_swing_mm);
-    } else {
-      continue;
-    }
-    list.push_back(std::move(other));
+  for (const Effect* effect : problem.effects) {
+    if (effect->needs.cylinder && problem.point.base.tapers) continue;
+    const std::vector<Form>& forms = effect->search.forms;
+    list.push_back(typical_of(*effect, {.free = forms.front().free}, problem.point));
+    for (const Form& form : forms)
+      if (!form.told.empty()) list.push_back(typical_of(*effect, form, problem.point));
   }
   return list;
 }
@@ -127,7 +82,7 @@ double typical_lambda(const Projection& projection, const Columns& columns, doub
 std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
                                                double sigma_mm) {
   const LinearisationPoint& point = problem.point;
-  const std::vector<Typical> all = typical_effects(point);
+  const std::vector<Typical> all = typical_effects(problem);
   std::vector<Hypothesis> list = model.terms;
   for (const Typical& t : all) list.push_back(t.hypothesis);
   const Joint joint(problem, model.phi, list, model.terms.size());
@@ -146,8 +101,8 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     const Columns& own = joint.places[model.terms.size() + k];
     Unobservable h{t, {}, 0.0, 0.0};
     h.entry.effect = effect.id;
-    std::string why;
-    const bool can = possible(effect, point, why);
+    const std::string why = why_not(effect.needs, point);
+    const bool can = why.empty();
     const double lambda = can ? typical_lambda(projection, own, t.size, sigma_mm) : 0.0;
     h.power = can ? detection_power(lambda, std::min<std::size_t>(own.size(), 2), model.family,
                                     problem.false_alarm)
@@ -172,7 +127,6 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     const double at_threshold = model.family.threshold(problem.false_alarm);
     h.entry.detectable = lambda > 0.0 ? t.size * t.edge * std::sqrt(at_threshold / lambda)
                                       : std::numeric_limits<double>::infinity();
-    char text[256];
     const double share = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
     if (!can) {
       h.entry.why = why;
@@ -181,14 +135,11 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     } else if (share < nearly_absorbed) {
       const std::string by(effect.absorbed_by.empty() ? "the surface's own parameters"
                                                       : effect.absorbed_by);
-      std::snprintf(text, sizeof text, "absorbed by %s: %.2g %% of it is left", by.c_str(),
-                    100.0 * share);
-      h.entry.why = text;
+      h.entry.why = fmt::format("absorbed by {}: {:.2g} % of it is left", by, 100.0 * share);
     } else {
-      std::snprintf(text, sizeof text,
-                    "too small beside the noise at its typical size: found from %.3g %s on",
-                    h.entry.detectable, t.unit.c_str());
-      h.entry.why = text;
+      h.entry.why =
+          fmt::format("too small beside the noise at its typical size: found from {:.3g} {} on",
+                      h.entry.detectable, t.unit);
     }
     h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));

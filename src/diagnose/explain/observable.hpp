@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/search/search.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -18,8 +19,8 @@ struct Typical {
   std::string form;   ///< which of its forms, where it has several
 };
 
-/// Every effect of the catalogue that is a form and not a check, once; a few in two forms.
-std::vector<Typical> typical_effects(const LinearisationPoint& point);
+/// Every effect that may be a cause, once; a few in two forms.
+std::vector<Typical> typical_effects(const Problem& problem);
 
 /// Probability that a statistic with `columns` degrees of freedom and noncentrality λ passes the
 /// threshold of a family of tests.

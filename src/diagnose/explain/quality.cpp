@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/quality.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "diagnose/explain/sources.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-template <typename... Values>
-QualityCheck result(const char* id, bool found, const char* format, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, format, values...);
-  return {id, found, text};
+QualityCheck result(Check check, bool found, std::string text) {
+  const auto entry = std::ranges::find(effect_catalogue(), check, &Effect::check);
+  return {std::string(entry->id), found, std::move(text)};
 }
 
 /// Readings at the very extreme, more than noise puts there.
@@ -27,8 +27,8 @@ QualityCheck saturation(const ProbeStream& stream) {
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   const double repeats = static_cast<double>(stream.size()) / static_cast<double>(sorted.size());
   const bool found = static_cast<double>(std::max(top, bottom)) > std::max(5.0, 12.0 * repeats);
-  return result("probe.saturation", found, "%ld readings at the largest value, %ld at the smallest",
-                static_cast<long>(top), static_cast<long>(bottom));
+  return result(Check::saturation, found,
+                fmt::format("{} readings at the largest value, {} at the smallest", top, bottom));
 }
 
 /// The step of a rounded indication: the smallest distance of values, when nearly all are
@@ -45,8 +45,9 @@ QualityCheck quantisation(const ProbeStream& stream, double sigma) {
   for (const double v : sorted)
     on += step > 0.0 && std::abs(std::remainder(v - sorted[0], step)) < 0.02 * step;
   const bool found = step > 0.5 * sigma && on * 100 > 95 * sorted.size();
-  return result("probe.quantisation", found, "smallest step %.3g µm, σ %.3g µm", step / mm_per_um,
-                sigma / mm_per_um);
+  return result(
+      Check::quantisation, found,
+      fmt::format("smallest step {:.3g} µm, σ {:.3g} µm", step / mm_per_um, sigma / mm_per_um));
 }
 
 }  // namespace
@@ -58,11 +59,13 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   const ObservationMask& mask = joint.equations.mask();
   std::vector<QualityCheck> list{saturation(stream), quantisation(stream, noise.sigma_mm)};
   list.push_back(result(
-      "probe.outliers", !noise.masked.empty() && noise.interruptions.empty(),
-      "%zu of %zu readings masked (%.2g %%)", noise.masked.size(), stream.size(),
-      100.0 * static_cast<double>(noise.masked.size()) / static_cast<double>(stream.size())));
-  list.push_back(result("part.interruption", !noise.interruptions.empty(),
-                        "%zu sectors are far off on every turn", noise.interruptions.size()));
+      Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
+      fmt::format(
+          "{} of {} readings masked ({:.2g} %)", noise.masked.size(), stream.size(),
+          100.0 * static_cast<double>(noise.masked.size()) / static_cast<double>(stream.size()))));
+  list.push_back(
+      result(Check::interruption, !noise.interruptions.empty(),
+             fmt::format("{} sectors are far off on every turn", noise.interruptions.size())));
   // Variance against tan² of the angle between probe and normal, in units of the mean variance.
   double sum_t = 0.0, sum_v = 0.0, sum_tt = 0.0, sum_tv = 0.0, n = 0.0;
   for (std::size_t i = 0; i < point.size(); ++i) {
@@ -75,15 +78,15 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   const double mean = sum_v / n, spread = sum_tt - sum_t * sum_t / n;
   const double slope = spread > 0.0 ? (sum_tv - sum_t * sum_v / n) / spread / mean : 0.0;
   const double u = spread > 0.0 ? std::sqrt(2.0 / spread) : 0.0;  // Gaussian: var(v) = 2 mean²
-  list.push_back(result("probe.incidence_noise",
-                        u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
-                        "variance grows by %.3g ± %.2g per tan² of the incidence", slope, 2.0 * u));
+  list.push_back(result(
+      Check::incidence_noise, u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
+      fmt::format("variance grows by {:.3g} ± {:.2g} per tan² of the incidence", slope, 2.0 * u)));
   const auto& phi = noise.autoregression;
-  list.push_back(result("probe.correlated_noise", !phi.empty(),
-                        phi.empty()
-                            ? "neighbouring readings do not correlate"
-                            : "autoregression of order %zu, φ1 = %.3f: readings are whitened",
-                        phi.size(), phi.empty() ? 0.0 : phi[0]));
+  list.push_back(result(
+      Check::correlated_noise, !phi.empty(),
+      phi.empty() ? "neighbouring readings do not correlate"
+                  : fmt::format("autoregression of order {}, φ1 = {:.3f}: readings are whitened",
+                                phi.size(), phi[0])));
   return list;
 }
 
@@ -103,9 +106,8 @@ std::vector<std::string> off_centre_remark(const Problem& problem, const Model& 
     if (order == 2.0) return {};
   }
   std::vector<Hypothesis> terms = model.terms;
-  TermShape shape;
-  shape.order = 2.0;
-  terms.push_back(of_effect("part.roundness", shape, {0, 1}));
+  terms.emplace_back();
+  terms.back().pattern.order = 2.0;
   const Joint joint(problem, model.phi, terms, terms.size());
   const Eigen::Index at = joint.solution.coefficients.size() - 2;
   const double left = joint.solution.coefficients.tail(2).norm();
@@ -113,14 +115,11 @@ std::vector<std::string> off_centre_remark(const Problem& problem, const Model& 
       joint.sigma_mm *
       std::sqrt(0.5 * joint.solution.inverse.block(at, at, 2, 2).trace());  // of either component
   if (!(second > 3.0 * u)) return {};
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
-      "X has a second harmonic of %.2g µm because the circle is off centre (e²/4R, in the "
-      "geometry of the surface); beside it %.2g ± %.2g µm (U, k = 2) of two undulations "
+  return {fmt::format(
+      "X has a second harmonic of {:.2g} µm because the circle is off centre (e²/4R, in the "
+      "geometry of the surface); beside it {:.2g} ± {:.2g} µm (U, k = 2) of two undulations "
       "are left: no ovality is found",
-      second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um);
-  return {text};
+      second / mm_per_um, left / mm_per_um, 2.0 * u / mm_per_um)};
 }
 
 }  // namespace trueaxis::diagnose_detail

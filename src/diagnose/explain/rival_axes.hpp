@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "diagnose/advise/advise.hpp"
+#include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/regression/joint.hpp"
 
 namespace trueaxis::diagnose_detail {

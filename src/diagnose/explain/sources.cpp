@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/explain/sources.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "trueaxis/units.hpp"
 
@@ -112,9 +113,7 @@ void find_gaps(const LinearisationPoint& point, const ObservationMask& mask, Noi
   }
   if (point.size() < 8 * sectors) return;
   const auto describe = [&](std::size_t from, std::size_t count) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%zu° to %zu° of the part", from * 10, (from + count) * 10);
-    return std::string(text);
+    return fmt::format("{}° to {}° of the part", from * 10, (from + count) * 10);
   };
   const auto run_of = [&](auto missing, auto report) {
     std::size_t start = 0;
@@ -179,12 +178,10 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
   }
   out.u_sigma_mm = out.sigma_mm / std::sqrt(2.0 * std::max(independent, 1.0));
   if (out.source != "residuals of the extended model" && residual > 1.25 * out.sigma_mm) {
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the extended model leaves %.3g µm where the %s shows %.3g µm: something is left "
-                  "that no hypothesis has named",
-                  residual / mm_per_um, out.source.c_str(), out.sigma_mm / mm_per_um);
-    out.note = text;
+    out.note = fmt::format(
+        "the extended model leaves {:.3g} µm where the {} shows {:.3g} µm: something is left that "
+        "no hypothesis has named",
+        residual / mm_per_um, out.source, out.sigma_mm / mm_per_um);
   }
   find_gaps(point, mask, out);
   return out;

@@ -15,15 +15,4 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                          const std::vector<double>& residual_mm, std::vector<Rejected> masked,
                          const std::optional<double>& stated_mm);
 
-/// The checks of the catalogue: saturation, quantisation, outliers, interruption, incidence and
-/// correlation of the noise.
-std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,
-                                        const std::vector<double>& residual_mm,
-                                        const NoiseReport& noise);
-
-/// That the second harmonic of X is that of an off-centre circle, e²/(4R), and how much ovality is
-/// left beside it; nothing where the one is below the other's uncertainty, or an effect of two
-/// undulations is in the model.
-std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model);
-
 }  // namespace trueaxis::diagnose_detail

@@ -6,6 +6,7 @@
 #include "diagnose/files/diagnosis_term_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/pattern_text.hpp"
+#include "fit/files/fit_json.hpp"
 
 namespace trueaxis {
 namespace {

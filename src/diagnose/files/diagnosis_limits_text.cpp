@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/files/diagnosis_limits_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +21,7 @@ std::string detectable_text(const NotObservable& n) {
   if (!std::isfinite(n.detectable)) return "no size";
   const bool small = n.detectable_unit == "mm" && n.detectable < 1.0;
   const std::string unit = small ? "µm" : n.detectable_unit == "1" ? "" : n.detectable_unit;
-  return format("%.3g", small ? n.detectable / mm_per_um : n.detectable) +
+  return fmt::format("{:.3g}", small ? n.detectable / mm_per_um : n.detectable) +
          (unit.empty() ? "" : " " + unit);
 }
 
@@ -94,7 +96,7 @@ std::string noise_text(const NoiseReport& noise) {
   if (!noise.note.empty()) text += wrapped("  note        ", noise.note);
   if (!noise.autoregression.empty()) {
     std::string factors;
-    for (const double phi : noise.autoregression) factors += format(" %.2f", phi);
+    for (const double phi : noise.autoregression) factors += fmt::format(" {:.2f}", phi);
     text += wrapped("  correlated  ",
                     "autoregression" + factors + ": every test and uncertainty is widened by it");
   }
@@ -124,7 +126,7 @@ std::string next_text(const NextMeasurement& next) {
   std::string separates;
   for (const std::string& id : next.separates) separates += (separates.empty() ? "" : ", ") + id;
   text += wrapped("  " + next.plan + "  ",
-                  next.what + format("; %.3g min; right name ", next.minutes) +
+                  next.what + fmt::format("; {:.3g} min; right name ", next.minutes) +
                       probability(next.power_before) + " → " + probability(next.power_after) +
                       (separates.empty() ? "" : "; separates " + separates));
   return text;
@@ -148,7 +150,7 @@ std::string advice_text(const Diagnosis& d) {
   for (const Separating& p : d.plans) {
     const bool possible = p.why_not.empty();
     text += row(p.plan, probability(p.power_before), possible ? probability(p.power) : "-",
-                possible ? format("%.3g", p.minutes) : "-",
+                possible ? fmt::format("{:.3g}", p.minutes) : "-",
                 possible ? p.what : (p.what.empty() ? "" : p.what + ": ") + p.why_not);
   }
   return text;

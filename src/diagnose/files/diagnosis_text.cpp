@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/files/diagnosis_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "diagnose/files/diagnosis_limits_text.hpp"
@@ -23,11 +25,11 @@ std::string held_out(const Gain& gain) {
   const Interval& ratio = gain.held_out_ratio;
   std::string text;
   if (before > 0.0 && std::isfinite(after)) {
-    text += format("; held-out RMS %.3g → %.3g µm (ratio %.2f, 95 %% %.2f-%.2f)",
-                   before / mm_per_um, after / mm_per_um, ratio.value, ratio.low, ratio.high);
+    text += fmt::format("; held-out RMS {:.3g} → {:.3g} µm (ratio {:.2f}, 95 % {:.2f}-{:.2f})",
+                        before / mm_per_um, after / mm_per_um, ratio.value, ratio.low, ratio.high);
   } else {
-    text += format("; RMS %.3g → %.3g µm", gain.rms_before_mm / mm_per_um,
-                   gain.rms_after_mm / mm_per_um);
+    text += fmt::format("; RMS {:.3g} → {:.3g} µm", gain.rms_before_mm / mm_per_um,
+                        gain.rms_after_mm / mm_per_um);
   }
   if (gain.noise_floor_mm > 0.0) text += ", noise floor " + um(gain.noise_floor_mm);
   return text;
@@ -37,23 +39,23 @@ std::string origin(const Diagnosis& d) {
   std::string text = std::string(to_string(d.baseline.surface)) + " of " + d.baseline.source +
                      ": " + std::to_string(d.baseline.points) + " readings";
   if (d.hypotheses > 0) {
-    text += format(", %zu hypotheses tried, false alarm %.3g %% over all of them", d.hypotheses,
-                   100.0 * d.false_alarm);
+    text += fmt::format(", {} hypotheses tried, false alarm {:.3g} % over all of them",
+                        d.hypotheses, 100.0 * d.false_alarm);
   }
   return wrapped("", text);
 }
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return finding.effect() == "part.slip"
+  return is_step(finding.term.effect->term)
              ? "that of before the slip; the part stands there no longer"
              : "";
 }
 
 std::string finding_block(const Finding& finding, std::size_t number, double k) {
   std::string text = "\n";
-  text +=
-      wrapped(format("%2zu  ", number), finding.effect() + "  " + finding_parameters(finding, k));
+  text += wrapped(fmt::format("{:2}  ", number),
+                  finding.effect() + "  " + finding_parameters(finding, k));
   if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
   text +=
       wrapped("    axis_bias     ", finding_axis_bias(finding, k) +
@@ -140,7 +142,7 @@ std::string diagnosis_text(const Diagnosis& d) {
                     std::string(to_string(d.extended.status)) + ": " + d.extended.message);
   }
   if (!d.findings.empty()) {
-    text += format("\nFindings, the most harmful first; ± U (k = %.3g)\n", k);
+    text += fmt::format("\nFindings, the most harmful first; ± U (k = {:.3g})\n", k);
     for (std::size_t i = 0; i < d.findings.size(); ++i)
       text += finding_block(d.findings[i], i + 1, k);
   }

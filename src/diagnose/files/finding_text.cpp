@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/files/finding_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,7 @@ std::string parameter_text(const Effect& effect, const FitParameter& p, double k
     if (name[i] == '_' && (name[i + 1] < '0' || name[i + 1] > '9')) name[i] = ' ';
   }
   const bool exact = e.determined() && e.u == 0.0;
-  if (exact) return name + format(" %.6g", e.value) + (e.unit == "1" ? "" : " " + e.unit);
+  if (exact) return name + fmt::format(" {:.6g}", e.value) + (e.unit == "1" ? "" : " " + e.unit);
   const bool small = is_small_length(effect, p);
   return name + " " + plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
 }
@@ -75,19 +77,21 @@ std::string separating_text(const Separating& s) {
   if (s.plan.empty()) return "none of the plans: " + s.why_not;
   std::string text = s.plan + (s.what.empty() ? "" : ", " + s.what);
   text += ": right name " + probability(s.power_before) + " → " + probability(s.power);
-  text += format(", %.3g min", s.minutes);
+  text += fmt::format(", {:.3g} min", s.minutes);
   for (const Separating::Other& o : s.others)
-    text += "; or " + o.plan + " (→ " + probability(o.power) + format(", %.3g min)", o.minutes);
+    text +=
+        "; or " + o.plan + " (→ " + probability(o.power) + fmt::format(", {:.3g} min)", o.minutes);
   return text;
 }
 
 std::string axis_bias_per_unit_text(const Estimate& axis_bias) {
   if (!axis_bias.determined()) return axis_bias.why_not.empty() ? "not known" : axis_bias.why_not;
-  if (axis_bias.unit.rfind("mm/", 0) != 0) return format("%.2g ", axis_bias.value) + axis_bias.unit;
+  if (axis_bias.unit.rfind("mm/", 0) != 0)
+    return fmt::format("{:.2g} ", axis_bias.value) + axis_bias.unit;
   std::string per = axis_bias.unit.substr(3);
   std::erase_if(per, [](char c) { return c == '(' || c == ')'; });
-  if (per == "mm") return format("%.2g µm per µm", axis_bias.value);
-  return format("%.3g µm per ", axis_bias.value / mm_per_um) + (per == "1" ? "unit" : per);
+  if (per == "mm") return fmt::format("{:.2g} µm per µm", axis_bias.value);
+  return fmt::format("{:.3g} µm per ", axis_bias.value / mm_per_um) + (per == "1" ? "unit" : per);
 }
 
 }  // namespace trueaxis

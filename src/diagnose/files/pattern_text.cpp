@@ -14,8 +14,8 @@ std::string harmonic_text(const Pattern& p) {
 std::string dependence_text(const Pattern& p) {
   const char* along = p.in_time ? "time" : "Z";
   if (p.kind == Pattern::Kind::bump) {
-    const std::string around = fmt::format("at {:.1f}° (± {:.1f}°)", p.angle_rad / rad_per_deg,
-                                           p.width_rad / rad_per_deg);
+    const std::string around =
+        fmt::format("at {:.1f}° (± {:.1f}°)", p.angle_rad / rad_per_deg, p.width_rad / rad_per_deg);
     if (!(p.length_mm > 0.0)) return around;
     return around + fmt::format(", Z {:.2f} mm (± {:.2f} mm)", p.position_mm, p.length_mm);
   }

@@ -62,12 +62,12 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_
 
 }  // namespace
 
-void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin,
+void raise_degree(const Hypothesis& function, const LinearisationPoint& point, std::size_t begin,
                   std::size_t end, std::span<const double* const> constant,
                   std::span<double* const> columns) {
   for (std::size_t i = begin; i < end; ++i) {
     const double u = (point.s[i] - point.z_mid_mm) / point.z_half_mm;
-    const double size = legendre(cell.pattern.degree, u);
+    const double size = legendre(function.pattern.degree, u);
     for (std::size_t j = 0; j < columns.size(); ++j)
       columns[j][i - begin] = size * constant[j][i - begin];
   }
@@ -78,8 +78,9 @@ void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::si
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
   const Term& term = hypothesis.effect->term;
   if (hypothesis.with_radial) {
-    static const Effect* const radial = find_effect("spindle.radial_synchronous");
-    fill_columns(radial->term, point.context(begin, end), hypothesis.shape, columns.last(2));
+    static const Term radial =
+        Harmonic{Harmonic::Angle::spindle, Harmonic::Envelope::constant, Port::x};
+    fill_columns(radial, point.context(begin, end), hypothesis.shape, columns.last(2));
     columns = columns.first(columns.size() - 2);
   }
   if (hypothesis.free.empty()) {
@@ -94,14 +95,20 @@ void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::si
   fill_columns(term, point.context(begin, end), hypothesis.shape, {target, all});
 }
 
-Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> free, double tests) {
+Hypothesis of_effect(const Effect& effect, TermShape shape, std::vector<std::size_t> free,
+                     double tests) {
   Hypothesis made;
-  made.effect = find_effect(id);
-  expects(made.effect != nullptr, "an effect of the catalogue");
+  made.effect = &effect;
   made.shape = shape;
   made.free = std::move(free);
   made.tests = tests;
   return made;
+}
+
+Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> free, double tests) {
+  const Effect* effect = find_effect(id);
+  expects(effect != nullptr, "an effect of the catalogue");
+  return of_effect(*effect, shape, std::move(free), tests);
 }
 
 std::size_t columns_of(std::span<const Hypothesis> list) {

@@ -20,12 +20,15 @@ struct Hypothesis : TermValue {
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
           std::size_t end, std::span<double* const> columns);
 
-/// The columns of a cell of a Legendre degree along s from those of its degree 0.
-void raise_degree(const Hypothesis& cell, const LinearisationPoint& point, std::size_t begin,
+/// The columns of a Fourier-Legendre function of a degree along s from those of its degree 0.
+void raise_degree(const Hypothesis& function, const LinearisationPoint& point, std::size_t begin,
                   std::size_t end, std::span<const double* const> constant,
                   std::span<double* const> columns);
 
-/// A hypothesis of an effect by id. @throws ContractViolation for an unknown id.
+Hypothesis of_effect(const Effect& effect, TermShape shape, std::vector<std::size_t> free = {},
+                     double tests = 1.0);
+
+/// The same by id. @throws ContractViolation for an unknown one.
 Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> free = {},
                      double tests = 1.0);
 

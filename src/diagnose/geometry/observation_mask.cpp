@@ -10,7 +10,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t blocks_wanted = 30;  // effects.md: 30, not 5
+constexpr std::size_t blocks_wanted = 30;  // Eq. 82: few blocks lose slow effects
 constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
 constexpr unsigned char longest_run = 8;
 

@@ -29,7 +29,7 @@ struct Linearised {
       : point(point_of(stream, about, options)),
         mask(make_observation_mask(point)),
         resolution(resolution_of(point, mask)),
-        deviation_mm(deviation(stream, point)),
+        deviation_mm(deviation_from(stream, point)),
         joint(Problem{point, mask, resolution, deviation_mm}, {}, {effect}, 1) {}
 
   static LinearisationPoint point_of(const ProbeStream& stream, const FitResult& about,
@@ -37,11 +37,6 @@ struct Linearised {
     const double ball_mm = std::max(stream.ball_radius_mm.value_or(0.0), options.ball_radius_mm);
     const std::vector<Clamping> clampings = clampings_of(about, ball_mm);
     return linearise_at(stream, clampings, base_of(stream, about, clampings), options.bore);
-  }
-  static std::vector<double> deviation(const ProbeStream& stream, const LinearisationPoint& point) {
-    std::vector<double> out(point.size());
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = stream.reading_mm[i] - point.x[i];
-    return out;
   }
 };
 

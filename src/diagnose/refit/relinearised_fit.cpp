@@ -5,17 +5,10 @@
 #include <cmath>
 #include <variant>
 
-#include "math/statistics.hpp"
+#include "diagnose/regression/noise.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
-
-const char* other_of(const Hypothesis& h) {
-  if (!h.effect) return nullptr;
-  return h.effect->id == "probe.lag"       ? "probe.latency"
-         : h.effect->id == "probe.latency" ? "probe.lag"
-                                           : nullptr;
-}
 
 bool is_lag(const Hypothesis& h) {
   const auto* response = h.effect ? std::get_if<Response>(&h.effect->term) : nullptr;
@@ -59,11 +52,11 @@ std::vector<double> response_of(const Hypothesis& lag, const LinearisationPoint&
 
 }  // namespace
 
-RelinearisedFit::RelinearisedFit(const Input& input, const Model& model)
-    : input_(input), terms_(model.terms) {
-  const Problem& first = input.first;
+RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
+    : ideal_(ideal), terms_(model.terms) {
+  const Problem& first = ideal.problem;
   if (!terms_.empty()) relinearise(model);
-  deviation_mm_ = deviation_from(input.stream, point_ ? *point_ : first.point);
+  deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point);
   if (!known_mm_.empty()) add(deviation_mm_, known_mm_);
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
   joint_.emplace(*problem_, model.phi, terms_, terms_.size());
@@ -73,36 +66,40 @@ RelinearisedFit::RelinearisedFit(const Input& input, const Model& model)
   std::vector<double> taken_off_mm = effect_mm_;  // of the readings, for the extended surface
   if (!known_mm_.empty()) add(taken_off_mm, known_mm_, -1.0);
   if (moved_) add(effect_mm_, turned_mm_);
-  cleaned_ = fit_cleaned(moved_ ? *moved_ : input.stream, input.options, taken_off_mm, first.mask,
-                         input.masked, moved_ ? nullptr : &input.ideal);
+  cleaned_ = fit_cleaned(moved_ ? *moved_ : ideal.stream, ideal.fit_options, taken_off_mm,
+                         first.mask, ideal.masked, moved_ ? nullptr : &ideal.fit);
+}
+
+std::vector<double> RelinearisedFit::residual_mm() const {
+  return remainder(problem_->point, deviation_mm_, terms_, joint_->solution.coefficients);
 }
 
 /// About the extended surface, where the terms leave one.
 void RelinearisedFit::relinearise(const Model& model) {
-  const Problem& first = input_.first;
+  const Problem& first = ideal_.problem;
   const Joint near(first, model.phi, terms_, terms_.size());
   const Eigen::VectorXd found =
       near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
-  FitOptions bare = input_.options;  // a place is wanted, not its uncertainty
+  FitOptions bare = ideal_.fit_options;  // a place is wanted, not its uncertainty
   bare.influences.clear();
   const FitResult extended =
-      fit_cleaned(input_.stream, bare, contribution(first.point, terms_, span_of(found)),
-                  first.mask, input_.masked)
+      fit_cleaned(ideal_.stream, bare, contribution(first.point, terms_, span_of(found)),
+                  first.mask, ideal_.masked)
           .fit;
   if (!is_diagnosable(extended)) return;
-  const std::vector<Clamping> clampings = clampings_of(extended, input_.ball_mm);
+  const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
   if (std::ranges::any_of(terms_, turns)) return turn(found, clampings);
-  point_ = linearise_at(input_.stream, clampings, first.point.base, first.point.bore);
+  point_ = linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore);
 }
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
 /// known of X: X(a) = X(a') + (a − a') ∂X/∂a.
 void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings) {
-  const LinearisationPoint& first = input_.first.point;
+  const LinearisationPoint& first = ideal_.point;
   const auto point_of = [&](const ProbeStream& stream) {
     return linearise_at(stream, clampings, first.base, first.bore);
   };
-  moved_ = input_.stream;
+  moved_ = ideal_.stream;
   Eigen::Index at = 0;
   for (Hypothesis& h : terms_) {
     const double by = found(at);
@@ -111,7 +108,7 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
       moved_->c_rad[i] += by * turn_per_unit(h, first, i);
     at += static_cast<Eigen::Index>(h.columns());
   }
-  const LinearisationPoint recorded = point_of(input_.stream);
+  const LinearisationPoint recorded = point_of(ideal_.stream);
   point_ = point_of(*moved_);
   turned_mm_ = point_->x;
   add(turned_mm_, recorded.x, -1.0);
@@ -131,15 +128,16 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   }
 }
 
-std::unique_ptr<RelinearisedFit> relinearise(const RelinearisedFit::Input& input, Model& model,
+std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& model,
                                              std::optional<Timing>& timing) {
-  auto best = std::make_unique<RelinearisedFit>(input, model);
+  auto best = std::make_unique<RelinearisedFit>(ideal, model);
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
-    const char* id = other_of(model.terms[t]);
-    if (id == nullptr) continue;
+    const Effect* effect = model.terms[t].effect;
+    if (!effect || effect->second_order_twin.empty()) continue;
     Model other = model;
-    other.terms[t] = of_effect(id, {.time_constant_s = 0.0});
-    auto rival = std::make_unique<RelinearisedFit>(input, other);
+    other.terms[t] =
+        of_effect(std::string(effect->second_order_twin).c_str(), {.time_constant_s = 0.0});
+    auto rival = std::make_unique<RelinearisedFit>(ideal, other);
     const auto rows = static_cast<double>(best->joint().equations.count());
     double ratio = rows * std::log(rival->joint().solution.rss / best->joint().solution.rss);
     if (ratio < 0.0) {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "diagnose/refit/extended_fit.hpp"
+#include "diagnose/search/ideal_model.hpp"
+#include "diagnose/search/search.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -14,18 +16,9 @@ namespace trueaxis::diagnose_detail {
 /// eccentricity of 0.2 mm are 0.3 µm beyond the first order.
 class RelinearisedFit {
  public:
-  /// What a diagnosis is of; it outlives the fits.
-  struct Input {
-    const ProbeStream& stream;
-    const FitOptions& options;
-    const FitResult& ideal;  ///< fit of the stream without terms
-    double ball_mm = 0.0;
-    const std::vector<Rejected>& masked;
-    const Problem& first;  ///< about the ideal surface
-  };
-
+  /// @param ideal outlives this
   /// @param model terms that were found, and their noise
-  RelinearisedFit(const Input& input, const Model& model);
+  RelinearisedFit(const IdealModel& ideal, const Model& model);
   RelinearisedFit(const RelinearisedFit&) = delete;
   RelinearisedFit& operator=(const RelinearisedFit&) = delete;
 
@@ -33,6 +26,8 @@ class RelinearisedFit {
   const Joint& joint() const { return *joint_; }
   /// Of all terms, one a reading.
   const std::vector<double>& effect_mm() const { return effect_mm_; }
+  /// Readings minus surface and terms, one a reading, mm.
+  std::vector<double> residual_mm() const;
   /// The extended surface. @param between what other causes would make of its base, or nothing
   FitResult extended(const Eigen::MatrixXd& between = {}) const {
     return extended_fit(cleaned_, *joint_, between);
@@ -42,7 +37,7 @@ class RelinearisedFit {
   void relinearise(const Model& model);
   void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
 
-  const Input input_;
+  const IdealModel& ideal_;
   std::vector<Hypothesis> terms_;     ///< a lag at the time constant found
   std::optional<ProbeStream> moved_;  ///< the stream at the spindle angles that a delay makes true
   std::optional<LinearisationPoint> point_;  ///< none: the first
@@ -63,7 +58,7 @@ struct Timing {
 };
 
 /// The last fit; `model` is changed where the other of lag and delay does better.
-std::unique_ptr<RelinearisedFit> relinearise(const RelinearisedFit::Input& input, Model& model,
+std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& model,
                                              std::optional<Timing>& timing);
 
 }  // namespace trueaxis::diagnose_detail

@@ -4,7 +4,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "diagnose/search/search.hpp"
+#include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/regression/problem.hpp"
 
 namespace trueaxis::diagnose_detail {
 

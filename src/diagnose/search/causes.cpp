@@ -9,109 +9,70 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-using FreeParameters = std::vector<std::size_t>;
+using When = SearchRange::When;
 
-constexpr double decay_lengths[] = {10.0, 20.0, 40.0, 80.0, 160.0};
-constexpr double bearings[] = {-500.0, -250.0, -100.0,
-                               -50.0,  -20.0,  0.0};  // effects.md: far to near
-constexpr double not_a_cylinder = 1e-3;               // tan of the half angle
 constexpr double no_motion = 1e-9;
-constexpr double few_cycles[] = {0.5, 0.7, 0.9, 1.15, 1.5, 1.9, 2.4, 3.0};
-
-TermShape with_order(double order) {
-  TermShape shape;
-  shape.order = order;
-  return shape;
-}
-
-void add_harmonics(const LinearisationPoint& point, const Resolution& resolution,
-                   std::vector<Hypothesis>& list) {
-  const double tests = resolution.harmonics;
-  for (int n = 2; n <= resolution.harmonics; ++n) {
-    list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
-    if (resolution.degrees > 0)
-      list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
-    if (!point.reindexed && !point.two_sided) continue;
-    list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
-    if (std::abs(point.tan_half_angle) > not_a_cylinder)
-      list.push_back(of_effect("spindle.axial_synchronous", with_order(n), {}, tests));
-    TermShape tilt = with_order(n);
-    tilt.lever_from_mm = bearings[2];
-    if (resolution.degrees > 0)
-      list.push_back(of_effect("spindle.tilt_synchronous", tilt, {}, tests));
-  }
-}
-
-void add_along_z(const LinearisationPoint& point, const Resolution& resolution,
-                 std::vector<Hypothesis>& list) {
-  if (resolution.degrees == 0) return;
-  list.push_back(of_effect("part.barrel", {}, {0}, 2));
-  if (resolution.degrees > 2) list.push_back(of_effect("part.barrel", {}, {}, 2));
-  if (!point.base.tapers) list.push_back(of_effect("part.taper", {}));
-  list.push_back(of_effect("part.bow", {}));
-  const int highest = std::min(5, resolution.degrees + 1);
-  for (int degree = 2; degree <= highest; ++degree) {
-    TermShape shape;
-    shape.degree = degree;
-    list.push_back(of_effect("slide.z_straightness", shape, {}, 6));
-    const auto last = static_cast<std::size_t>(degree - 2);
-    if (degree > 2) list.push_back(of_effect("slide.z_straightness", shape, {last}, 6));
-  }
-  list.push_back(of_effect("slide.xz_parallelism", {}));
-}
+constexpr std::size_t readings_per_instant = 8;
 
 bool both_ways(const LinearisationPoint& point) {
   const Extent v = range_of(point.velocity);
   return v.low < -no_motion && v.high > no_motion;
 }
 
-void add_probe(const LinearisationPoint& point, const Resolution& resolution,
-               std::vector<Hypothesis>& list) {
-  list.push_back(of_effect("probe.height", {}));
-  list.push_back(of_effect("encoder.offset", {}));
-  list.push_back(of_effect("encoder.eccentricity", {}));
-  if (resolution.degrees > 0) {
-    list.push_back(of_effect("probe.tilt", {}));
-    if (both_ways(point)) {
-      for (const FreeParameters& free : {FreeParameters{0}, FreeParameters{1}, FreeParameters{}})
-        list.push_back(of_effect("slide.backlash", {}, free, 3));
-    }
-  }
-  TermShape response;
-  response.reference_x_mm = point.reference_x_mm;
-  response.range_mm = point.range_x_mm;
-  response.order = 3.0;
-  list.push_back(of_effect("probe.gain", response));
-  for (const FreeParameters& free : {FreeParameters{0}, FreeParameters{1}, FreeParameters{}})
-    list.push_back(of_effect("probe.nonlinearity", response, free, 3));
-  // Of few cycles over the swing, a periodogram that forgets the surface's columns misses it.
-  const double swing = sensed_swing(point);
-  for (const double cycles : few_cycles) {
-    TermShape shape;
-    shape.period_mm = swing / cycles;
-    if (swing > least_swing_mm && !resolution.sections)
-      list.push_back(of_effect("probe.cyclic", shape, {}, 4.0 * std::size(few_cycles)));
-  }
-  list.push_back(of_effect("probe.ball_radius", {}));
-  list.push_back(of_effect("probe.pretravel", response, {0}));
-  if (!point.has_time) return;
-  list.push_back(of_effect("probe.latency", {}));
-  for (const double T : {0.0, 5e-3}) {
-    TermShape lag;
-    lag.time_constant_s = T;
-    list.push_back(of_effect("probe.lag", lag, {}, 2));
+bool can_show(const Requirement& needs, const Problem& problem) {
+  const LinearisationPoint& point = problem.point;
+  return (!needs.time || point.has_time) && (!needs.length || problem.resolution.degrees > 0) &&
+         (!needs.cone || std::abs(point.tan_half_angle) > least_tangent) &&
+         (!needs.cylinder || !point.base.tapers) && (!needs.both_feeds || both_ways(point));
+}
+
+/// Whether the stream has what the values are written in.
+bool can_start(const ShapeValues& starts, const Problem& problem) {
+  const bool seen = sensed_swing(problem.point) > least_swing_mm && !problem.resolution.sections;
+  const std::size_t instants = starts.values.size() + 1;
+  return (starts.in != ShapeValues::In::per_swing || seen) &&
+         (starts.in != ShapeValues::In::instant ||
+          problem.point.size() >= readings_per_instant * instants);
+}
+
+/// What the choice of a variant counts as, for an order.
+double tests_of(const SearchRange& range, bool alone) {
+  if (range.tests > 0.0) return range.tests;
+  std::size_t sum = 0;
+  for (const Form& form : range.forms)
+    sum += alone ? 1 : std::max<std::size_t>(1, form.starts.values.size());
+  return static_cast<double>(sum);
+}
+
+/// @param alone one start of each form
+void add_form(const Effect& effect, const Form& form, TermShape shape, bool alone, double tests,
+              const Problem& problem, std::vector<Hypothesis>& list) {
+  if (problem.resolution.degrees < form.degrees || !can_start(form.starts, problem)) return;
+  const auto add = [&] { list.push_back(of_effect(effect, shape, form.free, tests)); };
+  const ShapeValues& starts = form.starts;
+  if (starts.values.empty()) return add();
+  for (std::size_t k = 0; k < starts.values.size(); ++k) {
+    if (alone && k != starts.alone) continue;
+    shape.*starts.parameter = value_in(starts.in, starts.values[k], problem.point);
+    add();
   }
 }
 
-void add_time(const LinearisationPoint& point, std::vector<Hypothesis>& list) {
-  if (!point.has_time) return;
-  const double lasted = range_of(point.time).length();
-  list.push_back(of_effect("thermal.drift", {}, {0}, 4));
-  for (const double share : {0.1, 0.3, 1.0}) {
-    TermShape shape;
-    shape.time_constant_s = share * lasted;
-    list.push_back(of_effect("thermal.drift", shape, {1}, 4));
+/// All degrees up to each, and each alone.
+void add_degrees(const Effect& effect, int first, TermShape shape, const Problem& problem,
+                 std::vector<Hypothesis>& list) {
+  const double tests = tests_of(effect.search, false);
+  const int highest = std::min(effect.search.highest_degree, problem.resolution.degrees + 1);
+  for (shape.degree = first; shape.degree <= highest; ++shape.degree) {
+    list.push_back(of_effect(effect, shape, {}, tests));
+    const auto last = static_cast<std::size_t>(shape.degree - first);
+    if (last > 0) list.push_back(of_effect(effect, shape, {last}, tests));
   }
+}
+
+/// How many orders a harmonic of free order is tried at.
+double orders_of(const Effect& effect, const Resolution& resolution) {
+  return effect.search.highest_order > 0 ? effect.search.highest_order - 1 : resolution.harmonics;
 }
 
 }  // namespace
@@ -129,55 +90,79 @@ double sensed_swing(const LinearisationPoint& point) {
   return swing;
 }
 
-std::vector<Hypothesis> slips(const LinearisationPoint& point, std::size_t instants) {
+double value_in(ShapeValues::In in, double value, const LinearisationPoint& point) {
+  switch (in) {
+    case ShapeValues::In::half_lengths:
+      return point.z_mid_mm + value * point.z_half_mm;
+    case ShapeValues::In::per_length:
+      return 2.0 * point.z_half_mm / value;
+    case ShapeValues::In::per_swing:
+      return std::max(sensed_swing(point), least_swing_mm) / value;
+    case ShapeValues::In::duration:
+      return value * range_of(point.time).length();
+    case ShapeValues::In::instant:
+      return point.time[static_cast<std::size_t>(value * static_cast<double>(point.size()))];
+    case ShapeValues::In::itself:
+      break;
+  }
+  return value;
+}
+
+TermShape typical_shape(const Effect& effect, const LinearisationPoint& point) {
+  TermShape shape;
+  shape.reference_x_mm = point.reference_x_mm;
+  shape.range_mm = point.range_x_mm;
+  for (const ShapeValues& v : effect.typical)
+    shape.*v.parameter = value_in(v.in, v.values.front(), point);
+  return shape;
+}
+
+std::vector<Hypothesis> preset_causes(const Problem& problem) {
   std::vector<Hypothesis> list;
-  if (!point.has_time || point.size() < 8 * instants) return list;
-  for (std::size_t k = 1; k < instants; ++k) {
-    TermShape shape;
-    shape.onset_s = point.time[k * point.size() / instants];
-    list.push_back(of_effect("part.slip", shape, {0, 1}, 4.0 * static_cast<double>(instants)));
-    list.push_back(of_effect("part.slip", shape, {2}, 4.0 * static_cast<double>(instants)));
+  const bool frames_told = problem.point.reindexed || problem.point.two_sided;
+  for (const Effect* effect : problem.effects) {
+    const SearchRange& range = effect->search;
+    if (range.when == When::scanned || range.when == When::at_orders ||
+        (range.when == When::told_apart && !frames_told) || !can_show(effect->needs, problem))
+      continue;
+    TermShape shape = typical_shape(*effect, problem.point);
+    if (range.highest_degree > 0) {
+      add_degrees(*effect, std::get<PolynomialInZ>(effect->term).first, shape, problem, list);
+    } else if (!has_free_order(*effect)) {
+      for (const Form& form : range.forms)
+        add_form(*effect, form, shape, false, tests_of(range, false), problem, list);
+    } else {
+      const double tests = tests_of(range, true) * orders_of(*effect, problem.resolution);
+      for (int n = 2; n <= problem.resolution.harmonics; ++n) {
+        if (range.highest_order > 0 && n > range.highest_order) break;
+        shape.order = n;
+        for (const Form& form : range.forms)
+          add_form(*effect, form, shape, true, tests, problem, list);
+      }
+    }
   }
   return list;
 }
 
-std::vector<Hypothesis> preset_causes(const LinearisationPoint& point,
-                                      const Resolution& resolution) {
+std::vector<Hypothesis> causes_of_order(const Problem& problem, int order) {
   std::vector<Hypothesis> list;
-  add_harmonics(point, resolution, list);
-  add_along_z(point, resolution, list);
-  add_probe(point, resolution, list);
-  add_time(point, list);
-  return list;
-}
-
-std::vector<Hypothesis> causes_of_order(const LinearisationPoint& point,
-                                        const Resolution& resolution, int order) {
-  std::vector<Hypothesis> list;
-  const double tests = resolution.harmonics;
-  const double n = order;
-  list.push_back(of_effect("part.roundness", with_order(n), {0, 1}, tests));
-  if (resolution.degrees > 0) list.push_back(of_effect("part.roundness", with_order(n), {}, tests));
-  list.push_back(of_effect("spindle.radial_synchronous", with_order(n), {}, tests));
-  if (resolution.degrees > 0) {
-    for (const double bearing : bearings) {
-      TermShape shape = with_order(n);
-      shape.lever_from_mm = bearing;
-      list.push_back(of_effect("spindle.tilt_synchronous", shape, {}, tests * std::size(bearings)));
-    }
-    if (std::abs(point.tan_half_angle) > not_a_cylinder)
-      list.push_back(of_effect("spindle.axial_synchronous", with_order(n), {}, tests));
-    const double jaws = point.z_mid_mm - point.z_half_mm;
-    for (const int j : {order, order / 2}) {
-      if (j < 2 || j > 6 || (j != order && 2 * j != order)) continue;
-      for (const double decay : decay_lengths) {
-        TermShape shape = with_order(j);
-        shape.lever_from_mm = jaws;
-        shape.decay_length_mm = decay;
-        const double all = 5.0 * std::size(decay_lengths);
-        if (j == order) list.push_back(of_effect("part.chuck_lobing", shape, {0, 1}, all));
-        if (2 * j <= resolution.harmonics)
-          list.push_back(of_effect("part.chuck_lobing", shape, {}, all));
+  for (const Effect* effect : problem.effects) {
+    const SearchRange& range = effect->search;
+    if (!has_free_order(*effect) || range.when == When::always || !can_show(effect->needs, problem))
+      continue;
+    const bool two = has_two_orders(effect->term);
+    const double tests = tests_of(range, false) * orders_of(*effect, problem.resolution);
+    TermShape shape = typical_shape(*effect, problem.point);
+    for (const int own : {order, order / 2}) {
+      const bool half = own != order;
+      if (own < 2 || (range.highest_order > 0 && own > range.highest_order) ||
+          (half && (!two || 2 * own != order)))
+        continue;
+      shape.order = own;
+      for (const Form& form : range.forms) {
+        const bool second = two && form.free.empty();
+        if (second ? 2 * own > problem.resolution.harmonics : half) continue;
+        add_form(*effect, form, shape, false, tests, problem, list);
       }
     }
   }
@@ -204,31 +189,29 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
     }
     return list;
   }
-  const auto id = h.effect->id;
-  if (id == "spindle.tilt_synchronous" && !h.with_radial) {
-    // The envelope 1 + u κ, κ = half length / (middle − bearing): κ is what the data show.
-    vary([&](Hypothesis& o, double d) {
-      const double kappa = point.z_half_mm / (point.z_mid_mm - o.shape.lever_from_mm) + d;
-      if (kappa > 0.01 && kappa < 1.2)
-        o.shape.lever_from_mm = point.z_mid_mm - point.z_half_mm / kappa;
-    });
-  } else if (id == "part.chuck_lobing") {
-    vary([](Hypothesis& o, double d) {
-      o.shape.decay_length_mm =
-          std::clamp(o.shape.decay_length_mm * std::exp(3.0 * d), 10.0, 200.0);
-    });
-  } else if (id == "part.slip") {
-    const auto [first, last] = range_of(point.time);
-    vary([&](Hypothesis& o, double d) {
-      o.shape.onset_s = std::clamp(o.shape.onset_s + d * (last - first), first, last);
-    });
-  } else if (id == "thermal.drift" && !h.free.empty() && h.free[0] == 1) {
-    vary([](Hypothesis& o, double d) { o.shape.time_constant_s *= std::exp(3.0 * d); });
-  } else if (id == "probe.lag") {
-    vary([](Hypothesis& o, double d) {
-      o.shape.time_constant_s = std::clamp(o.shape.time_constant_s + 0.02 * d, 0.0, 0.05);
-    });
-  }
+  if (!h.effect->refinement || h.with_radial) return list;
+  const Refinement& r = *h.effect->refinement;
+  if (r.reader && std::ranges::find(h.free, *r.reader) == h.free.end()) return list;
+  const Extent time = range_of(point.time);
+  vary([&](Hypothesis& o, double d) {
+    double& value = o.shape.*r.parameter;
+    switch (r.by) {
+      case Refinement::By::factor:
+        value = std::clamp(value * std::exp(r.range * d), r.low, r.high);
+        break;
+      case Refinement::By::sum:
+        value = std::clamp(value + r.range * d, r.low, r.high);
+        break;
+      case Refinement::By::duration:
+        value = std::clamp(value + d * time.length(), time.low, time.high);
+        break;
+      case Refinement::By::lever: {
+        // The envelope 1 + u κ, κ = half length / (middle − bearing).
+        const double kappa = point.z_half_mm / (point.z_mid_mm - value) + d;
+        if (kappa > r.low && kappa < r.high) value = point.z_mid_mm - point.z_half_mm / kappa;
+      }
+    }
+  });
   return list;
 }
 

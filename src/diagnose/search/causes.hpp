@@ -3,31 +3,32 @@
 
 #include <vector>
 
-#include "diagnose/geometry/hypothesis.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/regression/problem.hpp"
 
 namespace trueaxis::diagnose_detail {
 
-/// Every variant of the catalogue without a line to scan for: what is tried one by one in every
-/// step. `tests` of each is how many of its kind there are. Harmonics in the part's frame stand for
-/// all of their order until rivals_of_order tells them apart, unless re-chucking does.
-std::vector<Hypothesis> preset_causes(const LinearisationPoint& point,
-                                      const Resolution& resolution);
+/// Every variant of the effects that a search tries one by one in every step, by their SearchRange.
+/// `tests` of each is how many of its kind there are. Harmonics in the part's frame stand for all
+/// of their order until causes_of_order tells them apart, unless re-chucking does.
+std::vector<Hypothesis> preset_causes(const Problem& problem);
 
-/// Causes that show as the harmonic of an order: of part, chuck, spindle and encoder.
-std::vector<Hypothesis> causes_of_order(const LinearisationPoint& point,
-                                        const Resolution& resolution, int order);
+/// Causes beside the presets that show as the harmonic of an order.
+std::vector<Hypothesis> causes_of_order(const Problem& problem, int order);
+
+/// The shape of an effect that stands for it: its typical one, with the sensor's place and range.
+TermShape typical_shape(const Effect& effect, const LinearisationPoint& point);
+
+/// A value of a parameter of the shape in its own unit.
+double value_in(ShapeValues::In in, double value, const LinearisationPoint& point);
 
 /// The range of what the probe has sensed, on the side where it is larger: from side to side
 /// nothing is read.
 double sensed_swing(const LinearisationPoint& point);
 constexpr double least_swing_mm = 0.02;  ///< below it no period of the scale is seen
+constexpr double least_tangent = 1e-3;   ///< of the half angle: below it a cone is a cylinder
 
-/// A slip at every one of some instants.
-std::vector<Hypothesis> slips(const LinearisationPoint& point, std::size_t instants);
-
-/// Neighbours of a hypothesis in its continuous shape (bearing, decay length, onset, time constant,
-/// window of a bump), `step` apart on a scale where 1 is the range; lines are refined elsewhere.
+/// Neighbours of a hypothesis in its continuous shape (by the effect's Refinement; of a bump, its
+/// window), `step` apart on a scale where 1 is the range; lines are refined elsewhere.
 std::vector<Hypothesis> neighbours(const Hypothesis& hypothesis, const LinearisationPoint& point,
                                    double step);
 

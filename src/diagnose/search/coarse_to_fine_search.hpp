@@ -3,7 +3,6 @@
 
 #include <optional>
 
-#include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/geometry/condense.hpp"
 #include "diagnose/search/search.hpp"
 
@@ -14,16 +13,20 @@ namespace trueaxis::diagnose_detail {
 class CoarseToFineSearch {
  public:
   explicit CoarseToFineSearch(const Problem& whole);
+  CoarseToFineSearch(const CoarseToFineSearch&) = delete;
+  CoarseToFineSearch& operator=(const CoarseToFineSearch&) = delete;
 
   Model model;  ///< its noise is that of the readings
-  ConfounderSet distinguish(std::size_t term) const;
+  /// What was searched, and the model with the noise of that.
+  Proposer& proposer() { return *proposer_; }
+  Model searched_model() const;
 
  private:
-  const Problem& whole_;
   Condensed means_;
   Resolution resolution_;
-  std::optional<Problem> problem_;  ///< over the means
-  std::vector<double> phi_;         ///< noise of what was searched
+  std::optional<Problem> problem_;    ///< over the means
+  std::optional<Proposer> proposer_;  ///< of what was searched
+  std::vector<double> phi_;           ///< noise of what was searched
 };
 
 }  // namespace trueaxis::diagnose_detail

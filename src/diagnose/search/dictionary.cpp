@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "diagnose/search/causes.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
-
-constexpr std::size_t slip_instants = 16;
 
 bool same_shape(const TermShape& a, const TermShape& b) {
   return a.order == b.order && a.lever_from_mm == b.lever_from_mm &&
@@ -22,7 +21,7 @@ bool same_shape(const TermShape& a, const TermShape& b) {
 Hypothesis carrier_of(const Hypothesis& h) {
   Hypothesis out = h;
   out.free.clear();
-  if (h.effect->id == "slide.z_straightness") out.shape.degree = 5;
+  if (h.effect->search.highest_degree > 0) out.shape.degree = h.effect->search.highest_degree;
   return out;
 }
 
@@ -36,16 +35,30 @@ Columns subset(const Columns& all, const Hypothesis& h) {
   return out;
 }
 
-/// Columns of a cause that is made of basis: roundness constant or growing, barrel.
+/// The functions of the basis that a cause is made of: form along the normal, constant or growing
+/// along the part around it, a polynomial along its profile; empty: it is made of none.
+std::vector<std::pair<double, int>> functions_of(const Hypothesis& h) {
+  std::vector<std::pair<double, int>> out;  // order and degree
+  const auto* around = std::get_if<Harmonic>(&h.effect->term);
+  const auto* along = std::get_if<PolynomialInZ>(&h.effect->term);
+  if (around && around->angle == Harmonic::Angle::part && has_free_order(*h.effect) &&
+      around->envelope == Harmonic::Envelope::growing && around->port == Port::normal) {
+    out.emplace_back(h.shape.order, 0);
+    if (h.free.empty()) out.emplace_back(h.shape.order, 1);
+  } else if (along && along->port == Port::normal && !along->plain) {
+    for (std::size_t k = 0; k < h.columns(); ++k) {
+      const std::size_t place = h.free.empty() ? k : h.free[k];
+      out.emplace_back(0.0, along->first + static_cast<int>(place));
+    }
+  }
+  return out;
+}
+
+/// Their columns, where the basis has them all.
 std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesis>& basis,
                                 const std::vector<Columns>& places) {
-  const bool round = h.effect->id == "part.roundness";
-  if (!round && h.effect->id != "part.barrel") return std::nullopt;
-  const double order = round ? h.shape.order : 0.0;
-  const int first = round ? 0 : 2;
-  const std::size_t wanted = h.columns() == (round ? 2U : 1U) ? 1 : 2;
   Columns out;
-  for (int degree = first; degree < first + static_cast<int>(wanted); ++degree) {
+  for (const auto& [order, degree] : functions_of(h)) {
     const auto found = std::ranges::find_if(basis, [&](const Hypothesis& c) {
       return c.pattern.order == order && c.pattern.degree == degree && !c.pattern.spindle &&
              !c.pattern.in_time;
@@ -54,29 +67,26 @@ std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesi
     const Columns& own = places[static_cast<std::size_t>(found - basis.begin())];
     out.insert(out.end(), own.begin(), own.end());
   }
+  if (out.empty()) return std::nullopt;
   return out;
 }
 
 }  // namespace
 
-std::unique_ptr<Dictionary> make_dictionary(const LinearisationPoint& point,
-                                            const ObservationMask& mask,
-                                            const Resolution& resolution,
-                                            std::span<const double> deviation_mm,
-                                            const std::vector<double>& phi, int threads) {
-  auto out = std::make_unique<Dictionary>(
-      Dictionary{phi,
-                 NormalEquations(point, mask, deviation_mm, phi, threads),
-                 preset_causes(point, resolution),
-                 fourier_legendre_basis(point, resolution),
-                 {},
-                 {},
-                 0});
-  for (Hypothesis& h : slips(point, slip_instants)) out->presets.push_back(std::move(h));
+std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
+                                            const std::vector<double>& phi) {
+  auto out = std::make_unique<Dictionary>(Dictionary{
+      phi,
+      NormalEquations(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
+      preset_causes(problem),
+      fourier_legendre_basis(problem.point, problem.resolution),
+      {},
+      {},
+      0});
   for (Hypothesis& h : out->basis) h.tests = static_cast<double>(out->basis.size());
   std::vector<Hypothesis> list = out->basis;
   std::vector<std::size_t> carrier(out->presets.size(), 0);
-  // Cells come first: their places are known before anything is appended.
+  // The basis comes first: their places are known before anything is appended.
   std::vector<Columns> basis_places;
   std::size_t next = 1 + out->equations.base().size();
   for (const Hypothesis& h : out->basis) {

@@ -6,7 +6,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-Hypothesis cell(int order, int degree, bool spindle = false, bool in_time = false) {
+Hypothesis function_of(int order, int degree, bool spindle = false, bool in_time = false) {
   Hypothesis h;
   h.pattern = {.order = static_cast<double>(order),
                .spindle = spindle,
@@ -22,17 +22,17 @@ std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point,
   std::vector<Hypothesis> basis;
   for (int n = 0; n <= resolution.harmonics; ++n) {
     for (int l = 0; l <= resolution.degrees + (n == 0 && resolution.degrees > 3 ? 1 : 0); ++l)
-      basis.push_back(cell(n, l));
+      basis.push_back(function_of(n, l));
   }
   if (point.reindexed || point.two_sided) {
     for (int n = 2; n <= resolution.harmonics; ++n) {
-      basis.push_back(cell(n, 0, true));
-      if (resolution.degrees > 0) basis.push_back(cell(n, 1, true));
+      basis.push_back(function_of(n, 0, true));
+      if (resolution.degrees > 0) basis.push_back(function_of(n, 1, true));
     }
   }
   if (point.has_time && !resolution.one_variable && !resolution.sections) {
     for (int n = 0; n <= std::min(resolution.harmonics, 3); ++n) {
-      for (int l = 1; l <= 3; ++l) basis.push_back(cell(n, l, true, true));
+      for (int l = 1; l <= 3; ++l) basis.push_back(function_of(n, l, true, true));
     }
   }
   return basis;
@@ -47,7 +47,7 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
     const std::size_t own = n == 0 ? 1 : 2;
     if (columns + own > most) return;
     columns += own;
-    basis.push_back(cell(n, l));
+    basis.push_back(function_of(n, l));
   };
   for (int n = 0; n <= resolution.harmonics; ++n) {
     add(n, 0);
@@ -61,7 +61,7 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
     const std::size_t own = n == 0 ? 1 : 2;
     if (columns + own > most) return;
     columns += own;
-    basis.push_back(cell(n, l, true, in_time));
+    basis.push_back(function_of(n, l, true, in_time));
   };
   if (point.two_sided || point.reindexed) {
     for (int l = 0; l <= std::min(3, resolution.degrees); ++l) add_machine(0, l, false);
@@ -74,19 +74,21 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
     for (int n = 0; n <= 1; ++n)
       for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
   }
-  const auto add_cause = [&](Hypothesis h) {
-    columns += h.columns();
-    if (columns <= most) basis.push_back(std::move(h));
-  };
-  if (!resolution.one_variable && !resolution.sections) {
-    if (resolution.degrees > 0) add_cause(of_effect("slide.backlash", {}));
-    if (point.has_time) add_cause(of_effect("probe.latency", {}));
+  if (resolution.one_variable || resolution.sections) return basis;
+  std::vector<const Effect*> shown;
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.between_passes > 0 && (!effect.needs.length || resolution.degrees > 0) &&
+        (!effect.needs.time || point.has_time))
+      shown.push_back(&effect);
+  }
+  std::ranges::sort(shown, {}, &Effect::between_passes);
+  for (const Effect* effect : shown) {
     TermShape sensor;
     sensor.reference_x_mm = point.reference_x_mm;
     sensor.range_mm = point.range_x_mm;
-    add_cause(of_effect("probe.nonlinearity", sensor));
-    add_cause(of_effect("probe.gain", sensor));
-    if (resolution.degrees > 0) add_cause(of_effect("probe.tilt", {}));
+    Hypothesis h = of_effect(*effect, sensor);
+    columns += h.columns();
+    if (columns <= most) basis.push_back(std::move(h));
   }
   return basis;
 }

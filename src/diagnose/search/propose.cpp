@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/propose.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/search/causes.hpp"
-#include "diagnose/search/search.hpp"
+#include "diagnose/search/scan_bumps.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
-constexpr std::size_t most_rivals = 16;
+constexpr std::size_t most_peaks = 8, most_rivals = 16;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
 constexpr double step_shrink = 0.4;
@@ -45,17 +48,10 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
     c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
     Eigen::VectorXd size = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(own.size()));
     if (s.rank == own.size()) {
-      Eigen::MatrixXd part(size.size() + 1, size.size() + 1);
-      Columns all{0};
-      all.insert(all.end(), own.begin(), own.end());
-      for (Eigen::Index i = 0; i < part.rows(); ++i) {
-        for (Eigen::Index j = 0; j < part.cols(); ++j)
-          part(i, j) = projection.gram(static_cast<Eigen::Index>(all[static_cast<std::size_t>(i)]),
-                                       static_cast<Eigen::Index>(all[static_cast<std::size_t>(j)]));
-      }
-      Columns local(own.size());
-      for (std::size_t j = 0; j < local.size(); ++j) local[j] = j + 1;
-      size = solve(part, local).coefficients;
+      Columns all(own.size() + 1, 0), local(own.size());
+      std::ranges::copy(own, all.begin() + 1);
+      std::iota(local.begin(), local.end(), std::size_t{1});
+      size = solve(projection.gram(all, all), local).coefficients;
     }
     c.criterion = freedom * std::log(std::max(1.0 - s.gain / projection.rss, 1e-12)) +
                   penalty(list[h], s.rank, equations.count(), size);
@@ -76,12 +72,69 @@ std::vector<Hypothesis> variants(const Hypothesis& h, const LinearisationPoint& 
 }
 
 /// Half a resolution cell of a line in its own variable.
-double line_cell(const Hypothesis& h, const LinearisationPoint& point) {
-  if (!h.effect) return 0.4 / range_of(h.pattern.in_time ? point.time : point.s).length();
-  if (h.effect->id == "spindle.asynchronous") return 0.4 / range_of(point.c).length();
-  if (h.effect->id == "environment.vibration") return 0.4 / range_of(point.time).length();
-  if (h.effect->id == "probe.cyclic") return 0.4 / range_of(point.sensed).length();
-  return 0.4 / range_of(point.s).length();
+double half_cell(const Hypothesis& line, const LinearisationPoint& point) {
+  const bool spatial = line.effect && line.effect->line->in == Line::In::slide;
+  return 0.4 / range_of(spatial ? point.s : variable_of(line, point)).length();
+}
+
+/// Peaks that are not far behind the tallest, as hypotheses.
+void take_peaks(std::vector<Peak> peaks, std::size_t most, double tests,
+                std::vector<Hypothesis>& list) {
+  std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
+  for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i) {
+    if (peaks[i].gain < far_behind * peaks[0].gain) break;
+    list.push_back(std::move(peaks[i].hypothesis));
+    list.back().tests = tests;
+  }
+}
+
+/// All at their first shapes, from one normal matrix; the best of them.
+std::vector<Candidate> judged_at_once(const Problem& problem, const std::vector<double>& phi,
+                                      const std::vector<Hypothesis>& terms,
+                                      const std::vector<Hypothesis>& list) {
+  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi,
+                            problem.threads);
+  const auto places = equations.append(joined(terms, list));
+  std::vector<Candidate> out = judge(equations, places, list, terms.size());
+  std::ranges::stable_sort(out, better);
+  return out;
+}
+
+std::vector<Hypothesis> hypotheses_of(const std::vector<Candidate>& list, std::size_t most) {
+  std::vector<Hypothesis> out;
+  for (std::size_t i = 0; i < std::min(most, list.size()); ++i) out.push_back(list[i].hypothesis);
+  return out;
+}
+
+/// The best of each effect and rank among those that explain nearly as much as any.
+std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
+  double most = 0.0;
+  for (const Candidate& c : list) most = std::max(most, c.gain);
+  std::vector<Candidate> out;
+  for (const Candidate& c : list) {
+    const auto same = [&](const Candidate& e) {
+      return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
+    };
+    if (c.gain > far_behind * most && std::ranges::none_of(out, same)) out.push_back(c);
+  }
+  return out;
+}
+
+/// Lobes that grow along the part are those of a spindle that tilts about a bearing anywhere, until
+/// re-chucking tells.
+void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypothesis>& list) {
+  const auto* lobes = std::get_if<Harmonic>(&named.effect->term);
+  if (problem.point.reindexed || !lobes || !named.free.empty() ||
+      lobes->angle != Harmonic::Angle::part || lobes->envelope != Harmonic::Envelope::growing)
+    return;
+  for (const Effect* effect : problem.effects) {
+    const auto* tilt = std::get_if<Harmonic>(&effect->term);
+    if (!tilt || tilt->envelope != Harmonic::Envelope::lever) continue;
+    TermShape shape = named.shape;
+    shape.lever_from_mm = typical_shape(*effect, problem.point).lever_from_mm;
+    list.push_back(of_effect(*effect, shape, {}, problem.resolution.harmonics));
+    list.back().with_radial = true;
+  }
 }
 
 }  // namespace
@@ -92,7 +145,7 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
   double shrink = 1.0;
   std::vector<double> cell;
   for (const Hypothesis& h : candidates)
-    cell.push_back(is_line(h) ? line_cell(h, problem.point) : 0.0);
+    cell.push_back(is_line(h) ? half_cell(h, problem.point) : 0.0);
   std::vector<Candidate> best;
   for (int round = 0; round <= rounds; ++round) {
     std::vector<Hypothesis> tried;
@@ -123,7 +176,8 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
     shrink *= step_shrink;
   }
   std::ranges::stable_sort(best, better);
-  if (step > finest && !best.empty() && best.front().hypothesis.id() == "part.slip") {
+  const Effect* leads = best.empty() ? nullptr : best.front().hypothesis.effect;
+  if (step > finest && leads && is_step(leads->term)) {
     Candidate dated =
         refine(problem, phi, others, {best.front().hypothesis}, step / step_shrink).front();
     if (dated.criterion < best.front().criterion) best.front() = std::move(dated);
@@ -131,114 +185,95 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
   return best;
 }
 
-Proposal propose(const Problem& problem, const std::vector<double>& phi,
-                 const std::vector<Hypothesis>& terms, const Hypothesis* named) {
-  const LinearisationPoint& point = problem.point;
-  const Resolution& resolution = problem.resolution;
-  Proposal out;
+/// What one look beside the terms gives.
+struct Proposer::Step {
+  std::vector<Candidate> presets, basis;  ///< best first
+  Scans scans;
+  std::vector<Hypothesis> bumps;
+  Family family;
+  double line_choice = 1.0;  ///< what the choice of a line counts as
+};
 
-  std::unique_ptr<Dictionary>& kept = *problem.dictionary;
-  if (!kept || kept->phi != phi)
-    kept = make_dictionary(point, problem.mask, resolution, problem.deviation_mm, phi,
-                           problem.threads);
-  NormalEquations& equations = kept->equations;
-  const std::vector<Hypothesis>& presets = kept->presets;
-  const std::vector<Hypothesis> fixed = joined(presets, kept->basis);
+Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
+                              const std::vector<double>& phi) {
+  if (!dictionary_ || dictionary_->phi != phi) dictionary_ = make_dictionary(problem_, phi);
+  Dictionary& dictionary = *dictionary_;
+  NormalEquations& equations = dictionary.equations;
+  const std::vector<Hypothesis> fixed = joined(dictionary.presets, dictionary.basis);
   std::vector<Columns> places = equations.append(terms);
   Columns taken = equations.base();
   append_columns(taken, places);
-  places.insert(places.end(), kept->preset_places.begin(), kept->preset_places.end());
-  places.insert(places.end(), kept->basis_places.begin(), kept->basis_places.end());
+  places.insert(places.end(), dictionary.preset_places.begin(), dictionary.preset_places.end());
+  places.insert(places.end(), dictionary.basis_places.begin(), dictionary.basis_places.end());
   const std::vector<Candidate> judged = judge(equations, places, fixed, terms.size());
-  for (const Candidate& c : judged) out.family.single += c.rank > 0;
   const Eigen::VectorXd solution = solve(equations.total(), taken).coefficients;
-  equations.shrink(kept->columns);
-  const std::vector<double> left = remainder(point, problem.deviation_mm, terms, solution);
-  Scans scans = scan_lines(equations, resolution, left);
+  equations.shrink(dictionary.columns);
+  const std::vector<double> left =
+      remainder(problem_.point, problem_.deviation_mm, terms, solution);
+  Step out;
+  const auto presets = static_cast<long>(dictionary.presets.size());
+  out.presets.assign(judged.begin(), judged.begin() + presets);
+  out.basis.assign(judged.begin() + presets, judged.end());
+  std::ranges::stable_sort(out.presets, better);
+  std::ranges::stable_sort(out.basis, better);
+  out.scans = scan_lines(problem_, equations, left);
   double bumps_tested = 0.0;
-  std::vector<Hypothesis> bumps = scan_bumps(equations, left, bumps_tested);
-  for (Hypothesis& h : bumps) h.tests = bumps_tested;
+  out.bumps = scan_bumps(equations, left, bumps_tested);
+  for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
+  for (const Candidate& c : judged) out.family.single += c.rank > 0;
   out.family.single += bumps_tested;
-  out.family.bandwidth = scans.bandwidth;
-  const double line_choice = std::max(1.0, line_tests * scans.bandwidth);
+  out.family.bandwidth = out.scans.bandwidth;
+  out.line_choice = std::max(1.0, line_tests * out.scans.bandwidth);
+  return out;
+}
 
+std::vector<Hypothesis> Proposer::shortlist(const Step& of, std::size_t presets) const {
+  std::vector<Hypothesis> list = hypotheses_of(of.presets, presets);
   // The orders that stick out, whatever their dependence on Z.
-  std::map<int, double> order_gain;
-  for (const Candidate& c : judged) {
-    const double n = c.hypothesis.effect ? 0.0 : c.hypothesis.pattern.order;
-    if (n >= 2.0) {
-      double& g = order_gain[static_cast<int>(n)];
-      g = std::max(g, -c.criterion);
-    }
+  std::map<int, double> gain;
+  for (const Candidate& c : of.basis) {
+    if (c.hypothesis.pattern.order < 2.0) continue;
+    double& g = gain[static_cast<int>(c.hypothesis.pattern.order)];
+    g = std::max(g, -c.criterion);
   }
   std::vector<std::pair<double, int>> orders;
-  for (const auto& [n, g] : order_gain) orders.emplace_back(g, n);
+  for (const auto& [n, g] : gain) orders.emplace_back(g, n);
   std::ranges::sort(orders, std::greater<>());
+  for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i)
+    list = joined(list, causes_of_order(problem_, orders[i].second));
+  return list;
+}
 
-  std::vector<Candidate> causes(judged.begin(), judged.begin() + static_cast<long>(presets.size()));
-  std::vector<Candidate> patterns(judged.begin() + static_cast<long>(presets.size()), judged.end());
-  std::ranges::stable_sort(causes, better);
-  std::ranges::stable_sort(patterns, better);
-  std::vector<Hypothesis> shortlist;
-  const std::size_t presets_kept = named ? causes.size() : best_presets;
-  for (std::size_t i = 0; i < std::min(presets_kept, causes.size()); ++i)
-    shortlist.push_back(causes[i].hypothesis);
-  if (named) {
-    shortlist.push_back(*named);
-    if (named->effect->id == "part.roundness" && named->columns() == 4 && !point.reindexed) {
-      TermShape shape = named->shape;
-      shape.lever_from_mm = -250.0;
-      shortlist.push_back(of_effect("spindle.tilt_synchronous", shape, {}, resolution.harmonics));
-      shortlist.back().with_radial = true;
-    }
-  }
-  for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i) {
-    for (Hypothesis& h : causes_of_order(point, resolution, orders[i].second))
-      if (h.effect->id != "part.roundness") shortlist.push_back(std::move(h));
-  }
-  std::vector<Hypothesis> odd;
-  for (std::size_t i = 0; i < std::min(best_patterns, patterns.size()); ++i)
-    odd.push_back(patterns[i].hypothesis);
-  const auto take_peaks = [&](std::vector<Peak>& peaks, std::vector<Hypothesis>& list,
-                              std::size_t most) {
-    std::ranges::stable_sort(peaks, [](const Peak& a, const Peak& b) { return a.gain > b.gain; });
-    for (std::size_t i = 0; i < std::min(most, peaks.size()); ++i) {
-      if (peaks[i].gain < 0.3 * peaks[0].gain) break;
-      list.push_back(peaks[i].hypothesis);
-      list.back().tests = line_choice;
-    }
+Proposal Proposer::beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi) {
+  Step now = step(terms, phi);
+  std::vector<Hypothesis> causes = shortlist(now, best_presets);
+  take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, causes);
+  std::vector<Hypothesis> patterns = hypotheses_of(now.basis, best_patterns);
+  take_peaks(std::move(now.scans.patterns), best_patterns, now.line_choice, patterns);
+  patterns = joined(patterns, now.bumps);
+  // Only the best at their first shapes are refined.
+  const auto refined = [&](const std::vector<Hypothesis>& list) {
+    return refine(problem_, phi, terms,
+                  hypotheses_of(judged_at_once(problem_, phi, terms, list), best_refined));
   };
-  take_peaks(scans.causes, shortlist, 8);
-  take_peaks(scans.patterns, odd, 3);
-  for (Hypothesis& h : bumps) odd.push_back(std::move(h));
-
-  // One equations for the shortlist at its first shapes; only the best of it is refined.
-  const auto sift = [&](std::vector<Hypothesis>& list, bool one_of_each) {
-    NormalEquations light(point, problem.mask, problem.deviation_mm, phi, problem.threads);
-    const auto at = light.append(joined(terms, list));
-    std::vector<Candidate> first = judge(light, at, list, terms.size());
-    std::ranges::stable_sort(first, better);
-    if (one_of_each) {
-      std::vector<Candidate> each;
-      double most = 0.0;
-      for (const Candidate& c : first) most = std::max(most, c.gain);
-      for (Candidate& c : first) {
-        const auto same = [&](const Candidate& e) {
-          return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
-        };
-        if (c.gain > far_behind * most && std::ranges::none_of(each, same))
-          each.push_back(std::move(c));
-      }
-      first = std::move(each);
-    }
-    first.resize(std::min(first.size(), one_of_each ? most_rivals : best_refined));
-    list.clear();
-    for (Candidate& c : first) list.push_back(std::move(c.hypothesis));
-    return refine(problem, phi, terms, list);
-  };
-  out.causes = sift(shortlist, named != nullptr);
-  if (!named) out.patterns = sift(odd, false);
+  Proposal out;
+  out.causes = refined(causes);
+  out.patterns = refined(patterns);
+  out.family = now.family;
   return out;
+}
+
+std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
+                                        const std::vector<Hypothesis>& others,
+                                        const std::vector<double>& phi) {
+  Step now = step(others, phi);
+  std::vector<Hypothesis> list = hypotheses_of(now.presets, now.presets.size());
+  list.push_back(named);
+  add_tilts(named, problem_, list);
+  list = joined(list, shortlist(now, 0));
+  take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, list);
+  const auto each = one_of_each(judged_at_once(problem_, phi, others, list));
+  return refine(problem_, phi, others, hypotheses_of(each, most_rivals));
 }
 
 }  // namespace trueaxis::diagnose_detail

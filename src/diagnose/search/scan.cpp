@@ -20,9 +20,9 @@ using Column = std::vector<double>;
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
 constexpr double finer = 4.0;
-constexpr double slowest_hz = 0.2;        // slower is no vibration: drift, or the form of a pass
-constexpr double tenth_lost = 0.25;       // cycles a mean: sinc(0.25) = 0.90
-constexpr double longest_wave_mm = 30.0;  // of a waviness, a screw's pitch
+constexpr double tenth_lost = 0.25;  // cycles a mean: sinc(0.25) = 0.90
+constexpr double shortest_mm = 1.0;  // of a length that a wave along Z is seen over
+constexpr double fewest_turns = 2.5;
 
 /// One scan: cos, sin (2π f x − turns θ).
 struct Scan {
@@ -43,10 +43,6 @@ double variance(const Column& x) {
   mean /= static_cast<double>(x.size());
   for (const double v : x) sum += (v - mean) * (v - mean);
   return sum / static_cast<double>(x.size());
-}
-
-Hypothesis line_of(const char* id, double frequency) {
-  return at_frequency(of_effect(id, {}), frequency);
 }
 
 Hypothesis pattern_line(double order, bool in_time, double frequency) {
@@ -71,79 +67,114 @@ double sampling(const LinearisationPoint& point, const Column& x) {
   return finest;
 }
 
-std::vector<Scan> scans_of(const LinearisationPoint& point, const Resolution& resolution) {
+const Column& column_of(Line::In in, const LinearisationPoint& point) {
+  switch (in) {
+    case Line::In::angle:
+      return point.c;
+    case Line::In::time:
+      return point.time;
+    case Line::In::slide:
+      return point.z;
+    case Line::In::sensed:
+      return point.sensed;
+    case Line::In::length:
+    case Line::In::spiral:
+      break;
+  }
+  return point.s;
+}
+
+/// What a stream lets be seen of the lines in one variable.
+struct Sampled {
+  bool seen = false;
+  double extent = 1.0;     ///< cycles are counted over
+  double highest = 1e300;  ///< frequency that the sampling tells
+  double fast = 1e300;     ///< see Scan
+  bool another = true;     ///< no other scan has the same lines
+};
+
+Sampled sampled(Line::In in, const LinearisationPoint& point, const Resolution& resolution) {
+  Sampled out;
+  if (resolution.sections) return out;
+  const bool several = !resolution.one_variable;
+  if (in == Line::In::angle) {
+    const double step = sampling(point, point.c) / two_pi;
+    return {resolution.turns > fewest_turns && step > 0.0, resolution.turns, 0.5 / step};
+  }
+  if (in == Line::In::time) {
+    const double step = point.has_time ? sampling(point, point.time) : 0.0;
+    return {step > 0.0, range_of(point.time).length(), 0.5 / step, tenth_lost / step, several};
+  }
+  if (in == Line::In::sensed) {
+    const double swing = sensed_swing(point);
+    double fastest = 1e-9;
+    for (std::size_t i = 1; i < point.size(); ++i) {
+      if (point.rear[i] == point.rear[i - 1])
+        fastest = std::max(fastest, std::abs(point.sensed[i] - point.sensed[i - 1]));
+    }
+    return {swing > least_swing_mm, swing, static_cast<double>(point.size()) / (3.0 * swing),
+            tenth_lost / fastest};
+  }
+  out.extent = point.has_position ? range_of(point.s).length() : 0.0;
+  out.seen = out.extent > shortest_mm;
+  // A spiral that is finer than the sampling is seen as another, and as none else.
+  if (in != Line::In::spiral) out.highest = 0.5 / sampling(point, point.s);
+  out.another = in == Line::In::slide ? point.shifted : several;
+  return out;
+}
+
+Scan scan_of(const Effect& effect, const Sampled& of, const LinearisationPoint& point) {
+  const Line& line = *effect.line;
+  const double unit = line.in == Line::In::angle ? two_pi : 1.0;
+  Scan scan;
+  scan.x = &column_of(line.in, point);
+  scan.low = std::max(line.low, line.least_cycles / of.extent) / unit;
+  scan.high = std::min(line.high, of.highest) / unit;
+  scan.make = [&effect, &point](double f) {
+    return at_frequency(of_effect(effect, typical_shape(effect, point)), f);
+  };
+  if (const auto* along = std::get_if<PeriodicInZ>(&effect.term)) {
+    scan.turns = along->turns;
+    scan.form = along->port != Port::x;  // ∂X/∂Z too is of the other sign
+  }
+  scan.counts = of.another;
+  scan.fast = of.fast;
+  return scan;
+}
+
+/// Of an order n either way round.
+void add_patterns(const Column& x, bool in_time, double low, double high, bool counts,
+                  int harmonics, std::vector<Scan>& list) {
+  for (int n = 1; n <= harmonics; ++n) {
+    for (const double sign : {1.0, -1.0}) {
+      list.push_back({&x, sign * n, in_time, low, high,
+                      [=](double f) { return pattern_line(n, in_time, sign * f); }, true, !in_time,
+                      counts});
+    }
+  }
+}
+
+std::vector<Scan> scans_of(const Problem& problem) {
+  using enum Line::In;
+  const LinearisationPoint& point = problem.point;
+  const Resolution& resolution = problem.resolution;
   std::vector<Scan> list;
-  const bool single = resolution.one_variable;
-  const double turn_step = sampling(point, point.c) / two_pi;
-  if (resolution.turns > 2.5 && turn_step > 0.0 && !resolution.sections) {
-    const double nyquist = 0.5 / turn_step;
-    list.push_back({&point.c, 0.0, false, 0.3 / two_pi, std::min(nyquist, 15.5) / two_pi,
-                    [](double f) { return line_of("spindle.asynchronous", f); }});
-  }
-  const double time_step = point.has_time ? sampling(point, point.time) : 0.0;
-  if (time_step > 0.0 && !resolution.sections) {
-    const double lasted = range_of(point.time).length();
-    list.push_back({&point.time, 0.0, false, std::max(slowest_hz, 1.5 / lasted),
-                    std::min(0.5 / time_step, 500.0),
-                    [](double f) { return line_of("environment.vibration", f); }});
-    list.back().counts = !single;
-    list.back().fast = tenth_lost / time_step;
-  }
-  const double length = point.has_position ? range_of(point.s).length() : 0.0;
-  if (length > 1.0 && !resolution.sections) {
-    const double step = sampling(point, point.s), highest = std::min(0.5 / step, 2.0);
-    const double lowest = std::max(1.5 / length, 1.0 / longest_wave_mm);
-    list.push_back({&point.s, 0.0, false, lowest, highest,
-                    [](double f) { return line_of("part.waviness", f); }});
-    list.back().counts = !single;
-    list.back().form = true;
-    if (std::abs(point.tan_half_angle) > 1e-3) {
-      list.push_back({&point.z, 0.0, false, lowest, std::min(highest, 1.0),
-                      [](double f) { return line_of("slide.leadscrew_periodic", f); }});
-      list.back().counts = point.shifted;
-      list.back().form = true;  // ∂X/∂Z too is of the other sign
+  for (const Line::In in : {angle, time, length, slide, spiral, sensed}) {
+    const Sampled of = sampled(in, point, resolution);
+    for (const Effect* effect : problem.effects) {
+      if (!of.seen || !effect->line || effect->line->in != in) continue;
+      if (effect->needs.cone && !(std::abs(point.tan_half_angle) > least_tangent)) continue;
+      list.push_back(scan_of(*effect, of, point));
     }
-    list.push_back(
-        {&point.s, 1.0, false, 0.7, 20.0, [](double f) { return line_of("part.feed_marks", f); }});
-    list.back().counts = !single;
-    list.back().form = true;
     // Of one variable, the lines of C are these too.
-    for (int k = 1;
-         k <= (single && !list.empty() && list[0].x == &point.c ? 0 : resolution.harmonics); ++k) {
-      for (const double sign : {1.0, -1.0}) {
-        Scan scan{&point.s,      sign * k,
-                  false,         0.75 / length,
-                  20.0 / length, [=](double f) { return pattern_line(k, false, sign * f); }};
-        scan.pattern = scan.form = true;
-        scan.counts = !single;
-        list.push_back(scan);
-      }
-    }
+    const bool same = resolution.one_variable && !list.empty() && list[0].x == &point.c;
+    if (in == spiral && of.seen && !same)
+      add_patterns(point.s, false, 0.75 / of.extent, 20.0 / of.extent, of.another,
+                   resolution.harmonics, list);
   }
-  const double swing = sensed_swing(point);
-  double fastest = 1e-9;
-  for (std::size_t i = 1; i < point.size(); ++i) {
-    if (point.rear[i] == point.rear[i - 1])
-      fastest = std::max(fastest, std::abs(point.sensed[i] - point.sensed[i - 1]));
-  }
-  if (swing > least_swing_mm && !resolution.sections) {
-    list.push_back({&point.sensed, 0.0, false, std::max(0.5, 0.7 / swing),
-                    std::min(500.0, static_cast<double>(point.size()) / (3.0 * swing)),
-                    [](double f) { return line_of("probe.cyclic", f); }});
-    list.back().fast = tenth_lost / fastest;
-  }
-  if (time_step > 0.0 && !single && !resolution.sections) {
-    const double lasted = range_of(point.time).length();
-    for (int k = 1; k <= resolution.harmonics; ++k) {
-      for (const double sign : {1.0, -1.0}) {
-        Scan scan{&point.time,   sign * k,
-                  true,          0.75 / lasted,
-                  30.0 / lasted, [=](double f) { return pattern_line(k, true, sign * f); }};
-        scan.pattern = true;
-        list.push_back(scan);
-      }
-    }
-  }
+  if (const Sampled of = sampled(time, point, resolution); of.seen && of.another)
+    add_patterns(point.time, true, 0.75 / of.extent, 30.0 / of.extent, true, resolution.harmonics,
+                 list);
   std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
   return list;
 }
@@ -218,10 +249,10 @@ std::vector<double> weighted(const NormalEquations& equations,
   return out;
 }
 
-Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
+Scans scan_lines(const Problem& problem, const NormalEquations& equations,
                  std::span<const double> remainder_mm, std::size_t means) {
-  const LinearisationPoint& point = equations.point();
-  const ObservationMask& mask = equations.mask();
+  const LinearisationPoint& point = problem.point;
+  const ObservationMask& mask = problem.mask;
   const std::vector<double> plain = weighted(equations, remainder_mm);
   std::vector<double> outward = plain;  // of what lies along the normal
   for (std::size_t i = 0; i < outward.size(); ++i)
@@ -251,7 +282,7 @@ Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
   std::size_t bins = 0;
   double df = 0.0;
   bool fringes = false;
-  std::vector<Scan> list = scans_of(point, resolution);
+  std::vector<Scan> list = scans_of(problem);
   if (means > 1) {
     for (Scan& scan : list) scan.low = std::max(scan.low, scan.fast / static_cast<double>(means));
     std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
@@ -296,8 +327,8 @@ Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
       const auto k = static_cast<std::size_t>(top - gain.begin());
       const double f = scan.low + df * static_cast<double>(k);
       Peak peak{scan.make(f), *top, df, f};
-      if (resolution.one_variable && scan.x == &point.c)
-        pattern_of_line(point, resolution, peak, out);
+      if (problem.resolution.one_variable && scan.x == &point.c)
+        pattern_of_line(point, problem.resolution, peak, out);
       (scan.pattern ? out.patterns : out.causes).push_back(std::move(peak));
       const std::size_t near = static_cast<std::size_t>(2.0 * oversampling);
       std::fill(gain.begin() + static_cast<long>(k - std::min(k, near)),
@@ -310,19 +341,21 @@ Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
 }
 
 bool is_line(const Hypothesis& h) {
-  if (!h.effect) return h.pattern.kind == Pattern::Kind::line;
-  return h.effect->id == "spindle.asynchronous" || h.effect->id == "environment.vibration" ||
-         h.effect->id == "part.waviness" || h.effect->id == "slide.leadscrew_periodic" ||
-         h.effect->id == "part.feed_marks" || h.effect->id == "probe.cyclic";
+  return h.effect ? h.effect->line.has_value() : h.pattern.kind == Pattern::Kind::line;
+}
+
+const std::vector<double>& variable_of(const Hypothesis& line, const LinearisationPoint& point) {
+  if (!line.effect) return line.pattern.in_time ? point.time : point.s;
+  return column_of(line.effect->line->in, point);
 }
 
 Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {
   Hypothesis h = hypothesis;
   if (!h.effect) {
     h.pattern.frequency = std::copysign(frequency, h.pattern.frequency);
-  } else if (h.effect->id == "spindle.asynchronous") {
+  } else if (h.effect->line->in == Line::In::angle) {
     h.shape.order = frequency * two_pi;
-  } else if (h.effect->id == "environment.vibration") {
+  } else if (h.effect->line->in == Line::In::time) {
     h.shape.frequency_hz = frequency;
   } else {
     h.shape.period_mm = 1.0 / frequency;
@@ -332,8 +365,8 @@ Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {
 
 double frequency_of(const Hypothesis& h) {
   if (!h.effect) return std::abs(h.pattern.frequency);
-  if (h.effect->id == "spindle.asynchronous") return h.shape.order / two_pi;
-  if (h.effect->id == "environment.vibration") return h.shape.frequency_hz;
+  if (h.effect->line->in == Line::In::angle) return h.shape.order / two_pi;
+  if (h.effect->line->in == Line::In::time) return h.shape.frequency_hz;
   return 1.0 / h.shape.period_mm;
 }
 

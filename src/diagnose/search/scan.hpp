@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/regression/problem.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -25,9 +25,10 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+/// @param equations of the readings of `problem`
 /// @param remainder_mm deviation minus base and terms, not whitened
 /// @param means 1: all lines; more: only those that means of so many readings weaken by 10 %
-Scans scan_lines(const NormalEquations& equations, const Resolution& resolution,
+Scans scan_lines(const Problem& problem, const NormalEquations& equations,
                  std::span<const double> remainder_mm, std::size_t means = 1);
 
 /// The same hypothesis at another frequency of its scan.
@@ -35,10 +36,8 @@ Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency);
 double frequency_of(const Hypothesis& hypothesis);
 /// Whether the hypothesis has a frequency that a scan has found.
 bool is_line(const Hypothesis& hypothesis);
-
-/// Sums of what is left over windows in (θ, s): where a local form may be.
-std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
-                                   std::span<const double> remainder_mm, double& tests);
+/// What a line is periodic in, of every reading.
+const std::vector<double>& variable_of(const Hypothesis& line, const LinearisationPoint& point);
 
 /// Σ⁻¹ times what is left, up to the innovation's variance: WᵀW e; 0 where a row does not count.
 std::vector<double> weighted(const NormalEquations& equations,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/scan_bumps.hpp"
+
 #include <algorithm>
 #include <cmath>
 

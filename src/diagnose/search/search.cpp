@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/explain/gain.hpp"
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -35,9 +35,10 @@ std::vector<Hypothesis> without(const std::vector<Hypothesis>& terms, std::size_
 
 class StepwiseSearch {
  public:
-  explicit StepwiseSearch(const Problem& problem)
-      : problem_(problem),
-        basis_(small_fourier_legendre_basis(problem.point, problem.resolution)) {}
+  explicit StepwiseSearch(Proposer& proposer)
+      : proposer_(proposer),
+        problem_(proposer.problem()),
+        basis_(small_fourier_legendre_basis(problem_.point, problem_.resolution)) {}
 
   /// @param patterns whether a pattern may be taken while a cause still passes.
   Model run(bool patterns, bool& pattern_was_better) {
@@ -68,7 +69,7 @@ class StepwiseSearch {
 
   void forward(Model& model, bool patterns, bool& pattern_was_better) {
     while (model.terms.size() < problem_.most_terms) {
-      Proposal p = propose(problem_, model.phi, model.terms);
+      Proposal p = proposer_.beside(model.terms, model.phi);
       model.family = p.family;
       const auto passes = [&](const Candidate& c) {
         return c.rank > 0 && family_p(p.family, c) < problem_.false_alarm;
@@ -116,7 +117,8 @@ class StepwiseSearch {
 
   /// Pooled held-out sum of squares with a term minus without it.
   bool predicts(const Fitted& f, std::size_t i, const Hypothesis& h) const {
-    if (h.effect ? h.effect->id == "part.slip" : h.pattern.kind == Pattern::Kind::bump) return true;
+    // Of a step and of a local form the other blocks may hold nothing.
+    if (h.effect ? is_step(h.effect->term) : h.pattern.kind == Pattern::Kind::bump) return true;
     Columns with = f.equations.base(), rest = with;
     for (std::size_t t = 0; t < f.places.size(); ++t) {
       with.insert(with.end(), f.places[t].begin(), f.places[t].end());
@@ -193,13 +195,13 @@ class StepwiseSearch {
   /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so
   /// too.
   static bool splits(const Hypothesis& h) {
-    return h.effect && h.effect->id == "part.chuck_lobing" && h.columns() == 4;
+    return h.effect && has_two_orders(h.effect->term) && h.columns() == 4;
   }
   bool split(Model& model, std::size_t term) {
     Model other = model;
     other.terms = without(model.terms, term);
     for (int half = 0; half < 2; ++half) {
-      const Proposal p = propose(problem_, model.phi, other.terms);
+      const Proposal p = proposer_.beside(other.terms, model.phi);
       const auto next = std::ranges::find_if(
           p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
       if (next == p.causes.end()) return false;
@@ -211,7 +213,7 @@ class StepwiseSearch {
   }
 
   bool replace(Model& model, Model reduced, bool patterns) {
-    const Proposal p = propose(problem_, model.phi, reduced.terms);
+    const Proposal p = proposer_.beside(reduced.terms, model.phi);
     const Candidate* best = p.causes.empty() ? nullptr : &p.causes.front();
     if (!p.patterns.empty() && (patterns || best == nullptr) &&
         (best == nullptr || p.patterns.front().criterion + catalogue_first < best->criterion))
@@ -224,7 +226,8 @@ class StepwiseSearch {
   }
 
   static double angular_order(const Hypothesis& h) {
-    if (!h.effect) return h.pattern.kind == Pattern::Kind::fourier_legendre ? h.pattern.order : -1.0;
+    if (!h.effect)
+      return h.pattern.kind == Pattern::Kind::fourier_legendre ? h.pattern.order : -1.0;
     if (is_line(h)) return -1.0;
     const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
     if (harmonic) return harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
@@ -239,14 +242,15 @@ class StepwiseSearch {
       model.p_values.push_back(model.family.p_value(std::exp(term_log_p(f, i))));
   }
 
+  Proposer& proposer_;
   const Problem& problem_;
   std::vector<Hypothesis> basis_;
 };
 
 }  // namespace
 
-Model search(const Problem& problem) {
-  StepwiseSearch engine(problem);
+Model search(Proposer& proposer) {
+  StepwiseSearch engine(proposer);
   bool pattern_was_better = false;
   Model causes = engine.run(false, pattern_was_better);
   if (!pattern_was_better) return causes;
@@ -267,7 +271,7 @@ bool fast_line_left(const Problem& problem, const Model& model, std::size_t mean
   const Solution fitted = solve(equations.total(), all);
   const std::vector<double> left =
       remainder(problem.point, problem.deviation_mm, model.terms, fitted.coefficients);
-  const Scans scans = scan_lines(equations, problem.resolution, left, means);
+  const Scans scans = scan_lines(problem, equations, left, means);
   Family family = model.family;
   family.bandwidth += scans.bandwidth;
   const auto freedom = static_cast<double>(equations.count() - fitted.rank);

@@ -26,7 +26,7 @@ Json scenario_keys(std::string_view id) {
   Json keys = Json::array();
   for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
     if (kind.id != id) continue;
-    for (const virtual_lathe::EffectParameter& key : kind.parameters) {
+    for (const virtual_lathe::LatheParameter& key : kind.parameters) {
       const KeySpelling usual = key_spellings(key.name).front();
       Json one{{"key", usual.key}};
       one["default"] = key.fallback ? Json(*key.fallback / usual.factor) : Json(nullptr);

@@ -76,7 +76,7 @@ void line(std::ostream& out, std::string_view name, std::string_view value) {
 void scenario_keys(std::ostream& out, std::string_view id) {
   for (const virtual_lathe::EffectKind& kind : virtual_lathe::effect_kinds()) {
     if (kind.id != id) continue;
-    for (const virtual_lathe::EffectParameter& key : kind.parameters) {
+    for (const virtual_lathe::LatheParameter& key : kind.parameters) {
       const std::vector<KeySpelling> spellings = key_spellings(key.name);
       std::ostringstream text;
       text << std::left << std::setw(22) << spellings.front().key;

@@ -2,7 +2,8 @@
 #include "job/files/job_json.hpp"
 
 #include "diagnose/files/diagnosis_objects.hpp"
-#include "resimulate/files/comparison_object.hpp"
+#include "fit/files/fit_json.hpp"
+#include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -35,35 +36,6 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
           {"slope_x", with_unit(target.axis.axis.slope_x, "1")},
           {"slope_y", with_unit(target.axis.axis.slope_y, "1")},
           {"remainders", remainders}};
-}
-
-Json correction_object(const Correction& correction) {
-  Json harmonics = Json::array();
-  for (const CorrectionHarmonic& h : correction.harmonics) {
-    harmonics.push_back({{"order", h.order},
-                         {"amplitude_start", with_unit(h.amplitude_start_mm, "mm")},
-                         {"phase_start", with_unit(h.phase_start_rad / rad_per_deg, "deg")},
-                         {"amplitude_end", with_unit(h.amplitude_end_mm, "mm")},
-                         {"phase_end", with_unit(h.phase_end_rad / rad_per_deg, "deg")},
-                         {"actuator_gain", h.gain},
-                         {"actuator_lag", with_unit(h.lag_rad / rad_per_deg, "deg")}});
-  }
-  const ActuatorMargin& m = correction.margin;
-  return {{"rows", correction.rows.wanted_mm.size()},
-          {"harmonics", harmonics},
-          {"margin",
-           {{"follows", m.follows},
-            {"breaks", m.breaks},
-            {"max_speed", with_unit(m.max_speed_rpm, "rpm")},
-            {"stroke_used", with_unit(m.stroke_used_mm, "mm")},
-            {"stroke_available", with_unit(m.stroke_available_mm, "mm")},
-            {"slew_used", with_unit(m.slew_used_mm_per_s, "mm/s")},
-            {"slew_available", with_unit(m.slew_available_mm_per_s, "mm/s")},
-            {"highest_frequency", with_unit(m.highest_frequency_hz, "Hz")},
-            {"bandwidth", with_unit(m.bandwidth_hz, "Hz")},
-            {"following_uncompensated", with_unit(m.following_uncompensated_mm, "mm")},
-            {"following", with_unit(m.following_mm, "mm")},
-            {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
 }
 
 Json resimulation_object(const Resimulation& again) {
@@ -110,6 +82,36 @@ std::string file_stem(const JobResult& result, std::size_t reference) {
 }
 
 }  // namespace
+
+Json correction_object(const Correction& correction) {
+  Json harmonics = Json::array();
+  for (const CorrectionHarmonic& h : correction.harmonics) {
+    harmonics.push_back({{"order", h.order},
+                         {"amplitude_start", with_unit(h.amplitude_start_mm, "mm")},
+                         {"phase_start", with_unit(h.phase_start_rad / rad_per_deg, "deg")},
+                         {"amplitude_end", with_unit(h.amplitude_end_mm, "mm")},
+                         {"phase_end", with_unit(h.phase_end_rad / rad_per_deg, "deg")},
+                         {"actuator_gain", h.gain},
+                         {"actuator_lag", with_unit(h.lag_rad / rad_per_deg, "deg")}});
+  }
+  const ActuatorMargin& m = correction.margin;
+  return {{"rows", correction.rows.wanted_mm.size()},
+          {"harmonics", harmonics},
+          {"margin",
+           {{"follows", m.follows},
+            {"breaks", m.breaks},
+            {"max_speed", with_unit(m.max_speed_rpm, "rpm")},
+            {"stroke_used", with_unit(m.stroke_used_mm, "mm")},
+            {"stroke_available", with_unit(m.stroke_available_mm, "mm")},
+            {"slew_used", with_unit(m.slew_used_mm_per_s, "mm/s")},
+            {"slew_available", with_unit(m.slew_available_mm_per_s, "mm/s")},
+            {"highest_frequency", with_unit(m.highest_frequency_hz, "Hz")},
+            {"bandwidth", with_unit(m.bandwidth_hz, "Hz")},
+            {"set_points_per_revolution", number(m.set_points_per_revolution)},
+            {"following_uncompensated", with_unit(m.following_uncompensated_mm, "mm")},
+            {"following", with_unit(m.following_mm, "mm")},
+            {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
+}
 
 std::string diagnosis_file(const JobResult& result, std::size_t reference) {
   return "diagnosis_" + file_stem(result, reference) + ".json";

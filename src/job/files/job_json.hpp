@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "format/json.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
@@ -10,6 +11,9 @@ namespace trueaxis {
 /// Schema trueaxis.run/2: verdict, fits, target axis with what is left at each reference, harmonics
 /// of the correction and the actuator's margin.
 std::string job_json(const JobResult& result);
+
+/// Rows, harmonics and the actuator's margin of a correction.
+Json correction_object(const Correction& correction);
 
 /// Name of the file beside the result that holds the diagnosis of a reference.
 std::string diagnosis_file(const JobResult& result, std::size_t reference);

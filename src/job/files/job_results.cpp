@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "correct/files/table_csv.hpp"
+#include "correct/files/table_text.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "fit/files/fit_text.hpp"
 #include "job/files/job_json.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "measure/files/stream_csv.hpp"
-#include "resimulate/files/comparison_json.hpp"
+#include "resimulate/files/comparison_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -55,9 +56,9 @@ std::vector<ResultFile> job_files(const JobResult& result) {
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
     files.push_back({diagnosis_file(result, i), diagnosis_json(*result.diagnoses[i])});
-    files.push_back({readings_file(result, i),
-                     residuals_csv(result.streams[i], *result.diagnoses[i],
-                                   &result.resimulations[i]->readings)});
+    files.push_back(
+        {readings_file(result, i), residuals_csv(result.streams[i], *result.diagnoses[i],
+                                                 &result.resimulations[i]->readings)});
   }
   if (result.correction && result.verdict.go)
     files.push_back({"table.csv", correction_csv(*result.correction)});

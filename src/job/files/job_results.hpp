@@ -16,8 +16,8 @@ struct ResultFile {
   std::string name, text;
 };
 
-/// What a run leaves behind: result.json, of each diagnosed reference its diagnosis and its readings,
-/// and table.csv when there is a go.
+/// What a run leaves behind: result.json, of each diagnosed reference its diagnosis and its
+/// readings, and table.csv when there is a go.
 std::vector<ResultFile> job_files(const JobResult& result);
 
 /// The run for a person at a terminal: the verdict's line, fits and findings, what became of the

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_toml.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -133,20 +134,18 @@ void check_nose(TomlTable table, const TargetSurface& target, const ToolSetup& t
   }
 }
 
-/// ObservationMask that the table of this cut would have must fit a file that a control can be
-/// given.
+/// The rows that the table of this cut would have must fit a file that a control can be given.
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   const double travel = target.kind == TargetKind::face
                             ? target.radius_end_mm - target.radius_start_mm
                             : target.z_end_mm - target.z_start_mm;
   const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
   if (rows <= most_rows || std::isnan(rows)) return;
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "makes a table of %.2g rows, more than %.2g: raise the feed, shorten the cut or "
-                "lower rows_per_revolution",
-                rows, most_rows);
-  cut.complain("feed_mm_per_rev", text);
+  cut.complain(
+      "feed_mm_per_rev",
+      fmt::format("makes a table of {:.2g} rows, more than {:.2g}: raise the feed, shorten "
+                  "the cut or lower rows_per_revolution",
+                  rows, most_rows));
 }
 
 Actuator read_actuator(TomlTable table) {

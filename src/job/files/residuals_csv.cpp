@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/residuals_csv.hpp"
 
-#include <cmath>
-#include <cstdio>
+#include <fmt/format.h>
 
+#include <cmath>
+#include <iterator>
+
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -14,13 +17,20 @@ namespace {
 void append(std::string& text, const std::vector<double>& values, std::size_t i, int decimals,
             double unit = 1.0) {
   const double value = i < values.size() ? values[i] : std::nan("");
-  char cell[48] = ",";
-  if (std::isfinite(value)) std::snprintf(cell, sizeof cell, ",%.*f", decimals, value / unit);
-  text += cell;
+  text += ',';
+  if (std::isfinite(value))
+    fmt::format_to(std::back_inserter(text), "{:.{}f}", value / unit, decimals);
 }
 
 void append_um(std::string& text, const std::vector<double>& values_mm, std::size_t i) {
   append(text, values_mm, i, 4, mm_per_um);
+}
+
+/// Row, C, position, reading.
+void append_reading(std::string& text, const ProbeStream& stream, std::size_t i) {
+  fmt::format_to(std::back_inserter(text), "{},{:.6f},{:.6f},{:.7f}", i + 1,
+                 stream.c_rad[i] / rad_per_deg, stream.has_position() ? stream.position_mm[i] : 0.0,
+                 stream.reading_mm[i]);
 }
 
 }  // namespace
@@ -30,26 +40,18 @@ std::string residuals_csv(const ProbeStream& stream, const FitResult& result) {
   const bool face = stream.kind == StreamKind::face;
   std::string text = face ? "row,C[deg],X[mm],Z_M[mm],residual[um],rejected\n"
                           : "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n";
-  std::size_t next = 0;
+  const std::vector<bool> rejected = marked(result.rejected, stream.size());
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    const bool rejected = next < result.rejected.size() && result.rejected[next].row == i + 1;
-    if (rejected) ++next;
-    char row[160];
-    text.append(
-        row, static_cast<std::size_t>(std::snprintf(
-                 row, sizeof row, "%zu,%.6f,%.6f,%.7f,%.4f,%d\n", i + 1,
-                 stream.c_rad[i] / rad_per_deg, stream.has_position() ? stream.position_mm[i] : 0.0,
-                 stream.reading_mm[i], result.residual_mm[i] / mm_per_um, rejected ? 1 : 0)));
+    append_reading(text, stream, i);
+    fmt::format_to(std::back_inserter(text), ",{:.4f},{}\n", result.residual_mm[i] / mm_per_um,
+                   rejected[i] ? 1 : 0);
   }
   return text;
 }
 
 std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
                           const SimulatedReadings* simulated) {
-  std::vector<bool> masked(stream.size(), false);
-  for (const Rejected& r : diagnosis.noise.masked) {
-    if (r.row >= 1 && r.row <= masked.size()) masked[r.row - 1] = true;
-  }
+  const std::vector<bool> masked = marked(diagnosis.noise.masked, stream.size());
   const std::vector<double>& before = diagnosis.residual_before_mm.empty()
                                           ? diagnosis.baseline.residual_mm
                                           : diagnosis.residual_before_mm;
@@ -57,11 +59,7 @@ std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
       "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked";
   text += simulated ? ",simulated_before[mm],simulated_after[mm]\n" : "\n";
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    char row[120];
-    text.append(row,
-                static_cast<std::size_t>(std::snprintf(
-                    row, sizeof row, "%zu,%.6f,%.6f,%.7f", i + 1, stream.c_rad[i] / rad_per_deg,
-                    stream.has_position() ? stream.position_mm[i] : 0.0, stream.reading_mm[i])));
+    append_reading(text, stream, i);
     append_um(text, before, i);
     append_um(text, diagnosis.effect_mm, i);
     append_um(text, diagnosis.residual_after_mm, i);

@@ -2,6 +2,7 @@
 #include "measure/files/stream_csv.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -155,10 +156,7 @@ class StreamingHash {
   StreamingHash() : state_(XXH3_createState()) { XXH3_64bits_reset(state_.get()); }
   void add(const char* bytes, std::size_t count) { XXH3_64bits_update(state_.get(), bytes, count); }
   std::string text() const {
-    char out[32];
-    std::snprintf(out, sizeof out, "xxh3-64:%016llx",
-                  static_cast<unsigned long long>(XXH3_64bits_digest(state_.get())));
-    return out;
+    return fmt::format("xxh3-64:{:016x}", XXH3_64bits_digest(state_.get()));
   }
 
  private:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <optional>
 #include <string>
 
@@ -17,7 +16,7 @@ struct StreamReadOptions {
   std::size_t max_diagnostics = 1000;       ///< further ones are counted, not listed
 };
 
-/// Reads a stream, as docs/files.md describes it, from a file, or from standard input when `path` is "-".
+/// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 

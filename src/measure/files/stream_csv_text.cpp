@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <tuple>
 #include <utility>
 
@@ -108,9 +109,7 @@ std::string csv_quoted(std::string_view text) {
     if (byte >= 0x20U && byte != 0x7FU) {
       out += c;
     } else {
-      char escaped[8];
-      std::snprintf(escaped, sizeof escaped, "\\x%02x", static_cast<unsigned>(byte));
-      out += escaped;
+      out += fmt::format("\\x{:02x}", byte);
     }
   }
   return out + (cut < text.size() ? "…'" : "'");

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "resimulate/files/comparison_json.hpp"
 
-#include "resimulate/files/comparison_object.hpp"
-
 namespace trueaxis {
 namespace {
 

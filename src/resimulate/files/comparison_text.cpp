@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "resimulate/files/comparison_text.hpp"
+
+#include <fmt/format.h>
+
 #include "format/text_layout.hpp"
-#include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::string row(const char* name, const Discrepancy& d) {
-  return layout::format("  %-27s %12.3f µm %15.2f %%\n", name, d.rms_mm / mm_per_um,
-                        100.0 * d.share);
+  return fmt::format("  {:<27} {:12.3f} µm {:15.2f} %\n", name, d.rms_mm / mm_per_um,
+                     100.0 * d.share);
 }
 
 }  // namespace
@@ -16,21 +19,19 @@ std::string row(const char* name, const Discrepancy& d) {
 std::string resimulation_line(const Resimulation& again) {
   if (!again.why_not.empty()) return layout::wrapped("simulated   ", "not again: " + again.why_not);
   const Comparison& c = again.comparison;
-  const std::string alone =
-      c.noise.share < 1.0 ? layout::format("noise alone leaves %.3g %%", 100.0 * c.noise.share)
-                          : "noise alone could make all of it";
+  const std::string alone = c.noise.share < 1.0
+                                ? fmt::format("noise alone leaves {:.3g} %", 100.0 * c.noise.share)
+                                : "noise alone could make all of it";
   return layout::wrapped(
       "simulated   ",
-      layout::format("measured − simulated %.3g → %.3g µm RMS; of the variance %.3g %% is left, ",
-                     c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um,
-                     100.0 * c.after.share) +
+      fmt::format("measured − simulated {:.3g} → {:.3g} µm RMS; of the variance {:.3g} % is left, ",
+                  c.before.rms_mm / mm_per_um, c.after.rms_mm / mm_per_um, 100.0 * c.after.share) +
           alone);
 }
 
 std::string comparison_text(const Comparison& comparison) {
-  std::string text =
-      layout::format("measured against simulated, %zu readings", comparison.readings);
-  if (comparison.masked > 0) text += layout::format(" (%zu left out)", comparison.masked);
+  std::string text = fmt::format("measured against simulated, {} readings", comparison.readings);
+  if (comparison.masked > 0) text += fmt::format(" ({} left out)", comparison.masked);
   text += "\n  measured − simulated          RMS              share of variance\n";
   text += row("before (ideal surface)", comparison.before);
   text += row("after (extended model)", comparison.after);
@@ -38,8 +39,8 @@ std::string comparison_text(const Comparison& comparison) {
   if (comparison.lines.empty()) return text;
   text += "  largest lines, order          before           after\n";
   for (const SpectrumBin& line : comparison.lines) {
-    text += layout::format("  %-27.3f %12.3f µm %12.3f µm\n", line.order,
-                           line.before_mm / mm_per_um, line.after_mm / mm_per_um);
+    text += fmt::format("  {:<27.3f} {:12.3f} µm {:12.3f} µm\n", line.order,
+                        line.before_mm / mm_per_um, line.after_mm / mm_per_um);
   }
   return text;
 }

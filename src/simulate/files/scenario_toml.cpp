@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/files/scenario_toml.hpp"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "format/file.hpp"
 #include "format/toml_reader.hpp"
+#include "simulate/autoregression.hpp"
 #include "simulate/files/scenario_cut.hpp"
 #include "simulate/files/scenario_tables.hpp"
-#include "simulate/autoregression.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
@@ -140,18 +143,17 @@ Chucking read_setup(TomlTable table) {
 std::optional<Effect> read_effect(TomlTable table) {
   Effect effect;
   effect.id = table.required_text("id");
-  const EffectKind* kind = nullptr;
-  std::string known;
-  for (const EffectKind& candidate : effect_kinds()) {
-    known += (known.empty() ? "" : ", ") + std::string(candidate.id);
-    if (candidate.id == effect.id) kind = &candidate;
-  }
-  if (!kind) {
-    if (!effect.id.empty()) table.complain("id", "is not known; known ids: " + known);
+  const auto kinds = effect_kinds();
+  const auto kind = std::ranges::find(kinds, effect.id, &EffectKind::id);
+  if (kind == kinds.end()) {
+    std::vector<std::string_view> known;
+    for (const EffectKind& candidate : kinds) known.push_back(candidate.id);
+    if (!effect.id.empty())
+      table.complain("id", fmt::format("is not known; known ids: {}", fmt::join(known, ", ")));
     table.ignore_rest();
     return std::nullopt;
   }
-  for (const EffectParameter& parameter : kind->parameters) {
+  for (const LatheParameter& parameter : kind->parameters) {
     const std::string name(parameter.name);
     if (!parameter.fallback) {
       effect.parameters[name] = table.required_number(name);

@@ -73,7 +73,7 @@ Json effects_json(const std::vector<Effect>& effects) {
   Json list = Json::array();
   for (const Effect& effect : effects) {
     Json parameters = Json::object();
-    for (const EffectParameter& known : find_effect_kind(effect.id).parameters) {
+    for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
       put(parameters, std::string(known.name), parameter(effect, known.name));
     }
     list.push_back({{"effect", effect.id}, {"parameters", parameters}});

@@ -16,14 +16,14 @@ namespace trueaxis::study {
 namespace {
 
 using namespace virtual_lathe;
-using ObservationMask = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// d of(scenario) / d levers, one column each: (4 D(h/2) − D(h)) / 3 of central differences D.
+/// d of(scenario) / d parameters, one column each: (4 D(h/2) − D(h)) / 3 of central differences D.
 template <class Of>
 Eigen::MatrixXd derivatives(Estimable model, const Of& of) {
-  const std::vector<EstimatedParameter> all = model.levers();
+  const std::vector<EstimatedParameter> all = model.estimated_parameters();
   Eigen::MatrixXd out;
   for (std::size_t j = 0; j < all.size(); ++j) {
     std::vector<double> at;
@@ -43,13 +43,14 @@ Eigen::MatrixXd derivatives(Estimable model, const Of& of) {
   return out;
 }
 
-/// Whether every lever moves some reading by more than rounding does.
+/// Whether every parameter moves some reading by more than rounding does.
 bool all_move_readings(Estimable model, const Eigen::MatrixXd& jacobian) {
   constexpr double picometre = 1e-9;
   Eigen::Index column = 0;
-  return std::ranges::all_of(model.levers(), [&](const EstimatedParameter& lever) {
-    return jacobian.col(column++).cwiseAbs().maxCoeff() * lever.step > picometre;
-  });
+  return std::ranges::all_of(
+      model.estimated_parameters(), [&](const EstimatedParameter& parameter) {
+        return jacobian.col(column++).cwiseAbs().maxCoeff() * parameter.step > picometre;
+      });
 }
 
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
@@ -68,18 +69,19 @@ void append_gauge_zeros(const Estimable& model, Eigen::MatrixXd& jacobian) {
     jacobian(static_cast<Eigen::Index>(i), before + static_cast<Eigen::Index>(zero_of[i])) = -1.0;
 }
 
-/// Whether the levers are known well enough for derivatives to say anything: to a tenth of the
+/// Whether the parameters are known well enough for derivatives to say anything: to a tenth of the
 /// radius, as a fit demands of itself.
 bool is_determined(Estimable model, const Eigen::MatrixXd& covariance) {
   constexpr double coverage_factor = 2.0, size_share = 0.1;
   const Part& part = model.scenario().part;
   if (part.kind == PartKind::face) return true;
   Eigen::Index j = 0;
-  return std::ranges::all_of(model.levers(), [&](const EstimatedParameter& lever) {
-    const double scale_mm = lever.is_length ? 1.0 : part.radius_mm;
-    const double u_mm = std::sqrt(covariance(j, j)) * scale_mm;
-    return ++j, coverage_factor * u_mm < size_share * part.radius_mm;
-  });
+  return std::ranges::all_of(model.estimated_parameters(),
+                             [&](const EstimatedParameter& parameter) {
+                               const double scale_mm = parameter.is_length ? 1.0 : part.radius_mm;
+                               const double u_mm = std::sqrt(covariance(j, j)) * scale_mm;
+                               return ++j, coverage_factor * u_mm < size_share * part.radius_mm;
+                             });
 }
 
 /// Fisher information of one reading of Student's t over that of a Gaussian of its variance.
@@ -131,7 +133,7 @@ Bound bound_of(const Scenario& scenario, SurfaceKind surface) {
     return without(Bound::Missing::at_a_limit);
   }
   if (!all_move_readings(*model, jacobian)) return without(Bound::Missing::not_determined);
-  const Eigen::Index levers = jacobian.cols();
+  const Eigen::Index parameters = jacobian.cols();
   append_gauge_zeros(*model, jacobian);
   if (!whiten(clean, scenario.noise, jacobian)) return without(Bound::Missing::not_stationary);
   const Eigen::MatrixXd inverse = inverse_information(jacobian);
@@ -141,8 +143,8 @@ Bound bound_of(const Scenario& scenario, SurfaceKind surface) {
   const Eigen::MatrixXd of_quantities = derivatives(*model, [&](const Scenario& moved) {
     return vector_of(true_values(moved, probed, surface));
   });
-  ObservationMask covariance = of_quantities * inverse.topLeftCorner(levers, levers) *
-                               of_quantities.transpose() / information_of(scenario.noise);
+  RowMajorMatrix covariance = of_quantities * inverse.topLeftCorner(parameters, parameters) *
+                              of_quantities.transpose() / information_of(scenario.noise);
   for (std::size_t i = 0; i < count; ++i) {
     const bool by_nominal = all[i].name.starts_with("radius") || all[i].name == "k";
     if (!scenario.probe.relative_zero_mm || !by_nominal) continue;
@@ -159,23 +161,14 @@ const char* to_string(Bound::Kind kind) {
 }
 
 const char* to_string(Bound::Missing missing) {
-  switch (missing) {
-    case Bound::Missing::nothing:
-      break;
-    case Bound::Missing::axis_moves:
-      return "the axis moves between set-ups of one clamping";
-    case Bound::Missing::not_determined:
-      return "the readings do not determine the parameters";
-    case Bound::Missing::no_noise:
-      return "no noise";
-    case Bound::Missing::not_stationary:
-      return "the noise is not stationary";
-    case Bound::Missing::at_a_limit:
-      return "a little more of a parameter could not be probed";
-    case Bound::Missing::no_cone:
-      return "a cone without an angle";
-  }
-  return "";
+  static constexpr const char* words[] = {"",
+                                          "the axis moves between set-ups of one clamping",
+                                          "the readings do not determine the parameters",
+                                          "no noise",
+                                          "the noise is not stationary",
+                                          "a little more of a parameter could not be probed",
+                                          "a cone without an angle"};
+  return words[static_cast<std::size_t>(missing)];
 }
 
 }  // namespace trueaxis::study

@@ -95,16 +95,16 @@ void Estimable::place_radius(const ProbeStream& probed) {
   part.radius_at_mm = middle;
 }
 
-std::vector<EstimatedParameter> Estimable::levers() {
+std::vector<EstimatedParameter> Estimable::estimated_parameters() {
   std::vector<EstimatedParameter> out;
   Part& part = scenario_.part;
   const bool tilts = surface_ != SurfaceKind::section, is_face = part.kind == PartKind::face;
   for (const std::vector<int>& numbers : set_ups_) {
     const auto move = [&](double step, const auto& number_of) {
-      EstimatedParameter& lever =
+      EstimatedParameter& parameter =
           out.emplace_back(EstimatedParameter{{}, step, step == length_step});
       for (const int number : numbers)
-        lever.numbers.push_back(&number_of(written_out(scenario_, number)));
+        parameter.numbers.push_back(&number_of(written_out(scenario_, number)));
     };
     if (is_face) {
       move(length_step, [](Chucking& setup) -> double& { return setup.z_shift_mm; });

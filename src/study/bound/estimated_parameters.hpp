@@ -37,7 +37,7 @@ class Estimable {
 
   /// Axis (section: centre) or face of every clamping, then radius and half angle of the part,
   /// which all share. A relative gauge does not show the radius.
-  std::vector<EstimatedParameter> levers();
+  std::vector<EstimatedParameter> estimated_parameters();
 
   /// Clamping of every reading where the gauge's zero is estimated, one a clamping; else empty.
   const std::vector<std::size_t>& gauge_zero_of() const { return gauge_zero_of_; }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/planning/planning.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <utility>
 
@@ -32,13 +33,13 @@ void check(const PlanningTask& task) {
     refuse("the goal and k must be more than 0");
   if (!std::isfinite(task.goal_mm) || !std::isfinite(task.coverage_factor))
     refuse("the goal and k must be finite");
-  for (const DesignVariable& free : task.free) {
-    if (!(free.low > 0.0) || !(free.low <= free.high) || !std::isfinite(free.high))
+  for (const DesignVariable& variable : task.variables) {
+    if (!(variable.low > 0.0) || !(variable.low <= variable.high) || !std::isfinite(variable.high))
       refuse("a range goes from a number above 0 to one that is not smaller");
-    if (std::ranges::count(task.free, free.choice, &DesignVariable::choice) > 1)
+    if (std::ranges::count(task.variables, variable.choice, &DesignVariable::choice) > 1)
       refuse("a choice has two ranges");
   }
-  if (!(noise.sigma_mm > 0.0 || noise.uniform_mm > 0.0) && !find(task.free, Choice::sigma))
+  if (!(noise.sigma_mm > 0.0 || noise.uniform_mm > 0.0) && !find(task.variables, Choice::sigma))
     refuse("without noise every plan is perfect: give the probe's noise");
   const virtual_lathe::Probe& probe = task.base.probe;
   if (probe.relative_zero_mm && !probe.nominal_radius_mm)
@@ -53,34 +54,32 @@ void limit_rate(PlanningTask& task, std::vector<std::string>& remarks) {
   for (const auto& pass : task.base.plan.passes)
     fastest_rpm = std::max(fastest_rpm, std::abs(pass.speed_rpm));
   const double most = *task.rate_hz * 60.0 / fastest_rpm;
-  char text[160];
   for (const auto& pass : task.base.plan.passes) {
     const double rate = pass.readings_per_revolution * std::abs(pass.speed_rpm) / 60.0;
-    if (rate <= *task.rate_hz || find(task.free, Choice::readings_per_revolution)) continue;
-    std::snprintf(text, sizeof text,
-                  "the plan asks for %.4g readings a second, more than the %g: fewer a revolution, "
-                  "or a slower spindle",
-                  rate, *task.rate_hz);
-    remarks.emplace_back(text);
+    if (rate <= *task.rate_hz || find(task.variables, Choice::readings_per_revolution)) continue;
+    remarks.push_back(
+        fmt::format("the plan asks for {:.4g} readings a second, more than the {:g}: fewer a "
+                    "revolution, or a slower spindle",
+                    rate, *task.rate_hz));
     break;
   }
-  for (DesignVariable& free : task.free) {
-    if (free.choice != Choice::readings_per_revolution || free.high <= most) continue;
-    free.high = most;
-    std::snprintf(text, sizeof text,
-                  "%g readings a second are %.4g readings per revolution at %g/min", *task.rate_hz,
-                  most, fastest_rpm);
-    remarks.emplace_back(text);
-    if (free.low > free.high)
-      throw InputError("plan", std::string(text) + ": less than the range begins with");
+  for (DesignVariable& variable : task.variables) {
+    if (variable.choice != Choice::readings_per_revolution || variable.high <= most) continue;
+    variable.high = most;
+    remarks.push_back(
+        fmt::format("{:g} readings a second are {:.4g} readings per revolution at {:g}/min",
+                    *task.rate_hz, most, fastest_rpm));
+    if (variable.low > variable.high)
+      throw InputError("plan", remarks.back() + ": less than the range begins with");
   }
 }
 
 /// The ranges must be possible: on the part, and readings that can be counted.
 void check_ends(const PlanningTask& task) {
-  const DesignVariable* length = find(task.free, Choice::length);
+  const DesignVariable* length = find(task.variables, Choice::length);
   Scenario most = task.base;
-  for (const DesignVariable& free : task.free) most = Search::with(most, free, 1.0);
+  for (const DesignVariable& variable : task.variables)
+    most = PlanSearch::with(most, variable, 1.0);
   try {
     (void)readings_of(most);
   } catch (const InputError& error) {
@@ -88,7 +87,8 @@ void check_ends(const PlanningTask& task) {
   }
   if (!length) return;
   try {
-    (void)virtual_lathe::simulate_clean(stand_in(Search::with(task.base, *length, 1.0)).scenario);
+    (void)virtual_lathe::simulate_clean(
+        stand_in(PlanSearch::with(task.base, *length, 1.0)).scenario);
   } catch (const InputError& error) {
     throw InputError("plan", std::string("at the longest length of its range: ") + error.what());
   }
@@ -97,31 +97,31 @@ void check_ends(const PlanningTask& task) {
 /// Everything as demanding as it may be but feed and length; the scenario's own probe, or the best.
 Scenario demanding(const PlanningTask& task, bool best_probe) {
   Scenario out = task.base;
-  for (const DesignVariable& free : task.free) {
-    if (free.choice == Choice::readings_per_revolution ||
-        (free.choice == Choice::sigma && best_probe))
-      out = Search::with(out, free, 1.0);
+  for (const DesignVariable& variable : task.variables) {
+    if (variable.choice == Choice::readings_per_revolution ||
+        (variable.choice == Choice::sigma && best_probe))
+      out = PlanSearch::with(out, variable, 1.0);
   }
   return out;
 }
 
 std::size_t lengths_looked_at(const PlanningTask& task) {
-  return find(task.free, Choice::length) ? lengths_tried + lengths_between : 1;
+  return find(task.variables, Choice::length) ? lengths_tried + lengths_between : 1;
 }
 
 using Rated = std::pair<double, PlannedMeasurement>;
 
 /// The best of `rate(scenario of a length)` over the range, smaller is better.
-PlannedMeasurement best_over_length(const PlanningTask& task, const Search& search,
+PlannedMeasurement best_over_length(const PlanningTask& task, const PlanSearch& search,
                                     const Scenario& from,
                                     const std::function<Rated(const Scenario&)>& rate) {
-  const DesignVariable* length = find(task.free, Choice::length);
+  const DesignVariable* length = find(task.variables, Choice::length);
   std::optional<Rated> best;
   double best_effort = 0.0;
   const auto look = [&](const std::vector<double>& efforts) {
     std::vector<Rated> rated(efforts.size());
     search.each(efforts.size(), [&](std::size_t i) {
-      rated[i] = rate(length ? Search::with_settable(from, *length, efforts[i]) : from);
+      rated[i] = rate(length ? PlanSearch::with_settable(from, *length, efforts[i]) : from);
     });
     for (std::size_t i = 0; i < rated.size(); ++i) {
       if (best && !(rated[i].first < best->first)) continue;
@@ -147,13 +147,13 @@ PlannedMeasurement best_over_length(const PlanningTask& task, const Search& sear
 }
 
 /// Smallest U, within the time if there is one.
-PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bool best_probe) {
-  const DesignVariable* feed = find(task.free, Choice::feed);
+PlannedMeasurement smallest_u(const PlanningTask& task, const PlanSearch& search, bool best_probe) {
+  const DesignVariable* feed = find(task.variables, Choice::feed);
   const Scenario from = demanding(task, best_probe);
   return best_over_length(task, search, from, [&](const Scenario& scenario) {
     Scenario slow = scenario;
     if (feed) {
-      slow = Search::with(scenario, *feed, 1.0);
+      slow = PlanSearch::with(scenario, *feed, 1.0);
       // Passes and turns share the time left beside the pauses: time falls as 1/feed.
       if (task.time_s && measuring_time_s(slow) > *task.time_s) {
         double pauses = 0.0;
@@ -162,7 +162,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
         const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
         const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
         const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
-        set_parameter(slow, path_of(Choice::feed),
+        set_parameter(slow, info_of(Choice::feed).path,
                       room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);
       }
     }
@@ -174,9 +174,9 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const Search& search, bo
 }
 
 /// Shortest time that meets the goal; of those that do not, the smallest U.
-PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool best_probe) {
-  const DesignVariable* feed = find(task.free, Choice::feed);
-  const DesignVariable* length = find(task.free, Choice::length);
+PlannedMeasurement quickest(const PlanningTask& task, const PlanSearch& search, bool best_probe) {
+  const DesignVariable* feed = find(task.variables, Choice::feed);
+  const DesignVariable* length = find(task.variables, Choice::length);
   const Scenario from = demanding(task, best_probe);
   if (length && !feed) {
     search.skip(lengths_looked_at(task));
@@ -190,9 +190,9 @@ PlannedMeasurement quickest(const PlanningTask& task, const Search& search, bool
 }
 
 /// As many readings as are needed and no more, where they may be chosen.
-PlannedMeasurement without_excess(const PlanningTask& task, const Search& search,
+PlannedMeasurement without_excess(const PlanningTask& task, const PlanSearch& search,
                                   PlannedMeasurement plan) {
-  const DesignVariable* readings = find(task.free, Choice::readings_per_revolution);
+  const DesignVariable* readings = find(task.variables, Choice::readings_per_revolution);
   if (!readings) return plan;
   PlannedMeasurement fewer = search.solve(plan.scenario, *readings);
   return search.meets(fewer) ? fewer : plan;
@@ -204,8 +204,8 @@ struct Grid {
   std::size_t nodes = 0, rows = 0;
 
   Grid(const PlanningTask& task, Choice solved_for) {
-    for (const DesignVariable& free : task.free) {
-      if (free.choice != solved_for) others.push_back(free);
+    for (const DesignVariable& variable : task.variables) {
+      if (variable.choice != solved_for) others.push_back(variable);
     }
     nodes = others.size() == 1 ? 5 : others.size() == 2 ? 4 : 3;
     rows = others.empty() ? 0 : 1;
@@ -215,14 +215,14 @@ struct Grid {
   Scenario at(Scenario scenario, std::size_t row) const {
     for (const DesignVariable& other : others) {
       const double effort = static_cast<double>(row % nodes) / static_cast<double>(nodes - 1);
-      scenario = Search::with_settable(scenario, other, effort);
+      scenario = PlanSearch::with_settable(scenario, other, effort);
       row /= nodes;
     }
     return scenario;
   }
 };
 
-std::vector<TableRow> table_of(const PlanningTask& task, const Search& search, const Grid& grid,
+std::vector<TableRow> table_of(const PlanningTask& task, const PlanSearch& search, const Grid& grid,
                                const DesignVariable& solved) {
   std::vector<TableRow> table(grid.rows);
   search.each(grid.rows, [&](std::size_t row) {
@@ -239,24 +239,10 @@ void recommend(PlanningAnswer& out, const char* what, PlannedMeasurement plan) {
   if (!there) out.recommended.push_back({what, std::move(plan), {}});
 }
 
-const char* words_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "other readings per revolution alone";
-    case Choice::sigma:
-      return "another probe alone";
-    case Choice::feed:
-      return "another feed alone";
-    case Choice::length:
-      break;
-  }
-  return "another length alone";
-}
-
 /// What is nearest, with the scenario's own probe where that does.
-bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAnswer& out) {
+bool look_for_nearest(const PlanningTask& task, const PlanSearch& search, PlanningAnswer& out) {
   out.nearest = smallest_u(task, search, false);
-  const bool better_probe = !search.good(out.nearest) && find(task.free, Choice::sigma);
+  const bool better_probe = !search.good(out.nearest) && find(task.variables, Choice::sigma);
   if (better_probe) {
     out.nearest = smallest_u(task, search, true);
     out.remarks.emplace_back(
@@ -280,11 +266,11 @@ bool look_for_nearest(const PlanningTask& task, const Search& search, PlanningAn
   return better_probe;
 }
 
-std::vector<Alone> each_alone(const PlanningTask& task, const Search& search) {
-  std::vector<Alone> alone(task.free.size());
+std::vector<Alone> each_alone(const PlanningTask& task, const PlanSearch& search) {
+  std::vector<Alone> alone(task.variables.size());
   search.each(alone.size(), [&](std::size_t i) {
-    alone[i].choice = task.free[i].choice;
-    alone[i].plan = search.solve(task.base, task.free[i]);
+    alone[i].choice = task.variables[i].choice;
+    alone[i].plan = search.solve(task.base, task.variables[i]);
     alone[i].reached = search.meets(alone[i].plan);
   });
   return alone;
@@ -298,13 +284,11 @@ void remark_on_stated(const PlanningTask& task, PlanningAnswer& out) {
     if (one.confirmed.repeats > 0) most_mm = std::max(most_mm, one.confirmed.stated_mm);
   }
   if (!(most_mm > noticeable * task.goal_mm)) return;
-  char text[256];
-  std::snprintf(text, sizeof text,
-                "the bound meets the goal of %.3g µm, but the U that the fits state does not (up "
-                "to %.3g µm): they take for noise what the bound takes as known, as effects and "
-                "correlation",
-                task.goal_mm / mm_per_um, most_mm / mm_per_um);
-  out.remarks.emplace_back(text);
+  out.remarks.push_back(fmt::format(
+      "the bound meets the goal of {:.3g} µm, but the U that the fits state does not (up "
+      "to {:.3g} µm): they take for noise what the bound takes as known, as effects and "
+      "correlation",
+      task.goal_mm / mm_per_um, most_mm / mm_per_um));
 }
 
 }  // namespace
@@ -318,7 +302,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   limit_rate(task, out.remarks);
   check_ends(task);
   const virtual_lathe::Noise& noise = task.base.noise;
-  if (find(task.free, Choice::readings_per_revolution) &&
+  if (find(task.variables, Choice::readings_per_revolution) &&
       (noise.rho != 0.0 || !noise.autoregression.empty())) {
     out.remarks.emplace_back(
         "the noise is correlated from reading to reading, at any rate alike: where it lasts a "
@@ -326,23 +310,25 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
         "the correlation is greater the more readings a second");
   }
   for (const Choice choice : choices) {
-    if (!find(task.free, choice)) continue;
+    if (!find(task.variables, choice)) continue;
     out.solved_for = choice;
     break;
   }
-  const DesignVariable* solved = find(task.free, out.solved_for);
+  const DesignVariable* solved = find(task.variables, out.solved_for);
   const Grid grid(task, out.solved_for);
   Steps steps(progress);
-  const Search search(task, steps);
-  steps.begin(PlanningStage::search, task.free.size() + grid.rows + 3 * lengths_looked_at(task));
+  const PlanSearch search(task, steps);
+  steps.begin(PlanningStage::search,
+              task.variables.size() + grid.rows + 3 * lengths_looked_at(task));
   out.as_given = search.at(task.base);
   const bool good_as_given = search.good(out.as_given);
   if (good_as_given) recommend(out, "as it is", out.as_given);
   out.alone = each_alone(task, search);
   for (const Alone& one : out.alone) {
     const double change = one.plan.of(one.choice) - out.as_given.of(one.choice);
-    const bool needless = good_as_given && (more_is_better(one.choice) ? change : -change) > 0.0;
-    if (search.good(one.plan) && !needless) recommend(out, words_of(one.choice), one.plan);
+    const bool needless =
+        good_as_given && (info_of(one.choice).more_is_better ? change : -change) > 0.0;
+    if (search.good(one.plan) && !needless) recommend(out, info_of(one.choice).alone, one.plan);
   }
   const bool best_probe = look_for_nearest(task, search, out);
   if (solved) out.table = table_of(task, search, grid, *solved);

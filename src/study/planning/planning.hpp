@@ -21,8 +21,14 @@ enum class Choice { readings_per_revolution, sigma, feed, length };
 inline constexpr std::array choices{Choice::readings_per_revolution, Choice::sigma, Choice::feed,
                                     Choice::length};
 
-/// Path of its number in the scenario (see ScenarioParameter).
-const char* path_of(Choice choice);
+struct ChoiceInfo {
+  const char* path;         ///< of its number in the scenario (see ScenarioParameter)
+  const char *name, *unit;  ///< in results
+  const char* words;        ///< "sigma of a reading"
+  const char* alone;        ///< what a plan is called that changes nothing else
+  bool more_is_better;      ///< whether more of it makes the axis more certain
+};
+const ChoiceInfo& info_of(Choice choice);
 
 /// A number that may be chosen from a range; units inside, 0 < low ≤ high.
 struct DesignVariable {
@@ -32,7 +38,7 @@ struct DesignVariable {
 
 struct PlanningTask {
   virtual_lathe::Scenario base;
-  std::vector<DesignVariable> free;  ///< each choice once
+  std::vector<DesignVariable> variables;  ///< each choice once
   double goal_mm = 1e-3;  ///< largest U = k u of the axis over the probed length, worse direction
   double coverage_factor = 2.0;
   std::optional<double> rate_hz;  ///< readings a second that the probe gives, at most
@@ -92,7 +98,7 @@ struct PlanningAnswer {
   bool confirmed = false;  ///< and the simulation of one that is recommended does not miss it
   PlannedMeasurement
       nearest;               ///< smallest U that the ranges, time and rate allow, if they allow any
-  std::vector<Alone> alone;  ///< in the order of `free`
+  std::vector<Alone> alone;  ///< in the order of `variables`
   Choice solved_for = Choice::readings_per_revolution;
   std::vector<TableRow> table;  ///< by the choices that are not solved for; empty without others
   std::vector<Recommendation> recommended;  ///< each met by the bound and confirmed

@@ -24,38 +24,32 @@ constexpr int most_steps = 25;
 
 }  // namespace
 
-const char* path_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "pass.readings_per_revolution";
-    case Choice::sigma:
-      return "noise.sigma_mm";
-    case Choice::feed:
-      return "pass.feed_mm_per_rev";
-    case Choice::length:
-      break;
-  }
-  return "pass.length_mm";
+const ChoiceInfo& info_of(Choice choice) {
+  static constexpr ChoiceInfo all[] = {
+      {"pass.readings_per_revolution", "readings_per_revolution", "1", "readings per revolution",
+       "other readings per revolution alone", true},
+      {"noise.sigma_mm", "sigma", "mm", "sigma of a reading", "another probe alone", false},
+      {"pass.feed_mm_per_rev", "feed_per_rev", "mm", "feed", "another feed alone", false},
+      {"pass.length_mm", "length", "mm", "length", "another length alone", true}};
+  return all[static_cast<std::size_t>(choice)];
 }
 
-double PlannedMeasurement::of(Choice choice) const { return parameter(scenario, path_of(choice)); }
+double PlannedMeasurement::of(Choice choice) const {
+  return parameter(scenario, info_of(choice).path);
+}
 
 namespace planning_detail {
 
-bool more_is_better(Choice choice) {
-  return choice == Choice::readings_per_revolution || choice == Choice::length;
-}
-
-double settable(const DesignVariable& free, double value) {
-  if (free.choice == Choice::readings_per_revolution) {
+double settable(const DesignVariable& variable, double value) {
+  if (variable.choice == Choice::readings_per_revolution) {
     double tenths = std::ceil(value * 10.0 - 1e-9);
     if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
-    return std::clamp(tenths / 10.0, free.low, free.high);
+    return std::clamp(tenths / 10.0, variable.low, variable.high);
   }
   const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
-  const double steps = more_is_better(free.choice) ? std::ceil(value / step - 1e-9)
-                                                   : std::floor(value / step + 1e-9);
-  return std::clamp(steps * step, free.low, free.high);
+  const double steps = info_of(variable.choice).more_is_better ? std::ceil(value / step - 1e-9)
+                                                               : std::floor(value / step + 1e-9);
+  return std::clamp(steps * step, variable.low, variable.high);
 }
 
 void Steps::begin(PlanningStage stage, std::size_t to_do) {
@@ -69,55 +63,55 @@ void Steps::done(std::size_t count) {
   if (progress_ && count > 0) progress_(stage_, done_, to_do_);
 }
 
-const DesignVariable* find(const std::vector<DesignVariable>& free, Choice choice) {
-  const auto at = std::ranges::find(free, choice, &DesignVariable::choice);
-  return at == free.end() ? nullptr : &*at;
+const DesignVariable* find(const std::vector<DesignVariable>& variables, Choice choice) {
+  const auto at = std::ranges::find(variables, choice, &DesignVariable::choice);
+  return at == variables.end() ? nullptr : &*at;
 }
 
-void Search::each(std::size_t count, const IndexedWork& work) const {
+void PlanSearch::each(std::size_t count, const IndexedWork& work) const {
   for_each_index(count, task_.threads, [&](std::size_t i) {
     work(i);
     steps_.done(1);
   });
 }
 
-bool Search::meets(const PlannedMeasurement& plan) const {
+bool PlanSearch::meets(const PlannedMeasurement& plan) const {
   return plan.u_expanded_mm <= task_.goal_mm * met;
 }
 
-bool Search::allowed(const PlannedMeasurement& plan) const {
+bool PlanSearch::allowed(const PlannedMeasurement& plan) const {
   return (!task_.time_s || plan.time_s <= *task_.time_s * met) &&
          (!task_.rate_hz || plan.rate_hz <= *task_.rate_hz * met);
 }
 
-virtual_lathe::Scenario Search::with(const virtual_lathe::Scenario& scenario,
-                                     const DesignVariable& free, double effort) {
+virtual_lathe::Scenario PlanSearch::with(const virtual_lathe::Scenario& scenario,
+                                         const DesignVariable& variable, double effort) {
   virtual_lathe::Scenario out = scenario;
-  const double share = more_is_better(free.choice) ? effort : 1.0 - effort;
-  const double value = free.low * std::pow(free.high / free.low, share);
-  set_parameter(out, path_of(free.choice), std::clamp(value, free.low, free.high));
+  const double share = info_of(variable.choice).more_is_better ? effort : 1.0 - effort;
+  const double value = variable.low * std::pow(variable.high / variable.low, share);
+  set_parameter(out, info_of(variable.choice).path, std::clamp(value, variable.low, variable.high));
   return out;
 }
 
-virtual_lathe::Scenario Search::with_settable(const virtual_lathe::Scenario& scenario,
-                                              const DesignVariable& free, double effort) {
-  virtual_lathe::Scenario out = with(scenario, free, effort);
-  const char* const path = path_of(free.choice);
-  set_parameter(out, path, settable(free, parameter(out, path)));
+virtual_lathe::Scenario PlanSearch::with_settable(const virtual_lathe::Scenario& scenario,
+                                                  const DesignVariable& variable, double effort) {
+  virtual_lathe::Scenario out = with(scenario, variable, effort);
+  const char* const path = info_of(variable.choice).path;
+  set_parameter(out, path, settable(variable, parameter(out, path)));
   return out;
 }
 
-PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
-                                 const DesignVariable& free) const {
-  PlannedMeasurement least = at(with(scenario, free, 0.0));
+PlannedMeasurement PlanSearch::solve(const virtual_lathe::Scenario& scenario,
+                                     const DesignVariable& variable) const {
+  PlannedMeasurement least = at(with(scenario, variable, 0.0));
   if (meets(least)) return least;
   // Out by the law of large numbers, back by regula falsi on ln U, which is nearly linear in the
   // logarithm of every choice; halving where it is not, or where nothing is determined.
   const auto height = [&](const PlannedMeasurement& plan) {
     return std::log(plan.u_expanded_mm / task_.goal_mm);
   };
-  const double power = free.choice == Choice::sigma ? 1.0 : 0.5;
-  const double fall = power * std::log(free.high / free.low);
+  const double power = variable.choice == Choice::sigma ? 1.0 : 0.5;
+  const double fall = power * std::log(variable.high / variable.low);
   PlannedMeasurement most;
   double low = 0.0, high = infinity, at_low = height(least), at_high = 0.0;
   for (int step = 0; step < most_steps && !(at_high < 0.0 && at_high > -close_enough); ++step) {
@@ -130,7 +124,7 @@ PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
       const double share = straight ? at_low / (at_low - at_high) : 0.5;
       effort = low + std::clamp(share, 0.02, 0.98) * (high - low);
     }
-    PlannedMeasurement now = at(with(scenario, free, effort));
+    PlannedMeasurement now = at(with(scenario, variable, effort));
     if (meets(now)) {
       high = effort, at_high = height(now), most = std::move(now);
     } else if (effort >= 1.0) {
@@ -140,14 +134,15 @@ PlannedMeasurement Search::solve(const virtual_lathe::Scenario& scenario,
     }
     if (high - low < 1e-6) break;
   }
-  if (high > 1.0) return at(with(scenario, free, 1.0));
+  if (high > 1.0) return at(with(scenario, variable, 1.0));
   virtual_lathe::Scenario rounded = scenario;
-  set_parameter(rounded, path_of(free.choice), settable(free, most.of(free.choice)));
+  set_parameter(rounded, info_of(variable.choice).path,
+                settable(variable, most.of(variable.choice)));
   PlannedMeasurement set = at(rounded);
   return meets(set) ? set : most;
 }
 
-Confirmation Search::confirm(const PlannedMeasurement& plan, std::size_t among) const {
+Confirmation PlanSearch::confirm(const PlannedMeasurement& plan, std::size_t among) const {
   Sweep sweep;
   sweep.base = plan.scenario;
   sweep.repeats = task_.repeats;

@@ -26,9 +26,9 @@ class Steps {
 };
 
 /// Solves for choices by the bound.
-class Search {
+class PlanSearch {
  public:
-  Search(const PlanningTask& task, Steps& steps) : task_(task), steps_(steps) {}
+  PlanSearch(const PlanningTask& task, Steps& steps) : task_(task), steps_(steps) {}
 
   PlannedMeasurement at(const virtual_lathe::Scenario& scenario) const {
     return planned(scenario, task_.coverage_factor, bounds_);
@@ -41,15 +41,15 @@ class Search {
   /// The least demanding value of a choice that meets the goal, rounded to what can be set; or the
   /// most demanding, which does not.
   PlannedMeasurement solve(const virtual_lathe::Scenario& scenario,
-                           const DesignVariable& free) const;
+                           const DesignVariable& variable) const;
 
   /// A scenario with a choice between its least (0) and its most demanding end (1), by logarithm.
   static virtual_lathe::Scenario with(const virtual_lathe::Scenario& scenario,
-                                      const DesignVariable& free, double effort);
+                                      const DesignVariable& variable, double effort);
 
   /// As above, rounded to what can be set.
   static virtual_lathe::Scenario with_settable(const virtual_lathe::Scenario& scenario,
-                                               const DesignVariable& free, double effort);
+                                               const DesignVariable& variable, double effort);
 
   /// Independent pieces of the search on the task's threads; each is a step.
   void each(std::size_t count, const IndexedWork& work) const;
@@ -66,9 +66,7 @@ class Search {
 
 /// To three digits, readings per revolution to a tenth, on the demanding side; no whole number of
 /// readings inside the range: orders n and M − n would be one column.
-double settable(const DesignVariable& free, double value);
-/// Whether more of a choice makes the axis more certain.
-bool more_is_better(Choice choice);
-const DesignVariable* find(const std::vector<DesignVariable>& free, Choice choice);
+double settable(const DesignVariable& variable, double value);
+const DesignVariable* find(const std::vector<DesignVariable>& variables, Choice choice);
 
 }  // namespace trueaxis::study::planning_detail

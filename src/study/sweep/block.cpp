@@ -55,8 +55,8 @@ bool differ(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 /// Effects without which the clean readings would be others.
-std::vector<virtual_lathe::Effect> hidden_effects(const Scenario& scenario,
-                                                  const CleanStream& with) {
+std::vector<virtual_lathe::Effect> effects_hidden_in(const Scenario& scenario,
+                                                     const CleanStream& with) {
   std::vector<virtual_lathe::Effect> out;
   for (std::size_t i = 0; i < scenario.effects.size(); ++i) {
     Scenario less = scenario;
@@ -83,7 +83,7 @@ struct Prepared {
         clean(virtual_lathe::simulate_clean(scenario)),
         truth(true_values(scenario, probed_length(clean.stream), fitted_surface(sweep))) {
     if (method == Method::diagnosis) {
-      hidden = hidden_effects(scenario, clean);
+      hidden = effects_hidden_in(scenario, clean);
     } else {
       fit.emplace(clean.stream, fit_options(sweep, scenario, method));
     }
@@ -142,7 +142,7 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
     facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
     if (cell_at(sweep, cell).method == Method::diagnosis) {
       const Scenario first = scenario_of(sweep, cell, 0);
-      facts.hidden = hidden_effects(first, virtual_lathe::simulate_clean(first)).size();
+      facts.hidden = effects_hidden_in(first, virtual_lathe::simulate_clean(first)).size();
     }
     facts.bound = mean_bound(sweep, cell, facts.bound_spread);
   } catch (const InputError&) {  // its repeats say why

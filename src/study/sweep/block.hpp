@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "study/bound/bound.hpp"
@@ -67,9 +66,5 @@ class Worker {
 
 /// A function of its arguments alone: who runs a block, and when, does not show.
 BlockResult run_block(const Sweep& sweep, const Block& block);
-
-/// A result as bytes of this machine, and back. @throws InputError for bytes that are none.
-std::string encode(const BlockResult& result);
-BlockResult decode(std::string_view bytes);
 
 }  // namespace trueaxis::study

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/sweep/block_bytes.hpp"
+
 #include <cstring>
 #include <type_traits>
 
-#include "study/sweep/block.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {

@@ -141,7 +141,7 @@ void visit_lists(Scenario& scenario, const Visit& visit) {
   index = 0;
   for (Effect& effect : scenario.effects) {
     const std::string prefix = "effect." + std::to_string(index++) + '.';
-    for (const EffectParameter& known : find_effect_kind(effect.id).parameters) {
+    for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
       const std::string name(known.name);
       const auto given = effect.parameters.try_emplace(name, known.fallback.value_or(0.0)).first;
       visit(prefix + name, any, at(given->second));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,6 +58,11 @@ struct CellSummary {
 struct Summary {
   std::vector<CellSummary> cells;
   std::vector<Row> rows;  ///< cell by cell, in the order of quantities()
+
+  std::span<const Row> rows_of(std::size_t cell) const {
+    const std::size_t count = rows.size() / cells.size();
+    return std::span(rows).subspan(cell * count, count);
+  }
 };
 
 /// Chance that some row of efficient fits is said not to be at its bound.

@@ -75,6 +75,13 @@ Cell cell_at(const Sweep& sweep, std::size_t cell) {
   return out;
 }
 
+std::vector<std::string> labels_of(const Sweep& sweep, const Cell& cell) {
+  std::vector<std::string> labels;
+  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
+    labels.push_back(sweep.axes[a].points[cell.point[a]].label);
+  return labels;
+}
+
 Scenario scenario_of(const Sweep& sweep, std::size_t cell) {
   std::vector<Setting> numbers;
   Scenario scenario = with_lists(sweep, cell, numbers);
@@ -108,17 +115,8 @@ SurfaceKind fitted_surface(const Sweep& sweep) {
 }
 
 const char* to_string(Method method) {
-  switch (method) {
-    case Method::fit:
-      return "fit";
-    case Method::huber:
-      return "huber";
-    case Method::tukey:
-      return "tukey";
-    case Method::diagnosis:
-      return "diagnosis";
-  }
-  return "";
+  static constexpr const char* words[] = {"fit", "huber", "tukey", "diagnosis"};
+  return words[static_cast<std::size_t>(method)];
 }
 
 }  // namespace trueaxis::study

@@ -74,6 +74,8 @@ struct Cell {
 };
 std::size_t cell_count(const Sweep& sweep);
 Cell cell_at(const Sweep& sweep, std::size_t cell);
+/// The labels of its point, one an axis.
+std::vector<std::string> labels_of(const Sweep& sweep, const Cell& cell);
 
 /// The scenario of a cell: first the lists of its cases, then the sweep's settings, then the
 /// numbers of all axes together. Its noise is seeded for repeat 0 and nothing drawn: a drawn number

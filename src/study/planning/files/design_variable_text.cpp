@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/design_variable_text.hpp"
+
 #include <charconv>
 #include <cmath>
 
 #include "format/toml_units.hpp"
-#include "study/planning/files/planning_results.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -26,14 +27,14 @@ void check_range(double low, double high, std::string_view whole) {
 
 }  // namespace
 
-study::DesignVariable parse_freedom(std::string_view text) {
+study::DesignVariable parse_design_variable(std::string_view text) {
   const std::size_t equals = text.find('='), colon = text.find(':');
   if (equals == std::string_view::npos || colon == std::string_view::npos || colon < equals)
     throw InputError(std::string(text), "is not KEY=LOW:HIGH");
   const std::string_view key = text.substr(0, equals);
   std::string known;
   for (const study::Choice choice : study::choices) {
-    for (const KeySpelling& spelling : key_spellings(study::path_of(choice))) {
+    for (const KeySpelling& spelling : key_spellings(study::info_of(choice).path)) {
       const std::string_view whole = spelling.key, shorter = whole.substr(whole.find('.') + 1);
       if (key == whole || key == shorter) {
         const double low = number_of(text.substr(equals + 1, colon - equals - 1), text),
@@ -41,7 +42,7 @@ study::DesignVariable parse_freedom(std::string_view text) {
         check_range(low, high, text);
         return {choice, low * spelling.factor, high * spelling.factor};
       }
-      if (spelling.key == key_spellings(study::path_of(choice)).front().key)
+      if (spelling.key == key_spellings(study::info_of(choice).path).front().key)
         known += (known.empty() ? "" : ", ") + std::string(shorter);
     }
   }

@@ -1,34 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/planning_json.hpp"
+
 #include "format/json.hpp"
-#include "study/planning/files/planning_results.hpp"
 
 namespace trueaxis {
 namespace {
 
 using namespace study;
 
-struct Named {
-  const char *name, *unit;
-};
-
-Named name_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return {"readings_per_revolution", "1"};
-    case Choice::sigma:
-      return {"sigma", "mm"};
-    case Choice::feed:
-      return {"feed_per_rev", "mm"};
-    case Choice::length:
-      break;
-  }
-  return {"length", "mm"};
-}
-
 Json plan_json(const PlannedMeasurement& plan) {
   Json json;
   for (const Choice choice : choices)
-    json[name_of(choice).name] = with_unit(plan.of(choice), name_of(choice).unit);
+    json[info_of(choice).name] = with_unit(plan.of(choice), info_of(choice).unit);
   json["U"] = with_unit(plan.u_expanded_mm, "mm");
   json["time"] = with_unit(plan.time_s, "s");
   json["rate"] = with_unit(plan.rate_hz, "Hz");
@@ -65,19 +48,19 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
             {"repeats", task.repeats}};
   json["rate_limit"] = task.rate_hz ? with_unit(*task.rate_hz, "Hz") : Json(nullptr);
   json["time_limit"] = task.time_s ? with_unit(*task.time_s, "s") : Json(nullptr);
-  Json free = Json::array();
-  for (const DesignVariable& one : task.free) {
-    const Named named = name_of(one.choice);
-    free.push_back({{"choice", named.name},
-                    {"low", with_unit(one.low, named.unit)},
-                    {"high", with_unit(one.high, named.unit)}});
+  Json variables = Json::array();
+  for (const DesignVariable& one : task.variables) {
+    const ChoiceInfo& info = info_of(one.choice);
+    variables.push_back({{"choice", info.name},
+                         {"low", with_unit(one.low, info.unit)},
+                         {"high", with_unit(one.high, info.unit)}});
   }
-  json["free"] = std::move(free);
+  json["free"] = std::move(variables);
   json["as_given"] = plan_json(answer.as_given);
   json["nearest"] = plan_json(answer.nearest);
   Json alone = Json::array(), table = Json::array(), recommended = Json::array();
   for (const Alone& one : answer.alone) {
-    alone.push_back({{"choice", name_of(one.choice).name},
+    alone.push_back({{"choice", info_of(one.choice).name},
                      {"reached", one.reached},
                      {"plan", plan_json(one.plan)}});
   }
@@ -89,7 +72,7 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
                            {"confirmed", confirmed_json(one.confirmed)}});
   }
   json["alone"] = std::move(alone);
-  json["solved_for"] = name_of(answer.solved_for).name;
+  json["solved_for"] = info_of(answer.solved_for).name;
   json["table"] = std::move(table);
   json["recommended"] = std::move(recommended);
   json["remarks"] = answer.remarks;

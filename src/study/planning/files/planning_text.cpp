@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/planning/files/planning_text.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "format/text_layout.hpp"
-#include "study/planning/files/planning_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 using namespace study;
-using layout::format;
+using fmt::format;
 using layout::padded;
 
 /// Three digits or four, and no exponent for what is large.
 std::string digits(int count, double value) {
-  return std::abs(value) < std::pow(10.0, count) ? format("%.*g", count, value)
-                                                 : format("%.0f", value);
+  return std::abs(value) < std::pow(10.0, count) ? format("{:.{}g}", value, count)
+                                                 : format("{:.0f}", value);
 }
 
 std::string um(double length_mm) {
@@ -25,20 +28,6 @@ std::string um(double length_mm) {
 
 std::string u_text(double length_mm) {
   return "U is " + um(length_mm) + (std::isfinite(length_mm) ? " µm" : "");
-}
-
-const char* words_of(Choice choice) {
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return "readings per revolution";
-    case Choice::sigma:
-      return "sigma of a reading";
-    case Choice::feed:
-      return "feed";
-    case Choice::length:
-      break;
-  }
-  return "length";
 }
 
 std::string value_text(const PlannedMeasurement& plan, Choice choice) {
@@ -64,7 +53,7 @@ std::string row_text(const PlannedMeasurement& plan) {
   text += padded(value_text(plan, Choice::feed), 13);
   text += padded(value_text(plan, Choice::readings_per_revolution), 9);
   text += padded(value_text(plan, Choice::sigma), 10);
-  text += padded(format("%zu", plan.readings), 10);
+  text += padded(std::to_string(plan.readings), 10);
   text += padded(digits(4, plan.time_s) + " s", 10);
   return text + padded(digits(4, plan.rate_hz), 12) + um(plan.u_expanded_mm);
 }
@@ -79,7 +68,7 @@ std::string beyond_text(const PlanningTask& task, const PlannedMeasurement& plan
 std::string alone_text(const PlanningTask& task, const PlanningAnswer& answer) {
   std::string text = "\nOne thing changed, the others as they are\n";
   for (const Alone& one : answer.alone) {
-    text += "  " + padded(words_of(one.choice), 26);
+    text += "  " + padded(info_of(one.choice).words, 26);
     text += one.reached ? value_text(one.plan, one.choice)
                         : "not in its range: at " + value_text(one.plan, one.choice) + ' ' +
                               u_text(one.plan.u_expanded_mm);
@@ -92,10 +81,9 @@ std::string alone_text(const PlanningTask& task, const PlanningAnswer& answer) {
 std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
   if (confirmed.repeats == 0) return "    simulated: no fit ended\n";
   std::string text =
-      format("    simulated %zu times: U %s µm (95 %%: %s to %s), the fits state %s µm; ",
-             confirmed.repeats, um(confirmed.u_expanded_mm).c_str(),
-             um(confirmed.interval_95_mm.low).c_str(), um(confirmed.interval_95_mm.high).c_str(),
-             um(confirmed.stated_mm).c_str());
+      format("    simulated {} times: U {} µm (95 %: {} to {}), the fits state {} µm; ",
+             confirmed.repeats, um(confirmed.u_expanded_mm), um(confirmed.interval_95_mm.low),
+             um(confirmed.interval_95_mm.high), um(confirmed.stated_mm));
   text += confirmed.misses ? "misses the goal: the fit is not at the bound"
           : confirmed.interval_95_mm.high <= goal_mm ? "within the goal"
           : confirmed.interval_95_mm.low > goal_mm   ? "above the goal"
@@ -103,7 +91,7 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
   const bool above = confirmed.interval_95_mm.low > goal_mm;
   if (confirmed.at_bound)
     text += above ? ", yet the bound is still within chance" : ", as the bound says";
-  if (confirmed.failures > 0) text += format(", %zu failed", confirmed.failures);
+  if (confirmed.failures > 0) text += format(", {} failed", confirmed.failures);
   return text + '\n';
 }
 
@@ -113,7 +101,7 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   std::string text = "\nNot reached: ";
   if (!beyond.empty()) {
     text += "no plan of the ranges is within the time and the rate; the nearest";
-  } else if (task.free.empty()) {
+  } else if (task.variables.empty()) {
     text += "as it is, " + u_text(plan.u_expanded_mm);
   } else {
     text += std::string("with the best that the ranges") + (task.time_s ? " and the time" : "") +
@@ -121,7 +109,7 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   }
   if (beyond.empty() && std::isfinite(plan.u_expanded_mm))
     text += ", " + digits(3, plan.u_expanded_mm / task.goal_mm) + " times the goal";
-  if (task.free.empty()) text += "; what may be chosen is told with --free";
+  if (task.variables.empty()) text += "; what may be chosen is told with --free";
   return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
 }
 
@@ -142,18 +130,17 @@ std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& a
 
 std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer) {
   std::string text =
-      format("U(axis) ≤ %s µm, k = %g\n\nThe plan as it is\n  %s  %s\n", um(task.goal_mm).c_str(),
-             task.coverage_factor, head, row_text(answer.as_given).c_str());
+      format("U(axis) ≤ {} µm, k = {:g}\n\nThe plan as it is\n  {}  {}\n", um(task.goal_mm),
+             task.coverage_factor, head, row_text(answer.as_given));
   if (!answer.alone.empty()) text += alone_text(task, answer);
   if (!answer.table.empty()) {
-    text += format("\nOver the ranges, %s as needed\n  %s", words_of(answer.solved_for), head);
+    text += format("\nOver the ranges, {} as needed\n  {}", info_of(answer.solved_for).words, head);
     for (const TableRow& row : answer.table)
       text += "  " + row_text(row.plan) + (row.reached ? "" : "  misses the goal") +
               beyond_text(task, row.plan) + '\n';
   }
   if (!answer.recommended.empty()) {
-    text += format("\nRecommended, and confirmed by simulation (seed %llu)\n  %s",
-                   static_cast<unsigned long long>(task.seed), head);
+    text += format("\nRecommended, and confirmed by simulation (seed {})\n  {}", task.seed, head);
     for (const Recommendation& one : answer.recommended) {
       text += "  " + row_text(one.plan) + "  " + one.what + '\n';
       text += confirmed_text(one.confirmed, task.goal_mm);

@@ -1,117 +1,95 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-#include <cstdio>
+#include "study/sweep/files/sweep_csv.hpp"
 
-#include "study/sweep/files/sweep_results.hpp"
+#include <fmt/format.h>
+
+#include <cmath>
 
 namespace trueaxis {
 namespace {
 
 using namespace study;
 
-/// Ten digits; an empty cell for a number that is not there.
-std::string number_text(double value) {
-  if (!std::isfinite(value)) return "";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
-
-/// Quoted where a separator or quote asks for it.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
+/// A line of fields, quoted where a separator or quote asks for it.
 class Line {
  public:
-  void add(const std::string& text) {
+  Line& add(const std::string& text) {
     if (!text_.empty()) text_ += ',';
-    text_ += text;
+    if (text.find_first_of(",\"\n\r") == std::string::npos) {
+      text_ += text;
+      return *this;
+    }
+    text_ += '"';
+    for (const char c : text) text_ += c == '"' ? std::string("\"\"") : std::string(1, c);
+    text_ += '"';
+    return *this;
   }
-  void add(double value) { add(number_text(value)); }
-  void add(std::size_t count) { add(std::to_string(count)); }
-  std::string end() const { return text_ + '\n'; }
+  Line& add(std::size_t count) { return add(std::to_string(count)); }
+  /// Ten digits; an empty field for a number that is not there.
+  template <class... Numbers>
+  Line& add_numbers(Numbers... values) {
+    (add(std::isfinite(values) ? fmt::format("{:.10g}", values) : ""), ...);
+    return *this;
+  }
+  Line& add(const Share& share) {
+    return add_numbers(share.value, share.ends_95.low, share.ends_95.high);
+  }
+  const std::string& text() const { return text_; }
 
  private:
   std::string text_;
 };
 
-void add_axes(const Sweep& sweep, std::size_t cell, Line& line) {
+/// The cell's number, point and method.
+Line cell_fields(const Sweep& sweep, std::size_t cell) {
   const Cell at = cell_at(sweep, cell);
-  for (std::size_t a = 0; a < sweep.axes.size(); ++a)
-    line.add(field(sweep.axes[a].points[at.point[a]].label));
-  line.add(to_string(at.method));
+  Line line;
+  line.add(cell);
+  for (const std::string& label : labels_of(sweep, at)) line.add(label);
+  return line.add(to_string(at.method));
 }
 
-Line axes_head(const Sweep& sweep) {
-  Line head;
-  head.add("cell");
-  for (const GridAxis& axis : sweep.axes) head.add(field(axis.name));
-  head.add("method");
-  return head;
-}
-
-void add_share(const Share& share, Line& line) {
-  for (const double value : {share.value, share.ends_95.low, share.ends_95.high}) line.add(value);
+std::string head(const Sweep& sweep, const char* further) {
+  Line line;
+  line.add("cell");
+  for (const GridAxis& axis : sweep.axes) line.add(axis.name);
+  return line.add("method").text() + further;
 }
 
 }  // namespace
 
 std::string sweep_csv(const Sweep& sweep, const Summary& summary) {
-  std::string out = "# schema: trueaxis.sweep/1\n# version: " TRUEAXIS_VERSION "\n# input_hash: " +
-                    sweep.input_hash + "\n# seed: " + std::to_string(sweep.seed) + '\n';
-  Line head = axes_head(sweep);
-  for (const char* column :
-       {"readings",  "parameter",  "unit",         "true",          "repeats",   "failures",
-        "bias",      "u_bias",     "sd",           "rmse",          "q05",       "q50",
-        "q95",       "bound",      "bound_kind",   "ratio",         "ratio_low", "ratio_high",
-        "at_bound",  "coverage",   "coverage_low", "coverage_high", "mean_u",    "found",
-        "found_low", "found_high", "named",        "named_low",     "named_high"})
-    head.add(std::string(column));
-  out += head.end();
+  std::string out = fmt::format(
+      "# schema: trueaxis.sweep/1\n# version: {}\n# input_hash: {}\n# seed: {}\n{}\n",
+      TRUEAXIS_VERSION, sweep.input_hash, sweep.seed,
+      head(sweep,
+           ",readings,parameter,unit,true,repeats,failures,bias,u_bias,sd,rmse,q05,q50,q95,bound,"
+           "bound_kind,ratio,ratio_low,ratio_high,at_bound,coverage,coverage_low,coverage_high,"
+           "mean_u,found,found_low,found_high,named,named_low,named_high"));
   for (const Row& row : summary.rows) {
     const CellSummary& cell = summary.cells[row.cell];
-    Line line;
-    line.add(row.cell);
-    add_axes(sweep, row.cell, line);
-    line.add(cell.readings);
-    line.add(row.quantity);
-    line.add(row.unit);
-    line.add(row.truth);
-    line.add(sweep.repeats);
-    line.add(sweep.repeats - row.estimates);
-    for (const double value :
-         {row.bias, row.u_bias, row.sd, row.rmse, row.q05, row.q50, row.q95, row.bound})
-      line.add(value);
+    Line line = cell_fields(sweep, row.cell);
+    line.add(cell.readings).add(row.quantity).add(row.unit).add_numbers(row.truth);
+    line.add(sweep.repeats).add(sweep.repeats - row.estimates);
+    line.add_numbers(row.bias, row.u_bias, row.sd, row.rmse, row.q05, row.q50, row.q95, row.bound);
     line.add(to_string(cell.bound.kind));
-    for (const double value : {row.ratio, row.ratio_95.low, row.ratio_95.high}) line.add(value);
-    line.add(std::string(!row.at_bound ? "" : *row.at_bound ? "yes" : "no"));
-    add_share(row.coverage, line);
-    line.add(row.mean_u);
-    add_share(cell.found, line);
-    add_share(cell.named, line);
-    out += line.end();
+    line.add_numbers(row.ratio, row.ratio_95.low, row.ratio_95.high);
+    line.add(!row.at_bound ? "" : *row.at_bound ? "yes" : "no");
+    line.add(row.coverage).add_numbers(row.mean_u).add(cell.found).add(cell.named);
+    out += line.text() + '\n';
   }
   return out;
 }
 
 std::string sweep_timing_csv(const Sweep& sweep, const Summary& summary) {
-  Line head = axes_head(sweep);
-  for (const char* column : {"readings", "repeats", "thread_seconds", "repeats_per_thread_second"})
-    head.add(std::string(column));
-  std::string out = head.end();
+  std::string out =
+      head(sweep, ",readings,repeats,thread_seconds,repeats_per_thread_second") + '\n';
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
-    Line line;
-    line.add(cell);
-    add_axes(sweep, cell, line);
-    line.add(summary.cells[cell].readings);
-    line.add(sweep.repeats);
-    line.add(summary.cells[cell].seconds);
-    line.add(static_cast<double>(sweep.repeats) / summary.cells[cell].seconds);
-    out += line.end();
+    const double seconds = summary.cells[cell].seconds;
+    Line line = cell_fields(sweep, cell);
+    line.add(summary.cells[cell].readings).add(sweep.repeats);
+    line.add_numbers(seconds, static_cast<double>(sweep.repeats) / seconds);
+    out += line.text() + '\n';
   }
   return out;
 }

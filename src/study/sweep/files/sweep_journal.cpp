@@ -17,6 +17,7 @@
 
 #include "base/build_id.hpp"
 #include "format/file.hpp"
+#include "study/sweep/block_bytes.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "study/sweep/files/sweep_json.hpp"
+
 #include "format/json.hpp"
-#include "study/sweep/files/sweep_results.hpp"
 
 namespace trueaxis {
 namespace {
@@ -71,13 +72,12 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
             {"coverage_factor", 2.0},
             {"bonferroni_level", bonferroni_level}};
   Json cells = Json::array();
-  std::size_t next = 0;
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
     const Cell at = cell_at(sweep, cell);
     const CellSummary& of = summary.cells[cell];
     Json point = Json::object();
-    for (std::size_t a = 0; a < sweep.axes.size(); ++a)
-      point[sweep.axes[a].name] = sweep.axes[a].points[at.point[a]].label;
+    const std::vector<std::string> labels = labels_of(sweep, at);
+    for (std::size_t a = 0; a < labels.size(); ++a) point[sweep.axes[a].name] = labels[a];
     Json one{{"cell", cell},
              {"at", point},
              {"method", to_string(at.method)},
@@ -92,8 +92,7 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
       one["named"] = share_json(of.named);
     }
     Json rows = Json::array();
-    for (; next < summary.rows.size() && summary.rows[next].cell == cell; ++next)
-      rows.push_back(row_json(summary.rows[next]));
+    for (const Row& row : summary.rows_of(cell)) rows.push_back(row_json(row));
     one["rows"] = std::move(rows);
     cells.push_back(std::move(one));
   }

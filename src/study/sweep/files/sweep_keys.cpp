@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/sweep/files/sweep_keys.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "format/toml_units.hpp"
 
@@ -11,11 +12,7 @@ namespace trueaxis {
 
 using namespace study;
 
-std::string sweep_label(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.10g", value);
-  return text;
-}
+std::string sweep_label(double value) { return fmt::format("{:.10g}", value); }
 
 SweepKeys::SweepKeys(const virtual_lathe::Scenario& base, const std::vector<GridAxis>& lists,
                      const std::string& of) {
@@ -65,12 +62,12 @@ std::vector<const SweepKeys::Variant*> SweepKeys::that_matter_for(const std::str
 /// The keys of the same table, as "noise.sigma_mm, noise.rho"; empty where there is no such table.
 static std::string keys_beside(const std::string& key, const std::vector<std::string>& usual) {
   const std::string table = key.substr(0, key.rfind('.') + 1);
-  std::string out;
+  std::vector<std::string> out;
   for (const std::string& one : usual) {
     const bool beside = one.substr(0, one.rfind('.') + 1) == table;
-    if (beside && !table.empty()) out += (out.empty() ? "" : ", ") + one;
+    if (beside && !table.empty()) out.push_back(one);
   }
-  return out;
+  return fmt::format("{}", fmt::join(out, ", "));
 }
 
 std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,

@@ -28,9 +28,8 @@ void diagnose_all(JobResult& result) {
 
 void correct(JobResult& result) {
   const TargetSurface& target = *result.job.target;
-  result.target_axis =
-      solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
-                        target.kind != TargetKind::face);
+  result.target_axis = solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
+                                         target.kind != TargetKind::face);
   result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
                                       result.job.actuator, included_motions(result));
 }

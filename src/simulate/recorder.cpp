@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simulate/recorder.hpp"
+
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
-#include "simulate/recorder.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {
@@ -80,38 +79,6 @@ void describe(const Scenario& scenario, ProbeStream& stream) {
   stream.setups = list_set_ups(stream);
   for (const SetUp& setup : stream.setups) describe_setup(setup, stream.metadata);
   if (scenario.probe.ball_radius_mm > 0.0) stream.ball_radius_mm = scenario.probe.ball_radius_mm;
-}
-
-CleanStream simulate_clean(const Scenario& scenario) {
-  validate(scenario.part);
-  validate(scenario.noise);
-  const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
-  const Chain chain = make_chain(scenario.effects);
-  const Body body(scenario, chain);
-  CleanStream out =
-      record_clean(timeline, recording_of(scenario, chain),
-                   [&](const Chucking& setup) { return Prober(scenario, chain, body, setup); });
-  for (const double value_mm : out.value_mm)
-    out.stream.reading_mm.push_back(shown(out.sensor, value_mm).value_mm);
-  describe(scenario, out.stream);
-  return out;
-}
-
-Simulation simulate_with_truth(const Scenario& scenario) {
-  validate(scenario.part);
-  const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
-  const Chain chain = make_chain(scenario.effects);
-  const Body body(scenario, chain);
-  Simulation out = record(timeline, recording_of(scenario, chain), [&](const Chucking& setup) {
-    return Prober(scenario, chain, body, setup);
-  });
-  describe(scenario, out.stream);
-  out.truth.scenario = scenario;
-  return out;
-}
-
-ProbeStream simulate(const Scenario& scenario) {
-  return std::move(simulate_with_truth(scenario).stream);
 }
 
 }  // namespace trueaxis::virtual_lathe

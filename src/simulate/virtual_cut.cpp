@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/virtual_cut.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 #include "simulate/tool_path.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_cut.hpp"
 
 namespace trueaxis::virtual_lathe {
 

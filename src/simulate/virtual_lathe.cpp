@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/virtual_lathe.hpp"
+
 #include <map>
+#include <utility>
 
 #include "measure/passes.hpp"
 #include "simulate/recorder.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {
@@ -72,6 +74,23 @@ std::map<int, Prober> make_probers(const Scenario& scenario, const Chain& chain,
 }
 
 }  // namespace
+
+Simulation simulate_with_truth(const Scenario& scenario) {
+  validate(scenario.part);
+  const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
+  const Chain chain = make_chain(scenario.effects);
+  const Body body(scenario, chain);
+  Simulation out = record(timeline, recording_of(scenario, chain), [&](const Chucking& setup) {
+    return Prober(scenario, chain, body, setup);
+  });
+  describe(scenario, out.stream);
+  out.truth.scenario = scenario;
+  return out;
+}
+
+ProbeStream simulate(const Scenario& scenario) {
+  return std::move(simulate_with_truth(scenario).stream);
+}
 
 Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded) {
   const bool face = scenario.part.kind == PartKind::face;

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "simulate/chain.hpp"
+
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <string>
 
-#include "simulate/chain.hpp"
+#include "simulate/effects_extra.hpp"
+#include "simulate/effects_machine.hpp"
+#include "simulate/effects_part.hpp"
+#include "simulate/effects_probe.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::virtual_lathe {
@@ -11,23 +18,11 @@ namespace {
 const std::vector<EffectEntry>& entries() {
   static const std::vector<EffectEntry> all = [] {
     std::vector<EffectEntry> list;
-    for (const auto part :
-         {part_effects(), machine_effects(), probe_effects(), extra_effects(), pattern_effects()}) {
+    for (const auto part : {part_effects(), machine_effects(), probe_effects(), extra_effects()})
       list.insert(list.end(), part.begin(), part.end());
-    }
     return list;
   }();
   return all;
-}
-
-const EffectEntry& find_entry(std::string_view id) {
-  std::string known;
-  for (const EffectEntry& entry : entries()) {
-    if (entry.kind.id == id) return entry;
-    known += (known.empty() ? "" : ", ") + std::string(entry.kind.id);
-  }
-  throw InputError("scenario",
-                   "no effect has the id `" + std::string(id) + "`; known ids: " + known);
 }
 
 }  // namespace
@@ -35,30 +30,41 @@ const EffectEntry& find_entry(std::string_view id) {
 std::span<const EffectKind> effect_kinds() {
   static const std::vector<EffectKind> kinds = [] {
     std::vector<EffectKind> list;
-    for (const EffectEntry& entry : entries()) list.push_back(entry.kind);
+    for (const EffectEntry& entry : entries()) {
+      const auto* end = std::ranges::find(entry.parameters, "", &LatheParameter::name);
+      list.push_back({entry.id, entry.what, {entry.parameters, end}});
+    }
     return list;
   }();
   return kinds;
 }
 
-const EffectKind& find_effect_kind(std::string_view id) { return find_entry(id).kind; }
+const EffectKind& find_effect_kind(std::string_view id) {
+  const auto kinds = effect_kinds();
+  const auto at = std::ranges::find(kinds, id, &EffectKind::id);
+  if (at != kinds.end()) return *at;
+  std::vector<std::string_view> known;
+  for (const EffectKind& kind : kinds) known.push_back(kind.id);
+  throw InputError("scenario", fmt::format("no effect has the id `{}`; known ids: {}", id,
+                                           fmt::join(known, ", ")));
+}
 
 void validate(const Effect& effect) {
   const EffectKind& kind = find_effect_kind(effect.id);
   std::vector<Diagnostic> wrong;
-  std::string known;
-  for (const EffectParameter& parameter : kind.parameters) {
-    known += (known.empty() ? "" : ", ") + std::string(parameter.name);
+  std::vector<std::string_view> known;
+  for (const LatheParameter& parameter : kind.parameters) {
+    known.push_back(parameter.name);
     if (!parameter.fallback && !effect.parameters.contains(std::string(parameter.name))) {
       wrong.push_back(
           {"scenario", 0, 0, effect.id + " needs `" + std::string(parameter.name) + "`"});
     }
   }
   for (const auto& [name, value] : effect.parameters) {
-    const auto same = [&](const EffectParameter& parameter) { return parameter.name == name; };
-    if (std::any_of(kind.parameters.begin(), kind.parameters.end(), same)) continue;
+    if (std::ranges::find(known, name) != known.end()) continue;
     wrong.push_back({"scenario", 0, 0,
-                     effect.id + " has no parameter `" + name + "`; known parameters: " + known});
+                     fmt::format("{} has no parameter `{}`; known parameters: {}", effect.id, name,
+                                 fmt::join(known, ", "))});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
@@ -66,7 +72,7 @@ void validate(const Effect& effect) {
 double parameter(const Effect& effect, std::string_view name) {
   const auto given = effect.parameters.find(std::string(name));
   if (given != effect.parameters.end()) return given->second;
-  for (const EffectParameter& known : find_effect_kind(effect.id).parameters) {
+  for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
     if (known.name == name && known.fallback) return *known.fallback;
   }
   throw ContractViolation("effect " + effect.id + ": expects parameter " + std::string(name));
@@ -77,7 +83,7 @@ Chain make_chain(const std::vector<Effect>& effects) {
   Chain chain;
   for (const EffectEntry& entry : entries()) {
     for (const Effect& effect : effects) {
-      if (effect.id == entry.kind.id) entry.enter(Values(effect), chain);
+      if (effect.id == entry.id) entry.enter(Values(effect), chain);
     }
   }
   return chain;

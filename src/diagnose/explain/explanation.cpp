@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/explanation.hpp"
+
+#include <cmath>
+
+#include "diagnose/explain/describe.hpp"
+#include "diagnose/explain/rival_axes.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+void add_axis_bias(const Joint& joint, std::size_t term, Estimate& shift, bool& cosmetic) {
+  const Solution without = joint.without(term);
+  const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
+  const double variance = joint.sigma_mm * joint.sigma_mm;
+  const AxisShift moved =
+      axis_shift(joint.equations.point(), joint.base() - without.coefficients.head(n),
+                 variance * (joint.solution.inverse.topLeftCorner(n, n) -
+                             without.inverse.topLeftCorner(n, n)));
+  shift = {moved.value_mm, moved.u_mm, "mm", ""};
+  const double u = axis_uncertainty(joint.equations.point(), joint.base_covariance()).u_mm;
+  cosmetic = moved.value_mm < 2.0 * u;
+}
+
+double rms_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double v : values) sum += v * v;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+Finding finding_of(const Problem& problem, const Model& model, const Joint& joint,
+                   const ConfounderSet& found, std::size_t term) {
+  Finding out;
+  out.term = fitted(model.terms[term], joint.of(term), covariance_of(joint, term));
+  out.rivals = found.rivals;
+  out.probability = found.probability;
+  out.parameters = parameters_of(problem, model, joint, term);
+  out.alias = alias_of(model.terms[term], problem.resolution);
+  out.p_value = model.p_values[term];
+  add_axis_bias(joint, term, out.axis_shift, out.cosmetic);
+  out.rms_mm = rms_of(joint.contribution_of(term));
+  return out;
+}
+
+}  // namespace
+
+Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
+                    const std::optional<Timing>& timing) {
+  const Model& model = search.model;
+  const Model searched = search.searched_model();
+  const Joint& joint = fit.joint();
+  Explanation out;
+  for (std::size_t t = 0; t < model.terms.size(); ++t) {
+    if (!model.terms[t].effect) {
+      out.unexplained.push_back(unexplained_of(joint, t));
+      out.unexplained.back().p_value = model.p_values[t];
+      continue;
+    }
+    ConfounderSet found = distinguish(search.proposer(), searched, t);
+    if (timing && timing->term == t) narrow(found, timing->likelihood_ratio);
+    out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
+    out.ambiguous.push_back({t, std::move(found)});
+  }
+  out.between = between_causes(fit.problem(), joint, out.ambiguous);
+  return out;
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "diagnose/explain/confounder_set.hpp"
+#include "diagnose/refit/relinearised_fit.hpp"
+#include "diagnose/search/coarse_to_fine_search.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// What the terms of a model are, how large they are, and what they do to the axis.
+struct Explanation {
+  std::vector<Finding> findings;            ///< in the order of the model
+  std::vector<AmbiguousFinding> ambiguous;  ///< one a finding
+  std::vector<Unexplained> unexplained;     ///< terms that no catalogued cause explains
+  Eigen::MatrixXd between;  ///< covariance of the base that the other causes of findings add
+};
+
+/// @param fit of the search's model
+Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
+                    const std::optional<Timing>& timing);
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/ideal_model.hpp"
+
+#include <algorithm>
+
+#include "base/threads.hpp"
+#include "diagnose/regression/noise.hpp"
+#include "diagnose/search/fourier_legendre_basis.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm) {
+  const std::vector<Clamping> clampings = clampings_of(fit, ball_mm);
+  return linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore);
+}
+
+int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
+  return static_cast<int>(threads_for(options.threads, stream.size()));
+}
+
+}  // namespace
+
+IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& options,
+                       const FitResult& ideal)
+    : stream(measured),
+      fit_options(options.fit),
+      fit(ideal),
+      ball_mm(std::max(measured.ball_radius_mm.value_or(0.0), options.fit.ball_radius_mm)),
+      point(about(measured, ideal, ball_mm)),
+      mask(make_observation_mask(point)),
+      resolution(resolution_of(point, mask)),
+      deviation_mm(deviation_from(measured, point)),
+      masked(mask_outliers(point, small_fourier_legendre_basis(point, resolution), deviation_mm,
+                           mask, threads_of(options, measured))),
+      problem{point,
+              mask,
+              resolution,
+              deviation_mm,
+              options.false_alarm,
+              threads_of(options, measured),
+              static_cast<std::size_t>(options.max_findings),
+              possible_causes(options.own_effects)} {}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/geometry/clamping.hpp"
+#include "diagnose/regression/problem.hpp"
+#include "trueaxis/diagnosis.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// A stream about the ideal surface that was fitted to it: what a diagnosis starts from.
+class IdealModel {
+ public:
+  /// Stream, options and fit outlive this. @param ideal is_diagnosable()
+  IdealModel(const ProbeStream& measured, const DiagnoseOptions& options, const FitResult& ideal);
+  IdealModel(const IdealModel&) = delete;
+  IdealModel& operator=(const IdealModel&) = delete;
+
+  const ProbeStream& stream;
+  const FitOptions& fit_options;
+  const FitResult& fit;
+  const double ball_mm;
+  const LinearisationPoint point;
+  ObservationMask mask;
+  const Resolution resolution;
+  const std::vector<double> deviation_mm;  ///< readings minus the surface
+  const std::vector<Rejected> masked;      ///< readings that do not count, and why
+  const Problem problem;
+};
+
+}  // namespace trueaxis::diagnose_detail

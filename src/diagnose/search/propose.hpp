@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "diagnose/search/dictionary.hpp"
+#include "diagnose/search/scan.hpp"
+#include "diagnose/search/statistic.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// A hypothesis beside the terms of a model.
+struct Candidate {
+  Hypothesis hypothesis;
+  double gain = 0.0;  ///< decrease of the residual sum of squares
+  std::size_t rank = 0;
+  double log_p = 0.0;      ///< ln of its own p-value
+  double criterion = 0.0;  ///< change of the extended BIC; negative is better
+};
+
+/// The best next hypotheses beside some terms, refined, best first.
+struct Proposal {
+  std::vector<Candidate> causes, patterns;
+  Family family;
+};
+
+constexpr double step_start = 0.06;  ///< of a refinement, on a scale where 1 is the range
+
+/// Proposes hypotheses of a problem, which outlives it; keeps the dictionary of the last noise for
+/// the next step.
+class Proposer {
+ public:
+  explicit Proposer(const Problem& problem) : problem_(problem) {}
+
+  /// @param phi autoregression of the noise
+  Proposal beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
+
+  /// One of each effect that might explain the same as a cause that was named, which is among them.
+  std::vector<Candidate> rivals(const Hypothesis& named, const std::vector<Hypothesis>& others,
+                                const std::vector<double>& phi);
+
+  const Problem& problem() const { return problem_; }
+
+ private:
+  struct Step;
+  Step step(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
+  std::vector<Hypothesis> shortlist(const Step& of, std::size_t presets) const;
+
+  const Problem& problem_;
+  std::unique_ptr<Dictionary> dictionary_;
+};
+
+/// Candidates of one finding refined to their own best shape beside `others`, best first.
+std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
+                              const std::vector<Hypothesis>& others,
+                              std::vector<Hypothesis> candidates, double step = step_start);
+
+}  // namespace trueaxis::diagnose_detail

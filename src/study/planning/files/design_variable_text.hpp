@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+#include "study/planning/planning.hpp"
+
+namespace trueaxis {
+
+/// A range as it is written: "sigma_um=0.5:5", "readings_per_revolution=4:64",
+/// "pass.length_mm=20:60".
+/// @throws InputError that lists what may be chosen.
+study::DesignVariable parse_design_variable(std::string_view text);
+
+}  // namespace trueaxis

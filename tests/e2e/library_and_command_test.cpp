@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A caller of the library and a user of the command get the same decision about the same job.
+#include <algorithm>
+
+#include "job/files/job_results.hpp"
+#include "job/files/job_toml.hpp"
+#include "support/command_fixture.hpp"
+#include "trueaxis/job.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class LibraryAndCommand : public CommandTest {
+ protected:
+  /// Both run the job; what they say of it is compared.
+  Verdict expect_same(const std::filesystem::path& path) {
+    const Job job = read_job_toml(path.string());
+    const JobResult by_library = run_job(job, read_streams(job));
+    const CommandStreams by_command = command("run " + shell_word(path) + " -o out");
+    const Verdict& verdict = by_library.verdict;
+    EXPECT_EQ(verdict.line, first_line(by_command.out));
+    EXPECT_EQ(by_command.exit_code, verdict.go ? 0 : 1) << by_command.err;
+    const nlohmann::json written = result("out/result.json").at("verdict");
+    EXPECT_EQ(written.at("go"), verdict.go);
+    EXPECT_EQ(written.at("line"), verdict.line);
+    EXPECT_EQ(there("out/table.csv"), verdict.go && by_library.correction.has_value());
+    for (const ResultFile& file : job_files(by_library))
+      EXPECT_EQ(read_text(folder_ / "out" / file.name), file.text) << file.name;
+    return verdict;
+  }
+};
+
+TEST_F(LibraryAndCommand, DecideTheShippedJobsAlike) {
+  const std::filesystem::path jobs = std::filesystem::path(TRUEAXIS_SOURCE) / "data/jobs";
+  std::size_t count = 0;
+  for (const std::string& name : files_in(jobs)) {
+    if (!name.ends_with(".toml")) continue;
+    SCOPED_TRACE(name);
+    expect_same(jobs / name);
+    ++count;
+  }
+  EXPECT_GE(count, 3u);
+}
+
+/// The stream of RunRefusals.FindingsThatTheLatheRefutes: the tolerance alone would let it go.
+TEST_F(LibraryAndCommand, RefuseAlikeWhatTheLatheRefutes) {
+  file("part.toml",
+       "seed = 1\n[part]\nkind = \"cylinder\"\nx0_um = 1000\ny0_um = -20\nl = 0.0002\nm = 0.0004\n"
+       "radius_mm = 25\n[noise]\nsigma_um = 2\n[[pass]]\nz_start_mm = 0\nz_end_mm = 20\n"
+       "feed_mm_per_rev = 1\nreadings_per_revolution = 24.3\nspeed_rpm = 60\n"
+       "[[effect]]\nid = \"encoder.eccentricity\"\namplitude_deg = 1\n");
+  ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
+  file("job.toml",
+       simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
+  const Verdict verdict = expect_same(folder_ / "job.toml");
+  EXPECT_FALSE(verdict.go);
+  EXPECT_TRUE(contains(verdict.line, "what was found does not reproduce the readings"));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
