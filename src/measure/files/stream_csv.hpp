@@ -17,7 +17,8 @@ struct StreamReadOptions {
   std::size_t max_diagnostics = 1000;       ///< further ones are counted, not listed
 };
 
-/// Reads a stream, as docs/files.md describes it, from a file, or from standard input when `path` is "-".
+/// Reads a stream, as docs/files.md describes it, from a file, or from standard input when `path`
+/// is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 
