@@ -57,9 +57,8 @@ std::string finding_block(const Finding& finding, std::size_t number, double k) 
   text += wrapped(fmt::format("{:2}  ", number),
                   finding.effect() + "  " + finding_parameters(finding, k));
   if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
-  text +=
-      wrapped("    bias     ", finding_axis_bias(finding, k) +
-                                        "; RMS of its part of the readings " + um(finding.rms_mm));
+  text += wrapped("    bias     ", finding_axis_bias(finding, k) +
+                                       "; RMS of its part of the readings " + um(finding.rms_mm));
   const std::string axis = axis_note(finding);
   if (!axis.empty()) text += wrapped("    axis     ", axis);
   text += wrapped("    sure     ", "family-wise p " + probability(finding.p_value));
@@ -101,8 +100,9 @@ std::string diagnosis_line(const Diagnosis& d) {
   std::string text;
   switch (d.verdict) {
     case DiagnosisVerdict::ideal:
-      return "IDEAL: nothing that the ideal " + d.baseline.surface + " misses was found; RMS " +
-             um(d.baseline.rms_mm) + ", noise of a reading " + um(d.noise.sigma_mm);
+      return "IDEAL: nothing that the ideal " + std::string(to_string(d.baseline.surface)) +
+             " misses was found; RMS " + um(d.baseline.rms_mm) + ", noise of a reading " +
+             um(d.noise.sigma_mm);
     case DiagnosisVerdict::effects:
       text = "EFFECTS: " + causes;
       break;
