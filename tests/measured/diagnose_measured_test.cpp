@@ -110,9 +110,10 @@ TEST_F(Tube, NoConstantFourOrFiveLobes) {
     });
     EXPECT_FALSE((order == 4.0 || order == 5.0) && !grows) << f.effect();
   }
-  for (const Unexplained& u : found_.unexplained) const Pattern& p = u.term.pattern;
-  const bool cell = p.kind == Pattern::Kind::fourier_legendre && p.degree == 0;
-  EXPECT_FALSE((p.order == 4.0 || p.order == 5.0) && cell) << harmonic_text(p);
+  for (const Unexplained& u : found_.unexplained) {
+    const Pattern& p = u.term.pattern;
+    const bool cell = p.kind == Pattern::Kind::fourier_legendre && p.degree == 0;
+    EXPECT_FALSE((p.order == 4.0 || p.order == 5.0) && cell) << harmonic_text(p);
   }
 }
 
