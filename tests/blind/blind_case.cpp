@@ -170,7 +170,7 @@ class Maker {
     if (wanted_.plan != PlanId::p1 && wanted_.plan != PlanId::p4) ids.emplace_back("extra.spiral");
     const bool speeds =
         wanted_.plan != PlanId::p1 && wanted_.plan != PlanId::p2 && wanted_.plan != PlanId::p4;
-    if (speeds) ids.emplace_back("extra.beat");
+    if (speeds) ids.push_back(std::string("extra.beat"));
     const double wanted = wanted_lambda(200.0, 600.0);
     const Effect drawn = draw_effect(any_of(ids, random_), *bench_, random_);
     out_.scenario.effects = {sized_for(*bench_, drawn, sigma_mm_, wanted)};
