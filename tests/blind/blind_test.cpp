@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The diagnosis against sealed truths, some hundred cases. Each bound is binomial: it fails where
-// the goal of docs/blind_study.md would give so few right ones with a probability below 1e-4 (goals.hpp).
+// the goal of docs/blind_study.md would give so few right ones with a probability below 1e-4
+// (goals.hpp).
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -121,8 +121,8 @@ TEST_P(CorrectionWorks, CutPartIsCoaxialWithTheReference) {
   const auto verdict = read_json(folder / "out/result.json").at("verdict");
   const double u_um = 1000.0 * verdict.at("coaxiality_after").at("u").get<double>();
   RecordProperty("coaxiality_um", std::to_string(after));
-  // Noise-free: docs/theory.md asks for 0.1 µm. With noise, three standard uncertainties: missed in 1 of
-  // 400 seeds.
+  // Noise-free: docs/theory.md asks for 0.1 µm. With noise, three standard uncertainties: missed in
+  // 1 of 400 seeds.
   EXPECT_LT(after, c.noise_um == 0.0 ? 0.1 : 3.0 * u_um + 0.1) << "u = " << u_um << " µm";
 }
 

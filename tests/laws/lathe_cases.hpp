@@ -14,8 +14,8 @@ namespace trueaxis::testing {
 
 inline constexpr double phi = 0.7;  ///< phase of all that have one
 
-/// An effect of the virtual lathe at a size, and the linear parameters that docs/theory.md gives it per
-/// unit of the size.
+/// An effect of the virtual lathe at a size, and the linear parameters that docs/theory.md gives it
+/// per unit of the size.
 struct LatheCase {
   std::string id;
   double size;  ///< small enough for the second order to be below a twentieth of the first

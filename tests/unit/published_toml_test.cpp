@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "studies/published/published_toml.hpp"
+
 #include <gtest/gtest.h>
 
-#include "studies/published/published_toml.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

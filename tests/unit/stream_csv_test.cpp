@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv.hpp"
-#include "measure/files/stream_csv_write.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/files/scenario_tables.hpp"
 #include "simulate/autoregression.hpp"
+#include "simulate/files/scenario_tables.hpp"
 
 namespace trueaxis {
 namespace {
