@@ -10,7 +10,7 @@ using namespace study;
 
 std::string axis_bias_json(const virtual_lathe::Scenario& scenario,
                            const std::vector<AxisBiasRow>& rows, const std::string& input_hash) {
-  Json json{{"schema", "trueaxis.axis_bias/1"},
+  Json json{{"schema", "trueaxis.axis_bias/2"},
             {"version", TRUEAXIS_VERSION},
             {"input_hash", input_hash},
             {"scenario", scenario.name}};

@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Schema trueaxis.axis_bias/1.
+/// Schema trueaxis.axis_bias/2.
 std::string axis_bias_json(const virtual_lathe::Scenario& scenario,
                            const std::vector<study::AxisBiasRow>& rows,
                            const std::string& input_hash);

@@ -195,7 +195,7 @@ TEST_F(AxisBiasCommand, WritesEveryEffectWithLatheAndPrediction) {
   const CommandStreams done = command("axis-bias seat.toml -o axis_bias");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json axis_bias = result("axis_bias/axis_bias.json");
-  EXPECT_EQ(axis_bias.at("schema"), "trueaxis.axis_bias/1");
+  EXPECT_EQ(axis_bias.at("schema"), "trueaxis.axis_bias/2");
   std::set<std::string> ids;
   for (const nlohmann::json& one : axis_bias.at("effects")) {
     ids.insert(one.at("effect"));
