@@ -41,6 +41,9 @@ virtual_lathe::Scenario scenario_of(const LawCase& c) {
   virtual_lathe::Scenario scenario;
   virtual_lathe::Part& part = scenario.part;
   part.l = c.slope_x * n, part.m = c.slope_y * n;
+  expects(c.surface == "cone" || c.surface == "cylinder" || c.surface == "section" ||
+              c.surface == "plane",
+          "a surface that the law cases know: add it to every function of this file");
   if (c.surface == "plane") {
     part.kind = PartKind::face;
     part.d_mm = c.radius_mm;

@@ -9,8 +9,9 @@
 namespace trueaxis::diagnose_detail {
 
 bool is_diagnosable(const FitResult& fit) {
-  return fit.surface != SurfaceKind::plane && fit.surface != SurfaceKind::own &&
-         !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+  const bool has_terms = fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder ||
+                         fit.surface == SurfaceKind::section;
+  return has_terms && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
          (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
 }

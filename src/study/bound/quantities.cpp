@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "surface/surface.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
@@ -74,9 +75,15 @@ std::vector<double> face_of(const Scenario& scenario) {
 }  // namespace
 
 SurfaceKind surface_of(PartKind kind) {
-  return kind == PartKind::cone       ? SurfaceKind::cone
-         : kind == PartKind::cylinder ? SurfaceKind::cylinder
-                                      : SurfaceKind::plane;
+  switch (kind) {
+    case PartKind::cone:
+      return SurfaceKind::cone;
+    case PartKind::cylinder:
+      return SurfaceKind::cylinder;
+    case PartKind::face:
+      return SurfaceKind::plane;
+  }
+  throw ContractViolation("a part without a surface that is fitted to it");
 }
 
 std::vector<Quantity> quantities(SurfaceKind surface) {
