@@ -154,7 +154,7 @@ void expect_planted_sizes(const Finding& finding, const std::map<std::string, do
   }
 }
 
-/// A statistic of 28 is found with power one half (effects.md): 5.3 σ of what the surface leaves.
+/// A statistic of 28 is found with power one half (Eq. 97): 5.3 σ of what the surface leaves.
 /// At five times that every naming is right with Φ(d/2), d = 26, unless the rival is a twin; at
 /// twenty times what is left out looks most like autocorrelation of the noise.
 constexpr double detectable_left = 5.3;
