@@ -173,7 +173,8 @@ struct DiagnoseOptions {
   std::span<const Effect> own_effects = {};
 };
 
-/// @throws InputError as fit() does. Numerical outcomes are data: see extended.status.
+/// @throws InputError as fit() does; ContractViolation where an effect of one's own has an id of
+/// the catalogue. Numerical outcomes are data: see extended.status.
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options);
 
 const char* to_string(DiagnosisVerdict verdict);

@@ -67,6 +67,8 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
 
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   expects(options.false_alarm > 0.0 && options.false_alarm < 1.0, "a false alarm rate in (0, 1)");
+  for (const Effect& own : options.own_effects)
+    expects(find_effect(own.id) == nullptr, "an effect of one's own has an id of its own");
   Diagnosis out;
   out.false_alarm = options.false_alarm;
   out.baseline = fit(stream, options.fit);

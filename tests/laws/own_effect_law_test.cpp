@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "support/diagnose_lathe.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
@@ -103,6 +104,12 @@ TEST(OwnEffect, IsScannedForAsALine) {
   const Diagnosis unknown = diagnosed(stream, {});
   EXPECT_EQ(finding_with(unknown, std::string(three_starts.id)), nullptr);
   EXPECT_EQ(unknown.verdict, DiagnosisVerdict::unexplained);
+}
+
+TEST(OwnEffect, HasAnIdOfItsOwn) {
+  Effect taken = five_at_the_ends;
+  taken.id = effect_catalogue().front().id;
+  EXPECT_THROW(diagnosed(simulate(one_pass(0.0, 30.0, sigma_mm)), {&taken, 1}), ContractViolation);
 }
 
 }  // namespace
