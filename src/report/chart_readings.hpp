@@ -3,11 +3,43 @@
 
 #include <vector>
 
-#include "format/json.hpp"
-#include "report/coaxial_nominal.hpp"
 #include "report/thinning.hpp"
+#include "trueaxis/fit.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
+
+/// The associated surface turned true: the same radius and taper about the spindle axis, a face
+/// square to it. Charts show readings against it, so that offset and tilt are what is seen. It is
+/// given in terms of readings: the constant of a probe ball or of a gauge (mean of predicted
+/// reading minus contact) is in it. Without usable fit it is the straight line in Z through the
+/// readings.
+class CoaxialNominal {
+ public:
+  CoaxialNominal(const ProbeStream& stream, const FitResult& fit);
+
+  bool from_fit() const { return from_fit_; }
+  /// Reading of the true-running surface at Z (a face: at X), mm.
+  double reading_mm(double position_mm) const;
+  /// Associated surface minus true-running surface at (C, position), mm; NaN without usable fit.
+  double model_deviation_mm(double c_rad, double position_mm) const;
+
+ private:
+  double contact_mm(double c_rad, double position_mm) const;
+  void take_constant(const ProbeStream& stream, const FitResult& fit);
+  void take_straight_line(const ProbeStream& stream);
+
+  bool face_ = false, from_fit_ = false;
+  Revolved shape_;
+  double level_mm_ = 0.0, slope_ = 0.0, position_ref_mm_ = 0.0;
+};
+
+/// Whether the numbers of a fit may be drawn: it has a residual for every reading and a finite
+/// axis.
+bool fit_is_usable(const ProbeStream& stream, const FitResult& fit);
+
+/// Z (X of a face) of reading `i`; a section without Z lies at the axis' reference height.
+double position_of(const ProbeStream& stream, const FitResult& fit, std::size_t i);
 
 /// The readings of one reference in the units of the charts.
 struct ChartReadings {
@@ -20,6 +52,8 @@ struct ChartReadings {
   std::vector<double> residual_um;   ///< measured minus model
   std::vector<bool> kept;            ///< false: rejected by the fit, or not a number
   double readings_per_turn = 0.0;
+
+  std::vector<std::size_t> rejected() const;
 };
 
 ChartReadings chart_readings(const ProbeStream& stream, const FitResult& fit,

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/correction_data.hpp"
-
 #include <algorithm>
 
 #include "job/files/job_json.hpp"
 #include "report/chart_readings.hpp"
+#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
@@ -26,24 +25,20 @@ std::vector<Turn> turns_of(const CorrectionRows& rows) {
 }
 
 Json turn_data(const CorrectionRows& rows, Turn turn) {
-  std::vector<std::size_t> order;
-  std::vector<double> c_deg, wanted, command, sorted_c;
+  std::vector<std::size_t> shown;
   const std::size_t step = std::max<std::size_t>(1, (turn.end - turn.begin) / 720);
-  for (std::size_t i = turn.begin; i < turn.end; i += step) {
-    order.push_back(c_deg.size());
-    c_deg.push_back(wrapped_deg(rows.c_rad[i]));
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&c_deg](std::size_t a, std::size_t b) { return c_deg[a] < c_deg[b]; });
-  for (const std::size_t place : order) {
-    const std::size_t row = turn.begin + place * step;
-    sorted_c.push_back(c_deg[place]);
+  for (std::size_t row = turn.begin; row < turn.end; row += step) shown.push_back(row);
+  const auto c_of = [&](std::size_t row) { return wrapped_deg(rows.c_rad[row]); };
+  std::ranges::stable_sort(shown, {}, c_of);
+  std::vector<double> c_deg, wanted, command;
+  for (const std::size_t row : shown) {
+    c_deg.push_back(c_of(row));
     wanted.push_back(rows.wanted_mm[row] / mm_per_um);
     command.push_back(rows.command_mm[row] / mm_per_um);
   }
   return {{"revolution", rows.revolution[turn.begin]},
           {"position_mm", rounded(rows.position_mm[turn.begin], 4)},
-          {"c_deg", column(sorted_c, 3)},
+          {"c_deg", column(c_deg, 3)},
           {"wanted_um", column(wanted, 4)},
           {"command_um", column(command, 4)}};
 }
@@ -62,15 +57,12 @@ Json turns_data(const CorrectionRows& rows, std::vector<Turn> turns) {
 }
 
 Json map_data(const CorrectionRows& rows, std::size_t turns) {
-  const auto [low, high] = std::minmax_element(rows.position_mm.begin(), rows.position_mm.end());
-  const Bins c{0.0, 360.0, 120};
-  const Bins position{*low, *high > *low ? *high : *low + 1.0,
-                      std::clamp<std::size_t>(turns, 1, 60)};
-  CellMeans wanted(c, position);
+  const Bins position = bins_over(rows.position_mm, std::clamp<std::size_t>(turns, 1, 60));
+  CellMeans wanted(map_columns, position);
   for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
     wanted.add(wrapped_deg(rows.c_rad[i]), rows.position_mm[i], rows.wanted_mm[i] / mm_per_um);
   }
-  return {{"columns", c.count},
+  return {{"columns", map_columns.count},
           {"rows", position.count},
           {"position_min_mm", position.low},
           {"position_max_mm", position.high},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/inputs_data.hpp"
-
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "report/report_parts.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -25,31 +26,24 @@ class Options {
 };
 
 const char* loss_text(Loss loss) {
-  switch (loss) {
-    case Loss::plain:
-      return "least squares";
-    case Loss::huber:
-      return "Huber, k = 1.345 σ";
-    case Loss::tukey:
-      return "Tukey, c = 4.685 σ";
-  }
-  return "unknown";
+  static constexpr const char* texts[] = {"least squares", "Huber, k = 1.345 σ",
+                                          "Tukey, c = 4.685 σ"};
+  return texts[static_cast<std::size_t>(loss)];
 }
 
 std::string influence_text(const Influence& influence) {
-  switch (influence.kind) {
-    case Influence::Kind::probe_height:
-      return "probe height, u = " + number(influence.u, "mm");
-    case Influence::Kind::probe_gain:
-      return "probe gain, u = " + number(influence.u, "(relative)");
-    case Influence::Kind::c_offset:
-      return "C datum, u = " + number(influence.u / rad_per_deg, "°");
-    case Influence::Kind::z_offset:
-      return "Z datum, u = " + number(influence.u, "mm");
-    case Influence::Kind::ball_radius:
-      return "ball radius, u = " + number(influence.u, "mm");
-  }
-  return "unknown";
+  struct Known {
+    Influence::Kind kind;
+    const char *what, *unit;
+    double scale = 1.0;
+  };
+  static constexpr Known all[] = {{Influence::Kind::probe_height, "probe height", "mm"},
+                                  {Influence::Kind::probe_gain, "probe gain", "(relative)"},
+                                  {Influence::Kind::c_offset, "C datum", "°", 1.0 / rad_per_deg},
+                                  {Influence::Kind::z_offset, "Z datum", "mm"},
+                                  {Influence::Kind::ball_radius, "ball radius", "mm"}};
+  const Known& known = *std::ranges::find(all, influence.kind, &Known::kind);
+  return std::string(known.what) + ", u = " + number(influence.u * known.scale, known.unit);
 }
 
 void add_fit(Options& options, const FitOptions& fit) {

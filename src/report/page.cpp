@@ -5,55 +5,56 @@
 
 #include "trueaxis/error.hpp"
 
+extern "C" {
+extern const char trueaxis_report_html_begin[], trueaxis_report_html_end[];
+extern const char trueaxis_report_css_begin[], trueaxis_report_css_end[];
+extern const char trueaxis_echarts_begin[], trueaxis_echarts_end[];
+extern const char trueaxis_report_js_begin[], trueaxis_report_js_end[];
+extern const char trueaxis_sweep_js_begin[], trueaxis_sweep_js_end[];
+}
+
 namespace trueaxis {
+namespace {
+
+using Text = std::pair<std::string_view, std::string_view>;
+using Substitute = std::pair<char, std::string_view>;
+
+std::string_view between(const char* begin, const char* end) { return {begin, end}; }
+
+std::string substituted(std::string_view text, std::initializer_list<Substitute> substitutes) {
+  std::string out;
+  out.reserve(text.size());
+  for (const char letter : text) {
+    const auto* found = std::ranges::find(substitutes, letter, &Substitute::first);
+    out += found == substitutes.end() ? std::string_view(&letter, 1) : found->second;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string_view job_script() { return between(trueaxis_report_js_begin, trueaxis_report_js_end); }
+std::string_view sweep_script() { return between(trueaxis_sweep_js_begin, trueaxis_sweep_js_end); }
+
+std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
+                    std::string_view script) {
+  return fill_template(between(trueaxis_report_html_begin, trueaxis_report_html_end),
+                       {{"title", escape_html(title)},
+                        {"verdict", escape_html(verdict)},
+                        {"style", between(trueaxis_report_css_begin, trueaxis_report_css_end)},
+                        {"data", json_for_script(data)},
+                        {"echarts", between(trueaxis_echarts_begin, trueaxis_echarts_end)},
+                        {"script", script}});
+}
 
 std::string escape_html(std::string_view text) {
-  std::string escaped;
-  escaped.reserve(text.size());
-  for (const char letter : text) {
-    switch (letter) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '\'':
-        escaped += "&#39;";
-        break;
-      default:
-        escaped += letter;
-    }
-  }
-  return escaped;
+  return substituted(
+      text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
 }
 
 std::string json_for_script(const Json& data) {
-  const std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
-  std::string safe;
-  safe.reserve(text.size());
-  for (const char letter : text) {
-    switch (letter) {
-      case '<':
-        safe += "\\u003c";
-        break;
-      case '>':
-        safe += "\\u003e";
-        break;
-      case '&':
-        safe += "\\u0026";
-        break;
-      default:
-        safe += letter;
-    }
-  }
-  return safe;
+  return substituted(data.dump(-1, ' ', true, Json::error_handler_t::replace),
+                     {{'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}});
 }
 
 std::string fill_template(
@@ -67,8 +68,7 @@ std::string fill_template(
     const std::size_t close = page.find("}}", open);
     expects(close != std::string_view::npos, "a template whose places are closed");
     const std::string_view place = page.substr(open + 2, close - open - 2);
-    const auto found = std::find_if(texts.begin(), texts.end(),
-                                    [place](const auto& text) { return text.first == place; });
+    const auto* found = std::ranges::find(texts, place, &Text::first);
     expects(found != texts.end(), "a text for every place of the template");
     filled += found->second;
     page.remove_prefix(close + 2);

@@ -10,6 +10,14 @@
 
 namespace trueaxis {
 
+/// The scripts of a job's page and of a sweep's, embedded by assets.S.
+std::string_view job_script();
+std::string_view sweep_script();
+
+/// One HTML page that opens offline: the template with its style, Apache ECharts, data and script.
+std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
+                    std::string_view script);
+
 /// `text` with & < > " ' as HTML entities.
 std::string escape_html(std::string_view text);
 

@@ -1,25 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/readings_data.hpp"
+#include <algorithm>
+#include <cmath>
 
 #include "report/chart_readings.hpp"
-#include "report/sections_data.hpp"
+#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
+
+using Indices = std::vector<std::size_t>;
+
+Indices kept_indices(const ChartReadings& all) {
+  Indices kept;
+  for (std::size_t i = 0; i < all.kept.size(); ++i) {
+    if (all.kept[i]) kept.push_back(i);
+  }
+  return kept;
+}
+
+/// The `count` readings nearest to a height, in the order of C; ties go to the earlier reading.
+Indices nearest(const ChartReadings& all, Indices from, double position_mm, std::size_t count) {
+  const auto distance = [&](std::size_t i) { return std::abs(all.position_mm[i] - position_mm); };
+  const auto closer = [&](std::size_t a, std::size_t b) {
+    return distance(a) != distance(b) ? distance(a) < distance(b) : a < b;
+  };
+  count = std::min(count, from.size());
+  std::partial_sort(from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count), from.end(),
+                    closer);
+  from.resize(count);
+  std::sort(from.begin(), from.end(), [&](std::size_t a, std::size_t b) {
+    return all.c_deg[a] != all.c_deg[b] ? all.c_deg[a] < all.c_deg[b] : a < b;
+  });
+  return from;
+}
+
+Json measured(const ChartReadings& all, const Indices& section) {
+  std::vector<double> c_deg, value;
+  if (section.size() <= 360) {
+    for (const std::size_t i : section) {
+      c_deg.push_back(all.c_deg[i]);
+      value.push_back(all.deviation_um[i]);
+    }
+    return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", false}};
+  }
+  const Bins degrees{0.0, 360.0, 360};
+  std::vector<double> sum(degrees.count, 0.0), in_bin(degrees.count, 0.0);
+  for (const std::size_t i : section) {
+    sum[degrees.of(all.c_deg[i])] += all.deviation_um[i];
+    in_bin[degrees.of(all.c_deg[i])] += 1.0;
+  }
+  for (std::size_t bin = 0; bin < degrees.count; ++bin) {
+    if (in_bin[bin] == 0.0) continue;
+    c_deg.push_back(degrees.center(bin));
+    value.push_back(sum[bin] / in_bin[bin]);
+  }
+  return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", true}};
+}
+
+Json curve(const CoaxialNominal& nominal, double position_mm) {
+  std::vector<double> value;
+  for (int degree = 0; degree <= 360; degree += 3) {
+    value.push_back(nominal.model_deviation_mm(degree * rad_per_deg, position_mm) / mm_per_um);
+  }
+  return {{"step_deg", 3}, {"um", column(value, 3)}};
+}
+
+Json section_at(const ChartReadings& all, const CoaxialNominal& nominal, const Indices& kept,
+                double position_mm) {
+  const std::size_t wanted = static_cast<std::size_t>(std::max(24.0, all.readings_per_turn));
+  const Indices section = nearest(all, kept, position_mm, all.has_position ? wanted : kept.size());
+  double half_width = 0.0;
+  for (const std::size_t i : section) {
+    half_width = std::max(half_width, std::abs(all.position_mm[i] - position_mm));
+  }
+  Json data{{"position_mm", rounded(position_mm, 3)},
+            {"half_width_mm", rounded(half_width, 3)},
+            {"nominal_mm", rounded(nominal.reading_mm(position_mm), 4)},
+            {"readings", section.size()},
+            {"measured", measured(all, section)}};
+  if (nominal.from_fit()) data["model"] = curve(nominal, position_mm);
+  return data;
+}
+
+/// Up to three polar sections (both ends and the middle): the readings of about one revolution
+/// nearest to each height, means per degree where there are more than 360, and the model's curve
+/// there.
+Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal) {
+  Json sections = Json::array();
+  const Indices kept = kept_indices(all);
+  if (kept.empty()) return sections;
+  double low = all.position_mm[kept.front()], high = low;
+  for (const std::size_t i : kept) {
+    low = std::min(low, all.position_mm[i]);
+    high = std::max(high, all.position_mm[i]);
+  }
+  if (!(high > low)) {
+    sections.push_back(section_at(all, nominal, kept, low));
+    return sections;
+  }
+  for (const double share : {0.05, 0.5, 0.95}) {
+    sections.push_back(section_at(all, nominal, kept, low + share * (high - low)));
+  }
+  return sections;
+}
 
 constexpr std::size_t envelope_bins = 400;
 
 Json every_reading(const ChartReadings& all) {
   Json points{{"c_deg", column(all.c_deg, 3)},
               {"deviation_um", column(all.deviation_um, 3)},
-              {"rejected", Json::array()}};
+              {"rejected", all.rejected()}};
   if (all.has_position) points["position_mm"] = column(all.position_mm, 4);
   if (!all.time_s.empty()) points["time_s"] = column(all.time_s, 4);
   if (all.has_model) points["residual_um"] = column(all.residual_um, 3);
-  for (std::size_t i = 0; i < all.kept.size(); ++i) {
-    if (!all.kept[i]) points["rejected"].push_back(i);
-  }
   return points;
 }
 

@@ -1,24 +1,107 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report.hpp"
 
-#include "report/assets.hpp"
+#include <algorithm>
+#include <limits>
+
+#include "diagnose/files/diagnosis_objects.hpp"
+#include "fit/files/fit_json.hpp"
 #include "report/page.hpp"
-#include "report/report_data.hpp"
+#include "report/report_parts.hpp"
 
 namespace trueaxis {
+namespace {
+
+/// The name of the job, or its file when it has none.
+std::string job_title(const Job& job) { return job.name.empty() ? job.path : job.name; }
+
+/// What the banner says in one word: without tolerance or target nothing is met or missed.
+const char* outcome(const JobResult& result) {
+  const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
+  if (!result.verdict.go) return "no-go";
+  return judged ? "go" : "done";
+}
+
+Json verdict_data(const JobResult& result) {
+  const Verdict& verdict = result.verdict;
+  Json data{{"outcome", outcome(result)}, {"line", verdict.line}, {"k", verdict.coverage_factor}};
+  data["tolerance_mm"] =
+      result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
+  if (result.target_axis) {
+    data["coaxiality_before_mm"] = verdict.coaxiality_before_mm;
+    data["coaxiality_after_mm"] = verdict.coaxiality_after_mm;
+    data["u_coaxiality_mm"] = verdict.u_coaxiality_mm;
+  }
+  return data;
+}
+
+/// What each effect that the page names is called.
+Json titles_of(const Diagnosis& diagnosis) {
+  Json titles = Json::object();
+  for (const Effect& effect : effect_catalogue()) titles[std::string(effect.id)] = effect.title;
+  for (const Finding& finding : diagnosis.findings)
+    titles[finding.effect()] = finding.term.effect->title;
+  return titles;
+}
+
+/// A diagnosis as in its file, without what the page has elsewhere or only counts.
+Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
+                    const Resimulation* again) {
+  Json data = diagnosis_object(diagnosis);
+  for (const char* key : {"baseline", "spectrum", "u_frame"}) data.erase(key);
+  data["extended"] = {{"status", to_string(diagnosis.extended.status)},
+                      {"message", diagnosis.extended.message}};
+  data["noise"]["masked"] = diagnosis.noise.masked.size();
+  data["noise"]["interruptions"] = diagnosis.noise.interruptions.size();
+  data["titles"] = titles_of(diagnosis);
+  data["simulation"] = simulation_data(stream, diagnosis, again);
+  return data;
+}
+
+Json reference_data(const JobResult& result, std::size_t i) {
+  Json data = fit_data(result.fits[i]);
+  const bool named = i < result.job.references.size() && !result.job.references[i].name.empty();
+  data["name"] = named ? result.job.references[i].name : "reference " + std::to_string(i + 1);
+  if (i < result.streams.size()) {
+    data["readings"] = readings_data(result.streams[i], result.fits[i]);
+    if (i < result.diagnoses.size() && result.diagnoses[i]) {
+      const bool again = i < result.resimulations.size() && result.resimulations[i];
+      data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i],
+                                         again ? &*result.resimulations[i] : nullptr);
+    }
+    data["extended"] = &fit_used(result, i) != &result.fits[i];
+    data["relative"] = result.streams[i].indication == Indication::relative;
+  }
+  return data;
+}
+
+}  // namespace
+
+Json fit_data(const FitResult& fit) {
+  Json data = fit_object(fit);
+  const auto listed =
+      static_cast<std::ptrdiff_t>(std::min(fit.rejected.size(), max_rejected_listed));
+  const Json rows = data["rejected"];
+  data["rejected"] = {{"count", fit.rejected.size()},
+                      {"listed", Json::array_t(rows.begin(), rows.begin() + listed)}};
+  return data;
+}
+
+Json report_data(const JobResult& result) {
+  Json data{{"schema", "trueaxis.report/2"},   {"version", TRUEAXIS_VERSION},
+            {"title", job_title(result.job)},  {"file", result.job.path},
+            {"verdict", verdict_data(result)}, {"inputs", inputs_data(result)},
+            {"target", target_data(result)},   {"references", Json::array()}};
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    data["references"].push_back(reference_data(result, i));
+  }
+  if (result.correction) data["correction"] = correction_data(*result.correction);
+  return data;
+}
 
 std::string render_report(const JobResult& result) {
-  const ReportAssets assets = report_assets();
-  const Json data = report_data(result);
-  const std::string title = escape_html("TrueAxis report: " + job_title(result.job));
-  const std::string verdict = escape_html(result.verdict.line);
-  const std::string json = json_for_script(data);
-  return fill_template(assets.html, {{"title", title},
-                                     {"verdict", verdict},
-                                     {"style", assets.css},
-                                     {"data", json},
-                                     {"echarts", assets.echarts},
-                                     {"script", assets.js}});
+  return page_of("TrueAxis report: " + job_title(result.job), result.verdict.line,
+                 report_data(result), job_script());
 }
 
 }  // namespace trueaxis

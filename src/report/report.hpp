@@ -1,13 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 
+#include "format/json.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
 
 /// The report of a job: one HTML page that opens offline (Apache ECharts embedded).
 std::string render_report(const JobResult& result);
+
+/// Everything the page shows (schema trueaxis.report/2): fits and diagnoses as the files have them,
+/// and what the charts draw. There the unit of a number is in its key; a number that is not
+/// determined is NaN, which JSON writes as null.
+Json report_data(const JobResult& result);
+
+/// A fit as in its file, with `rejected` as a count and the first rows.
+Json fit_data(const FitResult& fit);
+
+/// Rejected readings that are listed one by one; the rest is counted.
+inline constexpr std::size_t max_rejected_listed = 200;
 
 }  // namespace trueaxis

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/simulation_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "report/chart_readings.hpp"
+#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
@@ -91,11 +90,7 @@ Json maps_data(const ProbeStream& stream, const SimulatedReadings& simulated,
             {"before_um", map_column(all, before, thinned)},
             {"after_um", map_column(all, after, thinned)}};
   }
-  if (thinned) return data;
-  data["rejected"] = Json::array();
-  for (std::size_t i = 0; i < all.kept.size(); ++i) {
-    if (!all.kept[i]) data["rejected"].push_back(i);
-  }
+  if (!thinned) data["rejected"] = all.rejected();
   return data;
 }
 

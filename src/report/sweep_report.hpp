@@ -22,4 +22,7 @@ struct SweepReportAddition {
 std::string render_sweep_report(const study::Sweep& sweep, const study::Summary& summary,
                                 const std::vector<SweepReportAddition>& additions = {});
 
+/// Six digits: keeps the page small and its bytes free of the last bits.
+double to_six_digits(double value);
+
 }  // namespace trueaxis

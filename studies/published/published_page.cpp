@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "studies/published/published_page.hpp"
 
-#include "report/sweep_data.hpp"
-
 extern "C" {
 extern const char trueaxis_published_js_begin[], trueaxis_published_js_end[];
 }
