@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "study/sweep/block_bytes.hpp"
+#include "study/sweep/files/sweep_journal.hpp"
 
 namespace trueaxis::mpi {
 namespace {

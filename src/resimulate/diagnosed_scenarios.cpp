@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "resimulate/lathe_effects.hpp"
-#include "simulate/resimulate.hpp"
+#include "simulate/clean_stream.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

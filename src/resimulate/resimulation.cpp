@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <numeric>
 #include <utility>
 
 #include "math/fourier_sums.hpp"
@@ -28,19 +29,19 @@ std::vector<double> difference(const ProbeStream& measured, const std::vector<do
   return out;
 }
 
-double rms(const std::vector<double>& values) {
-  double squares = 0.0;
-  for (const double v : values) squares += v * v;
-  return values.empty() ? 0.0 : std::sqrt(squares / static_cast<double>(values.size()));
+double sum_of_squares(const std::vector<double>& values) {
+  return std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
 }
 
-double variance(const std::vector<double>& values) {
-  if (values.empty()) return 0.0;
-  const double count = static_cast<double>(values.size());
-  double sum = 0.0, squares = 0.0;
-  for (const double v : values) sum += v;
-  for (const double v : values) squares += (v - sum / count) * (v - sum / count);
-  return squares / count;
+double mean_square(const std::vector<double>& values) {
+  return values.empty() ? 0.0 : sum_of_squares(values) / static_cast<double>(values.size());
+}
+
+double variance(std::vector<double> values) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) /
+                      static_cast<double>(std::max<std::size_t>(1, values.size()));
+  for (double& value : values) value -= mean;
+  return mean_square(values);
 }
 
 /// The recursion ε_i = e_i + Σ φ_j ε_{i−j} on values and, until it dies out, on zeros after them.
@@ -52,12 +53,6 @@ std::vector<double> responded(std::vector<double> values, const std::vector<doub
       values[i] += phi[j - 1] * values[i - j];
   }
   return values;
-}
-
-double sum_of_squares(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
-  return sum;
 }
 
 /// Σ d_i d_j ρ(i − j) with ρ the autocorrelation of the noise: Σ d_i ε_i in terms of the
@@ -92,8 +87,7 @@ Estimate j_test_lambda(const ProbeStream& measured, const SimulatedReadings& sim
   const double squares = sum_of_squares(way);
   if (!(squares > 0.0))
     return {std::nan(""), std::nan(""), "1", "the two simulations are the same"};
-  double product = 0.0;
-  for (std::size_t i = 0; i < way.size(); ++i) product += way[i] * left[i];
+  const double product = std::inner_product(way.begin(), way.end(), left.begin(), 0.0);
   const double u = sigma_mm * std::sqrt(correlated_squares(way, autoregression)) / squares;
   return {product / squares, u, "1", ""};
 }
@@ -150,8 +144,8 @@ Comparison compare(const ProbeStream& measured, const SimulatedReadings& simulat
   out.masked = measured.size() - before.size();
   const double whole = variance(before);
   const auto share = [&](double part) { return whole > 0.0 ? part / whole : std::nan(""); };
-  out.before = {rms(before), share(whole)};
-  out.after = {rms(after), share(variance(after))};
+  out.before = {std::sqrt(mean_square(before)), share(whole)};
+  out.after = {std::sqrt(mean_square(after)), share(variance(after))};
   out.noise = {sigma_mm, share(sigma_mm * sigma_mm)};
   out.j_test_lambda = j_test_lambda(measured, simulated, masked, sigma_mm, autoregression);
   std::vector<double> c_rad;

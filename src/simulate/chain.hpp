@@ -52,11 +52,12 @@ struct ProbeLine {
   double extra_ball_mm = 0.0;
 };
 
-/// What the sensor knows besides the position.
-struct ResponseState {
+/// What a sensor's term is of.
+struct Sensed {
   const TrueState& state;
   double facing = 1.0;  ///< of the gauge: −1 behind, where it is turned round
-  Vec3 normal;          ///< out of the material, machine frame; only if Chain::needs_normal
+  Vec3 normal{};        ///< out of the material, machine frame; only if Chain::needs_normal
+  double x_mm = 0.0;    ///< indication before the term
 };
 
 /// The measuring chain of a scenario: one list of terms a slot.
@@ -66,30 +67,13 @@ struct Chain {
   std::vector<std::function<double(const SurfacePoint&)>> form;  // C, along the normal
   std::vector<std::function<Vec3(double s_mm)>> bend;            // C, axis, part frame
   std::vector<std::function<PartStep(double t_s)>> step;         // C, part in the chuck
-  std::vector<std::function<double(double, const ResponseState&)>> response;  // E
+  std::vector<std::function<double(const Sensed&)>> response;    // E
   bool local_form = false;  ///< form with edges: contacts are searched step by step from outside
   bool needs_normal = false;
   double lag_s = 0.0;
   double low_mm = -std::numeric_limits<double>::infinity();
   double high_mm = std::numeric_limits<double>::infinity();
   double quantisation_mm = 0.0;
-};
-
-/// Access to an effect's parameters.
-class Values {
- public:
-  explicit Values(const Effect& effect) : effect_(effect) {}
-  double operator()(std::string_view name) const { return parameter(effect_, name); }
-
- private:
-  const Effect& effect_;
-};
-
-/// A catalogue line of the lathe: the kind and how it enters the chain.
-struct EffectEntry {
-  std::string_view id, what;
-  LatheParameter parameters[6];  ///< those behind the last have no name
-  void (*enter)(const Values&, Chain&);
 };
 
 /// The chain of the effects, in the order of the catalogue whatever their order in the scenario.

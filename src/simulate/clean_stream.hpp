@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "trueaxis/probe_stream.hpp"
@@ -33,5 +35,19 @@ struct CleanStream {
 /// counts. The instants of a jittered pass come from the scenario's seed.
 /// @throws InputError as simulate() does.
 CleanStream simulate_clean(const Scenario& scenario);
+
+/// The readings that noise of `seed` makes of a clean stream: as simulate() draws them, with faster
+/// generators of its own. The errors of one seed are the same bits on every platform, but for those
+/// of an `autoregression`, whose variates are Boost's, as simulate()'s are.
+void draw_readings(const CleanStream& clean, const Noise& noise, std::uint64_t seed,
+                   std::span<double> reading_mm);
+
+/// The noise-free readings of a scenario at the arguments of a measured stream, mm.
+///
+/// A gauge's zero is in no scenario: it is set so that the mean difference over the readings that
+/// are not `masked` is zero; `scenario.probe.relative_zero_mm` is given that value.
+/// @throws InputError as simulate_at().
+std::vector<double> resimulate(Scenario& scenario, const ProbeStream& measured,
+                               const std::vector<bool>& masked);
 
 }  // namespace trueaxis::virtual_lathe

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/effects_extra.hpp"
-
 #include <cmath>
 
-#include "simulate/polynomials.hpp"
+#include "simulate/effects.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {
+
+constexpr auto form = &Chain::form;
+constexpr auto machine = &Chain::machine;
 
 constexpr EffectEntry extra_table[] = {
     // Lobes that turn about the axis on their way along it.
     {"extra.spiral",
      "lobes that turn along the axis",
      {{"order", {}}, {"amplitude_mm", {}}, {"lead_mm", {}}, {"phase_rad", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const double k = two_pi / of("lead_mm");
-       chain.form.push_back([=](const SurfacePoint& p) {
-         return a * std::cos(n * (p.theta_rad - k * p.s_mm) - phase);
-       });
-     }},
+     in<form>([](const SurfacePoint& p, double n, double a, double lead, double phase) {
+       return a * std::cos(n * (p.theta_rad - two_pi / lead * p.s_mm) - phase);
+     })},
     // A local dent with a Gaussian section; width and length are its standard deviations.
     {"extra.dent",
      "a local dent",
@@ -31,45 +28,33 @@ constexpr EffectEntry extra_table[] = {
       {"length_mm", {}}},
      [](const Values& of, Chain& chain) {
        chain.local_form = true;
-       const double angle = of("angle_rad"), position = of("position_mm"), depth = of("depth_mm");
-       const double width = of("width_rad"), length = of("length_mm");
-       chain.form.push_back([=](const SurfacePoint& p) {
+       in<form>([](const SurfacePoint& p, double angle, double position, double depth, double width,
+                   double length) {
          const double v = std::remainder(p.theta_rad - angle, two_pi) / width;
          const double w = (p.s_mm - position) / length;
          return -p.outward * depth * std::exp(-0.5 * (v * v + w * w));
-       });
+       })(of, chain);
      }},
     // An error motion of the spindle whose amplitude swings with time.
     {"extra.beat",
      "error motion that swings with time",
      {{"order", {}}, {"amplitude_mm", {}}, {"beat_hz", {}}, {"phase_rad", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const double w = two_pi * of("beat_hz");
-       chain.machine.push_back([=](TrueState& state) {
-         state.part_x_mm += a * std::cos(w * state.at.t_s) * std::cos(n * state.c_rad - phase);
-       });
-     }},
+     in<machine>([](TrueState& state, double n, double a, double beat, double phase) {
+       state.part_x_mm +=
+           a * std::cos(two_pi * beat * state.at.t_s) * std::cos(n * state.c_rad - phase);
+     })},
     {"extra.form_cell",
      "a P_degree(u) cos(n theta - phase)",
      {{"order", 0.0}, {"amplitude_mm", {}}, {"phase_rad", 0.0}, {"degree", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const int degree = static_cast<int>(of("degree"));
-       chain.form.push_back([=](const SurfacePoint& p) {
-         return a * legendre(degree, p.u) * std::cos(n * p.theta_rad - phase);
-       });
-     }},
+     in<form>([](const SurfacePoint& p, double n, double a, double phase, double degree) {
+       return a * legendre(degree, p.u) * std::cos(n * p.theta_rad - phase);
+     })},
     {"extra.form_line",
      "a cos(n theta - 2 pi s / period - phase)",
      {{"order", 0.0}, {"amplitude_mm", {}}, {"phase_rad", 0.0}, {"period_mm", {}}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const double k = two_pi / of("period_mm");
-       chain.form.push_back([=](const SurfacePoint& p) {
-         return a * std::cos(n * p.theta_rad - k * p.s_mm - phase);
-       });
-     }},
+     in<form>([](const SurfacePoint& p, double n, double a, double phase, double period) {
+       return a * std::cos(n * p.theta_rad - two_pi / period * p.s_mm - phase);
+     })},
     // Gaussian, width and length its standard deviations; without a length it is a ridge.
     {"extra.bump",
      "a local bump with a Gaussian section",
@@ -78,15 +63,12 @@ constexpr EffectEntry extra_table[] = {
       {"width_rad", {}},
       {"position_mm", 0.0},
       {"length_mm", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double a = of("amplitude_mm"), angle = of("angle_rad"), width = of("width_rad");
-       const double position = of("position_mm"), length = of("length_mm");
-       chain.form.push_back([=](const SurfacePoint& p) {
-         const double v = std::remainder(p.theta_rad - angle, two_pi) / width;
-         const double w = length > 0.0 ? (p.s_mm - position) / length : 0.0;
-         return a * std::exp(-0.5 * (v * v + w * w));
-       });
-     }},
+     in<form>([](const SurfacePoint& p, double a, double angle, double width, double position,
+                 double length) {
+       const double v = std::remainder(p.theta_rad - angle, two_pi) / width;
+       const double w = length > 0.0 ? (p.s_mm - position) / length : 0.0;
+       return a * std::exp(-0.5 * (v * v + w * w));
+     })},
     // One harmonic of what the jaws do: the ring's ratio between them need not hold.
     {"extra.jaw_harmonic",
      "a cos(n theta_chuck - phase) exp(-|s - jaw| / decay)",
@@ -95,25 +77,17 @@ constexpr EffectEntry extra_table[] = {
       {"phase_rad", 0.0},
       {"decay_length_mm", {}},
       {"jaw_position_mm", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const double length = of("decay_length_mm"), from = of("jaw_position_mm");
-       chain.form.push_back([=](const SurfacePoint& p) {
-         return p.clamp * a * std::cos(n * p.chuck_theta_rad - phase) *
-                std::exp(-std::abs(p.s_mm - from) / length);
-       });
-     }},
+     in<form>(
+         [](const SurfacePoint& p, double n, double a, double phase, double length, double from) {
+           return p.clamp * a * std::cos(n * p.chuck_theta_rad - phase) *
+                  std::exp(-std::abs(p.s_mm - from) / length);
+         })},
     {"extra.motion_cell",
      "X + a P_degree(u) cos(n C - phase)",
      {{"order", 0.0}, {"amplitude_mm", {}}, {"phase_rad", 0.0}, {"degree", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const int degree = static_cast<int>(of("degree"));
-       chain.machine.push_back([=](TrueState& state) {
-         state.across_mm +=
-             a * legendre(degree, state.u_part) * std::cos(n * state.at.c_rad - phase);
-       });
-     }},
+     in<machine>([](TrueState& state, double n, double a, double phase, double degree) {
+       state.across_mm += a * legendre(degree, state.u_part) * std::cos(n * state.at.c_rad - phase);
+     })},
     {"extra.motion_time_cell",
      "X + a P_degree(time) cos(n C - phase)",
      {{"order", 0.0},
@@ -122,25 +96,18 @@ constexpr EffectEntry extra_table[] = {
       {"degree", 1.0},
       {"start_s", 0.0},
       {"end_s", {}}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const int degree = static_cast<int>(of("degree"));
-       const double start = of("start_s"), lasted = of("end_s") - start;
-       chain.machine.push_back([=](TrueState& state) {
-         const double u = lasted > 0.0 ? 2.0 * (state.at.t_s - start) / lasted - 1.0 : 0.0;
-         state.across_mm += a * legendre(degree, u) * std::cos(n * state.at.c_rad - phase);
-       });
-     }},
+     in<machine>([](TrueState& state, double n, double a, double phase, double degree, double start,
+                    double end) {
+       const double u = end > start ? 2.0 * (state.at.t_s - start) / (end - start) - 1.0 : 0.0;
+       state.across_mm += a * legendre(degree, u) * std::cos(n * state.at.c_rad - phase);
+     })},
     {"extra.motion_line",
      "X + a cos(n C - 2 pi frequency t - phase)",
      {{"order", 0.0}, {"amplitude_mm", {}}, {"phase_rad", 0.0}, {"frequency_hz", {}}},
-     [](const Values& of, Chain& chain) {
-       const double n = of("order"), a = of("amplitude_mm"), phase = of("phase_rad");
-       const double w = two_pi * of("frequency_hz");
-       chain.machine.push_back([=](TrueState& state) {
-         state.across_mm += a * std::cos(n * state.at.c_rad - w * state.at.t_s - phase);
-       });
-     }},
+     in<machine>([](TrueState& state, double n, double a, double phase, double frequency) {
+       state.across_mm +=
+           a * std::cos(n * state.at.c_rad - two_pi * frequency * state.at.t_s - phase);
+     })},
 };
 
 }  // namespace

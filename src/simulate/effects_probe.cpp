@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/effects_probe.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/effects.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {
+
+constexpr auto response = &Chain::response;
 
 constexpr EffectEntry probe_table[] = {
     {"probe.height",
@@ -28,47 +29,36 @@ constexpr EffectEntry probe_table[] = {
      "trigger path, by direction of the normal",
      {{"amplitude_mm", {}}, {"lobing_mm", 0.0}, {"order", 3.0}, {"phase_rad", 0.0}},
      [](const Values& of, Chain& chain) {
-       const double a = of("amplitude_mm"), b = of("lobing_mm"), n = of("order"),
-                    phase = of("phase_rad");
        chain.needs_normal = true;
-       chain.response.push_back([=](double x, const ResponseState& sensor) {
+       in<response>([](const Sensed& sensor, double a, double b, double n, double phase) {
          const Vec3& normal = sensor.normal;
          const double along = sensor.state.face ? normal.z : normal.x;
          const double side = sensor.state.face ? normal.x : normal.z;
          const double across = std::hypot(side, normal.y);
          const double lobes = across > 0.0 ? std::cos(n * std::atan2(normal.y, side) - phase) : 0.0;
-         return x - std::copysign(1.0, along) * (a + b * across * lobes);
-       });
+         return sensor.x_mm - std::copysign(1.0, along) * (a + b * across * lobes);
+       })(of, chain);
      }},
     {"probe.gain",
      "reference + (1 + gain) (X - reference)",
      {{"gain", {}}, {"reference_mm", {}}},
-     [](const Values& of, Chain& chain) {
-       const double g = of("gain"), reference = of("reference_mm");
-       chain.response.push_back([=](double x, const ResponseState& sensor) {
-         const double outward = sensor.facing * x;
-         return sensor.facing * (reference + (1.0 + g) * (outward - reference));
-       });
-     }},
+     in<response>([](const Sensed& sensor, double g, double reference) {
+       const double outward = sensor.facing * sensor.x_mm;
+       return sensor.facing * (reference + (1.0 + g) * (outward - reference));
+     })},
     {"probe.nonlinearity",
      "X + c2 v^2 + c3 v^3, v = (X - reference) / range",
      {{"quadratic_mm", 0.0}, {"cubic_mm", 0.0}, {"reference_mm", {}}, {"range_mm", 1.0}},
-     [](const Values& of, Chain& chain) {
-       const double c2 = of("quadratic_mm"), c3 = of("cubic_mm");
-       const double reference = of("reference_mm"), range = of("range_mm");
-       chain.response.push_back([=](double x, const ResponseState& sensor) {
-         const double v = (sensor.facing * x - reference) / range;
-         return x + sensor.facing * (c2 * v * v + c3 * v * v * v);
-       });
-     }},
+     in<response>([](const Sensed& sensor, double c2, double c3, double reference, double range) {
+       const double v = (sensor.facing * sensor.x_mm - reference) / range;
+       return sensor.x_mm + sensor.facing * (c2 * v * v + c3 * v * v * v);
+     })},
     {"probe.cyclic",
      "X + a cos(2 pi X / period + phase)",
      {{"amplitude_mm", {}}, {"period_mm", {}}, {"phase_rad", 0.0}},
-     [](const Values& of, Chain& chain) {
-       const double a = of("amplitude_mm"), k = two_pi / of("period_mm"), phase = of("phase_rad");
-       chain.response.push_back(
-           [=](double x, const ResponseState&) { return x + a * std::cos(k * x + phase); });
-     }},
+     in<response>([](const Sensed& sensor, double a, double period, double phase) {
+       return sensor.x_mm + a * std::cos(two_pi / period * sensor.x_mm + phase);
+     })},
     {"probe.lag",
      "first order low pass",
      {{"time_constant_s", {}}},

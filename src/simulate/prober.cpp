@@ -119,7 +119,7 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
 
   CleanReading reading;
   reading.value_mm = side_ * *q + state.across_mm + (face ? state.part_z_mm : state.part_x_mm);
-  ResponseState sensor{state, side_, {}};
+  Sensed sensor{state, side_};
   if (chain_.needs_normal || with_incidence) {
     const Vec3 n = outward_ * normal_at(gap, line.at(*q));
     const double along = dot(n, line.direction);
@@ -127,7 +127,8 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
     sensor.normal = {dot(n, view.ex), dot(n, view.ey), dot(n, view.ez)};
   }
   for (const auto& term : chain_.response) {
-    reading.value_mm = setup_.x_jog_mm + term(reading.value_mm - setup_.x_jog_mm, sensor);
+    sensor.x_mm = reading.value_mm - setup_.x_jog_mm;
+    reading.value_mm = setup_.x_jog_mm + term(sensor);
   }
   return reading;
 }

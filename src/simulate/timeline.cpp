@@ -18,15 +18,6 @@ void need(bool condition, std::size_t pass, const char* message) {
   throw InputError("scenario", "pass " + std::to_string(pass + 1) + ' ' + message);
 }
 
-Chucking find_setup(const Plan& plan, int number) {
-  for (const Chucking& setup : plan.setups) {
-    if (setup.number == number) return setup;
-  }
-  Chucking plain;
-  plain.number = number;
-  return plain;
-}
-
 double count_of(double intervals) { return std::floor(intervals + 1e-9) + 1.0; }
 
 TimedPass timed(const PlannedPass& pass, std::size_t index) {
@@ -65,6 +56,14 @@ Moment TimedPass::at(double time_s) const {
   const double since = time_s - t_s;
   return {time_s, c_rad + omega_rad_per_s * since, position_mm + velocity_mm_per_s * since,
           omega_rad_per_s, velocity_mm_per_s};
+}
+
+Chucking find_setup(const Plan& plan, int number) {
+  const auto at = std::ranges::find(plan.setups, number, &Chucking::number);
+  if (at != plan.setups.end()) return *at;
+  Chucking plain;
+  plain.number = number;
+  return plain;
 }
 
 std::vector<TimedPass> make_timeline(const Plan& plan) {

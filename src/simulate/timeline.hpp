@@ -20,6 +20,9 @@ struct TimedPass {
   Moment at(double time_s) const;
 };
 
+/// The set-up of a number as the plan has it; one that it does not tell is as the first.
+Chucking find_setup(const Plan& plan, int number);
+
 /// The plan's passes one after the other; C runs on. @throws InputError naming what is wrong.
 std::vector<TimedPass> make_timeline(const Plan& plan);
 

@@ -29,80 +29,76 @@ struct CutPart::Impl {
   double turn_of(double spindle_angle_rad) const {
     return program.tool.sense * (spindle_angle_rad - program.tool.c_start_rad) / two_pi;
   }
-  double edge_radius(double turn, double position_mm) const;
-  double edge_depth(double turn, double position_mm) const;
-  double turn_through(double theta_rad, double whole_turn, double position_mm) const;
-  double envelope(double theta_rad, double position_mm) const;
-  double between_turns(double theta_rad, double position_mm) const;
+  /// Depth of the nose's edge over a position along the feed; NaN where the nose does not reach.
+  double edge_depth(double turn, double position_mm) const {
+    const double nose = program.tool.nose_radius_mm;
+    const double off = position_mm - path.position_mm(turn);
+    const double rest = nose * nose - off * off;
+    if (rest < 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return path.depth_mm(turn) + inward * std::sqrt(rest);
+  }
+
+  /// Machine X of the cutting point in the tool's frame; its Y is the tool's height.
+  double edge_radius(double turn, double position_mm) const {
+    const double h = program.tool.height_mm;
+    if (face) return std::sqrt(std::max(0.0, position_mm * position_mm - h * h));
+    const double edge = edge_depth(turn, position_mm);
+    return std::isnan(edge) ? path.depth_mm(turn) : edge;
+  }
+
+  /// The turn near `whole_turn` whose cutting point lies at theta of the spindle frame: the tool's
+  /// frame is at C + angle, the point above its X by the height.
+  double turn_through(double theta_rad, double whole_turn, double position_mm) const {
+    const double h = program.tool.height_mm;
+    double turn = whole_turn + turn_of(theta_rad - program.tool.angle_from_probe_rad);
+    if (h == 0.0) return turn;
+    const double level = turn;
+    for (int i = 0; i < 6; ++i) {
+      const double above = std::atan2(h, edge_radius(turn, position_mm));
+      turn = level - program.tool.sense * above / two_pi;
+    }
+    return turn;
+  }
+
+  double envelope(double theta_rad, double position_mm) const {
+    const double reach = program.tool.nose_radius_mm / program.tool.feed_mm_per_rev + 1.0;
+    const double middle = path.turn_at(position_mm);
+    const double start = turn_of(theta_rad - program.tool.angle_from_probe_rad);
+    double left = std::numeric_limits<double>::quiet_NaN();
+    const double first = std::ceil(middle - reach - start),
+                 last = std::floor(middle + reach - start);
+    for (double whole = first; whole <= last; ++whole) {
+      const double turn = turn_through(theta_rad, whole, position_mm);
+      if (turn < path.first_turn() || turn > path.last_turn()) continue;
+      const double depth = edge_depth(turn, position_mm);
+      if (std::isnan(depth)) continue;
+      const double cut = face ? depth : std::hypot(depth, program.tool.height_mm);
+      if (std::isnan(left) || inward * cut > inward * left) left = cut;
+    }
+    return left;
+  }
+
+  /// A sharp tool: straight from one turn's groove to the next.
+  double between_turns(double theta_rad, double position_mm) const {
+    const double start = turn_of(theta_rad - program.tool.angle_from_probe_rad);
+    const double whole = std::floor(path.turn_at(position_mm) - start);
+    double at[2], cut[2];
+    for (int i = 0; i < 2; ++i) {
+      const double turn = turn_through(theta_rad, whole + i, position_mm);
+      if (turn < path.first_turn() || turn > path.last_turn()) {
+        return std::numeric_limits<double>::quiet_NaN();
+      }
+      at[i] = path.position_mm(turn);
+      cut[i] = face ? path.depth_mm(turn) : std::hypot(path.depth_mm(turn), program.tool.height_mm);
+    }
+    return cut[0] + (position_mm - at[0]) / (at[1] - at[0]) * (cut[1] - cut[0]);
+  }
+
   double surface(double theta_rad, double position_mm) const {
     return program.tool.nose_radius_mm > 0.0 ? envelope(theta_rad, position_mm)
                                              : between_turns(theta_rad, position_mm);
   }
 };
-
-/// Depth of the nose's edge over a position along the feed; NaN where the nose does not reach.
-double CutPart::Impl::edge_depth(double turn, double position_mm) const {
-  const double nose = program.tool.nose_radius_mm;
-  const double off = position_mm - path.position_mm(turn);
-  const double rest = nose * nose - off * off;
-  if (rest < 0.0) return std::numeric_limits<double>::quiet_NaN();
-  return path.depth_mm(turn) + inward * std::sqrt(rest);
-}
-
-/// Machine X of the cutting point in the tool's frame; its Y is the tool's height.
-double CutPart::Impl::edge_radius(double turn, double position_mm) const {
-  const double h = program.tool.height_mm;
-  if (face) return std::sqrt(std::max(0.0, position_mm * position_mm - h * h));
-  const double edge = edge_depth(turn, position_mm);
-  return std::isnan(edge) ? path.depth_mm(turn) : edge;
-}
-
-/// The turn near `whole_turn` whose cutting point lies at theta of the spindle frame: the tool's
-/// frame is at C + angle, the point above its X by the height.
-double CutPart::Impl::turn_through(double theta_rad, double whole_turn, double position_mm) const {
-  const double h = program.tool.height_mm;
-  double turn = whole_turn + turn_of(theta_rad - program.tool.angle_from_probe_rad);
-  if (h == 0.0) return turn;
-  const double level = turn;
-  for (int i = 0; i < 6; ++i) {
-    const double above = std::atan2(h, edge_radius(turn, position_mm));
-    turn = level - program.tool.sense * above / two_pi;
-  }
-  return turn;
-}
-
-double CutPart::Impl::envelope(double theta_rad, double position_mm) const {
-  const double reach = program.tool.nose_radius_mm / program.tool.feed_mm_per_rev + 1.0;
-  const double middle = path.turn_at(position_mm);
-  const double start = turn_of(theta_rad - program.tool.angle_from_probe_rad);
-  double left = std::numeric_limits<double>::quiet_NaN();
-  const double first = std::ceil(middle - reach - start), last = std::floor(middle + reach - start);
-  for (double whole = first; whole <= last; ++whole) {
-    const double turn = turn_through(theta_rad, whole, position_mm);
-    if (turn < path.first_turn() || turn > path.last_turn()) continue;
-    const double depth = edge_depth(turn, position_mm);
-    if (std::isnan(depth)) continue;
-    const double cut = face ? depth : std::hypot(depth, program.tool.height_mm);
-    if (std::isnan(left) || inward * cut > inward * left) left = cut;
-  }
-  return left;
-}
-
-/// A sharp tool: straight from one turn's groove to the next.
-double CutPart::Impl::between_turns(double theta_rad, double position_mm) const {
-  const double start = turn_of(theta_rad - program.tool.angle_from_probe_rad);
-  const double whole = std::floor(path.turn_at(position_mm) - start);
-  double at[2], cut[2];
-  for (int i = 0; i < 2; ++i) {
-    const double turn = turn_through(theta_rad, whole + i, position_mm);
-    if (turn < path.first_turn() || turn > path.last_turn()) {
-      return std::numeric_limits<double>::quiet_NaN();
-    }
-    at[i] = path.position_mm(turn);
-    cut[i] = face ? path.depth_mm(turn) : std::hypot(path.depth_mm(turn), program.tool.height_mm);
-  }
-  return cut[0] + (position_mm - at[0]) / (at[1] - at[0]) * (cut[1] - cut[0]);
-}
 
 CutPart::CutPart(const CutProgram& program, const CutTable& table)
     : impl_(std::make_unique<Impl>(program, table)) {}

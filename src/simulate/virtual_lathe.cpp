@@ -63,11 +63,7 @@ std::map<int, Prober> make_probers(const Scenario& scenario, const Chain& chain,
                                    const ProbeStream& recorded) {
   std::map<int, Prober> probers;
   for (const SetUp& stated : list_set_ups(recorded)) {
-    Chucking setup;
-    setup.number = stated.number;
-    for (const Chucking& known : scenario.plan.setups) {
-      if (known.number == stated.number) setup = known;
-    }
+    const Chucking setup = find_setup(scenario.plan, stated.number);
     probers.emplace(stated.number, Prober(scenario, chain, body, setup));
   }
   return probers;

@@ -48,7 +48,9 @@ std::vector<std::string> read_parameters(TomlTable& paper, const Sweep& sweep) {
 /// Every point sets the amplitude of the noise and nothing else: its level is one number.
 bool is_noise_level(const GridAxis& axis) {
   return std::ranges::all_of(axis.points, [&](const AxisPoint& point) {
-    return point.settings.size() == 1 && !point.lists.any() && point.settings.front().value > 0.0 &&
+    const Lists& lists = point.lists;
+    return point.settings.size() == 1 && !(lists.passes || lists.setups || lists.effects) &&
+           point.settings.front().value > 0.0 &&
            point.settings.front().path == axis.points.front().settings.front().path &&
            (point.settings.front().path == "noise.sigma_mm" ||
             point.settings.front().path == "noise.uniform_mm");

@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-/// Reads a sweep (see read_sweep_toml) whose file may have a table of published single runs:
+/// Reads a sweep (see parse_sweep_toml) whose file may have a table of published single runs:
 ///
 ///     [paper]      source = "…"   parameters = ["x0", "k"]
 ///     [[paper.row]]  at = ["10"]   values = ["0.0507", "402.036"]     ("?": a noise level lost)

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "simulate/draw_readings.hpp"
+#include "simulate/clean_stream.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

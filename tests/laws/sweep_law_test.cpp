@@ -5,7 +5,7 @@
 #include <set>
 
 #include "study/bound/quantities.hpp"
-#include "study/sweep/block_bytes.hpp"
+#include "study/sweep/files/sweep_journal.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/units.hpp"
@@ -29,7 +29,7 @@ TEST(Sweep, OrderOfWorkDoesNotShow) {
   sweep.drawn = {{"part.x0_mm", "part.x0_mm", Drawn::Kind::uniform, -0.2, 0.2}};
   const std::vector<BlockResult> whole = run_all(sweep, 2);
   for (const BlockResult& result : whole) {
-    BlockResult alone = run_block(sweep, result.block);
+    BlockResult alone = Worker(sweep).run(result.block);
     alone.seconds = result.seconds;
     EXPECT_EQ(encode(alone), encode(result));
     const BlockResult back = decode(encode(result));

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "simulate/resimulate.hpp"
+#include "simulate/clean_stream.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

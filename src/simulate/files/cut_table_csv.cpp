@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/files/cut_table_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "format/file.hpp"
 #include "trueaxis/error.hpp"
@@ -47,81 +48,49 @@ double unwrapped(double c_rad, double before, int sense) {
   return before + sense * (ahead < backwards ? ahead + two_pi : ahead);
 }
 
-class TableParser {
- public:
-  TableParser(const std::string& path, int sense) : path_(path), sense_(sense) {}
-
-  void line(std::string_view text, std::size_t number) {
-    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-    if (text.empty() || text.front() == '#') return;
-    if (!header_) {
-      header(text, number);
-      return;
-    }
-    const Row row = parse_row(text);
-    if (row.wrong_column != 0) {
-      complain(number, row.wrong_column, "is no number, or the row has not five columns");
-      return;
-    }
-    append(row);
-  }
-
-  virtual_lathe::CutTable take() {
-    if (!header_ && diagnostics_.empty())
-      complain(0, 0, "has no header line " + text(lateral_header));
-    if (header_ && table_.c_rad.size() < 2 && diagnostics_.empty()) {
-      complain(0, 0, "has fewer than two rows");
-    }
-    if (!diagnostics_.empty()) throw InputError(std::move(diagnostics_));
-    return std::move(table_);
-  }
-
- private:
-  static std::string text(std::string_view view) { return std::string(view); }
-
-  void header(std::string_view line, std::size_t number) {
-    header_ = true;
-    table_.face = line == face_header;
-    if (table_.face || line == lateral_header) return;
-    complain(number, 1,
-             "is no header of a correction table: write " + text(lateral_header) + " or " +
-                 text(face_header));
-  }
-
-  void append(const Row& row) {
-    const double c = row.values[2] * rad_per_deg;
-    table_.revolution.push_back(static_cast<int>(row.values[0]));
-    table_.position_mm.push_back(row.values[1]);
-    table_.c_rad.push_back(table_.c_rad.empty() ? c : unwrapped(c, table_.c_rad.back(), sense_));
-    table_.wanted_mm.push_back(row.values[3]);
-    table_.command_mm.push_back(row.values[4]);
-  }
-
-  void complain(std::size_t line, std::size_t column, std::string message) {
-    if (diagnostics_.size() >= most_diagnostics) return;
-    diagnostics_.push_back({path_, line, column, std::move(message)});
-  }
-
-  const std::string& path_;
-  int sense_;
-  bool header_ = false;
-  virtual_lathe::CutTable table_;
-  std::vector<Diagnostic> diagnostics_;
-};
+void append(const Row& row, int sense, virtual_lathe::CutTable& table) {
+  const double c = row.values[2] * rad_per_deg;
+  table.revolution.push_back(static_cast<int>(row.values[0]));
+  table.position_mm.push_back(row.values[1]);
+  table.c_rad.push_back(table.c_rad.empty() ? c : unwrapped(c, table.c_rad.back(), sense));
+  table.wanted_mm.push_back(row.values[3]);
+  table.command_mm.push_back(row.values[4]);
+}
 
 }  // namespace
 
 virtual_lathe::CutTable parse_cut_table(std::string_view content, const std::string& path,
                                         int sense) {
   expects(sense == 1 || sense == -1, "sense of rotation +1 or -1");
-  TableParser parser(path, sense);
-  std::size_t number = 0;
-  while (!content.empty()) {
+  virtual_lathe::CutTable table;
+  std::vector<Diagnostic> wrong;
+  const auto complain = [&](std::size_t line, std::size_t column, std::string message) {
+    if (wrong.size() < most_diagnostics) wrong.push_back({path, line, column, std::move(message)});
+  };
+  bool header = false;
+  for (std::size_t number = 1; !content.empty(); ++number) {
     const std::size_t end = content.find('\n');
-    parser.line(content.substr(0, end), ++number);
+    std::string_view line = content.substr(0, end);
     content.remove_prefix(end == std::string_view::npos ? content.size() : end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.empty() || line.front() == '#') continue;
+    if (!header) {
+      header = true;
+      table.face = line == face_header;
+      if (!table.face && line != lateral_header)
+        complain(number, 1,
+                 fmt::format("is no header of a correction table: write {} or {}", lateral_header,
+                             face_header));
+    } else if (const Row row = parse_row(line); row.wrong_column != 0) {
+      complain(number, row.wrong_column, "is no number, or the row has not five columns");
+    } else {
+      append(row, sense, table);
+    }
   }
-  return parser.take();
+  if (!header) complain(0, 0, fmt::format("has no header line {}", lateral_header));
+  if (wrong.empty() && table.c_rad.size() < 2) complain(0, 0, "has fewer than two rows");
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return table;
 }
 
 virtual_lathe::CutTable read_cut_table(const std::string& path, int sense) {

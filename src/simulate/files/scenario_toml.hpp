@@ -3,7 +3,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "format/toml_reader.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
@@ -36,5 +38,13 @@ virtual_lathe::Scenario read_scenario_toml(const std::string& path);
 
 /// The same from text; `path` names it in diagnostics and places relative file names.
 virtual_lathe::Scenario parse_scenario_toml(std::string_view content, const std::string& path);
+
+/// [part], [probe], [noise], [[pass]], [[setup]], [[effect]] and [cut] of a table.
+void read_scenario_tables(TomlTable root, virtual_lathe::Scenario& scenario);
+
+/// The lists [[pass]], [[setup]] and [[effect]] of a table; a face's passes run along X.
+std::vector<virtual_lathe::PlannedPass> read_passes(TomlTable table, bool face);
+std::vector<virtual_lathe::Chucking> read_setups(TomlTable table);
+std::vector<virtual_lathe::Effect> read_effects(TomlTable table);
 
 }  // namespace trueaxis

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/files/truth_json.hpp"
 
-#include <nlohmann/json.hpp>
+#include <cmath>
 
+#include "format/json.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {
 
 using namespace virtual_lathe;
-using Json = nlohmann::ordered_json;
 
-Json quantity(double value, const char* unit) { return {{"value", value}, {"unit", unit}}; }
-Json length(double value_mm) { return quantity(value_mm, "mm"); }
-Json angle(double value_rad) { return quantity(value_rad / rad_per_deg, "deg"); }
+Json length(double value_mm) { return with_unit(value_mm, "mm"); }
+Json angle(double value_rad) { return with_unit(value_rad / rad_per_deg, "deg"); }
 
 /// A parameter whose unit inside is the suffix of its name.
 void put(Json& to, const std::string& name, double value) {
@@ -29,10 +27,10 @@ void put(Json& to, const std::string& name, double value) {
   for (const Suffix& suffix : suffixes) {
     if (!name.ends_with(suffix.inside)) continue;
     to[name.substr(0, name.size() - suffix.inside.size())] =
-        quantity(value * suffix.factor, suffix.unit);
+        with_unit(value * suffix.factor, suffix.unit);
     return;
   }
-  to[name] = quantity(value, "1");
+  to[name] = with_unit(value, "1");
 }
 
 Json part_json(const Part& part) {
@@ -42,8 +40,8 @@ Json part_json(const Part& part) {
     parameters["x0"] = length(part.x0_mm);
     parameters["y0"] = length(part.y0_mm);
   }
-  parameters["l"] = quantity(part.l, "1");
-  parameters["m"] = quantity(part.m, "1");
+  parameters["l"] = with_unit(part.l, "1");
+  parameters["m"] = with_unit(part.m, "1");
   if (part.kind == PartKind::face) parameters["d"] = length(part.d_mm);
   if (part.kind == PartKind::cylinder) parameters["radius"] = length(part.radius_mm);
   if (part.kind == PartKind::cone) {
@@ -59,11 +57,11 @@ Json part_json(const Part& part) {
 Json noise_json(const Noise& noise) {
   return {{"sigma", length(noise.sigma_mm)},
           {"uniform", length(noise.uniform_mm)},
-          {"rho", quantity(noise.rho, "1")},
+          {"rho", with_unit(noise.rho, "1")},
           {"autoregression", noise.autoregression},
-          {"student_dof", quantity(noise.student_dof, "1")},
-          {"incidence", quantity(noise.incidence, "1")},
-          {"outlier_fraction", quantity(noise.outlier_fraction, "1")},
+          {"student_dof", with_unit(noise.student_dof, "1")},
+          {"incidence", with_unit(noise.incidence, "1")},
+          {"outlier_fraction", with_unit(noise.outlier_fraction, "1")},
           {"outlier_size", length(noise.outlier_size_mm)},
           {"outliers_one_sided", noise.outliers_one_sided},
           {"quantisation", length(noise.quantisation_mm)}};
@@ -89,11 +87,11 @@ Json setups_json(const std::vector<Chucking>& setups) {
                {"z_shift", length(setup.z_shift_mm)},
                {"side", setup.rear ? "rear" : "front"},
                {"x_jog", length(setup.x_jog_mm)},
-               {"clamp_force_ratio", quantity(setup.clamp_force_ratio, "1")}};
+               {"clamp_force_ratio", with_unit(setup.clamp_force_ratio, "1")}};
     if (setup.x0_mm) entry["x0"] = length(*setup.x0_mm);
     if (setup.y0_mm) entry["y0"] = length(*setup.y0_mm);
-    if (setup.l) entry["l"] = quantity(*setup.l, "1");
-    if (setup.m) entry["m"] = quantity(*setup.m, "1");
+    if (setup.l) entry["l"] = with_unit(*setup.l, "1");
+    if (setup.m) entry["m"] = with_unit(*setup.m, "1");
     list.push_back(entry);
   }
   return list;
@@ -116,7 +114,7 @@ std::string truth_json(const Truth& truth) {
   json["points"] = truth.clean_mm.size();
   json["outlier_rows"] = truth.outlier_rows;
   json["clipped_rows"] = truth.clipped_rows;
-  return json.dump(2) + '\n';
+  return json_text(json);
 }
 
 }  // namespace trueaxis

@@ -32,7 +32,6 @@ class Estimable {
   static std::optional<Estimable> of(const virtual_lathe::Scenario& scenario,
                                      const ProbeStream& probed, SurfaceKind surface);
 
-  virtual_lathe::Scenario& scenario() { return scenario_; }
   const virtual_lathe::Scenario& scenario() const { return scenario_; }
 
   /// Axis (section: centre) or face of every clamping, then radius and half angle of the part,

@@ -120,20 +120,15 @@ WorstOfAxis AxisBounds::of(const Scenario& scenario) {
   Scenario reference = scenario;
   if (in_proportion) reference.noise.sigma_mm = sigma_of_reference_mm;
   const std::vector<double> key = key_of(reference);
-  WorstOfAxis worst;
-  {
-    const std::lock_guard lock(one_at_a_time_);
-    if (const auto at = known_.find(key); at != known_.end()) {
-      worst = at->second;
-      worst.sd_mm *= scale;
-      return worst;
-    }
+  std::unique_lock lock(one_at_a_time_);
+  auto at = known_.find(key);
+  if (at == known_.end()) {
+    lock.unlock();
+    const WorstOfAxis worst = worked_out(reference);
+    lock.lock();
+    at = known_.emplace(key, worst).first;
   }
-  worst = worked_out(reference);
-  {
-    const std::lock_guard lock(one_at_a_time_);
-    known_.emplace(key, worst);
-  }
+  WorstOfAxis worst = at->second;
   worst.sd_mm *= scale;
   return worst;
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "simulate/draw_readings.hpp"
+#include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
@@ -33,20 +33,6 @@ FitOptions fit_options(const Sweep& sweep, const Scenario& scenario, Method meth
   if (method == Method::huber) options.loss = Loss::huber;
   if (method == Method::tukey) options.loss = Loss::tukey;
   return options;
-}
-
-Outcome outcome_of(FitStatus status) {
-  switch (status) {
-    case FitStatus::converged:
-      return Outcome::converged;
-    case FitStatus::max_iterations:
-      return Outcome::max_iterations;
-    case FitStatus::rank_deficient:
-      return Outcome::rank_deficient;
-    case FitStatus::too_few:
-      break;
-  }
-  return Outcome::too_few;
 }
 
 bool differ(const std::vector<double>& a, const std::vector<double>& b) {
@@ -183,8 +169,8 @@ struct CellRunner {
   }
 
   void note(const FitResult& fit, const std::vector<double>& truth, BlockResult& out) const {
-    out.outcome.back() = outcome_of(fit.status);
     if (fit.status != FitStatus::converged) {
+      ++out.failures;
       if (out.why.empty()) out.why = std::string(to_string(fit.status)) + ": " + fit.message;
       return;
     }
@@ -227,19 +213,17 @@ BlockResult Worker::run(const Block& block) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     out.error.insert(out.error.end(), out.quantities, none);
     out.u.insert(out.u.end(), out.quantities, none);
-    out.outcome.push_back(Outcome::no_stream);
     if (runner.method == Method::diagnosis) out.found.push_back(0);
     try {
       runner.run_repeat(block.first_repeat + i, out);
     } catch (const InputError& error) {
+      ++out.failures;
       if (out.why.empty()) out.why = error.what();
     }
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return out;
 }
-
-BlockResult run_block(const Sweep& sweep, const Block& block) { return Worker(sweep).run(block); }
 
 std::vector<Block> blocks_of(const Sweep& sweep) {
   std::vector<Block> blocks;

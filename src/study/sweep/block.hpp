@@ -21,9 +21,6 @@ struct Block {
 /// All of a sweep's work, cell by cell; how it is cut does not depend on who does it.
 std::vector<Block> blocks_of(const Sweep& sweep);
 
-/// What a repeat ended with.
-enum class Outcome : std::uint8_t { converged, max_iterations, rank_deficient, too_few, no_stream };
-
 /// What does not depend on the repeat.
 struct CellFacts {
   std::size_t readings = 0;
@@ -41,7 +38,7 @@ struct BlockResult {
   Block block;
   std::size_t quantities = 0;
   std::vector<double> error, u;  ///< count × quantities: estimate − truth; NaN: not determined
-  std::vector<Outcome> outcome;  ///< of every repeat
+  std::size_t failures = 0;      ///< repeats without a stream or a converged fit
   std::vector<std::uint8_t> found;  ///< diagnosis: 1 something was found, 2 all that was hidden is
                                     ///< in the class of a finding, 3 both; else empty
   std::vector<CellFacts> facts;     ///< one in the block of repeat 0, else none
@@ -57,14 +54,12 @@ class Worker {
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
+  /// A function of sweep and block alone: who runs a block, and when, does not show.
   BlockResult run(const Block& block);
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// A function of its arguments alone: who runs a block, and when, does not show.
-BlockResult run_block(const Sweep& sweep, const Block& block);
 
 }  // namespace trueaxis::study

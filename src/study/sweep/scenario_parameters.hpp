@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "study/sweep/setting.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::study {
@@ -21,6 +20,12 @@ struct ScenarioParameter {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   bool open = false;  ///< low and high themselves are not allowed
+};
+
+/// What a number is set to, in the unit inside.
+struct Setting {
+  std::string path;
+  double value = 0.0;
 };
 
 /// Every number that this scenario has, in the order of its file.

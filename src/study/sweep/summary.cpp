@@ -119,8 +119,7 @@ CellSummary cell_of(const std::vector<const BlockResult*>& blocks) {
   CellSummary cell;
   double found = 0.0, named = 0.0, looked = 0.0;
   for (const BlockResult* block : blocks) {
-    cell.failures += static_cast<std::size_t>(
-        std::ranges::count_if(block->outcome, [](Outcome o) { return o != Outcome::converged; }));
+    cell.failures += block->failures;
     if (cell.why.empty()) cell.why = block->why;
     cell.seconds += block->seconds;
     looked += static_cast<double>(block->found.size());

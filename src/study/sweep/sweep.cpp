@@ -3,10 +3,8 @@
 
 #include <cmath>
 
-#include "simulate/random.hpp"
 #include "simulate/variates.hpp"
 #include "study/bound/quantities.hpp"
-#include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "study/sweep/setting.hpp"
+#include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/surface.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -22,7 +22,6 @@ struct Lists {
   std::optional<std::vector<virtual_lathe::Chucking>> setups;
   std::optional<std::vector<virtual_lathe::Effect>> effects;
 
-  bool any() const { return passes || setups || effects; }
   void put_into(virtual_lathe::Scenario& scenario) const;
 };
 

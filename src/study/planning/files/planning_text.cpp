@@ -49,13 +49,10 @@ const char* const head =
     "length    feed         per rev  sigma     readings  time      readings/s  U [µm]\n";
 
 std::string row_text(const PlannedMeasurement& plan) {
-  std::string text = padded(value_text(plan, Choice::length), 10);
-  text += padded(value_text(plan, Choice::feed), 13);
-  text += padded(value_text(plan, Choice::readings_per_revolution), 9);
-  text += padded(value_text(plan, Choice::sigma), 10);
-  text += padded(std::to_string(plan.readings), 10);
-  text += padded(digits(4, plan.time_s) + " s", 10);
-  return text + padded(digits(4, plan.rate_hz), 12) + um(plan.u_expanded_mm);
+  return format("{:<10}{:<13}{:<9}{:<10}{:<10}{:<10}{:<12}{}", value_text(plan, Choice::length),
+                value_text(plan, Choice::feed), value_text(plan, Choice::readings_per_revolution),
+                value_text(plan, Choice::sigma), plan.readings, digits(4, plan.time_s) + " s",
+                digits(4, plan.rate_hz), um(plan.u_expanded_mm));
 }
 
 std::string beyond_text(const PlanningTask& task, const PlannedMeasurement& plan) {

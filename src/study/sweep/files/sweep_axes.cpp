@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulate/autoregression.hpp"
-#include "simulate/files/scenario_tables.hpp"
+#include "simulate/files/scenario_toml.hpp"
+#include "simulate/noise.hpp"
 
 namespace trueaxis {
 namespace {

@@ -11,16 +11,26 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include "base/build_id.hpp"
 #include "format/file.hpp"
-#include "study/sweep/block_bytes.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
+namespace study {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Block, cell, first_repeat, count)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Bound, kind, missing, sd, covariance)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CellFacts, readings, truth, bound, bound_spread, hidden)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlockResult, block, quantities, error, u, failures, found, facts,
+                                   why, seconds)
+
+}  // namespace study
+
 namespace {
 
 using namespace study;
@@ -31,16 +41,16 @@ constexpr std::string_view record_mark = "TXBLOCK1";
 using Place = std::pair<std::size_t, std::size_t>;
 Place place_of(const Block& block) { return {block.cell, block.first_repeat}; }
 
-/// "trueaxis sweep journal 2 <hash of the input> <version> <build>\n": what a block's numbers
+/// "trueaxis sweep journal 3 <hash of the input> <version> <build>\n": what a block's numbers
 /// depend on.
 std::string head_of(const Sweep& sweep) {
-  return "trueaxis sweep journal 2 " + sweep.input_hash + ' ' + TRUEAXIS_VERSION + ' ' + build_id +
+  return "trueaxis sweep journal 3 " + sweep.input_hash + ' ' + TRUEAXIS_VERSION + ' ' + build_id +
          '\n';
 }
 
 /// Why a journal that does not begin with head_of() is refused.
 std::string refusal(std::string_view journal, const Sweep& sweep) {
-  const std::string same_sweep = "trueaxis sweep journal 2 " + sweep.input_hash + ' ';
+  const std::string same_sweep = "trueaxis sweep journal 3 " + sweep.input_hash + ' ';
   if (!journal.starts_with(same_sweep))
     return "is of another sweep (its file or scenario has changed since) or of an older version: "
            "choose another folder with -o, or delete this one";
@@ -150,6 +160,20 @@ SweepJournal::~SweepJournal() = default;
 std::vector<BlockResult> SweepJournal::take_finished() { return std::move(impl_->finished); }
 
 void SweepJournal::append(const BlockResult& result) { impl_->write_all(record_of(result)); }
+
+std::string encode(const BlockResult& result) {
+  std::string bytes;
+  nlohmann::json::to_cbor(result, bytes);
+  return bytes;
+}
+
+BlockResult decode(std::string_view bytes) {
+  try {
+    return nlohmann::json::from_cbor(bytes);
+  } catch (const nlohmann::json::exception&) {
+    throw InputError("block", "is no result of a block");
+  }
+}
 
 std::vector<Block> blocks_to_do(const Sweep& sweep, const std::vector<BlockResult>& finished) {
   std::set<Place> done;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "study/sweep/block.hpp"
@@ -32,6 +33,10 @@ class SweepJournal {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// A result as bytes (CBOR), and back. @throws InputError for bytes that are none.
+std::string encode(const study::BlockResult& result);
+study::BlockResult decode(std::string_view bytes);
 
 /// Blocks of the sweep that are not among `finished`.
 std::vector<study::Block> blocks_to_do(const study::Sweep& sweep,

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "format/file.hpp"
-#include "simulate/files/scenario_tables.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "study/sweep/files/sweep_axes.hpp"
 #include "trueaxis/error.hpp"
@@ -99,11 +98,6 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
   }
   document.finish();
   return sweep;
-}
-
-study::Sweep read_sweep_toml(const std::string& path,
-                             const std::vector<SweepExtension>& extensions) {
-  return parse_sweep_toml(read_file(path), path, extensions);
 }
 
 }  // namespace trueaxis

@@ -20,7 +20,7 @@ struct SweepExtension {
   std::function<void(TomlTable, const study::Sweep&, const ReadSet&)> read;
 };
 
-/// Reads a sweep:
+/// Reads a sweep; `path` names it in diagnostics and places the scenario's file:
 ///
 ///     name = "…"   seed = 1   repeats = 2000
 ///     methods = ["fit", "huber", "tukey", "diagnosis"]      (["fit"])
@@ -41,10 +41,6 @@ struct SweepExtension {
 /// case of a list.
 ///
 /// @throws InputError with every diagnostic: file, line, column, what to do.
-study::Sweep read_sweep_toml(const std::string& path,
-                             const std::vector<SweepExtension>& extensions = {});
-
-/// The same from text; `path` names it in diagnostics and places the scenario's file.
 study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
                               const std::vector<SweepExtension>& extensions = {});
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <boost/math/special_functions/legendre.hpp>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <tuple>
+
+#include "simulate/chain.hpp"
+
+/// The catalogue of the virtual lathe: what an effect is and how it enters the chain.
+namespace trueaxis::virtual_lathe {
+
+/// Calls with the effect's parameter of a name.
+class Values {
+ public:
+  explicit Values(const Effect& effect) : effect_(effect) {}
+  double operator()(std::string_view name) const { return parameter(effect_, name); }
+
+  /// All of them, in the order of the catalogue.
+  template <std::size_t count>
+  std::array<double, count> all() const {
+    std::array<double, count> values{};
+    const auto parameters = find_effect_kind(effect_.id).parameters;
+    for (std::size_t i = 0; i < count; ++i) values[i] = (*this)(parameters[i].name);
+    return values;
+  }
+
+ private:
+  const Effect& effect_;
+};
+
+using Enters = void (*)(const Values&, Chain&);
+
+struct EffectEntry {
+  std::string_view id, what;
+  LatheParameter parameters[6];  ///< those behind the last have no name
+  Enters enter;
+};
+
+template <class Formula, class Out, class At, class... Numbers>
+std::function<Out(At)> with_values(Formula formula, Out (Formula::*)(At, Numbers...) const,
+                                   const Values& of) {
+  return [formula, values = of.all<sizeof...(Numbers)>()](At at) {
+    return std::apply([&](Numbers... numbers) { return formula(at, numbers...); }, values);
+  };
+}
+
+/// A formula in a slot of the chain: of what the slot is about, then of the effect's parameters, in
+/// the order of its entry.
+template <auto slot, class Formula>
+constexpr Enters in(Formula) {
+  return [](const Values& of, Chain& chain) {
+    (chain.*slot).push_back(with_values(Formula{}, &Formula::operator(), of));
+  };
+}
+
+/// Legendre polynomial P_l, also a little outside [−1, 1], where a probe may overrun.
+inline double legendre(double degree, double u) {
+  double before = 1.0, now = u;
+  if (degree == 0.0) return before;
+  for (unsigned l = 1; l < static_cast<unsigned>(degree); ++l) {
+    const double next = boost::math::legendre_next(l, u, now, before);
+    before = now;
+    now = next;
+  }
+  return now;
+}
+
+/// Slot C: what the part's surface is, in the part's own frame.
+std::span<const EffectEntry> part_effects();
+
+/// Slots A and D: where spindle and slides really are against what is recorded, and when. What the
+/// encoder says comes first: the errors of the spindle follow its true angle.
+std::span<const EffectEntry> machine_effects();
+
+/// Slots B and E: the probe's line and the sensor's response.
+std::span<const EffectEntry> probe_effects();
+
+/// What no catalogue has: forms and motions for tests that must end with "unknown", then patterns
+/// without a cause, which play back what a diagnosis leaves unexplained.
+std::span<const EffectEntry> extra_effects();
+
+}  // namespace trueaxis::virtual_lathe
