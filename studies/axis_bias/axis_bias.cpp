@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "resimulate/lathe_effects.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/estimated_parameters.hpp"
 #include "study/bound/quantities.hpp"
@@ -18,69 +19,51 @@ using namespace virtual_lathe;
 // What contact and fit leave of a noise-free axis: some hundred units of the last place of 40 mm.
 constexpr double rounding_mm = 1e-11;
 
+/// x and y of the axis at both ends (see AxisEnds), mm.
+using Move = Eigen::Vector4d;
+Move vector_of(const AxisEnds& ends) { return Move(ends.data()); }
+
 /// Displacements of the axis per unit of the effect, one for each of its directions.
-using Moves = std::vector<AxisEnds>;
+using Moves = Eigen::Matrix4Xd;
 
 /// Largest over both ends and all mixtures c, s (c² + s² = 1) of the directions.
 double worst(const Moves& moves) {
-  double most = 0.0;
-  for (const std::size_t end : {0, 2}) {
-    Eigen::MatrixXd at(2, static_cast<Eigen::Index>(moves.size()));
-    for (std::size_t d = 0; d < moves.size(); ++d) {
-      at(0, static_cast<Eigen::Index>(d)) = moves[d][end];
-      at(1, static_cast<Eigen::Index>(d)) = moves[d][end + 1];
-    }
-    most = std::max(most, Eigen::JacobiSVD<Eigen::MatrixXd>(at).singularValues()(0));
-  }
-  return most;
+  const auto largest = [](const Eigen::MatrixXd& at_end) {
+    return Eigen::JacobiSVD<Eigen::MatrixXd>(at_end).singularValues()(0);
+  };
+  return std::max(largest(moves.topRows<2>()), largest(moves.bottomRows<2>()));
 }
 
-Moves combined(const Moves& a, double times_a, const Moves& b, double times_b) {
-  Moves out = a;
-  for (std::size_t d = 0; d < a.size(); ++d) {
-    for (std::size_t i = 0; i < 4; ++i) out[d][i] = times_a * a[d][i] + times_b * b[d][i];
-  }
-  return out;
+/// The term at a size, as a diagnosis would have found it.
+std::vector<virtual_lathe::Effect> played(const AxisBiasCase& of,
+                                          const AxisBiasDirection& direction, double size,
+                                          const LatheFrame& frame) {
+  if (direction.lathe) return {direction.lathe(size)};
+  TermValue term;
+  term.effect = find_effect(of.effect);
+  term.shape = of.known.shape;
+  term.linear.resize(linear_parameters(term.effect->term, term.shape).size());
+  for (std::size_t j = 0; j < direction.linear.size(); ++j)
+    term.linear[of.known.free.empty() ? j : of.known.free[j]] = size * direction.linear[j];
+  return lathe_effects(term, frame);
 }
 
-ProbeStream probed_with(const Scenario& ideal, const AxisBiasCase& of, std::size_t direction,
-                        double size) {
-  Scenario scenario = ideal;
-  virtual_lathe::Effect effect{of.effect, of.shape_of_lathe};
-  for (const auto& [name, per_unit] : of.directions[direction].lathe) {
-    const bool is_angle = name == "phase_rad" || name == "direction_rad" || name == "jaw_angle_rad";
-    effect.parameters[name] = is_angle ? per_unit : per_unit * size;
-  }
-  scenario.effects = {std::move(effect)};
-  return simulate_clean(scenario).stream;
-}
-
-AxisEnds true_ends(const Scenario& scenario, const FitResult& fit) {
+Move true_ends(const Scenario& scenario, const FitResult& fit) {
   const std::vector<double> truth =
       true_values(scenario, {fit.position_min_mm, fit.position_max_mm}, fit.surface);
   const std::vector<Quantity> names = quantities(fit.surface);
-  AxisEnds out{};
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].name == "x_at_min_z")
-      std::copy_n(truth.begin() + static_cast<long>(i), 4, out.begin());
-  }
-  return out;
-}
-
-AxisEnds difference(const AxisEnds& a, const AxisEnds& b) {
-  AxisEnds out{};
-  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] - b[i];
-  return out;
+  const auto from = std::ranges::find(names, "x_at_min_z", &Quantity::name) - names.begin();
+  return Move(truth.data() + from);
 }
 
 /// Distance of the identified axis from the true one.
 struct AxisError {
-  AxisEnds alone{}, extended{};
+  Move alone = Move::Zero(), extended = Move::Zero();
 };
 
 AxisError axis_error(const Scenario& scenario, const EffectOnAxis& found) {
-  const AxisEnds truth = true_ends(scenario, found.alone);
-  return {difference(found.alone_ends, truth), difference(ends_of(found.extended), truth)};
+  const Move truth = true_ends(scenario, found.alone);
+  return {vector_of(found.alone_ends) - truth, vector_of(ends_of(found.extended)) - truth};
 }
 
 /// Lathe, fit and extended fit at one size.
@@ -93,21 +76,22 @@ struct AtSize {
 /// probe, while a relative gauge's nominal radius is never quite that of the part
 AtSize at_size(const Scenario& ideal, const FitOptions& options, const AxisBiasCase& of,
                const AxisError& without, double size) {
-  AtSize out;
-  for (std::size_t d = 0; d < of.directions.size(); ++d) {
-    const EffectOnAxis found = effect_on_axis(probed_with(ideal, of, d, size), options, of.known);
+  const auto count = static_cast<Eigen::Index>(of.directions.size());
+  AtSize out{Moves(4, count), Moves(4, count)};
+  const LatheFrame frame{0.5 * (*ideal.u_start_mm + *ideal.u_end_mm),
+                         0.5 * (*ideal.u_end_mm - *ideal.u_start_mm)};
+  Scenario scenario = ideal;
+  Eigen::Index column = 0;
+  for (const AxisBiasDirection& direction : of.directions) {
+    scenario.effects = played(of, direction, size, frame);
+    const EffectOnAxis found = effect_on_axis(simulate_clean(scenario).stream, options, of.known);
     if (found.alone.status != FitStatus::converged)
       throw InputError(of.effect, "the surface cannot be fitted: " + found.alone.message);
-    const AxisError with = axis_error(ideal, found);
-    const auto per_unit = [&](const AxisEnds& error, const AxisEnds& error_without) {
-      AxisEnds moved = difference(error, error_without);
-      for (double& one : moved) one /= size;
-      return moved;
-    };
-    out.alone.push_back(per_unit(with.alone, without.alone));
-    out.extended.push_back(
-        difference(per_unit(with.extended, found.separable ? without.extended : AxisEnds{}),
-                   of.directions[d].rigid));
+    AxisError error = axis_error(ideal, found);
+    error.alone -= without.alone;
+    if (found.separable) error.extended -= without.extended;
+    out.alone.col(column) = error.alone / size;
+    out.extended.col(column++) = error.extended / size - vector_of(direction.rigid);
     out.separable = out.separable && found.separable;
   }
   return out;
@@ -115,14 +99,13 @@ AtSize at_size(const Scenario& ideal, const FitOptions& options, const AxisBiasC
 
 /// The column's projection, along each direction.
 Moves predicted_moves(const EffectOnAxis& linearised, const AxisBiasCase& of) {
-  Moves out;
+  Moves out(4, static_cast<Eigen::Index>(of.directions.size()));
+  Eigen::Index column = 0;
   for (const AxisBiasDirection& direction : of.directions) {
-    AxisEnds sum = direction.rigid;
-    for (std::size_t j = 0; j < linearised.shift_per_unit.size(); ++j) {
-      for (std::size_t i = 0; i < 4; ++i)
-        sum[i] += direction.linear[j] * linearised.shift_per_unit[j][i];
-    }
-    out.push_back(sum);
+    Move sum = vector_of(direction.rigid);
+    for (std::size_t j = 0; j < linearised.shift_per_unit.size(); ++j)
+      sum += direction.linear[j] * vector_of(linearised.shift_per_unit[j]);
+    out.col(column++) = sum;
   }
   return out;
 }
@@ -147,11 +130,8 @@ AxisBiasRow axis_bias_of(const Scenario& scenario, const AxisBiasCase& of) {
       ideal.probe.relative_zero_mm ? axis_error(ideal, linearised) : AxisError{};
   const AtSize whole = at_size(ideal, options, of, without, of.size),
                half = at_size(ideal, options, of, without, 0.5 * of.size);
-  const Moves predicted = predicted_moves(linearised, of),
-              limit = combined(half.alone, 2.0, whole.alone, -1.0);
-  const auto apart = [&](const Moves& a, const Moves& b) {
-    return worst(combined(a, 1.0, b, -1.0)) / of.edge;
-  };
+  const Moves predicted = predicted_moves(linearised, of), limit = 2.0 * half.alone - whole.alone;
+  const auto apart = [&](const Moves& a, const Moves& b) { return worst(a - b) / of.edge; };
   AxisBiasRow row;
   row.of = of;
   row.lathe = worst(whole.alone) / of.edge, row.lathe_half = worst(half.alone) / of.edge;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,27 +12,26 @@
 /// What an effect that is not in the model costs: the bias of the identified axis per unit of it.
 namespace trueaxis::study {
 
-/// One way in which an effect can lie: the virtual lathe's parameters and the model's linear ones,
-/// both per unit of the effect's size.
+/// One way in which an effect can lie, per unit of its size.
 struct AxisBiasDirection {
-  std::map<std::string, double> lathe;
-  std::vector<double> linear;
+  std::vector<double> linear;  ///< the model's free linear parameters
   /// What of the effect is no more than another place of the part: moves the axis, and is in no
   /// column. The extended model's axis is that of the part so moved.
   AxisEnds rigid{};
+  /// The lathe's effect of a size, where it is another than that of the term (see lathe_effects).
+  std::function<virtual_lathe::Effect(double size)> lathe{};
 };
 
 /// An effect of the catalogue in one form, at a size that is small enough for its second order.
 struct AxisBiasCase {
-  std::string effect, form;                      ///< "part.roundness", "ovality"
-  double size = 0.0;                             ///< mm, rad, s or 1
-  std::string unit;                              ///< at the edge: mm, deg, s or 1
-  double edge = 1.0;                             ///< edge value of one inside unit
-  std::map<std::string, double> shape_of_lathe;  ///< parameters that the size does not scale
+  std::string effect, form;  ///< "part.roundness", "ovality"
   KnownEffect known;
   /// Two of an effect with a phase or direction: the bias is then that of the worst phase.
   std::vector<AxisBiasDirection> directions;
-  std::optional<double> stated;  ///< what the catalogue says, mm per edge unit
+  double size = 1e-3;              ///< mm, rad, s or 1
+  std::string unit = "mm";         ///< at the edge: mm, deg, s or 1
+  double edge = 1.0;               ///< edge value of one inside unit
+  std::optional<double> stated{};  ///< what the catalogue says, mm per edge unit
 };
 
 /// Largest distance of the axis over the probed length in the worst phase, mm per edge unit.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <map>
 
 #include "simulate/clean_stream.hpp"
 #include "study/bound/estimated_parameters.hpp"
@@ -14,11 +14,9 @@
 namespace trueaxis::study {
 namespace {
 
-using Parameters = std::map<std::string, double>;
-
-constexpr double half_turn = std::numbers::pi;
-// Small against what bends the readings' dependence on them: R/n² for lengths, 1 for angles.
-constexpr double small_mm = 1e-3, small_rad = 1e-4, small_s = 1e-4, small_share = 1e-3;
+// Small against what bends the readings' dependence on them: R/n² for lengths, 1 for angles; those
+// of a length are AxisBiasCase's.
+constexpr double small_rad = 1e-4, small_s = 1e-4, small_share = 1e-3;
 constexpr double small_slope_rad = 1e-5;
 
 /// What the plan gives the shapes.
@@ -53,176 +51,131 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
           scenario.part.kind == virtual_lathe::PartKind::cone};
 }
 
-/// A size with cosine and sine: `phase` is the lathe's phase, its sine of this sign in the model's
-/// second column; `times`: the lathe's phase is that angle over it.
-std::vector<AxisBiasDirection> phases(const char* size, const char* phase, double sign,
-                                      double times = 1.0) {
-  return {{{{size, 1.0}, {phase, 0.0}}, {1.0, 0.0}},
-          {{{size, 1.0}, {phase, 0.5 * half_turn / times}}, {0.0, sign}}};
-}
-
-AxisBiasDirection only(const char* size, std::vector<double> linear = {1.0}) {
-  return {{{size, 1.0}}, std::move(linear)};
-}
-
-AxisBiasCase mm(const char* effect, const char* form, TermShape shape, Parameters fixed,
-                std::vector<AxisBiasDirection> directions) {
-  return {effect,
-          form,
-          small_mm,
-          "mm",
-          1.0,
-          std::move(fixed),
-          {effect, shape, {}},
-          std::move(directions),
-          {}};
-}
-
-AxisBiasCase angle(const char* effect, const char* form, double size, TermShape shape,
-                   Parameters fixed, std::vector<AxisBiasDirection> directions) {
-  AxisBiasCase out = mm(effect, form, shape, std::move(fixed), std::move(directions));
-  out.size = size, out.unit = std::string("deg"), out.edge = 1.0 / rad_per_deg;
+/// @param free which linear parameters are fitted, and of size 1 in turn; empty: all
+AxisBiasCase mm(const char* effect, const char* form, const TermShape& shape = {},
+                const std::vector<std::size_t>& free = {}) {
+  AxisBiasCase out{effect, form, {effect, shape, free}, {}};
+  const std::size_t columns =
+      free.empty() ? linear_parameters(find_effect(effect)->term, shape).size() : free.size();
+  for (std::size_t j = 0; j < columns; ++j) {
+    out.directions.push_back({std::vector<double>(columns)});
+    const bool sine = find_effect(effect)->line && j == 1;  // of the phase +90°: −1
+    out.directions.back().linear[j] = sine ? -1.0 : 1.0;
+  }
   return out;
 }
 
-AxisBiasCase unit(AxisBiasCase of, double size, const char* name) {
-  of.size = size, of.unit = std::string(name);
+AxisBiasCase unit(AxisBiasCase of, double size, const char* name, double edge = 1.0) {
+  of.size = size, of.unit = std::string(name), of.edge = edge;
   return of;
 }
 
-AxisBiasCase free(AxisBiasCase of, std::vector<std::size_t> columns) {
-  of.known.free = std::move(columns);
-  return of;
+AxisBiasCase angle(AxisBiasCase of, double size = small_rad) {
+  return unit(std::move(of), size, "deg", 1.0 / rad_per_deg);
 }
 
 /// A bend that starts at the lower end: (1 + u)²/4 = 1/4 + u/2 + u²/4, of which the first two are
 /// another place of the part. Sections that are displaced by a + b s and not turned are those of a
 /// cone turned by θ = b/(1 + tan²α) and displaced by a − R θ tanα.
 AxisBiasCase bow_from_the_end(const Where& at) {
-  AxisBiasCase out = mm("part.bow", "from the lower end", {},
-                        {{"length_mm", 2.0 * at.length_mm()}, {"middle_mm", at.low_mm}},
-                        phases("sagitta_mm", "direction_rad", 1.0));
   const double turned = 1.0 / at.length_mm() / (1.0 + at.tangent * at.tangent);
   const double displaced = 0.25 - at.middle_radius_mm * turned * at.tangent;
   const auto moved = [&](double z) { return displaced + turned * (z - at.middle_mm()); };
   const double low = moved(at.z_low_mm), high = moved(at.z_high_mm);
-  out.directions[0].linear = {0.25, 0.0}, out.directions[0].rigid = {low, 0.0, high, 0.0};
-  out.directions[1].linear = {0.0, 0.25}, out.directions[1].rigid = {0.0, low, 0.0, high};
+  const auto bow = [&](double direction_rad) {
+    return [=](double sagitta_mm) {
+      return virtual_lathe::Effect{"part.bow",
+                                   {{"sagitta_mm", sagitta_mm},
+                                    {"length_mm", 2.0 * at.length_mm()},
+                                    {"middle_mm", at.low_mm},
+                                    {"direction_rad", direction_rad}}};
+    };
+  };
+  AxisBiasCase out = mm("part.bow", "from the lower end");
+  out.directions = {{{0.25, 0.0}, {low, 0.0, high, 0.0}, bow(0.0)},
+                    {{0.0, 0.25}, {0.0, low, 0.0, high}, bow(0.25 * two_pi)}};
   return out;
 }
 
-AxisBiasCase radial_slip(const Where& at, const char* form, double share) {
-  const double when = share * at.duration_s;
-  return free(mm("part.slip", form, {.onset_s = when}, {{"time_s", when}},
-                 {only("dx_mm", {1.0, 0.0}), only("dy_mm", {0.0, 1.0})}),
-              {0, 1});
+AxisBiasCase chuck_lobing(const Where& at) {
+  const double ring = std::pow((9.0 - 1.0) / (36.0 - 1.0), 2);  // second harmonic of three jaws
+  AxisBiasCase out = mm("part.chuck_lobing", "three jaws",
+                        {.order = 3, .lever_from_mm = at.low_mm - 5.0, .decay_length_mm = 40});
+  out.directions = {{{1.0, 0.0, ring, 0.0}}, {{0.0, 1.0, -ring, 0.0}}};  // twice the phase: cos π
+  return out;
 }
 
 std::vector<AxisBiasCase> part_cases(const Where& at) {
-  const double length = at.length_mm(), jaws = at.low_mm - 5.0;
-  const double ring = std::pow((9.0 - 1.0) / (36.0 - 1.0), 2);  // second harmonic of three jaws
-  AxisBiasCase lobing = mm("part.chuck_lobing", "three jaws",
-                           {.order = 3, .lever_from_mm = jaws, .decay_length_mm = 40},
-                           {{"jaws", 3}, {"jaw_position_mm", jaws}, {"decay_length_mm", 40}},
-                           phases("amplitude_mm", "jaw_angle_rad", 1.0, 3.0));
-  lobing.directions[0].linear = {1.0, 0.0, ring, 0.0};
-  lobing.directions[1].linear = {0.0, 1.0, -ring, 0.0};  // twice the phase: cos π
-  const auto roundness = [](const char* form, double order, const char* size,
-                            std::vector<std::size_t> columns) {
-    Parameters fixed{{"order", order}};
-    if (std::string(size) != "amplitude_mm") fixed["amplitude_mm"] = 0.0;
-    return free(mm("part.roundness", form, {.order = order}, fixed, phases(size, "phase_rad", 1.0)),
-                std::move(columns));
-  };
+  const double length = at.length_mm(), half_way = 0.5 * at.duration_s;
   std::vector<AxisBiasCase> out{
-      lobing,
-      roundness("ovality", 2, "amplitude_mm", {0, 1}),
-      roundness("three lobes", 3, "amplitude_mm", {0, 1}),
-      roundness("ovality growing with u", 2, "growth_mm", {2, 3}),
-      free(mm("part.barrel", "P2", {}, {}, {only("amplitude_mm")}), {0}),
-      free(mm("part.barrel", "P3", {}, {{"amplitude_mm", 0.0}}, {only("cubic_mm")}), {1}),
-      mm("part.waviness", "7.3 waves", {.period_mm = length / 7.3},
-         {{"wavelength_mm", length / 7.3}}, phases("amplitude_mm", "phase_rad", -1.0)),
-      mm("part.feed_marks", "0.173 mm/rev", {.period_mm = 0.173}, {{"feed_mm_per_rev", 0.173}},
-         phases("amplitude_mm", "phase_rad", -1.0)),
-      mm("part.bow", "over the probed length", {},
-         {{"length_mm", length}, {"middle_mm", at.middle_mm()}},
-         phases("sagitta_mm", "direction_rad", 1.0)),
+      chuck_lobing(at),
+      mm("part.roundness", "ovality", {.order = 2}, {0, 1}),
+      mm("part.roundness", "three lobes", {.order = 3}, {0, 1}),
+      mm("part.roundness", "ovality growing with u", {.order = 2}, {2, 3}),
+      mm("part.barrel", "P2", {}, {0}),
+      mm("part.barrel", "P3", {}, {1}),
+      mm("part.waviness", "7.3 waves", {.period_mm = length / 7.3}),
+      mm("part.feed_marks", "0.173 mm/rev", {.period_mm = 0.173}),
+      mm("part.bow", "over the probed length"),
       bow_from_the_end(at),
-      radial_slip(at, "radial, half-way", 0.5),
-      radial_slip(at, "radial, at two thirds", 2.0 / 3.0),
-      free(angle("part.slip", "rotational, half-way", small_rad, {.onset_s = 0.5 * at.duration_s},
-                 {{"time_s", 0.5 * at.duration_s}}, {only("turn_rad")}),
-           {2})};
-  if (!at.cone) out.push_back(mm("part.taper", "", {}, {}, {only("amplitude_mm")}));
+      mm("part.slip", "radial, half-way", {.onset_s = half_way}, {0, 1}),
+      mm("part.slip", "radial, at two thirds", {.onset_s = 2.0 / 3.0 * at.duration_s}, {0, 1}),
+      angle(mm("part.slip", "rotational, half-way", {.onset_s = half_way}, {2}))};
+  if (!at.cone) out.push_back(mm("part.taper", ""));
   return out;
 }
 
 std::vector<AxisBiasCase> machine_cases(const Where& at) {
   constexpr double bearing_mm = -250.0;
-  const double pitch = at.length_mm() / 7.3;
-  return {
-      mm("spindle.radial_synchronous", "2 UPR", {.order = 2}, {{"order", 2}},
-         phases("amplitude_mm", "phase_rad", 1.0)),
-      angle("spindle.tilt_synchronous", "2 UPR, bearing at Z = -250", small_slope_rad,
-            {.order = 2, .lever_from_mm = bearing_mm}, {{"order", 2}, {"bearing_mm", bearing_mm}},
-            phases("amplitude_rad", "phase_rad", 1.0)),
-      mm("spindle.axial_synchronous", "2 UPR", {.order = 2}, {{"order", 2}},
-         phases("amplitude_mm", "phase_rad", 1.0)),
-      mm("spindle.asynchronous", "0.43 per turn", {.order = 0.43}, {{"order", 0.43}},
-         phases("amplitude_mm", "phase_rad", -1.0)),
-      mm("slide.z_straightness", "P2", {.degree = 2}, {{"degree", 2}}, {only("amplitude_mm")}),
-      angle("slide.xz_parallelism", "", small_slope_rad, {}, {}, {only("slope_rad")}),
-      mm("slide.leadscrew_periodic", "7.3 periods", {.period_mm = pitch}, {{"pitch_mm", pitch}},
-         phases("amplitude_mm", "phase_rad", -1.0)),
-      free(mm("slide.backlash", "along", {}, {}, {only("along_mm")}), {0}),
-      free(mm("slide.backlash", "across", {}, {{"along_mm", 0.0}}, {only("across_mm")}), {1}),
-      angle("encoder.offset", "", small_rad, {}, {}, {only("angle_rad")}),
-      angle("encoder.eccentricity", "", small_rad, {}, {},
-            phases("amplitude_rad", "phase_rad", 1.0)),
-      free(mm("thermal.drift", "linear, over the measurement", {.time_constant_s = 600},
-              {{"amplitude_mm", 0.0}, {"time_constant_s", 600}},
-              {{{{"rate_mm_per_s", 1.0 / at.duration_s}}, {1.0 / at.duration_s}}}),
-           {0}),
-      free(mm("thermal.drift", "exponential, a third of the time",
-              {.time_constant_s = at.duration_s / 3},
-              {{"rate_mm_per_s", 0.0}, {"time_constant_s", at.duration_s / 3}},
-              {only("amplitude_mm")}),
-           {1}),
-      mm("environment.vibration", "7.3 Hz", {.frequency_hz = 7.3}, {{"frequency_hz", 7.3}},
-         phases("amplitude_mm", "phase_rad", -1.0))};
+  AxisBiasCase rate =
+      mm("thermal.drift", "linear, over the measurement", {.time_constant_s = 600}, {0});
+  rate.directions = {{{1.0 / at.duration_s}}};
+  return {mm("spindle.radial_synchronous", "2 UPR", {.order = 2}),
+          angle(mm("spindle.tilt_synchronous", "2 UPR, bearing at Z = -250",
+                   {.order = 2, .lever_from_mm = bearing_mm}),
+                small_slope_rad),
+          mm("spindle.axial_synchronous", "2 UPR", {.order = 2}),
+          mm("spindle.asynchronous", "0.43 per turn", {.order = 0.43}),
+          mm("slide.z_straightness", "P2", {.degree = 2}),
+          angle(mm("slide.xz_parallelism", ""), small_slope_rad),
+          mm("slide.leadscrew_periodic", "7.3 periods", {.period_mm = at.length_mm() / 7.3}),
+          mm("slide.backlash", "along", {}, {0}),
+          mm("slide.backlash", "across", {}, {1}),
+          angle(mm("encoder.offset", "")),
+          angle(mm("encoder.eccentricity", "")),
+          rate,
+          mm("thermal.drift", "exponential, a third of the time",
+             {.time_constant_s = at.duration_s / 3}, {1}),
+          mm("environment.vibration", "7.3 Hz", {.frequency_hz = 7.3})};
 }
 
 std::vector<AxisBiasCase> probe_cases(const Where& at) {
-  constexpr double period_mm = 0.137;
   const TermShape sensed{.reference_x_mm = at.x_mm, .range_mm = at.range_mm};
-  const Parameters sensor{{"reference_mm", at.x_mm}, {"range_mm", at.range_mm}};
-  Parameters cubic = sensor;
-  cubic["quadratic_mm"] = 0.0;
-  return {mm("probe.height", "", {}, {}, {only("height_mm")}),
-          angle("probe.tilt", "", small_slope_rad, {}, {}, {only("angle_rad")}),
-          mm("probe.ball_radius", "", {}, {}, {only("radius_mm")}),
-          free(mm("probe.pretravel", "constant", {}, {}, {only("amplitude_mm")}), {0}),
-          free(mm("probe.pretravel", "three lobes", {.order = 3},
-                  {{"amplitude_mm", 0.0}, {"order", 3}}, phases("lobing_mm", "phase_rad", 1.0)),
-               {1, 2}),
-          unit(mm("probe.gain", "", sensed, {{"reference_mm", at.x_mm}}, {only("gain")}),
-               small_share, "1"),
-          free(mm("probe.nonlinearity", "quadratic", sensed, sensor, {only("quadratic_mm")}), {0}),
-          free(mm("probe.nonlinearity", "cubic", sensed, cubic, {only("cubic_mm")}), {1}),
-          mm("probe.cyclic", "0.137 mm", {.period_mm = period_mm}, {{"period_mm", period_mm}},
-             phases("amplitude_mm", "phase_rad", -1.0)),
-          unit(mm("probe.latency", "", {}, {}, {only("delay_s")}), small_s, "s"),
-          unit(mm("probe.lag", "", {.time_constant_s = 0.0}, {}, {only("time_constant_s")}),
-               small_s, "s")};
+  // The column is that of a lag of 0.
+  AxisBiasCase lag = unit(mm("probe.lag", "", {.time_constant_s = 0.0}), small_s, "s");
+  lag.directions.front().lathe = [](double time_constant_s) {
+    return virtual_lathe::Effect{"probe.lag", {{"time_constant_s", time_constant_s}}};
+  };
+  return {mm("probe.height", ""),
+          angle(mm("probe.tilt", ""), small_slope_rad),
+          mm("probe.ball_radius", ""),
+          mm("probe.pretravel", "constant", {}, {0}),
+          mm("probe.pretravel", "three lobes", {.order = 3}, {1, 2}),
+          unit(mm("probe.gain", "", sensed), small_share, "1"),
+          mm("probe.nonlinearity", "quadratic", sensed, {0}),
+          mm("probe.nonlinearity", "cubic", sensed, {1}),
+          mm("probe.cyclic", "0.137 mm", {.period_mm = 0.137}),
+          unit(mm("probe.latency", ""), small_s, "s"),
+          lag};
 }
 
 /// The catalogue's figure goes to the form that it is of.
 void add_stated(std::vector<AxisBiasCase>& cases) {
   constexpr double three_lobes = 0.008;  // in words beside the figure of ovality
-  const std::map<std::string, std::string> form_of{{"part.roundness", "ovality"},
-                                                   {"part.bow", "from the lower end"},
-                                                   {"part.slip", "radial, at two thirds"}};
+  const std::map<std::string_view, std::string_view> form_of{
+      {"part.roundness", "ovality"},
+      {"part.bow", "from the lower end"},
+      {"part.slip", "radial, at two thirds"}};
   std::string before;
   for (AxisBiasCase& one : cases) {
     const Effect* effect = find_effect(one.effect);
