@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_json.hpp"
 #include "report/correction_data.hpp"
 #include "report/inputs_data.hpp"
