@@ -6,7 +6,6 @@
 
 #include "cli/guarded.hpp"
 #include "effect/files/effects_json.hpp"
-#include "effect/files/effects_markdown.hpp"
 #include "effect/files/effects_text.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"

@@ -7,8 +7,6 @@
 #include "diagnose/explain/gain.hpp"
 #include "diagnose/explain/observable.hpp"
 #include "diagnose/explain/quality.hpp"
-#include "diagnose/explain/sources.hpp"
-#include "diagnose/explain/spectrum.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 

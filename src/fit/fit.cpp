@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "fit/associate.hpp"
 #include "fit/describe.hpp"
-#include "fit/robust.hpp"
 #include "fit/uncertainty.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"

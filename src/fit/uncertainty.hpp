@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/robust.hpp"
+#include "fit/associate.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {

@@ -9,7 +9,6 @@
 #include "surface/surface.hpp"
 
 namespace trueaxis {
-
 /// How a residual r counts: ρ(r) with weight ψ(r)/r. `scale_mm` is not used by plain.
 struct LossScale {
   enum class Kind { plain, huber, tukey } kind = Kind::plain;
@@ -36,5 +35,15 @@ NormalMatrix accumulate(const Surface& surface, std::span<const double> working,
 /// Reading − prediction, one per reading. @returns false where a probe line misses the surface.
 bool residuals(const Surface& surface, std::span<const double> working,
                const PreparedStream& stream, std::span<double> out_mm);
+
+/// Sums over readings of a robust loss: ρ, its second derivative ψ' and its weight ψ/r.
+struct LossSums {
+  double rho = 0.0, curvature = 0.0, weight = 0.0;
+};
+
+/// Scales columns and residual of a block by the square root of the loss's weight.
+/// Eqs. 23, 26, 27.
+void apply_loss(const LossScale& loss, std::size_t columns, std::size_t filled,
+                PredictionBlock& block, LossSums& sums);
 
 }  // namespace trueaxis

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_json.hpp"
 #include "report/page.hpp"
 #include "report/report_parts.hpp"

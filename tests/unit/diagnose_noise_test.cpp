@@ -8,7 +8,7 @@
 #include <set>
 
 #include "diagnose/regression/noise.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/search/dictionary.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {

@@ -6,11 +6,10 @@
 #include <sstream>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_noise_json.hpp"
 #include "diagnose/files/diagnosis_read.hpp"
 #include "diagnose/files/diagnosis_term_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "diagnose/files/pattern_text.hpp"
+#include "diagnose/files/finding_text.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "support/diagnosis_example.hpp"

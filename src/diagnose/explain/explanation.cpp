@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
-#include "diagnose/explain/rival_axes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "diagnose/search/statistic.hpp"
+#include "math/fourier_sums.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -88,6 +90,25 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::Matri
       axis_uncertainty(problem.point, joint.sigma_mm * joint.sigma_mm * bare.inverse);
   out.coaxiality_before = {std::max(2.0 * shift.value_mm, 2.0 * u_bare.rms_mm),
                            2.0 * std::hypot(shift.u_mm, u_bare.u_mm), "mm", ""};
+  return out;
+}
+
+std::vector<SpectrumBin> spectrum_of(const LinearisationPoint& point, const Resolution& resolution,
+                                     const std::vector<double>& before_mm,
+                                     const std::vector<double>& after_mm) {
+  constexpr double most_bins = 400.0;
+  const double highest = std::min(15.0, 0.5 * resolution.per_turn);
+  if (resolution.turns < 0.5 || highest < 1.0) return {};
+  const double step = std::max(highest / most_bins, std::min(1.0, 0.5 / resolution.turns));
+  const auto bins = static_cast<std::size_t>(highest / step) + 1;
+  const FourierSums plan(point.c, 0.0, step, bins);
+  const auto before = plan.of(before_mm), after = plan.of(after_mm);
+  std::vector<SpectrumBin> out;
+  for (std::size_t k = 0; k < bins; ++k) {
+    const double factor = (k == 0 ? 1.0 : 2.0) / static_cast<double>(point.size());
+    out.push_back(
+        {step * static_cast<double>(k), factor * std::abs(before[k]), factor * std::abs(after[k])});
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,12 @@
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
+/// σ of a reading from each source that the data have, the best one chosen; gaps and interruptions.
+/// Eq. 67.
+/// @param residual_mm readings minus the extended model
+NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
+                         const std::vector<double>& residual_mm, std::vector<Rejected> masked,
+                         const std::optional<double>& stated_mm);
 
 /// The checks of the catalogue.
 std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,

@@ -3,14 +3,44 @@
 
 #include <string>
 
+#include "format/json.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis {
-
 /// Schema trueaxis.diagnosis/2: lengths in mm, angles in degrees, times in s, each with its unit; a
 /// number that is not there is null beside the reason. `findings[].term` and `unexplained[].term`
 /// hold
 /// the extended model as numbers, over u = (z − z_mid)/z_half of `u_frame`.
 std::string diagnosis_json(const Diagnosis& diagnosis);
+
+inline constexpr const char* diagnosis_schema = "trueaxis.diagnosis/2";
+
+/// The diagnosis as an object.
+Json diagnosis_object(const Diagnosis& diagnosis);
+
+/// Verdict and findings of a diagnosis, for a result that names the file of the whole one.
+Json diagnosis_summary(const Diagnosis& diagnosis);
+
+/// A finding without its term and rivals, for results that hold a summary.
+Json finding_summary(const Finding& finding);
+
+/// A pattern in words and its amplitude.
+Json unexplained_summary(const Unexplained& unexplained);
+
+/// Like to_json, and never without a reason where a number is missing.
+Json estimate_object(const Estimate& estimate);
+
+/// {"value", "unit"}, and `why` where the value is not finite.
+Json quantity_object(double value, const char* unit, const char* why);
+
+/// σ of one reading, where it comes from, and what was left out. `autocorrelation` is that of
+/// neighbouring readings, which follows from the autoregression.
+Json noise_object(const NoiseReport& noise);
+
+Json check_object(const QualityCheck& check);
+
+/// Lag-1 autocorrelation of ε_i = Σ φ_j ε_{i−j} + e_i; 0 for white noise, NaN where it is not
+/// stationary.
+double neighbour_correlation(const std::vector<double>& autoregression);
 
 }  // namespace trueaxis

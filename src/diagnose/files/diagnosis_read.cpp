@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_term_json.hpp"
 #include "trueaxis/error.hpp"
 

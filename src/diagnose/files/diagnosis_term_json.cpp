@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -7,7 +7,6 @@
 
 #include "diagnose/files/diagnosis_limits_text.hpp"
 #include "diagnose/files/finding_text.hpp"
-#include "diagnose/files/pattern_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

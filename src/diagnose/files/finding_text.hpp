@@ -4,8 +4,14 @@
 #include <string>
 
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
+/// "3 UPR", "7.41 UPR", "local form"
+std::string harmonic_text(const Pattern& pattern);
+
+/// "constant along Z", "P2 in time", "turning along Z, 0.14 per mm", "at 70.0° (± 12.5°)" …
+std::string dependence_text(const Pattern& pattern);
 
 /// "order 3, amplitude 4.2 ± 0.3 µm, phase 12.4 ± 1.2 deg"
 std::string finding_parameters(const Finding& finding, double coverage_factor);

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "diagnose/geometry/resolution.hpp"
+#include "diagnose/geometry/observation_mask.hpp"
 
 namespace trueaxis::diagnose_detail {
 

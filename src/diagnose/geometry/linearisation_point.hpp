@@ -7,11 +7,11 @@
 
 #include "measure/passes.hpp"
 #include "trueaxis/effect.hpp"
+#include "trueaxis/fit.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis::diagnose_detail {
-
 /// How the part is clamped, and where a fit has found it.
 struct Clamping {
   int number = 1;
@@ -64,5 +64,18 @@ struct LinearisationPoint : LinearisationFacts {
 /// @param stream columns C, Z, t, set-up; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore);
+
+/// A fit that ended short of a minimum, or a face, has no point to diagnose.
+bool is_diagnosable(const FitResult& fit);
+
+/// How the part stands in every set-up of a fit, the ball's centre on its surface.
+std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm);
+
+/// What the base of a model of a surface is.
+BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
+                 const std::vector<Clamping>& clampings);
+
+/// Readings minus the point's surface, of a gauge less its zero, which the base takes out anyway.
+std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point);
 
 }  // namespace trueaxis::diagnose_detail

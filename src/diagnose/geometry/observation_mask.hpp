@@ -9,7 +9,6 @@
 #include "diagnose/geometry/linearisation_point.hpp"
 
 namespace trueaxis::diagnose_detail {
-
 /// Which readings count, and in which blocks they are held out.
 struct ObservationMask {
   std::vector<char> used;          ///< 0: masked
@@ -26,5 +25,17 @@ struct ObservationMask {
 /// All readings used; blocks are sections of constant Z where the probe steps from one to the next,
 /// else about thirty groups of whole revolutions, none across a pass.
 ObservationMask make_observation_mask(const LinearisationPoint& point);
+
+/// What the sampling lets be seen.
+struct Resolution {
+  double per_turn = 0.0;     ///< readings a revolution of the slowest turning pass
+  bool whole = false;        ///< a whole number of them: orders n and M − n are one column
+  int harmonics = 0;         ///< highest order of the Fourier-Legendre basis
+  int degrees = 0;           ///< highest Legendre degree along s
+  double turns = 0.0;        ///< of all passes
+  bool one_variable = true;  ///< C, Z and t are one: a single pass of constant speed and feed
+  bool sections = false;     ///< Z steps from section to section
+};
+Resolution resolution_of(const LinearisationPoint& point, const ObservationMask& mask);
 
 }  // namespace trueaxis::diagnose_detail

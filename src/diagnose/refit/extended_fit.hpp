@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "diagnose/geometry/clamping.hpp"
+#include "diagnose/geometry/linearisation_point.hpp"
 #include "diagnose/regression/joint.hpp"
 
 namespace trueaxis::diagnose_detail {

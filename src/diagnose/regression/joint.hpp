@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
-#include "diagnose/regression/problem.hpp"
 
 namespace trueaxis::diagnose_detail {
 

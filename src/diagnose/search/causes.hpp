@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "diagnose/regression/problem.hpp"
+#include "diagnose/regression/normal_equations.hpp"
 
 namespace trueaxis::diagnose_detail {
 

@@ -5,7 +5,7 @@
 
 #include "base/threads.hpp"
 #include "diagnose/regression/noise.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/search/dictionary.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {

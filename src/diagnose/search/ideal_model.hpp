@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "diagnose/geometry/clamping.hpp"
-#include "diagnose/regression/problem.hpp"
+#include "diagnose/geometry/linearisation_point.hpp"
+#include "diagnose/regression/normal_equations.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "diagnose/regression/noise.hpp"
-#include "diagnose/search/fourier_legendre_basis.hpp"
+#include "diagnose/search/dictionary.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -279,6 +279,31 @@ bool fast_line_left(const Problem& problem, const Model& model, std::size_t mean
     return family.p_value(std::exp(log_p_value(peak.gain, 2.0, fitted.rss, freedom))) <
            problem.false_alarm;
   });
+}
+
+CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
+  const std::size_t every = condensation(whole.point, whole.resolution);
+  if (every > 1) {
+    means_ = condense(whole.point, whole.mask,
+                      {whole.deviation_mm.begin(), whole.deviation_mm.end()}, every);
+    resolution_ = resolution_of(means_.point, means_.mask);
+    problem_.emplace(Problem{means_.point, means_.mask, resolution_, means_.deviation_mm,
+                             whole.false_alarm, whole.threads, whole.most_terms, whole.effects});
+    model = search(proposer_.emplace(*problem_));
+    phi_ = model.phi;
+    std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
+    all.insert(all.end(), model.terms.begin(), model.terms.end());
+    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all);
+    if (!fast_line_left(whole, model, every)) return;
+  }
+  model = search(proposer_.emplace(whole));
+  phi_ = model.phi;
+}
+
+Model CoarseToFineSearch::searched_model() const {
+  Model out = model;
+  out.phi = phi_;
+  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

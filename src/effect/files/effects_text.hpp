@@ -6,7 +6,6 @@
 #include "trueaxis/effect.hpp"
 
 namespace trueaxis {
-
 /// All ids with their titles, by family.
 std::string effects_list_text();
 
@@ -15,5 +14,8 @@ std::string effect_text(const Effect& effect);
 
 /// "0.1 to 5 ms", in the unit that reads without powers of ten; empty: no typical size.
 std::string typical_size(const EffectParameter& parameter);
+
+/// The catalogue as docs/effects.md: the measuring chain, an index, a section an effect.
+std::string effects_markdown();
 
 }  // namespace trueaxis

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_json.hpp"
 
-#include "diagnose/files/diagnosis_objects.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_json.hpp"
 #include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"

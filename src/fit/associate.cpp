@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/starts.hpp"
+#include "fit/associate.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -18,29 +21,6 @@ void take(const ReadingBlock& block, std::size_t count, Sample& sample) {
   sample.sin_c.insert(sample.sin_c.end(), block.sin_c, block.sin_c + count);
   sample.position.insert(sample.position.end(), block.position_mm, block.position_mm + count);
 }
-
-}  // namespace
-
-Sample sample_of(const PreparedStream& stream) {
-  Sample sample;
-  const std::size_t blocks = stream.blocks();
-  if (blocks <= start_blocks) {
-    for (std::size_t i = 0; i < blocks; ++i) take(stream.block(i), stream.filled(i), sample);
-    return sample;
-  }
-  // The first 64 readings of 16 blocks, among them the first of the stream and the last but one:
-  // the last may hold a single reading.
-  constexpr std::size_t parts = 2 * start_blocks, part = block_size / 2;
-  for (std::size_t k = 0; k < parts; ++k) {
-    const double golden = std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);
-    std::size_t index = static_cast<std::size_t>(golden * static_cast<double>(blocks - 1));
-    if (k + 1 == parts) index = blocks - 2;
-    take(stream.block(index), std::min(part, stream.filled(index)), sample);
-  }
-  return sample;
-}
-
-namespace {
 
 /// Residuals of the sample at `working`, through the same evaluation as the fit.
 std::vector<double> sample_residuals(const Surface& surface, std::span<const double> working,
@@ -99,7 +79,36 @@ std::vector<double> level_start(const JointModel& model, const std::vector<Sampl
   return model.joined(working);
 }
 
+constexpr double huber_k = 1.345, tukey_c = 4.685;  // 95 % efficiency on Gaussian noise
+constexpr double huber_listed = 6.0;                // σ: beyond it a Huber weight is below 0.23
+
+/// Eq. 28.
+LossScale loss_scale(Loss loss, double sigma_mm) {
+  if (loss == Loss::huber) return {LossScale::Kind::huber, huber_k * sigma_mm};
+  if (loss == Loss::tukey) return {LossScale::Kind::tukey, tukey_c * sigma_mm};
+  return {};
+}
+
 }  // namespace
+
+Sample sample_of(const PreparedStream& stream) {
+  Sample sample;
+  const std::size_t blocks = stream.blocks();
+  if (blocks <= start_blocks) {
+    for (std::size_t i = 0; i < blocks; ++i) take(stream.block(i), stream.filled(i), sample);
+    return sample;
+  }
+  // The first 64 readings of 16 blocks, among them the first of the stream and the last but one:
+  // the last may hold a single reading.
+  constexpr std::size_t parts = 2 * start_blocks, part = block_size / 2;
+  for (std::size_t k = 0; k < parts; ++k) {
+    const double golden = std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);
+    std::size_t index = static_cast<std::size_t>(golden * static_cast<double>(blocks - 1));
+    if (k + 1 == parts) index = blocks - 2;
+    take(stream.block(index), std::min(part, stream.filled(index)), sample);
+  }
+  return sample;
+}
 
 std::vector<Sample> samples_of(const JointModel& model) {
   std::vector<Sample> samples;
@@ -147,6 +156,87 @@ Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& sample
   }
   minima.best.iterations = passes;
   return minima;
+}
+
+Association associate(const JointModel& model, Loss loss, int max_iterations) {
+  Association association;
+  const std::vector<Sample> samples = samples_of(model);
+  std::vector<double> start = find_start(model, samples, loss);
+  association.residual_mm.resize(model.size());
+  if (loss == Loss::plain) {
+    Minima minima = lowest_minimum(model, samples, start, {}, max_iterations);
+    association.minimum = std::move(minima.best);
+    association.rival = std::move(minima.rival);
+    model.residuals(association.minimum.working, association.residual_mm);
+    return association;
+  }
+  // Huber's convex loss carries the scale to its place; Tukey's, which has several minima, starts
+  // there.
+  model.residuals(start, association.residual_mm);
+  double sigma = mad_sigma(association.residual_mm);
+  int iterations = 0;
+  for (const Loss stage : {Loss::huber, Loss::tukey}) {
+    if (sigma <= 0.0 || (stage == Loss::tukey && loss == Loss::huber)) break;
+    for (int round = 0; round < 20; ++round) {
+      association.loss = loss_scale(stage, sigma);
+      Minima minima = lowest_minimum(model, samples, start, association.loss, max_iterations);
+      association.minimum = std::move(minima.best);
+      association.rival = std::move(minima.rival);
+      iterations += association.minimum.iterations;
+      start = association.minimum.working;
+      association.scale_mm = sigma;
+      model.residuals(start, association.residual_mm);
+      const double next = mad_sigma(association.residual_mm);
+      const bool stands = std::abs(next - sigma) <= 1e-3 * sigma;
+      if (stands || next <= 0.0) break;
+      sigma = next;
+    }
+  }
+  if (association.minimum.normal.valid) {
+    const int before = association.minimum.iterations;
+    polish(model, association.loss, association.minimum);
+    iterations += association.minimum.iterations - before;
+    model.residuals(association.minimum.working, association.residual_mm);
+  }
+  if (association.minimum.working.empty()) {  // more than half of the residuals are exactly zero
+    association.loss = {};
+    association.minimum = minimise(model, std::move(start), {}, max_iterations);
+    model.residuals(association.minimum.working, association.residual_mm);
+  }
+  association.minimum.iterations = std::max(iterations, association.minimum.iterations);
+  return association;
+}
+
+PsiAndDerivative psi_and_derivative(const LossScale& loss, double residual_mm) {
+  const double c = loss.threshold_mm, r = residual_mm;
+  switch (loss.kind) {
+    case LossScale::Kind::huber:
+      return std::abs(r) <= c ? PsiAndDerivative{r, 1.0}
+                              : PsiAndDerivative{std::copysign(c, r), 0.0};
+    case LossScale::Kind::tukey: {
+      const double v = (r / c) * (r / c);
+      return v >= 1.0 ? PsiAndDerivative{0.0, 0.0}
+                      : PsiAndDerivative{r * (1.0 - v) * (1.0 - v), (1.0 - v) * (1.0 - 5.0 * v)};
+    }
+    case LossScale::Kind::plain:
+      break;
+  }
+  return {r, 1.0};
+}
+
+std::vector<Rejected> list_rejected(const Association& association) {
+  std::vector<Rejected> rejected;
+  if (association.loss.kind == LossScale::Kind::plain) return rejected;
+  const bool tukey = association.loss.kind == LossScale::Kind::tukey;
+  const double limit = tukey ? association.loss.threshold_mm : huber_listed * association.scale_mm;
+  for (std::size_t i = 0; i < association.residual_mm.size(); ++i) {
+    const double size = std::abs(association.residual_mm[i]);
+    if (size < limit) continue;
+    rejected.push_back(
+        {i + 1, fmt::format("{:.4g} µm off, {:.1f} σ{}", association.residual_mm[i] / mm_per_um,
+                            size / association.scale_mm, tukey ? "" : " (little weight)")});
+  }
+  return rejected;
 }
 
 }  // namespace trueaxis
