@@ -50,7 +50,9 @@ std::string how_far(const Finding& finding, double k) {
 std::string named(const Finding& finding, double k) {
   std::string text = "the part slipped in the chuck";
   const Estimate onset = parameter_of(finding, "onset");
-  if (onset.determined()) text += fmt::format(" at {:.1f} s", onset.value);
+  if (onset.determined() && onset.unit == "s") text += fmt::format(" at {:.1f} s", onset.value);
+  if (onset.determined() && onset.unit != "s")
+    text += fmt::format(" at reading {:.0f}", onset.value + 1.0);
   const std::string by = how_far(finding, k);
   return text + (by.empty() ? "" : " by " + by);
 }

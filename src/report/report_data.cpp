@@ -18,7 +18,7 @@ namespace {
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
-  if (!result.verdict.go) return "no-go";
+  if (!result.verdict.go()) return "no-go";
   return judged ? "go" : "done";
 }
 

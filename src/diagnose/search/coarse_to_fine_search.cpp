@@ -18,7 +18,7 @@ CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
     phi_ = model.phi;
     std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
     all.insert(all.end(), model.terms.begin(), model.terms.end());
-    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all);
+    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all).phi;
     if (!fast_line_left(whole, model, every)) return;
   }
   model = search(proposer_.emplace(whole));
