@@ -31,5 +31,5 @@ int main() {
   for (std::size_t i = 0; i < rows.c_rad.size(); i += rows.c_rad.size() / 8)
     std::printf("%10d %8.3f %9.3f %10.2f\n", rows.revolution[i], rows.position_mm[i], rows.c_rad[i],
                 1e3 * rows.command_mm[i]);
-  return result.verdict.go ? 0 : 1;
+  return result.verdict.go() ? 0 : 1;
 }

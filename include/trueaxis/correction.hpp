@@ -3,6 +3,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct Reference {
   AxisEstimate axis;
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< > 0: a plane; only its tilt counts, × this radius
+  /// Degrees of freedom that the σ of its covariance was estimated with; infinite: σ is known.
+  double freedom = std::numeric_limits<double>::infinity();
 };
 
 /// What is left at one reference when the part is cut about the target axis.
@@ -62,6 +65,7 @@ struct Remainder {
   /// Of the part cut about the target axis: the target is a number by then, so it is the reference
   /// that is known no better than this (twice its u at the worse end, in the worse direction).
   double u_coaxiality_mm = 0.0;
+  double limit_mm = 0.0;  ///< that the coaxiality exceeds in 5 of 100 (Eq. 119)
 };
 
 struct TargetAxis {

@@ -60,17 +60,37 @@ struct Inclusion {
   std::string why;       ///< why it is not included
 };
 
+/// Of a go, that the part is out of tolerance all the same (ISO 14253-1): 5 %.
+inline constexpr double nonconformity_risk = 0.05;
+
+/// What may be done with the result.
+enum class Decision {
+  identified,            ///< no target: nothing to decide
+  untoleranced,          ///< no tolerance: the table is there, nobody says how good it must be
+  go,                    ///< conformity is proven, at a risk of 5 %
+  go_with_reservations,  ///< so it is whichever model is right, but the data leave the model open
+  not_proven,            ///< neither conformity nor nonconformity is proven
+  no_go                  ///< nonconformity is proven, or something forbids the cut
+};
+
 /// ISO 14253-1 decision about the tolerance, with the numbers it rests on.
 struct Verdict {
-  bool go = false;
-  std::string line;                   ///< the first line of the result
+  Decision decision = Decision::no_go;
+  std::string line;  ///< the first line of the result
+  std::vector<std::string> reservations{};
+  std::string what_would_prove{};     ///< of not_proven: the measurement that would
   double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
   double coaxiality_after_mm =
       0.0;  ///< expected with the table: what the compromise and the actuator leave
-  double u_coaxiality_mm =
-      0.0;  ///< standard uncertainty of the cut axis against the reference, as a diameter
-  double coverage_factor = 2.0;
+  double u_coaxiality_mm = 0.0;  ///< of the worst reference's axis in its worse direction, doubled
+  double lower_mm = 0.0, upper_mm = 0.0;  ///< that the coaxiality is below in 5 and in 95 of 100
+  double coverage_factor = 2.0;  ///< of U in fits; the decision's risk is 5 % whatever it is
+
+  /// Whether the table may be run.
+  bool go() const { return decision != Decision::not_proven && decision != Decision::no_go; }
 };
+
+const char* to_string(Decision decision);
 
 struct JobResult {
   Job job;

@@ -21,7 +21,7 @@ namespace {
 int exit_code_of(const JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  return !fitted ? numerical : result.verdict.go ? done : refused;
+  return !fitted ? numerical : result.verdict.go() ? done : refused;
 }
 
 int execute(const std::string& path, const std::filesystem::path& folder) {

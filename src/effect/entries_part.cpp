@@ -111,7 +111,7 @@ std::vector<Effect> part_roundness() {
        .parameters = {{"dx", "mm", 0.01, 0.2, "step along x of the spindle frame"},
                       {"dy", "mm", 0.01, 0.2, "step along y"},
                       {"turn", "rad", 1e-3, 0.1, "turn in the sense of C"},
-                      {"onset", "s", 0, 0, "t0", "onset_s"}},
+                      {"onset", "s", 0, 0, "t0; without a clock the number of the reading", "onset_s"}},
        .signature = "the vector of 1 undulation per revolution steps at an instant",
        .confounders = {"part.bow", "encoder.offset"},
        .separations = {{"RZ", "probed again, the first part of the length shows the new axis"},
@@ -119,7 +119,6 @@ std::vector<Effect> part_roundness() {
        .axis_bias = AxisBias{0.90, "mm/mm", "radial: 0.90 of the step"},
        .source = "kinematics of a step; a radial and a rotational slip part by a feature with an "
                  "angle mark",
-       .needs = {.time = true},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
        .search = {.forms = {{{0, 1}, instants}, {{2}, instants}}, .tests = 64},
        .refinement = Refinement{&TermShape::onset_s, By::duration}},

@@ -6,6 +6,7 @@
 
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
+#include "job/slip.hpp"
 #include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
 
@@ -47,7 +48,10 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   diagnose_all(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  if (fitted && result.job.target) correct(result);
+  const bool slipped = std::ranges::any_of(
+      result.diagnoses, [](const auto& diagnosis) { return diagnosis && diagnosis->slip(); });
+  if (slipped) withhold_axes(result);
+  if (fitted && result.job.target && !slipped) correct(result);
   result.verdict = decide(result);
   return result;
 }

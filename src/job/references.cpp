@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trueaxis/error.hpp"
 
@@ -18,6 +19,13 @@ double face_radius(const JobReference& reference, const FitResult& fit,
   if (fit.surface != SurfaceKind::plane) return 0.0;
   if (reference.face_radius_mm > 0.0) return reference.face_radius_mm;
   return std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+}
+
+/// Degrees of freedom of the σ in u; those of correlated readings count as so many fewer.
+double freedom_of(const FitResult& fit) {
+  if (fit.sigma_source == "sensor") return std::numeric_limits<double>::infinity();
+  const auto free = static_cast<double>(fit.points) - static_cast<double>(fit.parameters.size());
+  return std::max(1.0, free / (fit.u_factor * fit.u_factor));
 }
 
 }  // namespace
@@ -37,8 +45,8 @@ std::vector<Reference> references_of(const JobResult& result) {
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
     const FitResult& fit = fit_used(result, i);
-    references.push_back(
-        {named.name, fit.axis, named.weight, face_radius(named, fit, *result.job.target)});
+    references.push_back({named.name, fit.axis, named.weight,
+                          face_radius(named, fit, *result.job.target), freedom_of(fit)});
   }
   return references;
 }

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "correct/coaxiality_distribution.hpp"
+#include "job/doubts.hpp"
+#include "job/proof.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "trueaxis/units.hpp"
@@ -26,33 +29,45 @@ double coaxiality_uncorrected(const std::vector<Reference>& references,
   return worst;
 }
 
+/// Of the following error, what turns once a revolution moves the axis by its amplitude; all of it
+/// is taken as such.
+double left_by_actuator_mm(const JobResult& result) {
+  return 2.0 * result.correction->margin.following_mm;
+}
+
+CoaxialityDistribution distribution_of(const JobResult& result,
+                                       const std::vector<Reference>& references) {
+  const TargetSurface& target = *result.job.target;
+  return {references, result.target_axis->axis.axis, target.z_start_mm, target.z_end_mm};
+}
+
 /// The numbers that the decision about a cut rests on.
 Verdict expected_cut(const JobResult& result) {
   Verdict verdict;
   verdict.coverage_factor = result.job.references.front().fit.coverage_factor;
-  verdict.coaxiality_before_mm = coaxiality_uncorrected(references_of(result), *result.job.target);
-  const double k = verdict.coverage_factor;
-  const auto worst = std::ranges::max_element(
-      result.target_axis->remainders, {},
-      [&](const Remainder& r) { return r.coaxiality_mm + k * r.u_coaxiality_mm; });
-  // A following error that turns once a revolution moves the axis by its amplitude; all of it is
-  // taken as such.
-  verdict.coaxiality_after_mm = worst->coaxiality_mm + 2.0 * result.correction->margin.following_mm;
+  const std::vector<Reference> references = references_of(result);
+  verdict.coaxiality_before_mm = coaxiality_uncorrected(references, *result.job.target);
+  const auto worst =
+      std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::limit_mm);
+  const double following_mm = left_by_actuator_mm(result);
+  verdict.coaxiality_after_mm = worst->coaxiality_mm + following_mm;
   verdict.u_coaxiality_mm = worst->u_coaxiality_mm;
+  const CoaxialityDistribution distribution = distribution_of(result, references);
+  verdict.lower_mm = distribution.quantile(nonconformity_risk) + following_mm;
+  verdict.upper_mm = distribution.quantile(1.0 - nonconformity_risk) + following_mm;
   return verdict;
 }
 
-/// "2.7 µm", with the digits that an uncertainty U of it leaves.
-std::string in_um(double length_mm, double U_mm) {
-  return fmt::format("{:.{}f} µm", length_mm / mm_per_um, decimals_of(U_mm / mm_per_um, 1));
+/// "2.7 µm", with two digits of it.
+std::string in_um(double length_mm) {
+  const double um = length_mm / mm_per_um;
+  return fmt::format("{:.{}f} µm", um, decimals_of(um, 0));
 }
 
 std::string numbers_of(const Verdict& v, TargetKind kind) {
-  const double U = v.coverage_factor * v.u_coaxiality_mm;
-  return fmt::format("{} {} with the table (U = {}), {} without it",
-                     kind == TargetKind::face ? "axial run-out" : "coaxiality",
-                     in_um(v.coaxiality_after_mm, U), in_um(U, U),
-                     in_um(v.coaxiality_before_mm, U));
+  return fmt::format("{} at most {} with the table (in 95 of 100), {} without it",
+                     kind == TargetKind::face ? "axial run-out" : "coaxiality", in_um(v.upper_mm),
+                     in_um(v.coaxiality_before_mm));
 }
 
 std::string cannot_follow(const ActuatorMargin& margin) {
@@ -92,7 +107,7 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
     if (!result.correction->margin.follows)
       return cannot_follow(result.correction->margin) + "; " +
              numbers_of(numbers, result.job.target->kind);
-    if (!std::isfinite(numbers.u_coaxiality_mm))
+    if (!std::isfinite(numbers.upper_mm))
       return "the readings give no uncertainty: probe more of them, or give the sensor's noise";
     for (const Inclusion& inclusion : result.inclusions) {
       if (inclusion.refused)
@@ -103,6 +118,40 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
   return refutation(result);
 }
 
+/// The largest coaxiality, at the risk of the decision, if the open references are where the ideal
+/// fit has them.
+double upper_if_ideal_mm(const JobResult& result, const std::vector<OpenAxis>& open) {
+  std::vector<Reference> references = references_of(result);
+  for (const OpenAxis& o : open)
+    references[o.reference].axis.axis = result.fits[o.reference].axis.axis;
+  return distribution_of(result, references).quantile(1.0 - nonconformity_risk) +
+         left_by_actuator_mm(result);
+}
+
+Verdict not_proven(Verdict verdict, const std::string& why) {
+  verdict.decision = Decision::not_proven;
+  verdict.line = "NOT PROVEN: " + why;
+  return verdict;
+}
+
+/// By the tolerance alone (Eq. 120).
+Verdict by_tolerance(Verdict verdict, const JobResult& result, double tolerance_mm) {
+  const std::string limit = fmt::format(", tolerance {:.9g} µm", tolerance_mm / mm_per_um);
+  const std::string numbers = numbers_of(verdict, result.job.target->kind) + limit;
+  if (verdict.upper_mm <= tolerance_mm) {
+    verdict.decision = Decision::go;
+    verdict.line = "GO: " + numbers;
+  } else if (verdict.coaxiality_after_mm > tolerance_mm && verdict.lower_mm > tolerance_mm) {
+    verdict.decision = Decision::no_go;
+    verdict.line = fmt::format("NO-GO: {}, and at least {}", numbers, in_um(verdict.lower_mm));
+  } else {
+    verdict.what_would_prove = what_would_prove(result, tolerance_mm - left_by_actuator_mm(result));
+    verdict = not_proven(std::move(verdict), numbers);
+    verdict.line += "; " + verdict.what_would_prove;
+  }
+  return verdict;
+}
+
 }  // namespace
 
 Verdict decide(const JobResult& result) {
@@ -111,22 +160,52 @@ Verdict decide(const JobResult& result) {
     verdict.line = "NO-GO: " + why;
     return verdict;
   }
-  verdict.go = true;
   if (!result.correction) {
+    verdict.decision = Decision::identified;
     verdict.line = "DONE: identified, no target to correct";
     return verdict;
   }
-  const std::string numbers = numbers_of(verdict, result.job.target->kind);
-  if (!result.job.coaxiality_tolerance_mm) {
-    verdict.line = "DONE, no tolerance given: " + numbers;
-    return verdict;
+  if (const std::string why = moves_with_axis(result); !why.empty())
+    return not_proven(std::move(verdict), why);
+  const std::vector<OpenAxis> open = open_axes(result);
+  for (const OpenAxis& o : open) verdict.reservations.push_back(o.why);
+  if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
+    verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
+    if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
+    const double if_ideal_mm = open.empty() ? 0.0 : upper_if_ideal_mm(result, open);
+    if (!(if_ideal_mm <= *tolerance_mm)) {
+      return not_proven(
+          std::move(verdict),
+          fmt::format("{}; were the axis where the ideal fit has it, the coaxiality would be up to "
+                      "{}, tolerance {:.9g} µm",
+                      open[0].why, in_um(if_ideal_mm), *tolerance_mm / mm_per_um));
+    }
+    verdict.decision = Decision::go_with_reservations;
+    verdict.line = "GO with reservations" + verdict.line.substr(2);
+  } else {
+    verdict.decision = Decision::untoleranced;
+    verdict.line = "DONE, no tolerance given: " + numbers_of(verdict, result.job.target->kind);
   }
-  const double tolerance_mm = *result.job.coaxiality_tolerance_mm;
-  const double U_mm = verdict.coverage_factor * verdict.u_coaxiality_mm;
-  verdict.go = verdict.coaxiality_after_mm + U_mm <= tolerance_mm;
-  verdict.line = fmt::format("{}: {}, tolerance {:.9g} µm", verdict.go ? "GO" : "NO-GO", numbers,
-                             tolerance_mm / mm_per_um);
+  for (const std::string& reservation : verdict.reservations) verdict.line += "; " + reservation;
   return verdict;
+}
+
+const char* to_string(Decision decision) {
+  switch (decision) {
+    case Decision::identified:
+      return "identified";
+    case Decision::untoleranced:
+      return "untoleranced";
+    case Decision::go:
+      return "go";
+    case Decision::go_with_reservations:
+      return "go_with_reservations";
+    case Decision::not_proven:
+      return "not_proven";
+    case Decision::no_go:
+      return "no_go";
+  }
+  return "";
 }
 
 }  // namespace trueaxis

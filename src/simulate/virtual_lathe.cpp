@@ -41,6 +41,8 @@ class RecordedMotion {
       }
     } else if (pass.speed_rad_per_s != 0.0) {
       now.t_s = (stream_.c_rad[i] - stream_.c_rad.front()) / pass.speed_rad_per_s;
+    } else {
+      now.t_s = static_cast<double>(i);  // the order of the readings is all that is known
     }
     return now;
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -170,7 +171,11 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
       pass_minutes + minutes_to_turn_probe, same,
       [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
   if (along) {
-    const double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
+    double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
+    // The other way where a cone's apex would come near the probed length.
+    const auto [least_x, most_x] = range_of(point.x);
+    const double thinnest = std::min(std::abs(least_x), std::abs(most_x));
+    if (now.shape.tan_half_angle * shift > 0.5 * thinnest) shift = -shift;
     add("OZ",
         fmt::format("shift the part by {:.3g} mm along Z, clamp it again and probe it again",
                     shift),
@@ -184,6 +189,8 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
       [&](Clamping& c) { c.clamp_force_ratio *= less_force, c.axis += 1; });
   add("XJ", "jog X by a known 100 µm and probe again", pass_minutes + minutes_between, same,
       [&](Clamping& c) { c.x_jog_mm += jog_mm; });
+  std::erase_if(
+      list, [](const CandidateMeasurement& m) { return !every_line_meets(m.stream, m.clampings); });
   return list;
 }
 

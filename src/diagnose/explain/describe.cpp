@@ -125,10 +125,12 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     FitParameter p{values[v].name,
                    {values[v].value * factor, std::sqrt(variance[v]) * factor,
                     angle ? "deg" : values[v].unit, ""}};
-    if (p.name == "onset")
+    if (p.name == "onset") {
+      if (!problem.point.has_time) p.estimate.unit = "reading";
       p.estimate.u = 1.0 / std::sqrt(12.0) *
                      (problem.point.time.back() - problem.point.time.front()) /
                      static_cast<double>(problem.point.size());
+    }
     out.push_back(std::move(p));
   }
   return out;

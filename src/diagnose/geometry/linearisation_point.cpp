@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "math/sincos.hpp"
 #include "math/statistics.hpp"
@@ -22,7 +23,8 @@ const Clamping& clamping_of(const ProbeStream& stream, const std::vector<Clampin
   return *found;
 }
 
-// Without a clock the spindle's stated speed gives one, while C runs one way.
+// Without a clock the spindle's stated speed gives one, while C runs one way; else the number of
+// the reading is all that is known of the time: enough for an instant.
 void fill_time(const ProbeStream& stream, LinearisationPoint& point) {
   if (!stream.time_s.empty()) {
     point.time = stream.time_s;
@@ -33,7 +35,8 @@ void fill_time(const ProbeStream& stream, LinearisationPoint& point) {
     point.passes[0].speed_rad_per_s = speed * point.passes[0].c_sign;
     point.has_time = true;
   } else {
-    point.time.assign(point.size(), 0.0);
+    point.time.resize(point.size());
+    std::iota(point.time.begin(), point.time.end(), 0.0);
   }
 }
 
@@ -42,8 +45,9 @@ void fill_motion(LinearisationPoint& point) {
   point.velocity.resize(point.size());
   for (const Pass& pass : point.passes) {
     double velocity = pass.feed_mm_per_rev * std::abs(pass.speed_rad_per_s) / two_pi;
-    const double lasted =
-        pass.end > pass.begin + 1 ? point.time[pass.end - 1] - point.time[pass.begin] : 0.0;
+    const double lasted = point.has_time && pass.end > pass.begin + 1
+                              ? point.time[pass.end - 1] - point.time[pass.begin]
+                              : 0.0;
     if (pass.c_sign == 0 && lasted > 0.0)
       velocity = (point.z[pass.end - 1] - point.z[pass.begin]) / lasted;
     std::fill(point.speed.begin() + static_cast<long>(pass.begin),
@@ -110,6 +114,15 @@ void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clamp
 }
 
 }  // namespace
+
+bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings) {
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const Clamping& now = clamping_of(stream, clampings, i);
+    const double z_mm = stream.has_position() ? stream.position_mm[i] : 0.0;
+    if (!intersect(now.shape, stream.c_rad[i], z_mm, 0.0, now.root).hit) return false;
+  }
+  return true;
+}
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore) {

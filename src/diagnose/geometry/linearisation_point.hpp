@@ -61,6 +61,10 @@ struct LinearisationPoint : LinearisationFacts {
   void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
 };
 
+/// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
+/// apex, or beside a thin part, none does.
+bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings);
+
 /// @param stream columns C, Z, t, set-up; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -41,17 +42,34 @@ struct Lagged {
     return sum;
   }
 
-  /// Twice the restricted log likelihood, up to a constant (Patterson and Thompson 1971) (Eq. 65).
-  double likelihood2(double phi1, double phi2) const {
+  /// Of the regression by the columns behind the first.
+  struct Regression {
+    double rss, logdet;
+    Eigen::Index columns;
+  };
+  std::optional<Regression> regression(double phi1, double phi2) const {
     const Matrix all = whitened(phi1, phi2);
     const Eigen::Index m = all.rows() - 1;
     const Matrix normal = all.bottomRightCorner(m, m);
     const Eigen::LLT<Matrix> factor(normal);
-    if (factor.info() != Eigen::Success) return -1e300;
+    if (factor.info() != Eigen::Success) return {};
     const Eigen::VectorXd half = factor.matrixL().solve(all.col(0).tail(m));
-    const double rss = all(0, 0) - half.squaredNorm();
-    const double logdet = 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-    return -(rows - static_cast<double>(m)) * std::log(rss) - logdet;
+    return Regression{all(0, 0) - half.squaredNorm(),
+                      2.0 * factor.matrixLLT().diagonal().array().log().sum(), m};
+  }
+
+  /// Twice the restricted log likelihood, up to a constant (Patterson and Thompson 1971) (Eq. 65).
+  double likelihood2(double phi1, double phi2) const {
+    const auto r = regression(phi1, phi2);
+    if (!r) return -1e300;
+    return -(rows - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet;
+  }
+
+  /// The noise with −2 ln of its likelihood, not the restricted one: models with other columns are
+  /// compared by it.
+  Autoregression with_deviance(std::vector<double> phi) const {
+    const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
+    return {std::move(phi), r ? rows * std::log(r->rss) : 1e300};
   }
 };
 
@@ -183,9 +201,9 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
   return list;
 }
 
-std::vector<double> autoregression(const LinearisationPoint& point, const ObservationMask& mask,
-                                   std::span<const double> deviation_mm,
-                                   std::span<const Hypothesis> terms) {
+Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,
+                              std::span<const double> deviation_mm,
+                              std::span<const Hypothesis> terms) {
   Lagged lagged;
   const auto columns = static_cast<Eigen::Index>(1 + point.base.columns() + columns_of(terms));
   for (auto& line : lagged.gram) line.fill(Matrix::Zero(columns, columns));
@@ -232,9 +250,9 @@ std::vector<double> autoregression(const LinearisationPoint& point, const Observ
   const double two = lagged.likelihood2(a1 * (1.0 - a2), a2);
   if (two - one > five_percent && two - white > 2.0 * five_percent &&
       !rings_with_spindle(point, a1 * (1.0 - a2), a2))
-    return {a1 * (1.0 - a2), a2};
-  if (one - white > five_percent) return {first};
-  return {};
+    return lagged.with_deviance({a1 * (1.0 - a2), a2});
+  if (one - white > five_percent) return lagged.with_deviance({first});
+  return lagged.with_deviance({});
 }
 
 }  // namespace trueaxis::diagnose_detail

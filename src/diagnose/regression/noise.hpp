@@ -21,11 +21,17 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 
+/// φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white.
+struct Autoregression {
+  std::vector<double> phi;
+  double deviance = 0.0;  ///< −2 ln of the likelihood, up to a constant of the stream; 0: none
+};
+
 /// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
 /// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,
 /// each one only where the likelihood ratio passes 5 %. Few readings: none (Eqs. 64, 65).
-std::vector<double> autoregression(const LinearisationPoint& point, const ObservationMask& mask,
-                                   std::span<const double> deviation_mm,
-                                   std::span<const Hypothesis> terms);
+Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,
+                              std::span<const double> deviation_mm,
+                              std::span<const Hypothesis> terms);
 
 }  // namespace trueaxis::diagnose_detail

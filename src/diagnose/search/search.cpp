@@ -12,6 +12,7 @@ namespace {
 
 constexpr double catalogue_first = 6.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
+constexpr double hides_a_line = 0.3;  // |φ|: less hardly weakens one
 
 Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
   Columns out;
@@ -43,7 +44,7 @@ class StepwiseSearch {
   /// @param patterns whether a pattern may be taken while a cause still passes.
   Model run(bool patterns, bool& pattern_was_better) {
     Model model;
-    model.phi = noise({});
+    model.phi = first_noise();
     forward(model, patterns, pattern_was_better);
     for (int round = 0; round < 3; ++round) {
       bool changed = backward(model);
@@ -57,7 +58,31 @@ class StepwiseSearch {
   }
 
  private:
-  std::vector<double> noise(const std::vector<Hypothesis>& terms) const {
+  /// Noise before any term. A line that is no whole order, such as an asynchronous motion, looks
+  /// like a noise that rings, and whitening then takes it away: where the likelihood of lines
+  /// beside a noise of their own is better than chance makes it, that noise is taken.
+  std::vector<double> first_noise() {
+    Autoregression best = noise({});
+    std::vector<Hypothesis> lines;
+    while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_line; }) &&
+           lines.size() < problem_.most_terms) {
+      const Proposal p = proposer_.beside(lines, {});
+      const Candidate* line = nullptr;
+      for (const auto* list : {&p.causes, &p.patterns}) {
+        if (list->empty() || !is_line(list->front().hypothesis)) continue;
+        if (!line || list->front().gain > line->gain) line = &list->front();
+      }
+      if (!line) break;
+      lines.push_back(line->hypothesis);
+      Autoregression with = noise(lines);
+      const double gain = best.deviance - with.deviance;
+      if (!(p.family.p_value(std::exp(-0.5 * gain)) < problem_.false_alarm)) break;
+      best = std::move(with);
+    }
+    return best.phi;
+  }
+
+  Autoregression noise(const std::vector<Hypothesis>& terms) const {
     std::vector<Hypothesis> all(basis_);
     all.insert(all.end(), terms.begin(), terms.end());
     return autoregression(problem_.point, problem_.mask, problem_.deviation_mm, all);
@@ -89,7 +114,7 @@ class StepwiseSearch {
   // A strong slow effect looks like autocorrelation, until it is a term.
   void renew_noise(Model& model) const {
     if (model.phi.empty()) return;
-    std::vector<double> phi = noise(model.terms);
+    std::vector<double> phi = noise(model.terms).phi;
     if (moved(phi, model.phi)) model.phi = std::move(phi);
   }
 
@@ -293,7 +318,7 @@ CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
     phi_ = model.phi;
     std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
     all.insert(all.end(), model.terms.begin(), model.terms.end());
-    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all);
+    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all).phi;
     if (!fast_line_left(whole, model, every)) return;
   }
   model = search(proposer_.emplace(whole));

@@ -11,10 +11,16 @@ namespace {
 
 Json verdict_object(const Verdict& v) {
   return {
-      {"go", v.go},
+      {"go", v.go()},
+      {"decision", to_string(v.decision)},
       {"line", v.line},
+      {"reservations", v.reservations},
       {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
       {"coaxiality_after", to_json(Estimate{v.coaxiality_after_mm, v.u_coaxiality_mm, "mm", ""})},
+      {"coaxiality_at_least", with_unit(v.lower_mm, "mm")},
+      {"coaxiality_at_most", with_unit(v.upper_mm, "mm")},
+      {"risk", nonconformity_risk},
+      {"what_would_prove", v.what_would_prove},
       {"coverage_factor", v.coverage_factor}};
 }
 
@@ -26,7 +32,8 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
          {"offset_start", with_unit(r.offset_start_mm, "mm")},
          {"offset_end", with_unit(r.offset_end_mm, "mm")},
          {"tilt", with_unit(r.tilt_rad / rad_per_deg, "deg")},
-         {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})}});
+         {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})},
+         {"coaxiality_at_most", with_unit(r.limit_mm, "mm")}});
   }
   const auto [x, y] = target.axis.axis.at(surface.z_start_mm);
   return {{"x_at_start", with_unit(x, "mm")},

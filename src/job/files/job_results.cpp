@@ -60,7 +60,7 @@ std::vector<ResultFile> job_files(const JobResult& result) {
         {readings_file(result, i), residuals_csv(result.streams[i], *result.diagnoses[i],
                                                  &result.resimulations[i]->readings)});
   }
-  if (result.correction && result.verdict.go)
+  if (result.correction && result.verdict.go())
     files.push_back({"table.csv", correction_csv(*result.correction)});
   return files;
 }

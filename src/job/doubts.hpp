@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// A reference whose axis depends on a model that the data leave open.
+struct OpenAxis {
+  std::size_t reference = 0;
+  std::string why;  ///< by how much the diagnosis moved it, and what is open
+};
+
+/// Where the diagnosis moved the axis, within the cut, by more than its U against the ideal fit
+/// while a cause of it has rivals or a pattern has no cause.
+std::vector<OpenAxis> open_axes(const JobResult& result);
+
+/// Of the first reference with a pattern of no known cause at one undulation per revolution, or
+/// with anything found so near to it that it hardly beats with the eccentricity over the stream:
+/// the axis takes its amplitude in, whatever its u says. Empty: there is none.
+std::string moves_with_axis(const JobResult& result);
+
+}  // namespace trueaxis

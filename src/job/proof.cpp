@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/proof.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "correct/coaxiality_distribution.hpp"
+#include "job/references.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using Covariance = std::array<double, 16>;
+
+constexpr double most_times = 100.0;  // readings; beyond that another measurement is meant
+constexpr double longest = 10.0;      // times the probed length
+
+/// What the readings' noise alone leaves of a reference's axis: its fit without influences.
+Covariance noise_of(const JobResult& result, std::size_t i) {
+  FitOptions options = result.job.references[i].fit;
+  options.influences.clear();
+  const FitResult& used = fit_used(result, i);
+  Covariance noise = fit(result.streams[i], options).axis.covariance;
+  // An extended model has its own σ; beyond that its covariance holds what rivals leave.
+  const double sigma_ratio =
+      result.fits[i].sigma_mm > 0.0 ? used.sigma_mm / result.fits[i].sigma_mm : 1.0;
+  for (double& c : noise) c *= sigma_ratio * sigma_ratio;
+  return noise;
+}
+
+/// Covariance with the noise of `times` as many readings over `longer` times the length, which
+/// turns the axis less about the place where position and slope are uncorrelated.
+Covariance with_more(const AxisEstimate& axis, const Covariance& noise, double times,
+                     double longer) {
+  const Eigen::Map<const Matrix4> whole(axis.covariance.data()), part(noise.data());
+  Matrix4 scaled = part;
+  const double slope2 = part(2, 2) + part(3, 3);
+  const double lever = slope2 > 0.0 ? -(part(0, 2) + part(1, 3)) / slope2 : 0.0;
+  Matrix4 to_middle = Matrix4::Identity();
+  to_middle(0, 2) = to_middle(1, 3) = lever;
+  Matrix4 shrink = Matrix4::Identity();
+  shrink(2, 2) = shrink(3, 3) = 1.0 / longer;
+  const Matrix4 move = to_middle.inverse() * shrink * to_middle;
+  scaled = move * part * move.transpose() / times;
+  Covariance out;
+  Eigen::Map<Matrix4>(out.data()) = whole - part + scaled;
+  return out;
+}
+
+/// The smallest factor from 1 to `most` that `enough` of, which is monotone; none: not even `most`.
+template <typename Enough>
+std::optional<double> smallest(double most, Enough enough) {
+  if (!enough(most)) return {};
+  double low = 1.0, high = most;
+  while (high / low > 1.01) {
+    const double middle = std::sqrt(low * high);
+    (enough(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+/// Two digits upwards: 1234 → 1300.
+double rounded_up(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return std::ceil(value / unit) * unit;
+}
+
+}  // namespace
+
+std::string what_would_prove(const JobResult& result, double allowed_mm) {
+  const std::vector<Reference> references = references_of(result);
+  std::vector<Covariance> noise;
+  double readings = 0.0, length_mm = 0.0;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    noise.push_back(noise_of(result, i));
+    readings += static_cast<double>(result.fits[i].points);
+    length_mm =
+        std::max(length_mm, result.fits[i].position_max_mm - result.fits[i].position_min_mm);
+  }
+  const TargetSurface& target = *result.job.target;
+  const auto proven = [&](double times, double longer) {
+    std::vector<Reference> better = references;
+    for (std::size_t i = 0; i < better.size(); ++i)
+      better[i].axis.covariance = with_more(references[i].axis, noise[i], times, longer);
+    const CoaxialityDistribution distribution(better, result.target_axis->axis.axis,
+                                              target.z_start_mm, target.z_end_mm);
+    return distribution.quantile(1.0 - nonconformity_risk) <= allowed_mm;
+  };
+  const auto times = smallest(most_times, [&](double t) { return proven(t, 1.0); });
+  const auto longer = smallest(longest, [&](double l) { return proven(1.0, l); });
+  std::string text;
+  if (times)
+    text = fmt::format("about {:.0f} readings instead of {:.0f}", rounded_up(*times * readings),
+                       readings);
+  if (longer && length_mm > 0.0)
+    text += fmt::format("{}the same number over {:.2g} mm instead of {:.2g} mm",
+                        text.empty() ? "" : ", or ", rounded_up(*longer * length_mm), length_mm);
+  if (!text.empty()) return text + " would prove it";
+  if (proven(1e12, 1.0))
+    return fmt::format("more than {:.0f} times the readings would be needed: take a quieter sensor",
+                       most_times);
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    const NextMeasurement& next = result.diagnoses[i]->next;
+    if (!next.plan.empty()) return "readings alone do not prove it: " + next.what;
+  }
+  return "no number of readings proves it: what the compromise, the stated influences and rival "
+         "models leave is more than the tolerance";
+}
+
+}  // namespace trueaxis
