@@ -115,8 +115,8 @@ constexpr std::size_t few_beyond = 2;  // readings beyond the parameters that le
 /// Through so few readings pass surfaces of other tilts: a cylinder through five has up to six.
 std::vector<std::vector<double>> tilted_starts(const JointModel& model,
                                                const std::vector<double>& working) {
-  constexpr double tilts[] = {0.03, 0.1, 0.3, 1.0};
-  constexpr int directions = 8;
+  constexpr double tilts[] = {0.03, 0.1, 0.3, 0.7, 1.5, 3.0};
+  constexpr int directions = 16;
   std::vector<std::vector<double>> starts;
   for (std::size_t c = 0; c < model.clampings(); ++c) {
     for (const double tilt : tilts) {
