@@ -37,6 +37,8 @@ TEST(StreamMetadata, WhatLooksLikeAKeyIsRefusedWithItsSpelling) {
       {"ball radius 1.5 mm", "ball_radius: 1.5 mm"},
       {"Ball radius = 1.5 mm", "ball_radius: 1.5 mm"},
       {"tip radius: 1.5 mm", "ball_radius: 1.5 mm"},
+      {"Probe ball radius: 1.5 mm", "ball_radius: 1.5 mm"},
+      {"noise level 2 um", "sensor_noise: 2 um"},
       {"sensornoise: 2 um", "sensor_noise: 2 um"},
       {"sensor: noise 2 um", "sensor_noise: 2 um"},
       {"sigma = .002 mm", "sensor_noise: 2 um"},

@@ -14,7 +14,7 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
-constexpr std::string_view conventions[] = {"radius", "diameter", "dia", "rad", "radial"};
+constexpr std::string_view conventions[] = {"radius", "diameter", "dia", "radial"};
 constexpr std::string_view indications[] = {"absolute", "relative"};
 constexpr std::string_view sides[] = {"front", "rear"};
 
@@ -49,6 +49,7 @@ constexpr Known known_keys[] = {
     {"convention", "x_convention", "diameter", conventions, Looks::like_a_word},
     {"nominaldiameter", "nominal_radius", "14.5 mm"},
     {"noise", "sensor_noise", "2 um", {}, Looks::like_a_word},
+    {"noiselevel", "sensor_noise", "2 um"},
     {"noiseum", "sensor_noise", "2 um", {}, Looks::like_a_word},
     {"noisemm", "sensor_noise", "0.002 mm", {}, Looks::like_a_word},
     {"sigma", "sensor_noise", "2 um", {}, Looks::like_a_word},
@@ -59,6 +60,9 @@ constexpr Known known_keys[] = {
     {"tipdiameter", "ball_radius", "1.5 mm"},
     {"stylusradius", "ball_radius", "1.5 mm"},
     {"stylusdiameter", "ball_radius", "1.5 mm"},
+    {"proberadius", "ball_radius", "1.5 mm"},
+    {"probediameter", "ball_radius", "1.5 mm"},
+    {"probeballradius", "ball_radius", "1.5 mm"},
     {"reindex", "setup.2.reindex", "70 deg", {}, Looks::like_a_word},
     {"zshift", "setup.2.z_shift", "12 mm", {}, Looks::like_a_word},
     {"xjog", "setup.2.x_jog", "0.1 mm", {}, Looks::like_a_word},
@@ -78,9 +82,9 @@ constexpr std::string_view unit_keys[] = {"unit",       "units",       "einheit"
                                           "lengthunit", "lengthunits", "angleunit", "angleunits",
                                           "unitlength", "unitangle",   "uom"};
 constexpr std::string_view fillers[] = {
-    "all",    "in",      "is",     "are",    "a",     "the",        "and", "as",
-    "values", "lengths", "length", "angles", "angle", "dimensions", "xm",  "zm",
-    "x",      "c",       "z",      "t",      "mode",  "readings"};
+    "all",    "in",      "is",     "are",    "a",     "the",        "and",     "as",
+    "values", "lengths", "length", "angles", "angle", "dimensions", "xm",      "zm",
+    "x",      "c",       "z",      "t",      "mode",  "readings",   "measured"};
 
 bool one_of(Words words, std::string_view word) {
   return std::ranges::find(words, word) != words.end();
@@ -97,11 +101,11 @@ std::string folded(std::string_view text) {
   return out;
 }
 
-/// A word of a comment, whether ':' or '=' follows it, and the text after that.
+/// A word of a comment, and whether ':' or '=' follows it.
 struct Word {
   std::string folded;
   bool assigned = false;
-  std::string_view written, rest;  ///< the text up to and with this word; what follows
+  std::string_view written;  ///< the text up to and with this word
 };
 
 std::vector<Word> words_of(std::string_view text) {
@@ -113,13 +117,11 @@ std::vector<Word> words_of(std::string_view text) {
     if (sign && !words.empty()) words.back().assigned = true;
     if (sign || blanks.find(text[at]) != std::string_view::npos) {
       ++at;
-      if (!words.empty()) words.back().rest = csv_trimmed(text.substr(at));
       continue;
     }
     const std::size_t end = std::min(text.find_first_of(" \t\r,;:=", at), text.size());
     std::string word = folded(text.substr(at, end - at));
-    if (!word.empty())
-      words.push_back({std::move(word), false, text.substr(start, end - start), {}});
+    if (!word.empty()) words.push_back({std::move(word), false, text.substr(start, end - start)});
     at = end;
   }
   return words;
