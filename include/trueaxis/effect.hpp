@@ -270,6 +270,7 @@ enum class Check {
   quantisation,
   incidence_noise,
   correlated_noise,
+  stated_noise,
   outliers
 };
 

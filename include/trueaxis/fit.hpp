@@ -92,6 +92,9 @@ struct FitResult {
   std::string message;                      ///< what is wrong and what to do, empty when converged
   std::vector<std::string> not_determined;  ///< combinations of parameters the data leave free
   std::vector<std::string> notes;           ///< what a user should know of numbers that may be used
+  /// What was taken of the stream's file that nothing says, and what of it was not used.
+  std::vector<std::string> input_notes;
+  std::optional<XConvention> x_convention;  ///< of the stream, where it was read from a file
   Loss loss = Loss::plain;
   bool bore = false;
   double coverage_factor = 2.0;

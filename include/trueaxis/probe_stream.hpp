@@ -42,6 +42,18 @@ enum class Indication {
   relative,  ///< a gauge: X_M up to an unknown constant; a nominal radius is needed
 };
 
+/// Who said whether the X of a file is a radius or a diameter.
+enum class SaidBy { nobody, stream, option, job };
+
+/// What the X of a file (X_M, or X of a face) was taken as. In a ProbeStream it is a radius always.
+struct XConvention {
+  bool diameter = false;
+  SaidBy said_by = SaidBy::nobody;
+  bool operator==(const XConvention&) const = default;
+};
+
+const char* to_string(SaidBy said_by);
+
 /// A probe stream, structure of arrays; every column has `size()` entries or none.
 /// Machine frame, mm, rad, s; X_M is a radius. Nothing is dropped: row i of the file is entry i.
 struct ProbeStream {
@@ -65,6 +77,9 @@ struct ProbeStream {
       ball_radius_mm;  ///< metadata ball_radius: the readings are of the ball's centre
   std::optional<double> spindle_rpm;            ///< metadata spindle_rpm, signed like C
   std::map<std::string, std::string> metadata;  ///< every "# key: value", those above included
+
+  /// Of a stream that was read from a file.
+  std::optional<XConvention> x_convention;
 
   std::string source;      ///< file name, or "-" for standard input
   std::string input_hash;  ///< "xxh3-64:<16 hex digits>" of the bytes read

@@ -89,6 +89,37 @@ LossScale loss_scale(Loss loss, double sigma_mm) {
   return {};
 }
 
+/// Whether two minima are one, to the rounding of their numbers.
+bool same_place(const JointModel& model, const Minimum& a, const Minimum& b) {
+  constexpr double apart_mm = 1e-5;
+  const std::vector<double> scale = model.scale_mm(a.working);
+  for (std::size_t j = 0; j < scale.size(); ++j) {
+    if (std::abs(a.working[j] - b.working[j]) * scale[j] > apart_mm) return false;
+  }
+  return true;
+}
+
+constexpr std::size_t few_beyond = 2;  // readings beyond the parameters that leave other surfaces
+
+/// Through so few readings pass surfaces of other tilts: a cylinder through five has up to six.
+std::vector<std::vector<double>> tilted_starts(const JointModel& model,
+                                               const std::vector<double>& working) {
+  constexpr double tilts[] = {0.03, 0.1, 0.3, 0.7, 1.5, 3.0};
+  constexpr int directions = 16;
+  std::vector<std::vector<double>> starts;
+  for (std::size_t c = 0; c < model.clampings(); ++c) {
+    for (const double tilt : tilts) {
+      for (int k = 0; k < directions; ++k) {
+        const double angle = k * two_pi / directions;
+        starts.push_back(
+            model.tilted(working, c, {tilt * std::cos(angle), tilt * std::sin(angle)}));
+      }
+    }
+  }
+  if (!starts.empty() && starts.front() == working) starts.clear();  // a surface without tilt
+  return starts;
+}
+
 }  // namespace
 
 Sample sample_of(const PreparedStream& stream) {
@@ -140,19 +171,24 @@ Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& sample
   for (std::size_t c = 0; c < model.clampings(); ++c) {
     if (!found || model.tilt_may_be_mirrored(best.working, c)) to_mirror.push_back(c);
   }
-  if (to_mirror.empty()) return minima;
+  const bool few = model.size() <= model.parameter_count() + few_beyond;
+  if (to_mirror.empty() && !few) return minima;
   int passes = best.iterations;
   const auto attempt = [&](std::vector<double> from) {
     Minimum other = minimise(model, std::move(from), loss, max_iterations);
     passes += other.iterations;
     if (lower(other, minima.best)) std::swap(other, minima.best);
-    if (other.converged && (!minima.rival || lower(other, *minima.rival)))
+    if (other.converged && !same_place(model, other, minima.best) &&
+        (!minima.rival || lower(other, *minima.rival)))
       minima.rival = std::move(other);
   };
   std::vector<double> level = level_start(model, samples);
   if (!level.empty()) attempt(std::move(level));
   for (const std::size_t c : to_mirror) {
     if (best.normal.valid) attempt(model.mirrored(best.working, c));
+  }
+  if (few && best.normal.valid) {
+    for (std::vector<double>& other : tilted_starts(model, best.working)) attempt(std::move(other));
   }
   minima.best.iterations = passes;
   return minima;

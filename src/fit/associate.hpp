@@ -34,7 +34,8 @@ struct Minima {
 };
 
 /// Minimises from `start`; where that fails, or a mirrored tilt may do as well, also from the level
-/// start and from the minimum's tilt reversed, one clamping after the other (Eq. 25).
+/// start and from the minimum's tilt reversed, one clamping after the other (Eq. 25). Where there
+/// are at most two readings more than parameters, also from tilts all around.
 Minima lowest_minimum(const JointModel& model, const std::vector<Sample>& samples,
                       const std::vector<double>& start, const LossScale& loss, int max_iterations);
 

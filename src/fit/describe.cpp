@@ -210,6 +210,20 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
         "{:.1f}-fold",
         noise.autocorrelation, noise.u_factor));
   }
+  const double stated = noise.stated_mm.value_or(0.0), shown = noise.shown_mm;
+  if (noise_disagrees(stated, shown, noise.redundancy)) {
+    result.notes.push_back(
+        fmt::format("stated noise {:.3g} µm, the residuals show {:.3g} µm: ", stated / mm_per_um,
+                    shown / mm_per_um) +
+        (shown > stated
+             ? fmt::format("u is computed with what they show, {:.2g} times the statement; more "
+                           "than the sensor's noise is in the readings (form, motion, another "
+                           "surface or unit), or the statement is too small",
+                           shown / stated)
+             : fmt::format("u is computed with the statement; where it is too large (a unit?), "
+                           "every u is up to {:.2g} times too large",
+                           stated / shown)));
+  }
   if (result.loss != Loss::plain) return;
   std::vector<double> sample;  // spread evenly: enough for a scale
   const std::size_t stride = result.residual_mm.size() / 1024 + 1;

@@ -7,6 +7,7 @@
 
 #include "fit/associate.hpp"
 #include "fit/describe.hpp"
+#include "fit/input_notes.hpp"
 #include "fit/uncertainty.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"
@@ -50,7 +51,7 @@ SurfaceFrame frame_of(const ProbeStream& stream, const FitOptions& options) {
     if (!stream.nominal_radius_mm) {
       throw InputError(
           stream.source,
-          "a relative gauge does not show the radius: give '# nominal_radius: ...' in mm");
+          "a relative gauge does not show the radius: say it, such as '# nominal_radius: 14.5 mm'");
     }
     frame.nominal_radius_mm = *stream.nominal_radius_mm;
   }
@@ -77,6 +78,7 @@ FitResult empty_result(const ProbeStream& stream, const FitOptions& options,
   result.coverage_factor = options.coverage_factor;
   result.points = stream.size();
   result.input_hash = stream.input_hash;
+  result.x_convention = stream.x_convention;
   result.source = stream.source;
   result.position_min_mm = range_mm[0];
   result.position_max_mm = range_mm[1];
@@ -102,6 +104,7 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
 FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& set_ups,
                     const JointModel& model, const FitOptions& options) {
   FitResult result = empty_result(stream, options, model.last_range_mm());
+  result.input_notes = notes_on_input(stream, model.info());
   if (stream.size() < model.parameter_count()) {
     result.message = std::to_string(stream.size()) + " readings are fewer than the " +
                      std::to_string(model.parameter_count()) + " parameters of a " +

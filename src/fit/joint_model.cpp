@@ -194,6 +194,13 @@ std::vector<double> JointModel::mirrored(std::vector<double> joint, std::size_t 
   return joint;
 }
 
+std::vector<double> JointModel::tilted(std::vector<double> joint, std::size_t clamping,
+                                       std::array<double, 2> slope) const {
+  for (std::size_t i = slope_; i < std::min(slope_ + 2, own_); ++i)
+    joint[joint_index(clamping, i)] = slope[i - slope_];
+  return joint;
+}
+
 bool JointModel::tilt_may_be_mirrored(std::span<const double> joint, std::size_t clamping) const {
   return std::ranges::any_of(parts_, [&](const JointPart& part) {
     return part.clamping == clamping && part.surface->tilt_may_be_mirrored(working(joint, part));

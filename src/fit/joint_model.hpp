@@ -62,6 +62,9 @@ class JointModel {
   std::vector<double> joined(const std::vector<std::vector<double>>& working) const;
   /// The same with the tilt of one clamping reversed.
   std::vector<double> mirrored(std::vector<double> joint, std::size_t clamping) const;
+  /// The same with the axis of one clamping at these slopes.
+  std::vector<double> tilted(std::vector<double> joint, std::size_t clamping,
+                             std::array<double, 2> slope) const;
   bool tilt_may_be_mirrored(std::span<const double> joint, std::size_t clamping) const;
 
   /// As the functions of these names for one surface; residuals in the order of the stream.

@@ -69,6 +69,13 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
 
 }  // namespace
 
+bool noise_disagrees(double stated_mm, double shown_mm, double redundancy) {
+  constexpr double factor = 3.0;
+  constexpr double enough = 5.0;  // χ²(5) gives less than a third of σ once in 100
+  if (!(redundancy >= enough) || !(stated_mm > 0.0)) return false;
+  return shown_mm > factor * stated_mm || factor * shown_mm < stated_mm;
+}
+
 ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
                             const FitOptions& options) {
   ReadingNoise noise;
@@ -80,6 +87,9 @@ ReadingNoise estimate_noise(const Association& association, std::size_t paramete
   noise.sigma_mm = robust           ? association.scale_mm
                    : redundancy > 0 ? std::sqrt(association.minimum.normal.sum_rho / redundancy)
                                     : std::numeric_limits<double>::quiet_NaN();
+  noise.stated_mm = options.noise_mm;
+  noise.shown_mm = noise.sigma_mm;
+  noise.redundancy = redundancy;
   if (options.noise_mm && !(noise.sigma_mm >= *options.noise_mm)) {
     noise.sigma_mm = *options.noise_mm;
     noise.source = "sensor";

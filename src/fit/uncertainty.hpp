@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,17 @@ namespace trueaxis {
 struct ReadingNoise {
   double sigma_mm = 0.0;  ///< NaN: no redundancy and no sensor noise given
   std::string source;
+  std::optional<double> stated_mm;  ///< what stream, job or caller say of the sensor
+  double shown_mm = 0.0;            ///< what the residuals alone show; NaN: no redundancy
+  double redundancy = 0.0;          ///< readings beyond the parameters
   double autocorrelation = 0.0;
   double u_factor = 1.0;     ///< √((1 + ρ)/(1 − ρ)) where neighbours correlate, else 1
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
+
+/// Whether σ as stated and as the readings show it differ by more than 3, either way, and enough
+/// readings show it.
+bool noise_disagrees(double stated_mm, double shown_mm, double redundancy);
 
 /// Eqs. 32–34.
 ReadingNoise estimate_noise(const Association& association, std::size_t parameters,

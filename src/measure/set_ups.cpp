@@ -4,6 +4,20 @@
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
+
+const char* to_string(SaidBy said_by) {
+  switch (said_by) {
+    case SaidBy::nobody:
+      return "nobody";
+    case SaidBy::stream:
+      return "stream";
+    case SaidBy::option:
+      return "option";
+    case SaidBy::job:
+      return "job";
+  }
+  return "";
+}
 namespace {
 
 SetUp stated(const std::vector<SetUp>& setups, int number) {

@@ -46,6 +46,12 @@ std::string influence_text(const Influence& influence) {
   return std::string(known.what) + ", u = " + number(influence.u * known.scale, known.unit);
 }
 
+std::string convention_text(const XConvention& convention) {
+  const std::string taken = convention.diameter ? "a diameter" : "a radius";
+  if (convention.said_by == SaidBy::nobody) return "taken as " + taken + ", which nothing says";
+  return taken + ", as the " + to_string(convention.said_by) + " says";
+}
+
 void add_fit(Options& options, const FitOptions& fit) {
   options.add("surface", to_string(fit.surface) + std::string(fit.bore ? ", a bore" : ""));
   options.add("loss", loss_text(fit.loss));
@@ -68,6 +74,9 @@ Json reference_block(const JobResult& result, std::size_t i) {
     options.add("indication", stream.indication == Indication::relative
                                   ? "relative: a gauge, the radius is not measured"
                                   : "absolute");
+    if (stream.x_convention)
+      options.add(stream.kind == StreamKind::face ? "X" : "X_M",
+                  convention_text(*stream.x_convention));
     if (stream.nominal_radius_mm) options.add("nominal radius", *stream.nominal_radius_mm, "mm");
   }
   add_fit(options, reference.fit);

@@ -63,6 +63,7 @@ Recording recording_of(const Scenario& scenario, const Chain& chain) {
 void describe(const Scenario& scenario, ProbeStream& stream) {
   stream.kind = scenario.part.kind == PartKind::face ? StreamKind::face : StreamKind::lateral;
   if (scenario.probe.relative_zero_mm) stream.indication = Indication::relative;
+  stream.metadata["x_convention"] = "radius";
   stream.nominal_radius_mm = scenario.probe.nominal_radius_mm;
   if (scenario.noise.sigma_mm > 0.0 && scenario.probe.states_noise) {
     stream.sensor_noise_mm = scenario.noise.sigma_mm;

@@ -16,13 +16,14 @@ constexpr const char* target =
 
 /// Readings of a circle of 32 mm, 50 µm off along x, by its closed form; `count` of them along a
 /// helix.
-std::string circle_stream(int count, bool with_z) {
+std::string circle_stream(int count, bool with_z, double c_step_rad = 2.4, int z_step_mm = 1) {
   std::string text = with_z ? "X_M[mm],C[rad],Z[mm]\n" : "X_M[mm],C[rad]\n";
   for (int i = 0; i < count; ++i) {
-    const double c = 2.4 * i, e = 0.05;
+    const double c = c_step_rad * i, e = 0.05;
     char row[96];
     std::snprintf(row, sizeof row, with_z ? "%.12f,%.12f,%d\n" : "%.12f,%.12f\n",
-                  e * std::cos(c) + std::sqrt(32.0 * 32.0 - std::pow(e * std::sin(c), 2)), c, i);
+                  e * std::cos(c) + std::sqrt(32.0 * 32.0 - std::pow(e * std::sin(c), 2)), c,
+                  z_step_mm * i);
     text += row;
   }
   return text;
@@ -30,7 +31,7 @@ std::string circle_stream(int count, bool with_z) {
 
 TEST(NoUncertainty, AsManyReadingsAsParametersIsNoGo) {
   const auto folder = fresh_folder("no_redundancy");
-  write_text(folder / "probe.csv", circle_stream(5, true));
+  write_text(folder / "probe.csv", circle_stream(5, true, 2.0, 40));
   write_text(
       folder / "job.toml",
       std::string("[[reference]]\nstream = \"probe.csv\"\nsurface = \"cylinder\"\n") + target);
@@ -38,6 +39,20 @@ TEST(NoUncertainty, AsManyReadingsAsParametersIsNoGo) {
                                     (folder / "out").string());
   EXPECT_EQ(run.exit_code, 1) << run.output;
   EXPECT_EQ(run.output.rfind("NO-GO: ", 0), 0U) << run.output;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out/table.csv"));
+}
+
+TEST(NoUncertainty, FiveReadingsThatTwoCylindersPassThroughAreNotDetermined) {
+  const auto folder = fresh_folder("two_cylinders");
+  write_text(folder / "probe.csv", circle_stream(5, true));
+  write_text(
+      folder / "job.toml",
+      std::string("[[reference]]\nstream = \"probe.csv\"\nsurface = \"cylinder\"\n") + target);
+  const auto run = trueaxis_command("run " + (folder / "job.toml").string() + " -o " +
+                                    (folder / "out").string());
+  EXPECT_EQ(run.exit_code, 4) << run.output;
+  EXPECT_EQ(run.output.rfind("NO-GO: ", 0), 0U) << run.output;
+  EXPECT_NE(run.output.find("two surfaces fit equally well"), std::string::npos) << run.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out/table.csv"));
 }
 

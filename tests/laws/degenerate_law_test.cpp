@@ -161,6 +161,12 @@ TEST(Degenerate, FewReadings) {
         EXPECT_TRUE(result.parameters.empty());
         continue;
       }
+      if (n == p && result.status == FitStatus::rank_deficient) {
+        // Up to six cylinders, or more cones, pass through as many readings as parameters.
+        EXPECT_TRUE(id == "cone" || id == "cylinder") << id;
+        EXPECT_NE(result.message.find("two surfaces fit equally well"), std::string::npos);
+        continue;
+      }
       ASSERT_EQ(result.status, FitStatus::converged) << result.message;
       for (const FitParameter& q : result.parameters) {
         EXPECT_EQ(std::isfinite(q.estimate.u), n > p) << q.name;

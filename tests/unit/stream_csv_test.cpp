@@ -158,7 +158,7 @@ TEST_F(StreamCsv, CallerOverridesIndicationAndNominalRadius) {
   options.indication = Indication::relative;
   options.nominal_radius_mm = 14.5;
   const ProbeStream s =
-      read("# nominal_radius: 20\n# reading: absolute\nX_M,C\n1,0\n2,90\n", options);
+      read("# nominal_radius: 20 mm\n# reading: absolute\nX_M,C\n1,0\n2,90\n", options);
   EXPECT_EQ(s.indication, Indication::relative);
   EXPECT_EQ(s.nominal_radius_mm, 14.5);
 }
@@ -280,6 +280,8 @@ TEST_F(StreamCsv, WriterLeavesNothingHalfWrittenAndKeepsItsContract) {
   EXPECT_FALSE(fs::exists(path("nan.csv")));
   s.reading_mm[0] = 1.0;
   s.metadata["two words"] = "x";
+  EXPECT_THROW(write_stream_csv(s, path("key.csv")), ContractViolation);
+  s.metadata = {{"units", "inch"}};  // would not be read again
   EXPECT_THROW(write_stream_csv(s, path("key.csv")), ContractViolation);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -178,6 +179,29 @@ QualityCheck quantisation(const ProbeStream& stream, double sigma) {
       fmt::format("smallest step {:.3g} µm, σ {:.3g} µm", step / mm_per_um, sigma / mm_per_um));
 }
 
+/// The stated σ against that which the data show; what it means for u.
+QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
+  if (!noise.stated_mm) return result(Check::stated_noise, false, "no noise is stated");
+  const double stated = *noise.stated_mm, shown = noise.sigma_mm;
+  const bool found = noise_disagrees(stated, shown, redundancy);
+  std::string text = fmt::format("stated {:.3g} µm, from {} {:.3g} µm", stated / mm_per_um,
+                                 noise.source, shown / mm_per_um);
+  if (found) {
+    text += shown > stated
+                ? fmt::format(
+                      ": u is computed with what the data show, {:.2g} times the "
+                      "statement; more than the sensor's noise is in the readings, or the "
+                      "statement is too small",
+                      shown / stated)
+                : fmt::format(
+                      ": the u of findings come from what the data show, but u of the "
+                      "ideal surface from the statement, up to {:.2g} times too large "
+                      "where that is wrong (a unit?)",
+                      stated / shown);
+  }
+  return result(Check::stated_noise, found, std::move(text));
+}
+
 }  // namespace
 
 NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
@@ -262,6 +286,8 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
       phi.empty() ? "neighbouring readings do not correlate"
                   : fmt::format("autoregression of order {}, φ1 = {:.3f}: readings are whitened",
                                 phi.size(), phi[0])));
+  list.push_back(
+      stated_noise(noise, static_cast<double>(joint.equations.count() - joint.solution.rank)));
   return list;
 }
 

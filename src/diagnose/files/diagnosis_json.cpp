@@ -186,7 +186,7 @@ Json diagnosis_object(const Diagnosis& d) {
   Json json;
   json["schema"] = diagnosis_schema;
   json["version"] = TRUEAXIS_VERSION;
-  json["input"] = {{"file", d.baseline.source}, {"hash", d.baseline.input_hash}};
+  json["input"] = fit_object(d.baseline).at("input");
   json["options"] = options_object(d);
   json["verdict"] = to_string(d.verdict);
   json["baseline"] = fit_object(d.baseline);

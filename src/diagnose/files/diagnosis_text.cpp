@@ -41,7 +41,9 @@ std::string origin(const Diagnosis& d) {
     text += fmt::format(", {} hypotheses tried, false alarm {:.3g} % over all of them",
                         d.hypotheses, 100.0 * d.false_alarm);
   }
-  return wrapped("", text);
+  text = wrapped("", text);
+  for (const std::string& note : d.baseline.input_notes) text += wrapped("input: ", note);
+  return text;
 }
 
 /// What a slip does to the meaning of the axis; empty for any other finding.

@@ -115,6 +115,17 @@ Json axis_object(const AxisEstimate& estimate) {
        {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance, 4)}}}};
 }
 
+/// The file, what was taken of it that nothing says, and what of it was not used.
+Json input_object(const FitResult& result) {
+  Json json{{"file", result.source}, {"hash", result.input_hash}, {"notes", result.input_notes}};
+  if (result.x_convention) {
+    const auto [diameter, by] = *result.x_convention;
+    json["x_convention"] = {{"taken", diameter ? "diameter" : "radius"},
+                            {"said", by == SaidBy::nobody ? Json(false) : Json(to_string(by))}};
+  }
+  return json;
+}
+
 }  // namespace
 
 Json fit_object(const FitResult& result) {
@@ -123,7 +134,7 @@ Json fit_object(const FitResult& result) {
   Json json;
   json["schema"] = "trueaxis.fit/1";
   json["version"] = TRUEAXIS_VERSION;
-  json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
+  json["input"] = input_object(result);
   json["surface"] = to_string(result.surface);
   json["feature"] = result.bore ? "bore" : "shaft";
   json["criterion"] = result.criterion;

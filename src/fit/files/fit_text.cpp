@@ -66,6 +66,7 @@ std::string fit_text(const FitResult& result) {
   }
   append(text, "  RMS {:.4g} µm, σ {:.4g} µm (from {})\n", result.rms_mm / mm_per_um,
          result.sigma_mm / mm_per_um, result.sigma_source);
+  for (const std::string& note : result.input_notes) text += "  input: " + note + "\n";
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";
   for (std::size_t i = 0; i < result.rejected.size() && i < 10; ++i) {
     append(text, "  rejected: row {}, {}\n", result.rejected[i].row, result.rejected[i].why);

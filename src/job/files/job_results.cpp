@@ -41,8 +41,8 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   for (const JobReference& reference : job.references) {
     try {
       const StreamReading& said = reference.read;
-      streams.push_back(read_stream_csv(reference.stream,
-                                        {said.diameter, said.indication, said.nominal_radius_mm}));
+      streams.push_back(read_stream_csv(
+          reference.stream, {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

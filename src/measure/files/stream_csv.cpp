@@ -128,6 +128,7 @@ class LineReader {
       if (content.size() < text.size()) metadata_.comment(text, line_number_);
       return true;
     }
+    if (content.size() < text.size()) metadata_.comment_behind(text, content.size(), line_number_);
     if (rows_) {
       rows_->any_row(content, line_number_);
       return true;

@@ -10,10 +10,11 @@ namespace trueaxis {
 
 /// What a caller knows of a stream that the file does not say; a contradiction is a diagnostic.
 struct StreamReadOptions {
-  std::optional<bool> diameter;             ///< X_M is a diameter (true) or a radius (false)
-  std::optional<Indication> indication;     ///< overrides metadata `reading`
-  std::optional<double> nominal_radius_mm;  ///< overrides metadata `nominal_radius`
-  std::size_t max_diagnostics = 1000;       ///< further ones are counted, not listed
+  std::optional<bool> diameter;              ///< X_M is a diameter (true) or a radius (false)
+  SaidBy diameter_said_by = SaidBy::option;  ///< who says so
+  std::optional<Indication> indication;      ///< overrides metadata `reading`
+  std::optional<double> nominal_radius_mm;   ///< overrides metadata `nominal_radius`
+  std::size_t max_diagnostics = 1000;        ///< further ones are counted, not listed
 };
 
 /// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".

@@ -24,13 +24,13 @@ void unwrap(std::vector<double>& c, double turn) {
   }
 }
 
-/// Whether X (X_M, or X of a face) is a diameter. Unit, metadata and caller must agree.
-bool is_diameter(const CsvHeader& header, const CsvKnownMetadata& known,
-                 const StreamReadOptions& options, CsvDiagnostics& diagnostics) {
+/// What X (X_M, or X of a face) is, and who says so. Unit, metadata and caller must agree.
+XConvention x_convention(const CsvHeader& header, const CsvKnownMetadata& known,
+                         const StreamReadOptions& options, CsvDiagnostics& diagnostics) {
   const CsvColumn* x =
       header.find(header.kind == StreamKind::face ? CsvRole::position : CsvRole::reading);
   const auto word = [](bool diameter) { return diameter ? "a diameter" : "a radius"; };
-  if (x == nullptr) return false;
+  if (x == nullptr) return {};
   if (x->diameter && known.diameter == false) {
     diagnostics.add(header.line, x->character,
                     x->name +
@@ -44,7 +44,8 @@ bool is_diameter(const CsvHeader& header, const CsvKnownMetadata& known,
                     x->name + " is " + word(diameter) + " in the file and " +
                         word(*options.diameter) + " for the caller: correct one");
   }
-  return diameter;
+  const SaidBy caller = options.diameter ? options.diameter_said_by : SaidBy::nobody;
+  return {diameter, said ? SaidBy::stream : caller};
 }
 
 /// The set-ups that have readings, as the metadata state them; a statement about another is wrong.
@@ -83,7 +84,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
                 const StreamReadOptions& options, ProbeStream& stream,
                 CsvDiagnostics& diagnostics) {
   const CsvKnownMetadata& known = metadata.known;
-  const bool diameter = is_diameter(header, known, options, diagnostics);
+  stream.x_convention = x_convention(header, known, options, diagnostics);
   if (diagnostics.any()) return;
   const CsvColumn& angle = *header.find(CsvRole::angle);
   if (stream.c_rad.empty()) {
@@ -100,7 +101,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
         "the part");
     return;
   }
-  const double half = diameter ? 0.5 : 1.0;
+  const double half = stream.x_convention->diameter ? 0.5 : 1.0;
   const bool face = header.kind == StreamKind::face;
   scale(stream.reading_mm, header.find(CsvRole::reading)->unit.factor * (face ? 1.0 : half));
   scale(stream.c_rad, angle.unit.factor);

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "measure/files/stream_csv_comment.hpp"
 #include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_setup.hpp"
 #include "measure/files/stream_csv_unit.hpp"
@@ -42,16 +43,27 @@ std::optional<NumberWithUnit> parse_number(std::string_view text) {
   return out;
 }
 
-/// "14.5 mm" or "14.5" (mm) in mm.
+/// "14.5 mm" in mm; a number alone is no length.
 std::optional<double> parse_length_mm(std::string_view text) {
   const auto number = parse_number(text);
   if (!number) return {};
-  const auto unit = csv_find_unit(CsvQuantity::length, number->unit.empty() ? "mm" : number->unit);
+  const auto unit = csv_find_unit(CsvQuantity::length, number->unit);
   if (!unit) return {};
   return number->value * unit->factor;
 }
 
+bool lacks_unit(std::string_view text) {
+  const auto number = parse_number(text);
+  return number && number->unit.empty();
+}
+
+bool is_length(std::string_view key) {
+  return key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
+}
+
 std::string not_understood(const std::string& key, std::string_view value, const char* wanted) {
+  if (is_length(key) && lacks_unit(value))
+    return key + ": " + csv_quoted(value) + " has no unit: write " + wanted;
   return key + ": " + csv_quoted(value) + " is not understood: write " + wanted;
 }
 
@@ -65,13 +77,13 @@ bool csv_is_key(std::string_view key) {
 
 void CsvMetadataReader::comment(std::string_view line, std::size_t line_number) {
   const std::size_t hash = line.find('#');
-  const std::size_t colon = line.find(':', hash + 1);
-  if (colon == std::string_view::npos) return;
+  const std::size_t colon = std::min(line.find(':', hash + 1), line.size());
   const std::string_view written = csv_trimmed(line.substr(hash + 1, colon - hash - 1));
-  if (!csv_is_key(written)) return;
-  const std::string_view value = csv_trimmed(line.substr(colon + 1));
   std::string key = lower_case(written);
-  const bool is_known_key = is_known(key);
+  const bool is_known_key = colon < line.size() && is_known(key);
+  if (!is_known_key && refuse_trouble(line, hash, line_number)) return;
+  if (colon == line.size() || !csv_is_key(written)) return;
+  const std::string_view value = csv_trimmed(line.substr(colon + 1));
   if (!is_known_key) key = written;
   const auto [entry, first] = metadata.emplace(key, csv_utf8(value));
   if (is_known_key) {
@@ -89,6 +101,30 @@ void CsvMetadataReader::comment(std::string_view line, std::size_t line_number) 
   } else if (!first) {
     entry->second += "; " + csv_utf8(value);
   }
+}
+
+void CsvMetadataReader::comment_behind(std::string_view line, std::size_t hash,
+                                       std::size_t line_number) {
+  const std::string_view text = line.substr(hash + 1);
+  const std::size_t colon = text.find(':');
+  const std::string_view written = csv_trimmed(text.substr(0, colon));
+  if (colon == std::string_view::npos || !is_known(lower_case(written))) {
+    refuse_trouble(line, hash, line_number);
+  } else {
+    diagnostics_.add(line_number, csv_character(line, hash),
+                     csv_quoted(written) +
+                         " stands behind a row, where it is not read: give it a "
+                         "line of its own");
+  }
+}
+
+bool CsvMetadataReader::refuse_trouble(std::string_view line, std::size_t hash,
+                                       std::size_t line_number) {
+  std::string trouble = csv_comment_trouble(line.substr(hash + 1));
+  if (trouble.empty()) return false;
+  const std::size_t text = line.find_first_not_of(" \t", hash + 1);
+  diagnostics_.add(line_number, csv_character(line, text), std::move(trouble));
+  return true;
 }
 
 void CsvMetadataReader::known_key(const std::string& key, std::string_view value, std::size_t line,

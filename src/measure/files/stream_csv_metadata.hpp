@@ -25,20 +25,24 @@ struct CsvKnownMetadata {
   std::map<int, Place> set_up_places;  ///< where each is first spoken of
 };
 
-/// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'; other
-/// comments are passed over. All keys go to `metadata` (a key that comes again is joined by "; "),
-/// known ones, in any case of letters, are read as well.
+/// Reads "key: value" lines behind '#'. A key is one word of letters, digits, '_', '.', '-'. All
+/// keys go to `metadata` (a key that comes again is joined by "; "), known ones, in any case of
+/// letters, are read as well. What looks like a known key is a diagnostic (csv_comment_trouble);
+/// other comments, and those that begin with "##", are passed over.
 class CsvMetadataReader {
  public:
   explicit CsvMetadataReader(CsvDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   /// `line` starts with blanks and '#'.
   void comment(std::string_view line, std::size_t line_number);
+  /// A comment behind the header or a row, from byte `hash` of `line`: free text only.
+  void comment_behind(std::string_view line, std::size_t hash, std::size_t line_number);
 
   CsvKnownMetadata known;
   std::map<std::string, std::string> metadata;
 
  private:
+  bool refuse_trouble(std::string_view line, std::size_t hash, std::size_t line_number);
   void known_key(const std::string& key, std::string_view value, std::size_t line,
                  std::size_t column);
 

@@ -31,6 +31,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
             "metadata values of one line without outer blanks");
     said.comment(metadata_line(key, value), 1);
   }
+  expects(!unread.any(), "metadata that can be read again");
   const auto set = [&](const char* key, const auto& member, const auto& in_metadata, auto text) {
     if (member == in_metadata) return;
     if (member) {

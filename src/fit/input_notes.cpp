@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/input_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double few_degrees = 30.0;  // nobody probes less of a part whose axis is asked for
+
+/// "in 5 sections" where Z stands still for several readings, else nothing.
+std::string in_sections(std::vector<double> z) {
+  constexpr double one_section_mm = 1e-3;
+  std::ranges::sort(z);
+  std::size_t sections = 1;
+  for (std::size_t i = 1; i < z.size(); ++i) sections += z[i] - z[i - 1] > one_section_mm ? 1 : 0;
+  return 3 * sections <= z.size() ? fmt::format(" in {} sections", sections) : "";
+}
+
+std::string unused_position(const ProbeStream& stream) {
+  const auto [low, high] = range_of(stream.position_mm);
+  if (!(high > low)) return "";
+  return fmt::format(
+      "Z is not used: {} readings from Z = {:.6g} to {:.6g} mm{} were thrown together as one "
+      "section; taper and tilt between them count as noise (one section: a stream of one Z)",
+      stream.size(), low, high, in_sections(stream.position_mm));
+}
+
+/// C in radians under a header that says degrees, or the other way round.
+std::string unit_of_angle(const ProbeStream& stream) {
+  const auto [low, high] = range_of(stream.c_rad);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stream.size(); ++i)
+    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
+  const double turns = (high - low) / two_pi;
+  if (!steps.empty() && median(steps) > 0.5 * two_pi) {
+    return fmt::format(
+        "C runs over {:.4g} turns in {} readings, mostly more than half a turn from one to the "
+        "next: where it is in degrees, write C[deg]",
+        turns, stream.size());
+  }
+  if (360.0 * turns < few_degrees) {
+    return fmt::format(
+        "C covers {:.3g}° of the part only: where it is in radians, write C[rad], in turns C[rev]",
+        360.0 * turns);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::string> notes_on_input(const ProbeStream& stream, const SurfaceInfo& info) {
+  std::vector<std::string> notes;
+  if (!stream.x_convention) return notes;
+  const auto add = [&](std::string note) {
+    if (!note.empty()) notes.push_back(std::move(note));
+  };
+  if (stream.x_convention->said_by == SaidBy::nobody) {
+    add(
+        fmt::format("{} was taken as a radius, which nothing says: write '# x_convention: radius' "
+                    "(or diameter) into the stream, x_convention into the job, or give --radius "
+                    "(--diameter)",
+                    stream.kind == StreamKind::face ? "X" : "X_M"));
+  }
+  if (!info.needs_position && stream.has_position()) add(unused_position(stream));
+  add(unit_of_angle(stream));
+  return notes;
+}
+
+}  // namespace trueaxis
