@@ -13,7 +13,8 @@ std::string render_report(const JobResult& result) {
   const std::string title = escape_html("TrueAxis report: " + job_title(result.job));
   const std::string verdict = escape_html(result.verdict.line);
   const std::string json = json_for_script(data);
-  return fill_template(assets.html, {{"title", title},
+  return fill_template(assets.html, {{"schema", "trueaxis.report/2"},
+                                     {"title", title},
                                      {"verdict", verdict},
                                      {"style", assets.css},
                                      {"data", json},

@@ -21,7 +21,8 @@ std::string render_sweep_report(const study::Sweep& sweep, const study::Summary&
   }
   script += assets.sweep_js;
   const std::string json = json_for_script(data);
-  return fill_template(assets.html, {{"title", title},
+  return fill_template(assets.html, {{"schema", "trueaxis.sweep_report/1"},
+                                     {"title", title},
                                      {"verdict", what},
                                      {"style", assets.css},
                                      {"data", json},
