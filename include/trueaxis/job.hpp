@@ -103,6 +103,7 @@ struct JobResult {
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;
+  std::string refused;  ///< why no correction could be made though all was fitted; else empty
   Verdict verdict;
 };
 
@@ -111,7 +112,8 @@ struct JobResult {
 const FitResult& fit_used(const JobResult& result, std::size_t reference);
 
 /// Fit, diagnosis, the diagnosed measured again by the virtual lathe, target axis, correction, and
-/// the verdict, which is final. Streams come read, one per reference.
+/// the verdict, which is final. Streams come read, one per reference. Where the cut is refused (a
+/// tool that does not meet the target), the reason is the verdict's and nothing is thrown.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 
 }  // namespace trueaxis

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/axis_bias.hpp"
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "studies/axis_bias/axis_bias_cases.hpp"
 #include "studies/axis_bias/axis_bias_json.hpp"
@@ -17,7 +18,13 @@
 namespace trueaxis::cli {
 namespace {
 
-int execute(const std::string& path, const std::string& folder) {
+struct Options {
+  std::string scenario, folder;
+  bool force = false;
+};
+
+int execute(const Options& options) {
+  const std::string& path = options.scenario;
   virtual_lathe::Scenario scenario = study::axis_bias_reference();
   std::string hash = content_hash("");
   if (!path.empty()) {
@@ -28,6 +35,14 @@ int execute(const std::string& path, const std::string& folder) {
       throw InputError(path,
                        "needs a cone or cylinder that is probed: the effects are those of X_M");
   }
+  Outputs outputs(options.force);
+  if (!path.empty()) outputs.reads(path);
+  if (!options.folder.empty()) {
+    outputs.into(options.folder);
+    for (const char* name : {"axis_bias.csv", "axis_bias.json", "axis_bias.md"})
+      outputs.may_write_in_folder(name, "trueaxis.axis_bias");
+  }
+  outputs.check();
   const std::vector<study::AxisBiasCase> cases = study::axis_bias_cases(scenario);
   Progress progress(0, cases.size(), "effects");
   std::vector<study::AxisBiasRow> rows;
@@ -36,34 +51,30 @@ int execute(const std::string& path, const std::string& folder) {
     progress.add(1);
   }
   progress.end();
+  if (!options.folder.empty()) {
+    outputs.write(outputs.in_folder("axis_bias.csv"), axis_bias_csv(rows));
+    outputs.write(outputs.in_folder("axis_bias.json"), axis_bias_json(scenario, rows, hash));
+    outputs.write(outputs.in_folder("axis_bias.md"), axis_bias_markdown(rows));
+    outputs.commit();
+  }
   std::cout << axis_bias_text(rows);
-  if (folder.empty()) return done;
-  std::error_code unused;
-  std::filesystem::create_directories(folder, unused);
-  const std::string csv = axis_bias_csv(rows), json = axis_bias_json(scenario, rows, hash),
-                    page = axis_bias_markdown(rows);
-  const FileContent files[] = {{folder + "/axis_bias.csv", csv},
-                               {folder + "/axis_bias.json", json},
-                               {folder + "/axis_bias.md", page}};
-  write_files(files);
   return done;
 }
 
 }  // namespace
 
 void add_axis_bias(CLI::App& app, int& exit_code) {
-  struct Options {
-    std::string scenario, folder;
-  };
   CLI::App* command = app.add_subcommand(
       "axis-bias", "what each effect does to the axis when the model lacks it, and when it has it");
   auto options = std::make_shared<Options>();
   command->add_option("scenario", options->scenario,
                       "part and plan (TOML); default: those of the catalogue's figures");
-  command->add_option("-o,--output", options->folder,
-                      "folder for axis_bias.csv, axis_bias.json, axis_bias.md");
-  command->callback(
-      [options, &exit_code] { exit_code = execute(options->scenario, options->folder); });
+  command
+      ->add_option("-o,--output", options->folder,
+                   "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be")
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 
 }  // namespace trueaxis::cli

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/correct.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <utility>
 
-#include "cli/earlier_table.hpp"
+#include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "correct/files/table_csv.hpp"
 #include "correct/files/table_text.hpp"
+#include "diagnose/files/diagnosis_read.hpp"
 #include "fit/files/fit_json.hpp"
 #include "format/file.hpp"
+#include "format/outputs.hpp"
+#include "job/conclude.hpp"
 #include "job/files/job_toml.hpp"
 #include "trueaxis/error.hpp"
 
@@ -20,29 +23,120 @@ namespace trueaxis::cli {
 namespace {
 
 struct Options {
-  std::string fit, target, table;
-  bool preview = false;
+  std::string fit, target, table, diagnosis;
+  StreamOptions stream;  ///< path empty: as the diagnosis names it
+  double ball_radius_mm = 0.0;
+  bool ideal = false, preview = false, force = false;
 };
 
-std::string at_speed(double rpm) {
-  if (!(rpm > 0.0)) return "at no speed";
-  const double down = std::floor(10.0 * rpm) / 10.0;
-  return rpm >= 10.0 ? fmt::format("at {:.0f} rpm or less", down)
-                     : fmt::format("at {:.2g} rpm or less", down);
+constexpr const char* rests_on_ideal =
+    "ideal       the table rests on the ideal surface alone: slips, patterns and other causes were "
+    "not looked for\n";
+
+/// What run has of its reference when it comes to the target.
+struct Identified {
+  FitResult fit;
+  std::optional<Diagnosis> diagnosis;
+};
+
+bool is_diagnosis(const std::string& text) {
+  return schema_in(text.substr(0, 512)) == "trueaxis.diagnosis";
+}
+
+Diagnosis read_diagnosis(const std::string& text, const std::string& path) {
+  Diagnosis diagnosis = diagnosis_from_json(text, path);
+  const FitResult& fit = diagnosis.baseline;
+  if (fit.status == FitStatus::converged) return diagnosis;
+  throw InputError(path, std::string("its fit is not converged (") + to_string(fit.status) +
+                             "): no correction from it");
+}
+
+Identified identified(const Options& options) {
+  const std::string text = read_file(options.fit);
+  Identified out;
+  if (is_diagnosis(text)) {
+    out.diagnosis = read_diagnosis(text, options.fit);
+    out.fit = out.diagnosis->baseline;
+    if (options.ideal || !options.diagnosis.empty())
+      throw InputError(options.fit, "is a diagnosis itself: leave --ideal and --diagnosis out");
+    return out;
+  }
+  out.fit = fit_from_json(text, options.fit);
+  if (!options.diagnosis.empty()) {
+    out.diagnosis = read_diagnosis(read_file(options.diagnosis), options.diagnosis);
+    const FitResult& of = out.diagnosis->baseline;
+    if (of.input_hash != out.fit.input_hash || of.surface != out.fit.surface)
+      throw InputError(options.diagnosis,
+                       "is of another stream or surface than " + options.fit + ": give its own");
+  } else if (!options.ideal && out.fit.surface != SurfaceKind::plane) {
+    throw Refusal(options.fit +
+                  " is a fit without a diagnosis, so that nobody looked for slips and patterns: "
+                  "give what 'trueaxis diagnose --json' writes instead of it or with --diagnosis, "
+                  "or say --ideal to rest on the ideal surface");
+  }
+  return out;
+}
+
+/// The job of the one reference: as `run` would have it, with the stream read again.
+JobResult result_of(const Options& options, Job job, Identified found, Outputs& outputs) {
+  if (found.fit.surface == SurfaceKind::section)
+    throw InputError(options.fit,
+                     "is one section, which shows no direction of an axis: probe it along Z as a "
+                     "cylinder or cone");
+  JobResult result;
+  JobReference reference;
+  reference.name = options.fit;
+  reference.fit.surface = found.fit.surface;
+  reference.fit.bore = found.fit.bore;
+  reference.fit.coverage_factor = found.fit.coverage_factor;
+  reference.fit.ball_radius_mm = options.ball_radius_mm;
+  ProbeStream measured;
+  if (found.fit.surface == SurfaceKind::plane) measured.kind = StreamKind::face;
+  result.resimulations.emplace_back();
+  if (found.diagnosis) {
+    const std::string& path = options.diagnosis.empty() ? options.fit : options.diagnosis;
+    StreamOptions stream = options.stream;
+    stream.path = diagnosed_stream_path(stream.path, path, *found.diagnosis);
+    outputs.reads(stream.path);
+    reference.stream = stream.path;
+    measured = stream.read();
+    result.resimulations[0] =
+        measured_again(path, *found.diagnosis, measured, options.ball_radius_mm);
+  }
+  job.references = {reference};
+  result.job = std::move(job);
+  result.streams.push_back(std::move(measured));
+  result.fits.push_back(std::move(found.fit));
+  result.diagnoses.push_back(std::move(found.diagnosis));
+  return result;
 }
 
 int execute(const Options& options) {
-  const FitResult fit = read_fit_json(options.fit);
-  const Job job = read_target_toml(options.target);
-  const Correction correction = make_correction(fit.axis, *job.target, job.tool, job.actuator);
-  const bool follows = correction.margin.follows;
-  if (follows && !options.preview) write_file(options.table, correction_csv(correction));
-  if (options.preview || options.table != "-") std::cout << correction_preview(correction);
-  if (!follows) {
-    if (!options.preview) remove_earlier_table(options.table);
-    throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; it would " +
-                  at_speed(correction.margin.max_speed_rpm));
+  Outputs outputs(options.force);
+  Identified found = identified(options);
+  JobResult result =
+      result_of(options, read_target_toml(options.target), std::move(found), outputs);
+  outputs.reads(options.fit);
+  outputs.reads(options.target);
+  if (!options.diagnosis.empty()) outputs.reads(options.diagnosis);
+  outputs.may_write(options.table, "trueaxis.correction");
+  outputs.check();
+  conclude(result);
+  const Verdict& verdict = result.verdict;
+  const bool cut = verdict.go && result.correction;
+  if (!options.preview) {
+    if (cut) {
+      outputs.write(options.table, correction_csv(*result.correction));
+    } else {
+      outputs.remove_earlier(options.table);  // one stands there only when it may be run
+    }
+    outputs.commit();
   }
+  const bool printed = !options.preview && options.table == "-";
+  if (!printed && result.correction)
+    std::cout << verdict.line << '\n' << correction_preview(*result.correction);
+  if (options.ideal) (printed ? std::cerr : std::cout) << rests_on_ideal;
+  if (!cut) throw Refusal(verdict.line.substr(verdict.line.find(": ") + 2));
   return done;
 }
 
@@ -51,16 +145,32 @@ int execute(const Options& options) {
 void add_correct(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("correct", "the fast-tool-servo table of a fit");
   auto options = std::make_shared<Options>();
-  command->add_option("fit", options->fit, "result of 'fit --json'")->required();
+  command
+      ->add_option("fit", options->fit,
+                   "result of 'diagnose --json', or of 'fit --json' with --diagnosis or --ideal")
+      ->required();
   command
       ->add_option("--target", options->target,
                    "TOML with [target], [cut] and [actuator], as in a job")
       ->required();
-  auto* table =
-      command->add_option("-o,--output", options->table, "the table (CSV), '-' prints it");
+  auto* table = command->add_option("-o,--output", options->table, "the table (CSV), '-' prints it")
+                    ->check(a_place());
   auto* preview = command->add_flag("--preview", options->preview,
                                     "print extremes and harmonics, write nothing");
   preview->excludes(table);
+  auto* diagnosis = command->add_option("--diagnosis", options->diagnosis,
+                                        "of the fit: result of 'diagnose --json'");
+  command
+      ->add_flag("--ideal", options->ideal,
+                 "without a diagnosis: rest on the ideal surface, whatever it misses")
+      ->excludes(diagnosis);
+  command->add_option("--stream", options->stream.path, "where the diagnosed stream is now");
+  options->stream.add_meaning_to(*command);
+  command
+      ->add_option("--ball-radius", options->ball_radius_mm,
+                   "of the probe's ball, mm, as given to the diagnosis")
+      ->check(a_length());
+  add_force(*command, options->force);
   command->callback([options, &exit_code] {
     if (!options->preview && options->table.empty())
       throw CLI::RequiredError("-o TABLE or --preview");

@@ -6,9 +6,10 @@
 
 #include "cli/fit_options.hpp"
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
@@ -21,6 +22,7 @@ struct Options {
   AssociationOptions association;
   double false_alarm = DiagnoseOptions{}.false_alarm;
   std::string json, residuals;
+  bool force = false;
 };
 
 /// The fit that broke, or nullptr.
@@ -32,18 +34,21 @@ const FitResult* broken_fit(const Diagnosis& diagnosis) {
 
 int execute(const Options& options) {
   const ProbeStream stream = options.stream.read();
+  Outputs outputs(options.force);
+  outputs.reads(options.stream.path);
+  outputs.may_write(options.json, "trueaxis.diagnosis");
+  outputs.may_write(options.residuals, "trueaxis.residuals");
+  outputs.check();
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
   const Diagnosis diagnosis = diagnose(stream, diagnose_options);
   if (diagnosis.baseline.status == FitStatus::too_few)
     throw InputError(stream.source, diagnosis.baseline.message + ": probe more");
-  const std::string json = options.json.empty() ? "" : diagnosis_json(diagnosis);
-  const std::string residuals = options.residuals.empty() ? "" : residuals_csv(stream, diagnosis);
-  std::vector<FileContent> files;
-  if (!options.json.empty()) files.push_back({options.json, json});
-  if (!options.residuals.empty()) files.push_back({options.residuals, residuals});
-  write_files(files);
+  if (!options.json.empty()) outputs.write(options.json, diagnosis_json(diagnosis));
+  if (!options.residuals.empty())
+    outputs.write(options.residuals, residuals_csv(stream, diagnosis));
+  outputs.commit();
   if (options.json != "-" && options.residuals != "-") std::cout << diagnosis_text(diagnosis);
   if (const FitResult* fit = broken_fit(diagnosis)) {
     std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
@@ -64,9 +69,13 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       ->add_option("--false-alarm", options->false_alarm,
                    "chance of a finding in a stream that has none (0.01)")
       ->check(false_alarm_level());
-  command->add_option("--json", options->json, "write the result here, '-' prints it");
-  command->add_option("--residuals", options->residuals,
-                      "write every reading with what is left before and after here (CSV)");
+  command->add_option("--json", options->json, "write the result here, '-' prints it")
+      ->check(a_place());
+  command
+      ->add_option("--residuals", options->residuals,
+                   "write every reading with what is left before and after here (CSV)")
+      ->check(a_place());
+  add_force(*command, options->force);
   command->callback([options, &exit_code] {
     if (!options->json.empty() && options->json == options->residuals)
       throw CLI::ValidationError("--residuals", "cannot go where --json goes");

@@ -8,8 +8,10 @@
 
 #include "cli/checks.hpp"
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "study/planning/files/design_variable_text.hpp"
 #include "study/planning/files/planning_json.hpp"
@@ -49,6 +51,7 @@ struct Options {
   std::vector<std::string> free;
   double goal_um = 1.0;
   study::PlanningTask task;
+  bool force = false;
 };
 
 /// A line for the search, then one for the simulations.
@@ -102,11 +105,16 @@ int execute(Options options) {
   } catch (const InputError& error) {
     throw CLI::ValidationError("--free", error.what());
   }
+  Outputs outputs(options.force);
+  if (!options.scenario.empty()) outputs.reads(options.scenario);
+  outputs.may_write(options.json, "trueaxis.plan");
+  outputs.check();
   PlanProgress progress;
   const study::PlanningAnswer answer = study::plan_measurement(task, std::ref(progress));
   progress.end();
+  if (!options.json.empty()) outputs.write(options.json, planning_json(task, answer, hash));
+  outputs.commit();
   if (options.json != "-") std::cout << planning_text(task, answer);
-  if (!options.json.empty()) write_file(options.json, planning_json(task, answer, hash));
   return answer.reached && answer.confirmed ? done : refused;
 }
 
@@ -158,7 +166,9 @@ void add_plan(CLI::App& app, int& exit_code) {
   command->add_option("--seed", options->task.seed, "of the confirmations")->capture_default_str();
   command->add_option("--threads", options->task.threads, "default: as many as there are")
       ->check(CLI::Range(0, 4096));
-  command->add_option("--json", options->json, "the answer (trueaxis.plan/1), '-' prints it");
+  command->add_option("--json", options->json, "the answer (trueaxis.plan/1), '-' prints it")
+      ->check(a_place());
+  add_force(*command, options->force);
   add_simple(*command, options->simple, scenario);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

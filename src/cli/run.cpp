@@ -2,13 +2,13 @@
 #include "cli/run.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 
-#include "cli/earlier_table.hpp"
 #include "cli/guarded.hpp"
-#include "format/file.hpp"
+#include "cli/output_options.hpp"
+#include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "report/report.hpp"
@@ -24,29 +24,44 @@ int exit_code_of(const JobResult& result) {
   return !fitted ? numerical : result.verdict.go() ? done : refused;
 }
 
-int execute(const std::string& path, const std::filesystem::path& folder) {
-  if (std::error_code error; exists(folder, error) && !is_directory(folder, error))
-    throw InputError(folder.string(), "is no folder: name one for the results");
-  const auto in_folder = [&](const std::string& name) { return (folder / name).string(); };
-  remove_earlier_table(in_folder("table.csv"));
-  const Job job = read_job_toml(path);
-  const JobResult result = run_job(job, read_streams(job));
+struct Options {
+  std::string job, folder;
+  bool force = false;
+};
+
+int execute(const Options& options) {
+  const Job job = read_job_toml(options.job);
+  std::vector<ProbeStream> streams = read_streams(job);
+  Outputs outputs(options.force);
+  outputs.reads(options.job);
+  for (const JobReference& reference : job.references) outputs.reads(reference.stream);
+  outputs.into(options.folder);
+  for (const ResultName& file : job_file_names(job))
+    outputs.may_write_in_folder(file.name, file.schema);
+  outputs.may_write_in_folder("report.html", "trueaxis.report");
+  outputs.check();
+
+  const JobResult result = run_job(job, std::move(streams));
   for (const FitResult& fit : result.fits) {
     if (fit.status == FitStatus::too_few)
       throw InputError(fit.source, fit.message + ": probe more");
   }
-  std::vector<ResultFile> results = job_files(result);
-  results.insert(results.begin() + 1, {"report.html", render_report(result)});
-  std::vector<FileContent> files;
-  for (const ResultFile& file : results) files.push_back({in_folder(file.name), file.text});
-  write_files(files);
+  std::vector<ResultFile> files = job_files(result);
+  files.insert(files.begin() + 1, {"report.html", render_report(result)});
+  for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);
+  const std::string table = outputs.in_folder("table.csv");
+  const bool tabled = files.back().name == "table.csv";
+  if (!tabled) outputs.remove_earlier(table);  // one stands there only when it may be run
+  outputs.commit();
   std::cout << job_text(result);
-  if (results.back().name == "table.csv") {
-    std::cout << "table   " << files.back().path << '\n';
+  if (tabled) {
+    std::cout << "table   " << table << '\n';
   } else if (result.correction) {
     std::cout << "table   not written: " << result.verdict.line << '\n';
   }
-  std::cout << "result  " << files[0].path << "\nreport  " << files[1].path << '\n';
+  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
+            << outputs.in_folder("report.html") << '\n';
+  if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);
 }
 
@@ -55,12 +70,15 @@ int execute(const std::string& path, const std::filesystem::path& folder) {
 void add_run(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
-  auto job = std::make_shared<std::string>();
-  auto folder = std::make_shared<std::string>();
-  command->add_option("job", *job, "job file (TOML)")->required();
-  command->add_option("-o,--output", *folder, "folder for table.csv, result.json and report.html")
-      ->required();
-  command->callback([=, &exit_code] { exit_code = execute(*job, *folder); });
+  auto options = std::make_shared<Options>();
+  command->add_option("job", options->job, "job file (TOML)")->required();
+  command
+      ->add_option("-o,--output", options->folder,
+                   "folder for table.csv, result.json and report.html, made if need be")
+      ->required()
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([=, &exit_code] { exit_code = execute(*options); });
 }
 
 }  // namespace trueaxis::cli

@@ -7,8 +7,9 @@
 #include <optional>
 
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "cli/simulate_from.hpp"
-#include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "simulate/files/cut_table_csv.hpp"
 #include "simulate/files/scenario_toml.hpp"
@@ -25,10 +26,20 @@ namespace lathe = virtual_lathe;
 struct Options {
   std::string scenario, stream, truth, table;
   std::optional<std::uint64_t> seed;
+  bool force = false;
 };
 
+/// The stream of a simulation, and what the virtual lathe knows of it.
+void check_outputs(Outputs& outputs, const Options& options) {
+  outputs.reads(options.scenario);
+  outputs.may_write(options.stream, "trueaxis.stream");
+  outputs.may_write(options.truth, "trueaxis.truth");
+  outputs.check();
+}
+
 /// The part is cut with the table first, then probed as the scenario plans.
-void simulate_cut(lathe::Scenario scenario, const Options& options) {
+void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
+  Outputs outputs(options.force);
   lathe::CutProgram program = *scenario.cut;
   if (!options.table.empty()) program.table = options.table;
   const bool tabled = program.use != lathe::CutUse::none;
@@ -38,9 +49,12 @@ void simulate_cut(lathe::Scenario scenario, const Options& options) {
   }
   const lathe::CutTable table =
       tabled ? read_cut_table(program.table, program.tool.sense) : lathe::CutTable{};
+  if (tabled) outputs.reads(program.table);
+  check_outputs(outputs, options);
   const lathe::CutPart part(program, table);
   write_stream_csv(lathe::probe_cut(part, scenario.plan, scenario.noise, scenario.seed),
-                   options.stream);
+                   outputs.open(options.stream));
+  outputs.commit();
 }
 
 int execute(const Options& options) {
@@ -49,14 +63,17 @@ int execute(const Options& options) {
   if (scenario.cut) {
     if (!options.truth.empty())
       throw InputError(options.scenario, "a cut has no truth file: the program is the truth");
-    simulate_cut(std::move(scenario), options);
+    simulate_cut(scenario, options);
     return done;
   }
   if (!options.table.empty())
     throw InputError(options.scenario, "--table needs a scenario with [cut]");
+  Outputs outputs(options.force);
+  check_outputs(outputs, options);
   const lathe::Simulation simulation = lathe::simulate_with_truth(scenario);
-  write_stream_csv(simulation.stream, options.stream);
-  if (!options.truth.empty()) write_file(options.truth, truth_json(simulation.truth));
+  write_stream_csv(simulation.stream, outputs.open(options.stream));
+  if (!options.truth.empty()) outputs.write(options.truth, truth_json(simulation.truth));
+  outputs.commit();
   if (options.stream != "-") {
     std::cout << options.stream << ": " << simulation.stream.size() << " readings, seed "
               << scenario.seed << '\n';
@@ -77,8 +94,10 @@ void add_simulate(CLI::App& app, int& exit_code) {
                           "what was found, and compare");
   diagnosis->excludes(scenario);
   auto* output =
-      command->add_option("-o,--output", options->stream, "the stream (CSV), '-' prints it");
+      command->add_option("-o,--output", options->stream, "the stream (CSV), '-' prints it")
+          ->check(a_place());
   command->add_option("--truth", options->truth, "what the virtual lathe knows (JSON)")
+      ->check(a_place())
       ->needs(output);
   command->add_option("--table", options->table, "correction table of the scenario's [cut]")
       ->excludes(diagnosis);
@@ -92,7 +111,9 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->needs(diagnosis)
       ->excludes(output);
   command->add_option("--json", from->json, "write the comparison here (JSON), '-' prints it")
+      ->check(a_place())
       ->needs(diagnosis);
+  add_force(*command, options->force);
   from->stream.add_meaning_to(*command);
   command
       ->add_option("--ball-radius", from->ball_radius_mm,
@@ -112,6 +133,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
     from->output = options->stream;
     from->truth = options->truth;
     from->seed = options->seed;
+    from->force = options->force;
     if (from->output.empty() && from->json.empty() && !from->compare)
       throw CLI::RequiredError("--output, --compare or --json");
     if (!from->json.empty() && from->json == from->output)

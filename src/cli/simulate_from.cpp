@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/simulate_from.hpp"
 
-#include <filesystem>
 #include <iostream>
 
+#include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
 #include "diagnose/files/diagnosis_read.hpp"
 #include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "resimulate/files/comparison_json.hpp"
@@ -20,37 +21,22 @@ namespace {
 
 namespace lathe = virtual_lathe;
 
-/// As given, else as the diagnosis names it: from here, or beside the diagnosis.
-std::string stream_path(const SimulateFromOptions& options, const std::string& named) {
-  if (!options.stream.path.empty()) return options.stream.path;
-  const std::filesystem::path beside =
-      std::filesystem::path(options.diagnosis).parent_path() / named;
-  for (const std::filesystem::path& path : {std::filesystem::path(named), beside}) {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(path, error)) return path.string();
-  }
-  throw InputError(options.diagnosis,
-                   "its stream `" + named + "` is not there: say where it is with --stream");
-}
-
 int play(const SimulateFromOptions& options, const Diagnosis& diagnosis,
-         const ProbeStream& measured) {
+         const ProbeStream& measured, Outputs& outputs) {
   DiagnosedScenarios scenarios = diagnosed_scenarios(diagnosis, measured, options.ball_radius_mm);
   const Resimulation again = resimulate(scenarios, diagnosis, measured);
-  if (!reads_as_then(diagnosis, measured, again.readings))
-    throw InputError("diagnosis",
-                     "the stream does not leave the residuals that it states: repeat the "
-                     "--diameter, --relative, --nominal-radius or --ball-radius of the diagnosis");
+  expect_read_as_then(options.diagnosis, diagnosis, measured, again.readings);
   if (!options.output.empty()) {
     lathe::Scenario scenario = options.before ? scenarios.before : scenarios.after;
     if (options.noise_free) scenario.noise = lathe::Noise{};
     if (options.seed) scenario.seed = *options.seed;
     const lathe::Simulation simulation = lathe::simulate_at(scenario, measured);
-    write_stream_csv(simulation.stream, options.output);
-    if (!options.truth.empty()) write_file(options.truth, truth_json(simulation.truth));
+    write_stream_csv(simulation.stream, outputs.open(options.output));
+    if (!options.truth.empty()) outputs.write(options.truth, truth_json(simulation.truth));
   }
   if (!options.json.empty())
-    write_file(options.json, comparison_json(again.comparison, options.diagnosis, measured));
+    outputs.write(options.json, comparison_json(again.comparison, options.diagnosis, measured));
+  outputs.commit();
   if (options.output != "-" && options.json != "-") {
     std::cout << comparison_text(again.comparison);
     if (!options.output.empty())
@@ -64,10 +50,17 @@ int play(const SimulateFromOptions& options, const Diagnosis& diagnosis,
 int simulate_from(const SimulateFromOptions& options) {
   const Diagnosis diagnosis = diagnosis_from_json(read_file(options.diagnosis), options.diagnosis);
   StreamOptions stream = options.stream;
-  stream.path = stream_path(options, diagnosis.baseline.source);
+  stream.path = diagnosed_stream_path(stream.path, options.diagnosis, diagnosis);
   const ProbeStream measured = stream.read();
+  Outputs outputs(options.force);
+  outputs.reads(options.diagnosis);
+  outputs.reads(stream.path);
+  outputs.may_write(options.output, "trueaxis.stream");
+  outputs.may_write(options.truth, "trueaxis.truth");
+  outputs.may_write(options.json, "trueaxis.comparison");
+  outputs.check();
   try {
-    return play(options, diagnosis, measured);
+    return play(options, diagnosis, measured, outputs);
   } catch (const InputError& error) {  // of the diagnosis: under the name of its file
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     for (Diagnostic& d : diagnostics) {

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "cli/sweep_run.hpp"
 #include "studies/published/published_toml.hpp"
 #include "study/sweep/run.hpp"
@@ -15,19 +16,23 @@ void add_sweep(CLI::App& app, int& exit_code) {
   struct Options {
     std::string sweep, folder;
     int threads = 0;
+    bool force = false;
   };
   CLI::App* command =
       app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
   auto options = std::make_shared<Options>();
   command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
-  command->add_option(
-      "-o,--output", options->folder,
-      "folder of the results, the report and the journal; without it nothing is kept");
+  command
+      ->add_option("-o,--output", options->folder,
+                   "folder of the results, the report and the journal, made if need be; without it "
+                   "nothing is kept")
+      ->check(a_place());
+  add_force(*command, options->force);
   command->add_option("--threads", options->threads, "default: as many as there are")
       ->check(CLI::Range(0, 4096));
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);
-    run_sweep(file, options->folder, [&](const auto& blocks, const auto& finished) {
+    run_sweep(file, options->folder, options->force, [&](const auto& blocks, const auto& finished) {
       study::run_blocks(file.sweep, blocks, options->threads, finished);
     });
     exit_code = done;

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "cli/progress.hpp"
-#include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "report/sweep_report.hpp"
 #include "studies/published/placement.hpp"
 #include "studies/published/published_json.hpp"
@@ -21,32 +21,44 @@ namespace trueaxis::cli {
 
 namespace {
 
-void write_results(const study::PublishedSweep& file, const std::string& folder,
+/// The folder is there afterwards, for the journal.
+void check_outputs(Outputs& outputs, const study::PublishedSweep& file, const std::string& folder) {
+  for (const std::string& input : file.sweep.input_files) outputs.reads(input);
+  outputs.into(folder);
+  outputs.may_write_in_folder("journal.bin", "");  // continued, or refused when it is opened
+  outputs.may_write_in_folder("sweep.csv", "trueaxis.sweep");
+  outputs.may_write_in_folder("sweep.json", "trueaxis.sweep");
+  outputs.may_write_in_folder("timing.csv", "trueaxis.sweep_timing");
+  outputs.may_write_in_folder("report.html", "trueaxis.sweep_report");
+  if (file.published) outputs.may_write_in_folder("published.json", "trueaxis.published");
+  outputs.check();
+  outputs.make_folder();
+}
+
+void write_results(Outputs& outputs, const study::PublishedSweep& file,
                    const study::Summary& summary,
                    const std::optional<study::Placement>& placement) {
   const study::Sweep& sweep = file.sweep;
-  const std::string csv = sweep_csv(sweep, summary), json = sweep_json(sweep, summary);
-  const std::string timing = sweep_timing_csv(sweep, summary);
   std::vector<SweepReportAddition> additions;
-  std::string published;
-  if (placement) {
-    additions = published_page(sweep, *file.published, *placement);
-    published = published_json(sweep, *file.published, *placement);
-  }
-  const std::string report = render_sweep_report(sweep, summary, additions);
-  std::vector<FileContent> files{{folder + "/sweep.csv", csv},
-                                 {folder + "/sweep.json", json},
-                                 {folder + "/timing.csv", timing},
-                                 {folder + "/report.html", report}};
-  if (placement) files.push_back({folder + "/published.json", published});
-  write_files(files);
+  if (placement) additions = published_page(sweep, *file.published, *placement);
+  const auto write = [&](const char* name, const std::string& text) {
+    outputs.write(outputs.in_folder(name), text);
+  };
+  write("sweep.csv", sweep_csv(sweep, summary));
+  write("sweep.json", sweep_json(sweep, summary));
+  write("timing.csv", sweep_timing_csv(sweep, summary));
+  write("report.html", render_sweep_report(sweep, summary, additions));
+  if (placement) write("published.json", published_json(sweep, *file.published, *placement));
+  outputs.commit();
 }
 
 }  // namespace
 
-void run_sweep(const study::PublishedSweep& file, const std::string& folder,
+void run_sweep(const study::PublishedSweep& file, const std::string& folder, bool force,
                const BlockRunner& runner) {
   const study::Sweep& sweep = file.sweep;
+  Outputs outputs(force);
+  if (!folder.empty()) check_outputs(outputs, file, folder);
   std::optional<SweepJournal> journal;
   if (!folder.empty()) journal.emplace(folder, sweep);
   std::vector<study::BlockResult> results;
@@ -65,7 +77,7 @@ void run_sweep(const study::PublishedSweep& file, const std::string& folder,
   const study::Summary summary = study::summarise(sweep, results);
   std::optional<study::Placement> placement;
   if (file.published) placement = study::place_published(sweep, *file.published, results);
-  if (!folder.empty()) write_results(file, folder, summary, placement);
+  if (!folder.empty()) write_results(outputs, file, summary, placement);
   std::cout << sweep_text(sweep, summary);
   if (placement) std::cout << '\n' << published_text(sweep, *file.published, summary, *placement);
   if (!folder.empty()) std::cout << folder << "/report.html\n";

@@ -10,26 +10,10 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <vector>
 
-#include "format/output_file.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
-
-void write_files(std::span<const FileContent> files) {
-  std::vector<OutputFile> open;
-  for (const FileContent& file : files) {
-    open.emplace_back(file.path).write(file.content);
-    open.back().close();
-  }
-  for (OutputFile& file : open) file.commit();
-}
-
-void write_file(const std::string& path, std::string_view content) {
-  const FileContent file{path, content};
-  write_files({&file, 1});
-}
 
 std::string read_file(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -24,6 +25,17 @@ inline Json to_json(const Estimate& estimate) {
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
   if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
   return json;
+}
+
+/// The number there, or NaN for null: `number` read back.
+inline double number_from(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+/// `to_json` read back.
+inline Estimate estimate_from(const Json& json) {
+  return {number_from(json.at("value")), number_from(json.at("u")), json.at("unit"),
+          json.value("why", "")};
 }
 
 /// As written to a file. Bytes that are no UTF-8 (a file name may hold some) become U+FFFD.

@@ -9,32 +9,29 @@
 #include <iostream>
 #include <utility>
 
+#include "format/file_identity.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
 namespace fs = std::filesystem;
 
-OutputFile::OutputFile(const std::string& path) : path_(path), place_(path) {
-  if (path == "-") return;
+OutputFile::OutputFile(const std::string& path)
+    : path_(is_standard_output(path) ? "-" : path), place_(link_target(path_)) {
+  if (path_ == "-") return;
   std::error_code error;
-  if (fs::is_symlink(path, error)) {
-    const fs::path target = fs::canonical(path, error);
-    if (!error) place_ = target.string();
-  }
   const fs::file_status status = fs::status(place_, error);
   if (fs::is_directory(status)) fail("it is a folder");
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     file_.open(place_, std::ios::binary);
   } else {
-    const fs::path folder = fs::path(place_).parent_path();
-    if (!folder.empty()) fs::create_directories(folder, error);
     beside_ = place_ + ".part" + std::to_string(::getpid());
+    while (fs::exists(beside_, error)) beside_ += '_';
     file_.open(beside_, std::ios::binary);
   }
   if (!file_) {
     beside_.clear();
-    fail(error ? error.message() : std::strerror(errno));
+    fail(std::strerror(errno));
   }
 }
 

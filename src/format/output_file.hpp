@@ -9,7 +9,7 @@ namespace trueaxis {
 
 /// A file that is whole or not there: it is written beside its place and renamed by `commit`; what
 /// is not committed is removed. A link keeps pointing to its file, a device or pipe is written as
-/// it is, "-" is standard output.
+/// it is, "-" is standard output. A command writes through `Outputs`, which opens these.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);

@@ -44,8 +44,9 @@ std::optional<double> order_in(const TermValue& term, const Pass& pass) {
 }
 
 /// Whether a term goes with the eccentricity in every pass: it then beats with it so slowly that
-/// the axis takes its amplitude in.
+/// the axis takes its amplitude in. Without passes, a pattern of one undulation alone does.
 bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
+  if (passes.empty()) return !term.effect && term.pattern.order == 1.0;
   bool turns = false;
   for (const Pass& pass : passes) {
     if (pass.c_sign == 0 || pass.readings_per_revolution <= 0.0) continue;
@@ -97,7 +98,8 @@ std::string moves_with_axis(const JobResult& result) {
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
     const Diagnosis& diagnosis = *result.diagnoses[i];
-    const std::vector<Pass> passes = find_passes(result.streams[i]);
+    const std::vector<Pass> passes =
+        i < result.streams.size() ? find_passes(result.streams[i]) : std::vector<Pass>{};
     const std::string next = diagnosis.next.what.empty()
                                  ? "probe again at another speed and another feed"
                                  : diagnosis.next.what;

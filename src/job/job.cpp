@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/job.hpp"
 
-#include <algorithm>
 #include <utility>
 
-#include "job/inclusion.hpp"
-#include "job/references.hpp"
-#include "job/slip.hpp"
-#include "job/verdict.hpp"
+#include "job/conclude.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -27,14 +23,6 @@ void diagnose_all(JobResult& result) {
   }
 }
 
-void correct(JobResult& result) {
-  const TargetSurface& target = *result.job.target;
-  result.target_axis = solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
-                                         target.kind != TargetKind::face);
-  result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
-                                      result.job.actuator, included_motions(result));
-}
-
 }  // namespace
 
 JobResult run_job(Job job, std::vector<ProbeStream> streams) {
@@ -46,13 +34,7 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
     result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
   }
   diagnose_all(result);
-  const bool fitted = std::ranges::all_of(
-      result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  const bool slipped = std::ranges::any_of(
-      result.diagnoses, [](const auto& diagnosis) { return diagnosis && diagnosis->slip(); });
-  if (slipped) withhold_axes(result);
-  if (fitted && result.job.target && !slipped) correct(result);
-  result.verdict = decide(result);
+  conclude(result);
   return result;
 }
 

@@ -103,6 +103,7 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
       return result.job.references[i].name + ": " + result.fits[i].message;
   }
   if (std::string slip = slip_objection(result); !slip.empty()) return slip;
+  if (!result.refused.empty()) return result.refused;
   if (result.correction) {
     if (!result.correction->margin.follows)
       return cannot_follow(result.correction->margin) + "; " +

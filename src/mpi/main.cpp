@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "cli/guarded.hpp"
+#include "cli/output_options.hpp"
 #include "cli/sweep_run.hpp"
 #include "mpi/distribute.hpp"
 #include "studies/published/published_toml.hpp"
@@ -31,6 +32,7 @@ extern "C" void say_how_to_go_on(int) {
 
 struct Options {
   std::string sweep, folder;
+  bool force = false;
 };
 
 int lead(const Options& options) {
@@ -38,12 +40,13 @@ int lead(const Options& options) {
   const int code = cli::guarded([&] {
     const study::PublishedSweep file = read_published_sweep(options.sweep);
     const study::Sweep& sweep = file.sweep;
-    cli::run_sweep(file, options.folder, [&](const auto& blocks, const auto& finished) {
-      agree_on(sweep.input_hash);
-      agreed = working = true;
-      distribute(sweep, blocks, finished);
-      working = false;
-    });
+    cli::run_sweep(file, options.folder, options.force,
+                   [&](const auto& blocks, const auto& finished) {
+                     agree_on(sweep.input_hash);
+                     agreed = working = true;
+                     distribute(sweep, blocks, finished);
+                     working = false;
+                   });
     return cli::done;
   });
   if (!agreed) agree_on("");
@@ -73,7 +76,9 @@ int run(int argc, char** argv, int rank) {
   CLI::App* command = app.add_subcommand("sweep", "as trueaxis sweep, the same bytes");
   command->add_option("sweep", options.sweep, "sweep (TOML)")->required();
   command->add_option("-o,--output", options.folder, "folder of the results and the journal")
-      ->required();
+      ->required()
+      ->check(cli::a_place());
+  cli::add_force(*command, options.force);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -39,7 +39,8 @@ std::string_view sweep_script() { return between(trueaxis_sweep_js_begin, trueax
 std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
                     std::string_view script) {
   return fill_template(between(trueaxis_report_html_begin, trueaxis_report_html_end),
-                       {{"title", escape_html(title)},
+                       {{"schema", data.at("schema").get_ref<const std::string&>()},
+                        {"title", escape_html(title)},
                         {"verdict", escape_html(verdict)},
                         {"style", between(trueaxis_report_css_begin, trueaxis_report_css_end)},
                         {"data", json_for_script(data)},

@@ -35,7 +35,7 @@ Json verdict_data(const JobResult& result) {
   Json data{{"outcome", outcome(result)}, {"line", verdict.line}, {"k", verdict.coverage_factor}};
   data["tolerance_mm"] =
       result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
-  if (result.target_axis) {
+  if (result.target_axis && result.refused.empty()) {
     data["coaxiality_before_mm"] = verdict.coaxiality_before_mm;
     data["coaxiality_after_mm"] = verdict.coaxiality_after_mm;
     data["u_coaxiality_mm"] = verdict.u_coaxiality_mm;

@@ -75,6 +75,7 @@ std::string axis_bias_text(const std::vector<AxisBiasRow>& rows) {
 
 std::string axis_bias_markdown(const std::vector<AxisBiasRow>& rows) {
   std::string text =
+      "<!-- schema: trueaxis.axis_bias/2 -->\n\n"
       "| effect, form | virtual lathe | predicted | catalogue | unit | left by the surface | with "
       "the effect fitted | u(axis) grows by |\n|---|---|---|---|---|---|---|---|\n";
   for (const AxisBiasRow& row : rows) {
@@ -88,6 +89,7 @@ std::string axis_bias_markdown(const std::vector<AxisBiasRow>& rows) {
 
 std::string axis_bias_csv(const std::vector<AxisBiasRow>& rows) {
   std::string text =
+      "# schema: trueaxis.axis_bias/2\n"
       "effect,form,unit,size,lathe,lathe_half,limit,predicted,second_order,off,rounding,agrees,"
       "stated,"
       "left,separable,u_ratio,extended,extended_half\n";

@@ -40,8 +40,8 @@ TEST_F(ExitCode, OneForARefusal) {
   EXPECT_EQ(code("run tight.toml -o tight"), 1);
   EXPECT_EQ(code("run fast.toml -o fast"), 1);
   ASSERT_EQ(code("fit part.csv --surface cylinder --json fit.json"), 0);
-  EXPECT_EQ(code("correct fit.json --target fast.toml -o table.csv"), 1);
-  EXPECT_EQ(code("correct fit.json --target fast.toml --preview"), 1);
+  EXPECT_EQ(code("correct fit.json --ideal --target fast.toml -o table.csv"), 1);
+  EXPECT_EQ(code("correct fit.json --ideal --target fast.toml --preview"), 1);
 }
 
 TEST_F(ExitCode, TwoForUsage) {
@@ -72,6 +72,9 @@ TEST_F(ExitCode, TwoForUsage) {
                                 "correct",
                                 "correct fit.json --target t.toml",
                                 "correct fit.json --target t.toml --preview -o table.csv",
+                                "correct fit.json --ideal --diagnosis d.json --target t.toml -o t",
+                                "run job.toml -o ''",
+                                "fit part.csv --surface cone --json ''",
                                 "simulate",
                                 "simulate s.toml --seed x -o s.csv"}) {
     const auto before = files_in(folder_);
@@ -127,10 +130,10 @@ TEST_F(ExitCode, OutputThatCannotBeWritten) {
   }
 }
 
-TEST_F(ExitCode, FoldersAreMadeAndBlanksAndLinksAreKept) {
+TEST_F(ExitCode, AFolderIsMadeAndBlanksAndLinksAreKept) {
   file("a job.toml", simple_job(cylinder_reference));
-  EXPECT_EQ(code("run 'a job.toml' -o 'new/nested folder/out'"), 0);
-  EXPECT_TRUE(there("new/nested folder/out/table.csv"));
+  EXPECT_EQ(code("run 'a job.toml' -o 'new folder'"), 0);
+  EXPECT_TRUE(there("new folder/table.csv"));
   file("kept.json", "");
   std::filesystem::create_symlink("kept.json", folder_ / "link.json");
   EXPECT_EQ(code("fit part.csv --surface cylinder --json link.json"), 0);

@@ -173,8 +173,10 @@ TEST_F(FitCommand, ResidualsHaveARowPerReading) {
   file("part.csv", csv(probe({.noise_mm = 0.002})));
   ASSERT_EQ(command("fit part.csv --surface cylinder --residuals r.csv").exit_code, 0);
   const std::string text = read_text(folder_ / "r.csv");
-  EXPECT_EQ(first_line(text), "row,C[deg],Z[mm],X_M[mm],residual[um],rejected");
-  EXPECT_EQ(std::ranges::count(text, '\n'), 145);
+  EXPECT_TRUE(
+      text.starts_with("# schema: trueaxis.residuals/1\n"
+                       "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n"));
+  EXPECT_EQ(std::ranges::count(text, '\n'), 146);
 }
 
 TEST_F(FitCommand, TooFewReadingsWriteNothing) {

@@ -76,7 +76,7 @@ TEST_F(NotDetermined, NoCorrectionFromIt) {
   file("job.toml", simple_job("stream = \"open.csv\"\nsurface = \"cone\"\nname = \"seat\"\n"));
   expect_input_error("correct fit.json --target job.toml -o table.csv", "rank_deficient");
   std::filesystem::create_directories(folder_ / "out");
-  file("out/table.csv", "of an earlier run");
+  file("out/table.csv", earlier_table);
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 4);
   EXPECT_EQ(first_line(done.out).substr(0, 12), "NO-GO: seat:") << done.out;

@@ -209,7 +209,7 @@ TEST_F(AxisBiasCommand, WritesEveryEffectWithLatheAndPrediction) {
   std::istringstream csv(read_text(folder_ / "axis_bias" / "axis_bias.csv"));
   std::size_t lines = 0;
   for (std::string line; std::getline(csv, line);) ++lines;
-  EXPECT_EQ(lines, axis_bias.at("effects").size() + 1);
+  EXPECT_EQ(lines, axis_bias.at("effects").size() + 2);  // schema and header
   EXPECT_TRUE(there("axis_bias/axis_bias.md"));
 }
 

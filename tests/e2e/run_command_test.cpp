@@ -48,7 +48,7 @@ TEST_F(RunCommand, GoWithTableResultAndReport) {
 TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
   file("job.toml", simple_job(cylinder_reference, 600, 0.1));
   std::filesystem::create_directories(folder_ / "out");
-  file("out/table.csv", "of an earlier run");
+  file("out/table.csv", earlier_table);
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
@@ -60,7 +60,7 @@ TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
 
 TEST_F(RunCommand, ActuatorThatCannotFollow) {
   std::filesystem::create_directories(folder_ / "out");
-  file("out/table.csv", "of an earlier run");
+  file("out/table.csv", earlier_table);
   file("job.toml", simple_job(cylinder_reference, 60000));
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
@@ -87,12 +87,18 @@ TEST_F(RunCommand, ActuatorThatCannotFollow) {
 
 TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
   std::filesystem::create_directories(folder_ / "out");
-  file("out/table.csv", "of an earlier run");
+  file("out/table.csv", earlier_table);
   file("job.toml", simple_job(cylinder_reference) + "tool_height_mm = 40\n");
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(done.err.rfind("refused: the tool's line passes the target surface by", 0), 0u);
-  EXPECT_EQ(files_in(folder_ / "out"), std::vector<std::string>{});
+  const json found = result("out/result.json");
+  EXPECT_FALSE(found.at("verdict").at("go").get<bool>());
+  EXPECT_EQ(found.at("verdict").at("line"), first_line(done.out));
+  EXPECT_EQ(first_line(done.out).rfind("NO-GO: the tool's line passes the target surface by", 0),
+            0u);
+  EXPECT_TRUE(contains(read_text(folder_ / "out/report.html"), "\"outcome\":\"no-go\""));
+  EXPECT_FALSE(there("out/table.csv"));
 }
 
 TEST_F(RunCommand, TheSameBytesEveryTime) {
@@ -160,25 +166,42 @@ class CorrectCommand : public CommandTest {
     file("part.csv", csv(probe({.noise_mm = 0.002})));
     file("job.toml", simple_job(cylinder_reference));
     ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
+    ASSERT_EQ(command("diagnose part.csv --surface cylinder --json d.json").exit_code, 0);
   }
 };
 
 TEST_F(CorrectCommand, PreviewWritesNothing) {
   const auto before = files_in(folder_);
-  const CommandStreams done = command("correct fit.json --target job.toml --preview");
+  const CommandStreams done = command("correct fit.json --ideal --target job.toml --preview");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   EXPECT_TRUE(contains(done.out, "harmonics"));
   EXPECT_EQ(files_in(folder_), before);
 }
 
+TEST_F(CorrectCommand, AFitHasItsDiagnosisBesideItOrSaysThatItHasNone) {
+  const std::string table = command("correct d.json --target job.toml -o -").out;
+  ASSERT_FALSE(table.empty());
+  const CommandStreams beside =
+      command("correct fit.json --diagnosis d.json --target job.toml -o -");
+  EXPECT_EQ(beside.out, table) << beside.err;
+  const CommandStreams ideal = command("correct fit.json --ideal --target job.toml -o -");
+  EXPECT_EQ(ideal.out, table);  // nothing was found: the axis is that of the ideal surface
+  EXPECT_TRUE(contains(ideal.err, "rests on the ideal surface alone")) << ideal.err;
+  const CommandStreams bare = command("correct fit.json --target job.toml -o -");
+  EXPECT_EQ(bare.exit_code, 1);
+  EXPECT_EQ(bare.out, "");
+  EXPECT_TRUE(contains(bare.err, "nobody looked for slips")) << bare.err;
+}
+
 TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
   ASSERT_EQ(command("run job.toml -o out").exit_code, 0);
-  ASSERT_EQ(command("correct fit.json --target job.toml -o 'a/b c/table.csv'").exit_code, 0);
-  const CommandStreams printed = command("correct fit.json --target job.toml -o -");
+  std::filesystem::create_directories(folder_ / "a/b c");
+  ASSERT_EQ(command("correct d.json --target job.toml -o 'a/b c/table.csv'").exit_code, 0);
+  const CommandStreams printed = command("correct d.json --target job.toml -o -");
   EXPECT_EQ(printed.exit_code, 0);
   EXPECT_EQ(printed.out, read_text(folder_ / "a/b c/table.csv"));
-  EXPECT_EQ(printed.out, command("correct - --target job.toml -o - < fit.json").out);
-  EXPECT_EQ(printed.out, command("correct fit.json --target - -o - < job.toml").out);
+  EXPECT_EQ(printed.out, command("correct - --target job.toml -o - < d.json").out);
+  EXPECT_EQ(printed.out, command("correct d.json --target - -o - < job.toml").out);
   // The job's target axis is taken at the middle of the cut: 1e-7 mm is the last digit of a row.
   std::istringstream one(rows_of(printed.out)),
       other(rows_of(read_text(folder_ / "out/table.csv")));
@@ -196,8 +219,8 @@ TEST_F(CorrectCommand, TableIsThatOfTheWholeJob) {
 
 TEST_F(CorrectCommand, RefusalNamesNumberAndSpeedAndLeavesNoTable) {
   file("fast.toml", simple_job(cylinder_reference, 60000));
-  file("table.csv", "of an earlier run");
-  const CommandStreams done = command("correct fit.json --target fast.toml -o table.csv");
+  file("table.csv", earlier_table);
+  const CommandStreams done = command("correct d.json --target fast.toml -o table.csv");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_TRUE(contains(done.err, "refused: the actuator cannot follow: ")) << done.err;
   EXPECT_TRUE(contains(done.err, "slew")) << done.err;

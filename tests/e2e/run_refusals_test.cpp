@@ -29,7 +29,7 @@ class RunRefusals : public CommandTest {
                          ? simple_job(reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n"
                          : "[[reference]]\n" + reference);
     std::filesystem::create_directories(folder_ / "out");
-    file("out/table.csv", "of an earlier run");
+    file("out/table.csv", earlier_table);
     return command("run job.toml -o out");
   }
 

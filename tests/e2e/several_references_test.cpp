@@ -109,6 +109,8 @@ TEST_F(SeveralReferences, AFaceAloneIsRefused) {
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_EQ(done.err.rfind("refused: ", 0), 0u) << done.err;
+  EXPECT_TRUE(first_line(done.out).starts_with("NO-GO: ")) << done.out;
+  EXPECT_EQ(result("out/result.json").at("verdict").at("line"), first_line(done.out));
   EXPECT_FALSE(there("out/table.csv"));
 }
 

@@ -52,6 +52,9 @@ inline std::string simple_job(const std::string& reference, double speed_rpm = 6
   return "[[reference]]\n" + reference + cut;
 }
 
+/// What TrueAxis would take for a table of its own.
+inline const char* const earlier_table = "# schema: trueaxis.correction/1\nof an earlier run\n";
+
 inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = \"cylinder\"\n";
 
 }  // namespace trueaxis::testing

@@ -235,6 +235,8 @@ TEST(DiagnosisResiduals, OneRowAReading) {
   std::istringstream lines(residuals_csv(job.streams.front(), d));
   std::string line;
   std::getline(lines, line);
+  EXPECT_EQ(line, "# schema: trueaxis.residuals/1");
+  std::getline(lines, line);
   EXPECT_EQ(line,
             "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked");
   std::size_t rows = 0;
@@ -253,6 +255,7 @@ TEST(DiagnosisResiduals, SimulatedColumnsWhereThereIsASimulation) {
   simulated.after_mm.resize(49);
   std::istringstream lines(residuals_csv(job.streams.front(), *job.diagnoses.front(), &simulated));
   std::string line, last;
+  std::getline(lines, line);  // its schema
   std::getline(lines, line);
   EXPECT_EQ(line.substr(line.find(",masked")), ",masked,simulated_before[mm],simulated_after[mm]");
   std::getline(lines, line);

@@ -5,6 +5,7 @@
 
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_term_json.hpp"
+#include "fit/files/fit_json.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -12,51 +13,40 @@ namespace {
 
 double value(const Json& object, const char* key) { return object.at(key).at("value"); }
 
-FitStatus status_from(const std::string& text) {
-  for (const FitStatus status : {FitStatus::converged, FitStatus::max_iterations,
-                                 FitStatus::rank_deficient, FitStatus::too_few}) {
-    if (text == to_string(status)) return status;
-  }
-  throw InputError("diagnosis", "no fit ends `" + text + "`");
-}
-
-/// Of the parameters x0, y0, l, m; a section has no l, m.
-Axis axis_from_parameters(const Json& parameters) {
-  Axis axis{value(parameters, "x0"), value(parameters, "y0")};
-  if (!parameters.contains("l")) return axis;
-  const double l = value(parameters, "l"), m = value(parameters, "m");
-  const double n = std::sqrt(1.0 - l * l - m * m);
-  axis.slope_x = l / n;
-  axis.slope_y = m / n;
-  return axis;
-}
-
 std::vector<Rejected> rows_from(const Json& list) {
   std::vector<Rejected> rows;
   for (const Json& entry : list) rows.push_back({entry.at("row"), entry.at("why")});
   return rows;
 }
 
-/// A fit that did not converge has no numbers: its status says so.
-FitResult fit_from(const Json& json) {
-  FitResult fit;
-  fit.source = json.at("input").at("file");
-  fit.input_hash = json.at("input").at("hash");
-  fit.surface = surface_from_id(json.at("surface").get<std::string>());
-  fit.bore = json.at("feature") == "bore";
-  fit.status = status_from(json.at("status"));
-  if (fit.status != FitStatus::converged) return fit;
-  const Json& axis = json.at("axis");
-  fit.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
-                   value(axis, "slope_y"), value(axis, "z_ref")};
-  fit.shape = {fit.axis.axis, value(json.at("shape"), "radius"),
-               value(json.at("shape"), "tan_half_angle")};
-  for (const Json& set_up : json.value("set_ups", Json::array())) {
-    fit.set_ups.emplace_back().axis.axis = axis_from_parameters(set_up.at("parameters"));
+DiagnosisVerdict verdict_from(const std::string& text) {
+  for (const DiagnosisVerdict verdict :
+       {DiagnosisVerdict::ideal, DiagnosisVerdict::effects, DiagnosisVerdict::unexplained}) {
+    if (text == to_string(verdict)) return verdict;
   }
-  fit.rms_mm = value(json, "rms");
-  fit.rejected = rows_from(json.at("rejected"));
-  return fit;
+  throw InputError("diagnosis", "no diagnosis says `" + text + "`");
+}
+
+Finding finding_from(const Json& json) {
+  Finding finding;
+  finding.term = effect_term_from(json.at("effect"), json.at("term"));
+  for (const Json& rival : json.at("rivals")) {
+    finding.rivals.push_back({rival.at("effect"), number_from(rival.at("distance")),
+                              number_from(rival.at("likelihood_ratio")),
+                              number_from(rival.at("probability")), rival.at("structural")});
+  }
+  for (const auto& [name, estimate] : json.at("parameters").items())
+    finding.parameters.push_back({name, estimate_from(estimate)});
+  finding.p_value = number_from(json.at("p_value"));
+  finding.probability = number_from(json.at("probability"));
+  finding.axis_shift = estimate_from(json.at("axis_bias").at("axis_shift"));
+  finding.cosmetic = json.at("axis_bias").at("cosmetic");
+  return finding;
+}
+
+Unexplained unexplained_from(const Json& json) {
+  return {pattern_term_from(json.at("term")), estimate_from(json.at("amplitude")),
+          number_from(json.at("p_value"))};
 }
 
 Diagnosis diagnosis_from(const Json& json) {
@@ -64,14 +54,16 @@ Diagnosis diagnosis_from(const Json& json) {
     throw InputError("diagnosis", std::string("is no ") + diagnosis_schema +
                                       ": write one with 'trueaxis diagnose --json'");
   Diagnosis d;
-  d.baseline = fit_from(json.at("baseline"));
-  d.extended = fit_from(json.at("extended"));
+  d.verdict = verdict_from(json.at("verdict"));
+  d.baseline = fit_from_object(json.at("baseline"));
+  d.extended = fit_from_object(json.at("extended"));
   d.z_mid_mm = value(json.at("u_frame"), "z_mid");
   d.z_half_mm = value(json.at("u_frame"), "z_half");
-  for (const Json& finding : json.at("findings"))
-    d.findings.emplace_back().term = effect_term_from(finding.at("effect"), finding.at("term"));
+  for (const Json& finding : json.at("findings")) d.findings.push_back(finding_from(finding));
   for (const Json& pattern : json.at("unexplained"))
-    d.unexplained.emplace_back().term = pattern_term_from(pattern.at("term"));
+    d.unexplained.push_back(unexplained_from(pattern));
+  d.next.plan = json.at("next_measurement").at("plan");
+  d.next.what = json.at("next_measurement").at("what");
   d.noise.sigma_mm = value(json.at("noise"), "sigma");
   d.noise.autoregression = json.at("noise").at("autoregression").get<std::vector<double>>();
   d.noise.masked = rows_from(json.at("noise").at("masked"));

@@ -2,10 +2,10 @@
 #include "fit/files/fit_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
-#include "format/file.hpp"
 #include "format/json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -126,6 +126,27 @@ Json input_object(const FitResult& result) {
   return json;
 }
 
+double value(const Json& object, const char* key) { return object.at(key).at("value"); }
+
+FitStatus status_from(const std::string& text) {
+  for (const FitStatus status : {FitStatus::converged, FitStatus::max_iterations,
+                                 FitStatus::rank_deficient, FitStatus::too_few}) {
+    if (text == to_string(status)) return status;
+  }
+  throw InputError("fit", "no fit ends `" + text + "`");
+}
+
+/// Of the parameters x0, y0, l, m; a section has no l, m.
+Axis axis_from_parameters(const Json& parameters) {
+  Axis axis{value(parameters, "x0"), value(parameters, "y0")};
+  if (!parameters.contains("l")) return axis;
+  const double l = value(parameters, "l"), m = value(parameters, "m");
+  const double n = std::sqrt(1.0 - l * l - m * m);
+  axis.slope_x = l / n;
+  axis.slope_y = m / n;
+  return axis;
+}
+
 }  // namespace
 
 Json fit_object(const FitResult& result) {
@@ -166,42 +187,66 @@ Json fit_object(const FitResult& result) {
 
 std::string fit_json(const FitResult& result) { return json_text(fit_object(result)); }
 
-FitResult read_fit_json(const std::string& path) {
-  const std::string text = read_file(path);
-  FitResult result;
+FitResult fit_from_object(const Json& json) {
+  FitResult fit;
+  fit.source = json.at("input").at("file");
+  fit.input_hash = json.at("input").at("hash");
+  fit.surface = surface_from_id(json.at("surface").get<std::string>());
+  fit.bore = json.at("feature") == "bore";
+  fit.status = status_from(json.at("status"));
+  fit.message = json.value("message", "");
+  fit.coverage_factor = json.value("coverage_factor", 2.0);
+  if (fit.status != FitStatus::converged) return fit;
+  const Json& axis = json.at("axis");
+  fit.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
+                   value(axis, "slope_y"), value(axis, "z_ref")};
+  const Json& covariance = axis.at("covariance").at("matrix");
+  for (std::size_t i = 0; i < 16; ++i)
+    fit.axis.covariance[i] = number_from(covariance.at(i / 4).at(i % 4));
+  fit.shape = {fit.axis.axis, value(json.at("shape"), "radius"),
+               value(json.at("shape"), "tan_half_angle")};
+  for (const Json& set_up : json.value("set_ups", Json::array()))
+    fit.set_ups.emplace_back().axis.axis = axis_from_parameters(set_up.at("parameters"));
+  for (const auto& [name, estimate] : json.at("parameters").items())
+    fit.parameters.push_back({name, estimate_from(estimate)});
+  fit.notes = json.at("notes").get<std::vector<std::string>>();
+  fit.rms_mm = value(json, "rms");
+  const Json& noise = json.at("noise");
+  fit.sigma_mm = number_from(noise.at("sigma").at("value"));
+  fit.sigma_source = noise.at("source");
+  fit.autocorrelation = number_from(noise.at("autocorrelation"));
+  fit.u_factor = number_from(noise.at("u_factor"));
+  fit.points = json.at("points");
+  for (const Json& row : json.at("rejected"))
+    fit.rejected.push_back({row.at("row"), row.at("why")});
+  fit.position_min_mm = value(json.at("range"), "min");
+  fit.position_max_mm = value(json.at("range"), "max");
+  return fit;
+}
+
+FitResult fit_from_json(std::string_view text, const std::string& path) {
+  const auto unreadable = [&](const std::string& why) {
+    return InputError(path, "cannot be read as trueaxis.fit/1 (" + why + ")");
+  };
   try {
     const Json json = Json::parse(text);
     if (json.at("schema") != "trueaxis.fit/1")
       throw InputError(path, "is no trueaxis.fit/1: write one with 'trueaxis fit --json'");
-    if (json.at("status") != "converged") {
-      throw InputError(path, "its fit is not converged (" + json.at("status").get<std::string>() +
-                                 "): no correction from it");
+    const std::string status = json.at("status");
+    if (status != to_string(FitStatus::converged))
+      throw InputError(path, "its fit is not converged (" + status + "): no correction from it");
+    FitResult fit = fit_from_object(json);
+    for (const double covariance : fit.axis.covariance) {
+      if (!std::isfinite(covariance)) throw unreadable("its axis has no covariance");
     }
-    result.status = FitStatus::converged;
-    result.surface = surface_from_id(json.at("surface").get<std::string>());
-    result.bore = json.at("feature") == "bore";
-    result.source = path;
-    result.input_hash = json.at("input").at("hash");
-    const Json& axis = json.at("axis");
-    const auto value = [](const Json& object, const char* key) {
-      return object.at(key).at("value").get<double>();
-    };
-    result.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
-                        value(axis, "slope_y"), value(axis, "z_ref")};
-    for (std::size_t i = 0; i < 16; ++i)
-      result.axis.covariance[i] = axis.at("covariance").at("matrix").at(i / 4).at(i % 4);
     for (const std::size_t i : {0, 5, 10, 15}) {
-      if (result.axis.covariance[i] < 0.0)
+      if (fit.axis.covariance[i] < 0.0)
         throw InputError(path, "has a negative variance in its axis covariance");
     }
-    result.shape = {result.axis.axis, value(json.at("shape"), "radius"),
-                    value(json.at("shape"), "tan_half_angle")};
-    result.position_min_mm = value(json.at("range"), "min");
-    result.position_max_mm = value(json.at("range"), "max");
+    return fit;
   } catch (const Json::exception& error) {
-    throw InputError(path, std::string("cannot be read as trueaxis.fit/1 (") + error.what() + ")");
+    throw unreadable(error.what());
   }
-  return result;
 }
 
 }  // namespace trueaxis

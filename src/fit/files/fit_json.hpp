@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "format/json.hpp"
 #include "trueaxis/fit.hpp"
@@ -15,8 +16,14 @@ std::string fit_json(const FitResult& result);
 /// The same as an object, for results that hold one.
 Json fit_object(const FitResult& result);
 
-/// What `correct` needs of a fit: surface, status, bore, axis with covariance, shape, range.
-/// @throws InputError if the file is no trueaxis.fit/1, or its fit is not converged.
-FitResult read_fit_json(const std::string& path);
+/// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
+/// derived quantities or covariance of the parameters; of each set-up the axis. One that did not
+/// converge has no numbers. @throws Json::exception and InputError for what is no fit.
+FitResult fit_from_object(const Json& json);
+
+/// The same of a file's text, converged and with the covariance of its axis.
+/// @param path of the text, for messages
+/// @throws InputError if it is no such trueaxis.fit/1.
+FitResult fit_from_json(std::string_view text, const std::string& path);
 
 }  // namespace trueaxis

@@ -57,8 +57,8 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
             {"why", face ? "a face is not diagnosed" : "its fit did not converge"}};
   }
   Json summary = diagnosis_summary(*result.diagnoses[i]);
-  summary["file"] = diagnosis_file(result, i);
-  summary["readings"] = readings_file(result, i);
+  summary["file"] = diagnosis_file(result.job, i);
+  summary["readings"] = readings_file(result.job, i);
   if (result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] =
@@ -79,9 +79,9 @@ Json inclusions_array(const std::vector<Inclusion>& inclusions) {
 }
 
 /// Number and name of a reference, as far as any file system takes it.
-std::string file_stem(const JobResult& result, std::size_t reference) {
+std::string file_stem(const Job& job, std::size_t reference) {
   std::string name;
-  for (const char c : result.job.references[reference].name) {
+  for (const char c : job.references[reference].name) {
     const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
     name += kept ? c : '_';
   }
@@ -120,12 +120,12 @@ Json correction_object(const Correction& correction) {
             {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
 }
 
-std::string diagnosis_file(const JobResult& result, std::size_t reference) {
-  return "diagnosis_" + file_stem(result, reference) + ".json";
+std::string diagnosis_file(const Job& job, std::size_t reference) {
+  return "diagnosis_" + file_stem(job, reference) + ".json";
 }
 
-std::string readings_file(const JobResult& result, std::size_t reference) {
-  return "readings_" + file_stem(result, reference) + ".csv";
+std::string readings_file(const Job& job, std::size_t reference) {
+  return "readings_" + file_stem(job, reference) + ".csv";
 }
 
 std::string job_json(const JobResult& result) {

@@ -16,9 +16,9 @@ std::string job_json(const JobResult& result);
 Json correction_object(const Correction& correction);
 
 /// Name of the file beside the result that holds the diagnosis of a reference.
-std::string diagnosis_file(const JobResult& result, std::size_t reference);
+std::string diagnosis_file(const Job& job, std::size_t reference);
 
 /// Name of the file with its readings: measured, simulated, what is left.
-std::string readings_file(const JobResult& result, std::size_t reference);
+std::string readings_file(const Job& job, std::size_t reference);
 
 }  // namespace trueaxis

@@ -51,14 +51,24 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   return streams;
 }
 
+std::vector<ResultName> job_file_names(const Job& job) {
+  std::vector<ResultName> names{{"result.json", "trueaxis.run"}};
+  for (std::size_t i = 0; i < job.references.size(); ++i) {
+    names.push_back({diagnosis_file(job, i), "trueaxis.diagnosis"});
+    names.push_back({readings_file(job, i), "trueaxis.residuals"});
+  }
+  names.push_back({"table.csv", "trueaxis.correction"});
+  return names;
+}
+
 std::vector<ResultFile> job_files(const JobResult& result) {
   std::vector<ResultFile> files{{"result.json", job_json(result)}};
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
-    files.push_back({diagnosis_file(result, i), diagnosis_json(*result.diagnoses[i])});
+    files.push_back({diagnosis_file(result.job, i), diagnosis_json(*result.diagnoses[i])});
     files.push_back(
-        {readings_file(result, i), residuals_csv(result.streams[i], *result.diagnoses[i],
-                                                 &result.resimulations[i]->readings)});
+        {readings_file(result.job, i), residuals_csv(result.streams[i], *result.diagnoses[i],
+                                                     &result.resimulations[i]->readings)});
   }
   if (result.correction && result.verdict.go())
     files.push_back({"table.csv", correction_csv(*result.correction)});

@@ -16,6 +16,14 @@ struct ResultFile {
   std::string name, text;
 };
 
+/// The name of one, and its schema without the version.
+struct ResultName {
+  std::string name, schema;
+};
+
+/// Every file that `job_files` may give of this job.
+std::vector<ResultName> job_file_names(const Job& job);
+
 /// What a run leaves behind: result.json, of each diagnosed reference its diagnosis and its
 /// readings, and table.csv when there is a go.
 std::vector<ResultFile> job_files(const JobResult& result);

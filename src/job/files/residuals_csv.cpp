@@ -13,6 +13,8 @@
 namespace trueaxis {
 namespace {
 
+constexpr const char* schema_line = "# schema: trueaxis.residuals/1\n";
+
 /// A cell; "," where the value is not there.
 void append(std::string& text, const std::vector<double>& values, std::size_t i, int decimals,
             double unit = 1.0) {
@@ -38,8 +40,9 @@ void append_reading(std::string& text, const ProbeStream& stream, std::size_t i)
 std::string residuals_csv(const ProbeStream& stream, const FitResult& result) {
   expects(result.residual_mm.size() == stream.size(), "the fit of this stream");
   const bool face = stream.kind == StreamKind::face;
-  std::string text = face ? "row,C[deg],X[mm],Z_M[mm],residual[um],rejected\n"
-                          : "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n";
+  std::string text = schema_line;
+  text += face ? "row,C[deg],X[mm],Z_M[mm],residual[um],rejected\n"
+               : "row,C[deg],Z[mm],X_M[mm],residual[um],rejected\n";
   const std::vector<bool> rejected = marked(result.rejected, stream.size());
   for (std::size_t i = 0; i < stream.size(); ++i) {
     append_reading(text, stream, i);
@@ -55,8 +58,8 @@ std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
   const std::vector<double>& before = diagnosis.residual_before_mm.empty()
                                           ? diagnosis.baseline.residual_mm
                                           : diagnosis.residual_before_mm;
-  std::string text =
-      "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked";
+  std::string text = schema_line;
+  text += "row,C[deg],Z[mm],X_M[mm],residual_before[um],effect[um],residual_after[um],masked";
   text += simulated ? ",simulated_before[mm],simulated_after[mm]\n" : "\n";
   for (std::size_t i = 0; i < stream.size(); ++i) {
     append_reading(text, stream, i);

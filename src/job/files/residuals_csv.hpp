@@ -8,7 +8,8 @@
 
 namespace trueaxis {
 
-/// One row per reading: row, C[deg], position[mm], reading[mm], residual[um], rejected (0/1).
+/// A line with the schema trueaxis.residuals/1, a header, and one row per reading: row, C[deg],
+/// position[mm], reading[mm], residual[um], rejected (0/1).
 std::string residuals_csv(const ProbeStream& stream, const FitResult& result);
 
 /// One row per reading: row, C[deg], Z[mm], X_M[mm], residual_before[um] of the ideal surface,

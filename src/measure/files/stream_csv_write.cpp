@@ -72,11 +72,11 @@ void expect_columns(const ProbeStream& stream) {
 
 }  // namespace
 
-void write_stream_csv(const ProbeStream& stream, const std::string& path) {
+void write_stream_csv(const ProbeStream& stream, OutputFile& sink) {
   expect_columns(stream);
   const bool face = stream.kind == StreamKind::face;
   const std::map<std::string, std::string> metadata = metadata_to_write(stream);
-  std::string text;
+  std::string text = "## schema: trueaxis.stream/1\n";
   for (const auto& [key, value] : metadata) text.append(metadata_line(key, value)) += '\n';
   // Doubling and halving are exact: a file that said diameter stays one, and the same stream.
   const auto convention = metadata.find("x_convention");
@@ -93,7 +93,6 @@ void write_stream_csv(const ProbeStream& stream, const std::string& path) {
   text += '\n';
 
   constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
-  OutputFile sink(path);
   const auto add = [&](auto value) {
     text += ',';
     csv_append(text, value);
@@ -112,6 +111,11 @@ void write_stream_csv(const ProbeStream& stream, const std::string& path) {
     }
   }
   sink.write(text);
+}
+
+void write_stream_csv(const ProbeStream& stream, const std::string& path) {
+  OutputFile sink(path);
+  write_stream_csv(stream, sink);
   sink.commit();
 }
 

@@ -3,12 +3,16 @@
 
 #include <string>
 
+#include "format/output_file.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 
 /// Writes `stream` so that read_stream_csv(write(stream)) is the same to the last bit (mm, rad).
-/// The file is written beside and renamed, so no half-written file stays; "-" is standard output.
+/// The first line is a comment that names the schema trueaxis.stream/1.
+void write_stream_csv(const ProbeStream& stream, OutputFile& sink);
+
+/// The same as a whole file at `path`; "-" is standard output.
 void write_stream_csv(const ProbeStream& stream, const std::string& path);
 
 }  // namespace trueaxis

@@ -59,7 +59,8 @@ struct Sweep {
   std::vector<Method> methods{Method::fit};  ///< each on the same readings
   std::size_t repeats = 2000;
   std::uint64_t seed = 1;
-  std::string input_hash;  ///< of all bytes that the sweep was read from
+  std::vector<std::string> input_files;  ///< that the sweep was read from
+  std::string input_hash;                ///< of all their bytes
 };
 
 /// Surface that the sweep fits.

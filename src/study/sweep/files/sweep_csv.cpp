@@ -82,8 +82,9 @@ std::string sweep_csv(const Sweep& sweep, const Summary& summary) {
 }
 
 std::string sweep_timing_csv(const Sweep& sweep, const Summary& summary) {
-  std::string out =
-      head(sweep, ",readings,repeats,thread_seconds,repeats_per_thread_second") + '\n';
+  std::string out = "# schema: trueaxis.sweep_timing/1\n" +
+                    head(sweep, ",readings,repeats,thread_seconds,repeats_per_thread_second") +
+                    '\n';
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
     const double seconds = summary.cells[cell].seconds;
     Line line = cell_fields(sweep, cell);

@@ -146,8 +146,6 @@ struct SweepJournal::Impl {
 
 SweepJournal::SweepJournal(const std::string& folder, const Sweep& sweep)
     : impl_(std::make_unique<Impl>()) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
   impl_->path = (std::filesystem::path(folder) / "journal.bin").string();
   impl_->file = ::open(impl_->path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (impl_->file < 0) impl_->fail("opened");

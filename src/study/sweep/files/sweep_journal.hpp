@@ -16,7 +16,7 @@ namespace trueaxis {
 /// killed at any instant leaves at most one torn record at the end, which the next one takes off.
 class SweepJournal {
  public:
-  /// Opens or begins `folder`/journal.bin and reads what is finished.
+  /// Opens or begins journal.bin in `folder`, which is there, and reads what is finished.
   /// @throws InputError for a journal of another sweep or build, one that another process is
   ///         writing, and a folder that cannot be written.
   SweepJournal(const std::string& folder, const study::Sweep& sweep);

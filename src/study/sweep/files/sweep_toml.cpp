@@ -45,13 +45,14 @@ std::string read_surface(TomlTable root, const virtual_lathe::Scenario& base) {
 }
 
 /// The scenario of the file or of the sweep's own tables, and its bytes for the hash.
-std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Scenario& base) {
+std::string read_base(TomlDocument& document, TomlTable root, study::Sweep& sweep) {
   if (!root.has("scenario")) {
-    read_scenario_tables(root, base);
+    read_scenario_tables(root, sweep.base);
     return {};
   }
   const std::string path = root.required_path("scenario");
   if (path.empty()) return {};
+  sweep.input_files.push_back(path);
   std::string content;
   try {
     content = read_file(path);
@@ -60,7 +61,7 @@ std::string read_base(TomlDocument& document, TomlTable root, virtual_lathe::Sce
     return {};
   }
   try {
-    base = parse_scenario_toml(content, path);
+    sweep.base = parse_scenario_toml(content, path);
     return content;
   } catch (const InputError& error) {
     for (const Diagnostic& diagnostic : error.diagnostics()) document.add(diagnostic);
@@ -75,7 +76,8 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
   TomlDocument document(content, path);
   TomlTable root = document.root();
   Sweep sweep;
-  const std::string scenario = read_base(document, root, sweep.base);
+  sweep.input_files = {path};
+  const std::string scenario = read_base(document, root, sweep);
   const SweepAxes axes(document, root, sweep);
   sweep.name = root.text("name");
   sweep.seed =

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "format/outputs.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <regex>
+
+#include "format/file_identity.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* elsewhere = ": name another place for the result";
+
+std::string cannot(const std::string& why) {
+  return "cannot be written (" + why + "): name a place that can be written";
+}
+
+/// Why no file can be made in `folder`; empty: it can.
+std::string why_not_in(fs::path folder) {
+  if (folder.empty()) folder = ".";
+  std::error_code error;
+  const fs::file_status status = fs::status(folder, error);
+  if (!fs::exists(status))
+    return cannot("its folder " + folder.string() + " is not there, and is not made on the way");
+  if (!fs::is_directory(status)) return cannot(folder.string() + " is no folder");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    return cannot("its folder: " + std::string(std::strerror(errno)));
+  return "";
+}
+
+}  // namespace
+
+std::string schema_in(std::string_view head) {
+  static const std::regex says(
+      R"(^(?:\s*\{\s*"schema"\s*:\s*"|(?:#[^\n]*\n)*#+ schema: |<!-- schema: )"
+      R"(|<!doctype html>[^]*<meta name="generator" content=")(trueaxis\.[a-z_]+)/)");
+  std::match_results<std::string_view::const_iterator> found;
+  return std::regex_search(head.begin(), head.end(), found, says) ? found[1].str() : "";
+}
+
+std::string schema_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, 512> head{};
+  in.read(head.data(), head.size());
+  return schema_in({head.data(), static_cast<std::size_t>(in.gcount())});
+}
+
+Outputs::~Outputs() {
+  files_.clear();
+  std::error_code ignored;
+  if (made_folder_) fs::remove(folder_, ignored);  // an empty one only
+}
+
+void Outputs::reads(const std::string& path) { inputs_.push_back(path); }
+
+void Outputs::into(const std::string& folder) {
+  const fs::path path = folder;
+  folder_ = path.has_filename() ? folder : path.parent_path().string();
+}
+
+void Outputs::may_write(const std::string& path, const std::string& schema) {
+  if (!path.empty()) places_.push_back({path, schema});
+  checked_ = false;
+}
+
+void Outputs::may_write_in_folder(const std::string& name, const std::string& schema) {
+  may_write(in_folder(name), schema);
+}
+
+std::string Outputs::in_folder(const std::string& name) const {
+  return (fs::path(folder_) / name).string();
+}
+
+/// Why the folder of the results cannot take them; empty: it can.
+std::string Outputs::of_folder() const {
+  if (folder_.empty()) return "";
+  std::error_code error;
+  const fs::file_status status = fs::status(folder_, error);
+  if (fs::is_directory(status)) return why_not_in(folder_);
+  if (fs::exists(fs::symlink_status(folder_, error)))
+    return "is no folder: name one for the results";
+  return why_not_in(fs::path(folder_).parent_path());
+}
+
+/// Why a file must not or cannot be written; empty: it can.
+std::string Outputs::objection(const Place& place) const {
+  const std::optional<FileIdentity> identity = identity_of_output(place.path);
+  if (identity) {
+    for (const std::string& input : inputs_) {
+      if (identity_of_input(input) == identity)
+        return "is an input of this command (" + (input == "-" ? "standard input" : input) +
+               "), which would be lost" + elsewhere;
+    }
+  }
+  const bool printed = is_standard_output(place.path);
+  for (const Place& other : places_) {
+    if (&other == &place) break;
+    if ((printed && is_standard_output(other.path)) ||
+        (identity && identity_of_output(other.path) == identity))
+      return "is the file that " + other.path + " goes to as well" + elsewhere;
+  }
+  if (printed) return "";
+  const std::string target = link_target(place.path);
+  std::error_code error;
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) return cannot("it is a folder");
+  const fs::path folder = fs::path(target).parent_path();
+  if (!fs::exists(status)) {
+    const bool in_folder = !folder_.empty() && folder == fs::path(folder_);
+    return in_folder ? "" : why_not_in(folder);
+  }
+  if (!fs::is_regular_file(status)) return "";
+  if (std::string why = why_not_in(folder); !why.empty()) return why;
+  if (::access(target.c_str(), W_OK) != 0) return cannot(std::strerror(errno));
+  if (force_ || place.schema.empty() || fs::file_size(target, error) == 0) return "";
+  const std::string found = schema_of_file(target);
+  if (found == place.schema) return "";
+  return (found.empty() ? "is there and was not written by TrueAxis"
+                        : "is there and is another result (" + found + ")") +
+         elsewhere + ", or let it be replaced with --force";
+}
+
+void Outputs::check() {
+  std::vector<Diagnostic> diagnostics;
+  const auto note = [&](const std::string& path, std::string why) {
+    const std::string name = is_standard_output(path) ? "standard output" : path;
+    if (!why.empty()) diagnostics.push_back({name, 0, 0, std::move(why)});
+  };
+  note(folder_, of_folder());
+  if (diagnostics.empty()) {
+    for (const Place& place : places_) note(place.path, objection(place));
+  }
+  if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
+  checked_ = true;
+}
+
+void Outputs::make_folder() {
+  expects(checked_, "outputs that were checked");
+  if (folder_.empty()) return;
+  std::error_code error;
+  made_folder_ = fs::create_directory(folder_, error) || made_folder_;
+  if (error) throw InputError(folder_, cannot(error.message()));
+}
+
+OutputFile& Outputs::open(const std::string& path) {
+  expects(checked_ && std::ranges::find(places_, path, &Place::path) != places_.end(),
+          "outputs that were named and checked");
+  if (files_.empty()) make_folder();
+  return files_.emplace_back(path);
+}
+
+void Outputs::write(const std::string& path, std::string_view content) {
+  if (path.empty()) return;
+  OutputFile& file = open(path);
+  expects(
+      schema_in(content.substr(0, 512)) == std::ranges::find(places_, path, &Place::path)->schema,
+      "a result that says its schema");
+  file.write(content);
+  file.close();
+}
+
+void Outputs::remove_earlier(const std::string& path) {
+  expects(checked_, "outputs that were checked");
+  const auto place = std::ranges::find(places_, path, &Place::path);
+  if (is_standard_output(path) || schema_of_file(path) != place->schema) return;
+  earlier_.push_back(path);
+}
+
+void Outputs::commit() {
+  for (OutputFile& file : files_) file.close();
+  for (OutputFile& file : files_) file.commit();
+  files_.clear();
+  made_folder_ = false;
+  for (const std::string& path : earlier_) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) {
+      throw InputError(path, "is of an earlier job and cannot be removed (" + error.message() +
+                                 "): do not use it");
+    }
+  }
+}
+
+}  // namespace trueaxis

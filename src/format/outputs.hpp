@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "format/output_file.hpp"
+
+namespace trueaxis {
+
+/// All that a command reads and all that it may write, held against each other by `check` before
+/// anything is written, and then written all or nothing. A file that is read is never written, by
+/// whatever name it goes; what is there and is no earlier result of the same kind is replaced only
+/// with `force`.
+///
+///     Outputs outputs(force);
+///     outputs.reads(stream);
+///     outputs.may_write(json, "trueaxis.fit");
+///     outputs.check();
+///     …
+///     outputs.write(json, text);
+///     outputs.commit();
+class Outputs {
+ public:
+  explicit Outputs(bool force = false) : force_(force) {}
+  ~Outputs();
+  Outputs(const Outputs&) = delete;
+  Outputs& operator=(const Outputs&) = delete;
+
+  /// A file that the command reads, "-" for standard input.
+  void reads(const std::string& path);
+  /// The folder of the results: `commit` makes it where the folder above it is there.
+  void into(const std::string& folder);
+  /// A file that the command may write, "-" for standard output; an empty path is a result that
+  /// nobody asked for. `schema` is what it will begin with, without the version ("trueaxis.fit");
+  /// empty: whoever writes it looks himself at what is there.
+  void may_write(const std::string& path, const std::string& schema);
+  /// The same for a file of the folder of the results.
+  void may_write_in_folder(const std::string& name, const std::string& schema);
+  std::string in_folder(const std::string& name) const;  ///< its path
+
+  /// @throws InputError with every place that must not or cannot be written.
+  void check();
+  /// Makes the folder of the results now, for what must be on disk before the end.
+  void make_folder();
+
+  /// A file that was named before, to be written in pieces. Nothing stands at its place yet.
+  OutputFile& open(const std::string& path);
+  /// The same at once; nothing is done for an empty path.
+  void write(const std::string& path, std::string_view content);
+  /// What an earlier run left at a place that was named goes when the results are in theirs.
+  void remove_earlier(const std::string& path);
+  /// Every file into its place, in the order in which they were opened. @throws InputError
+  void commit();
+
+ private:
+  struct Place {
+    std::string path, schema;
+  };
+  std::string objection(const Place& place) const;
+  std::string of_folder() const;
+
+  bool force_, checked_ = false, made_folder_ = false;
+  std::vector<std::string> inputs_;
+  std::string folder_;
+  std::vector<Place> places_;
+  std::vector<std::string> earlier_;
+  std::deque<OutputFile> files_;
+};
+
+/// The schema that the file at `path` says of itself, without its version: "trueaxis.fit", or ""
+/// for a file that TrueAxis did not write or that is not there. In JSON it is the first member, in
+/// CSV a comment line `# schema: …` (a stream: `##`, which is no metadata), in HTML the meta tag
+/// `generator`, in Markdown a comment.
+std::string schema_of_file(const std::string& path);
+
+/// The same of the first bytes of a file.
+std::string schema_in(std::string_view head);
+
+}  // namespace trueaxis
