@@ -99,7 +99,7 @@ std::string moves_with_axis(const JobResult& result) {
     if (!result.diagnoses[i]) continue;
     const Diagnosis& diagnosis = *result.diagnoses[i];
     const std::vector<Pass> passes =
-        i < result.streams.size() ? find_passes(result.streams[i]) : std::vector<Pass>{};
+        result.streams.at(i).size() > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
     const std::string next = diagnosis.next.what.empty()
                                  ? "probe again at another speed and another feed"
                                  : diagnosis.next.what;

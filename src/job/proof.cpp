@@ -23,7 +23,7 @@ constexpr double longest = 10.0;      // times the probed length
 
 /// What the readings' noise alone leaves of a reference's axis: its fit without influences.
 Covariance noise_of(const JobResult& result, std::size_t i) {
-  if (i >= result.streams.size()) return fit_used(result, i).axis.covariance;
+  if (result.streams.at(i).size() == 0) return fit_used(result, i).axis.covariance;
   FitOptions options = result.job.references[i].fit;
   options.influences.clear();
   const FitResult& used = fit_used(result, i);
