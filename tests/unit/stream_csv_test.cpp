@@ -269,9 +269,12 @@ TEST_F(StreamCsv, RoundTripIsBitwise) {
 
 TEST_F(StreamCsv, WriterLeavesNothingHalfWrittenAndKeepsItsContract) {
   ProbeStream s = read("X_M,C\n1,0\n2,90\n");
-  write_stream_csv(s, path("sub/folder/out.csv"));
-  EXPECT_EQ(read_file(path("sub/folder/out.csv")), "X_M[mm],C[rad]\n1,0\n2,1.5707963267948966\n");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "sub/folder"), {}), 1);
+  fs::create_directories(folder_ / "sub");
+  write_stream_csv(s, path("sub/out.csv"));
+  EXPECT_EQ(read_file(path("sub/out.csv")),
+            "## schema: trueaxis.stream/1\nX_M[mm],C[rad]\n1,0\n2,1.5707963267948966\n");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "sub"), {}), 1);
+  EXPECT_THROW(write_stream_csv(s, path("no/folder/out.csv")), InputError);
   fs::create_directories(folder_ / "taken/full");
   EXPECT_THROW(write_stream_csv(s, path("taken")), InputError);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 3);  // stream.csv, sub, taken
