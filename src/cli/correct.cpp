@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/correct.hpp"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <iostream>
 #include <memory>
 
@@ -24,13 +21,6 @@ struct Options {
   bool preview = false;
 };
 
-std::string at_speed(double rpm) {
-  if (!(rpm > 0.0)) return "at no speed";
-  const double down = std::floor(10.0 * rpm) / 10.0;
-  return rpm >= 10.0 ? fmt::format("at {:.0f} rpm or less", down)
-                     : fmt::format("at {:.2g} rpm or less", down);
-}
-
 int execute(const Options& options) {
   const FitResult fit = read_fit_json(options.fit);
   const Job job = read_target_toml(options.target);
@@ -40,8 +30,8 @@ int execute(const Options& options) {
   if (options.preview || options.table != "-") std::cout << correction_preview(correction);
   if (!follows) {
     if (!options.preview) remove_earlier_table(options.table);
-    throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; it would " +
-                  at_speed(correction.margin.max_speed_rpm));
+    throw Refusal("the actuator cannot follow: " + correction.margin.breaks + "; " +
+                  correction.margin.remedy);
   }
   return done;
 }
