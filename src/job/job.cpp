@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "job/cut_checks.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/verdict.hpp"
@@ -44,6 +45,7 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
   }
+  require_stock(result);
   diagnose_all(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });

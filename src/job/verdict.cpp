@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "job/cut_checks.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "trueaxis/units.hpp"
@@ -35,9 +36,9 @@ Verdict expected_cut(const JobResult& result) {
   const auto worst = std::ranges::max_element(
       result.target_axis->remainders, {},
       [&](const Remainder& r) { return r.coaxiality_mm + k * r.u_coaxiality_mm; });
-  // A following error that turns once a revolution moves the axis by its amplitude; all of it is
-  // taken as such.
-  verdict.coaxiality_after_mm = worst->coaxiality_mm + 2.0 * result.correction->margin.following_mm;
+  // A following error that turns once a revolution moves the axis by its amplitude (Eq. 116a).
+  verdict.coaxiality_after_mm =
+      worst->coaxiality_mm + 2.0 * result.correction->margin.following_once_mm;
   verdict.u_coaxiality_mm = worst->u_coaxiality_mm;
   return verdict;
 }
@@ -56,11 +57,7 @@ std::string numbers_of(const Verdict& v, TargetKind kind) {
 }
 
 std::string cannot_follow(const ActuatorMargin& margin) {
-  const std::string at_most =
-      margin.max_speed_rpm > 0.0
-          ? fmt::format("it would at {:.0f} rpm or less", std::floor(margin.max_speed_rpm))
-          : "it would not at any speed";
-  return "the actuator cannot follow: " + margin.breaks + "; " + at_most;
+  return "the actuator cannot follow: " + margin.breaks + "; " + margin.remedy;
 }
 
 /// Of the first reference whose findings the virtual lathe refutes; empty: of none.
@@ -88,6 +85,7 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
       return result.job.references[i].name + ": " + result.fits[i].message;
   }
   if (std::string slip = slip_objection(result); !slip.empty()) return slip;
+  if (std::string cut = cut_objection(result); !cut.empty()) return cut;
   if (result.correction) {
     if (!result.correction->margin.follows)
       return cannot_follow(result.correction->margin) + "; " +
