@@ -46,7 +46,7 @@ std::string at_place(const Place& place, bool face) {
 /// "12.3 µm" or "1.25 mm"
 std::string readable(double length_mm) {
   return std::abs(length_mm) < 1.0 ? fmt::format("{:.4g} µm", length_mm / mm_per_um)
-                                   : fmt::format("{:.6g} mm", length_mm);
+                                   : fmt::format("{:.4g} mm", length_mm);
 }
 
 /// A shaft to be cut in the hollow of a bore, or a bore outside of a shaft.

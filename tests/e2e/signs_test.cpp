@@ -27,7 +27,8 @@ class Signs : public CommandTest {
              cut);
     const CommandStreams done = command("run job.toml -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err << done.out;
-    for (const json& harmonic : result("out/result.json").at("correction").at("harmonics"))
+    const json harmonics = result("out/result.json").at("correction").at("harmonics");
+    for (const json& harmonic : harmonics)
       if (harmonic.at("order") == 1) return harmonic.at("phase_start").at("value").get<double>();
     return std::nan("");
   }

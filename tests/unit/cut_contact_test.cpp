@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <tuple>
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/units.hpp"
@@ -30,7 +31,13 @@ void PrintTo(const Case& c, std::ostream* out) {
        << " from " << c.z_start << " height " << c.height_mm << " at " << c.angle_deg;
 }
 
-constexpr double nose_mm = 0.8, feed_mm = 0.1, tilt = 1e-3;
+constexpr double nose_mm = 0.8, tilt = 1e-3;
+
+/// 0.1 mm along the wall; at 80° less, where the nose reaches r (1 − sin 80°) past its contact
+/// only.
+double feed_of(const Case& c) {
+  return (c.half_angle_deg > 70.0 ? 0.03 : 0.1) * std::cos(c.half_angle_deg * rad_per_deg);
+}
 
 TargetSurface target_of(const Case& c) {
   const double t = std::tan(c.half_angle_deg * rad_per_deg) * (c.opens_plus ? 1.0 : -1.0);
@@ -46,7 +53,7 @@ TargetSurface target_of(const Case& c) {
 
 ToolSetup tool_of(const Case& c) {
   ToolSetup tool;
-  tool.nose_radius_mm = nose_mm, tool.feed_mm_per_rev = feed_mm;
+  tool.nose_radius_mm = nose_mm, tool.feed_mm_per_rev = feed_of(c);
   tool.height_mm = c.height_mm, tool.angle_from_probe_rad = c.angle_deg * rad_per_deg;
   tool.sense = c.sense, tool.c_start_rad = 0.3;
   return tool;
@@ -117,47 +124,50 @@ TEST_P(CutContact, RunsOverTheTargetAndNotBeyond) {
     return (distance_mm(axis, x, y, z) - wanted) * (c.bore ? -1.0 : 1.0) / std::hypot(1.0, t);
   };
   const double up = c.z_end > c.z_start ? 1.0 : -1.0;
-  const double length = std::abs(c.z_end - c.z_start);
+  const double length = std::abs(c.z_end - c.z_start), feed_mm = feed_of(c);
+  /// The least that stands over one feed from there, and where.
   const auto least_about = [&](double theta, double from) {
     double least = 1e9, at = from;
     const int steps = 60;
     for (int i = 0; i <= steps; ++i) {
       const double z = c.z_start + up * (from + feed_mm * i / steps);
-      const double stands = stands_mm(theta, z);
-      if (stands < least) least = stands, at = z;
+      if (const double stands = stands_mm(theta, z); stands < least) least = stands, at = z;
     }
-    const auto [z, refined] =
-        boost::math::tools::brent_find_minima([&](double z) { return stands_mm(theta, z); },
-                                              at - feed_mm / steps, at + feed_mm / steps, 40);
-    return std::min(least, refined);
+    return boost::math::tools::brent_find_minima([&](double z) { return stands_mm(theta, z); },
+                                                 at - feed_mm / steps, at + feed_mm / steps, 40);
   };
-  // Rows are joined by lines: of A = 0.11 mm, A (π/360)²/2 = 4 nm at C between the rows. At the
-  // rows themselves 0.1 nm, the goal, of which the rows' straight programmed line is a part.
+  // Between two rows, joined by a line, A (π/360)²/2 = 4 nm of A = 0.11 mm are missing; at the rows
+  // themselves the goal is 0.1 nm. The edge of a row stands at asin(h/r) on.
   for (int i = 0; i < 12; ++i) {
     const double at_row = tool.c_start_rad + tool.sense * two_pi * 31.0 * i / 360.0;
     for (const double from : {feed_mm, 0.5 * length, length - 2.0 * feed_mm}) {
-      // Where the edge is at a row: the tool's point lies asin(h/r) on.
-      const double theta = at_row + tool.angle_from_probe_rad +
-                           std::asin(c.height_mm / part.surface_mm(at_row, c.z_start + up * from));
-      EXPECT_NEAR(least_about(theta, from), 0.0, 1e-7) << "C " << at_row << " from " << from;
+      double theta = at_row + tool.angle_from_probe_rad, z = c.z_start + up * from, least = 1.0;
+      for (int step = 0; step < 3; ++step) {
+        theta =
+            at_row + tool.angle_from_probe_rad + std::asin(c.height_mm / part.surface_mm(theta, z));
+        std::tie(z, least) = least_about(theta, from);
+      }
+      EXPECT_NEAR(least, 0.0, 1e-7) << "C " << at_row << " from " << from;
     }
   }
-  // At both ends the surface is cut within one turn of the feed, and beyond them it stands as high
-  // as the nose's circle about a contact at the end (its height over d is d² cos²/2r along the
-  // wall; the tilt moves the contact by r·tilt).
-  const double wall = 1.0 / std::cos(c.half_angle_deg * rad_per_deg);
+  // The nose's circle over the wall at d along Z from its contact, across the wall. A bore is the
+  // mirror image.
+  const auto circle_mm = [&](double d) {
+    const double slope = c.bore ? -t : t, secant = std::hypot(1.0, slope);
+    const double off = d + nose_mm * slope / secant;
+    return (nose_mm / secant - std::sqrt(nose_mm * nose_mm - off * off) - slope * d) / secant;
+  };
+  // The tilt moves the contact by r·tilt, and the first and the last contact at an angle lie up to
+  // one feed within the ends.
+  const double moved = 2.0 * nose_mm * tilt;
   for (double theta = 0.1; theta < 6.3; theta += 0.7) {
-    for (const double d : {0.3 * feed_mm, feed_mm}) {
-      const double off = std::max(0.0, d - 2.0 * nose_mm * tilt) * wall;
-      for (const double z : {c.z_start - up * d, c.z_end + up * d}) {
-        const double stands = stands_mm(theta, z);
+    for (const auto& [end, out] : {std::pair{c.z_start, -up}, std::pair{c.z_end, up}}) {
+      EXPECT_LT(stands_mm(theta, end), circle_mm(out * (feed_mm + moved))) << theta << ' ' << end;
+      for (const double d : {0.3 * feed_mm, feed_mm, 2.0 * feed_mm}) {
+        const double stands = stands_mm(theta, end + out * d);
         if (std::isnan(stands)) continue;  // the nose never was there
-        EXPECT_GT(stands, off * off / (2.0 * nose_mm) - 1e-5) << theta << ' ' << z;
+        EXPECT_GT(stands, circle_mm(out * std::max(0.0, d - moved)) - 1e-6) << theta << ' ' << d;
       }
-    }
-    for (const double z : {c.z_start, c.z_end}) {
-      const double most = (feed_mm + 2.0 * nose_mm * tilt) * wall;
-      EXPECT_LT(stands_mm(theta, z), 1.02 * most * most / (2.0 * nose_mm)) << theta << ' ' << z;
     }
   }
 }
@@ -210,30 +220,23 @@ TEST(CutContactRange, OfAFaceIsThatOfXAndItsZHoldsOnTheTargetAxis) {
     EXPECT_EQ(correction.position_start_mm, 30.0);
     EXPECT_EQ(correction.position_end_mm, 27.0);
     const virtual_lathe::CutPart part(program_of(face, tool), table_of(correction));
-    // A plane through what is left, at its marks' bottom: the least over one feed.
-    Eigen::MatrixXd columns(60, 3);
-    Eigen::VectorXd left(60);
-    for (int i = 0; i < 60; ++i) {
-      const double theta = 0.7 * i, at = 27.5 + 0.03 * i;
-      double bottom = 1e9, r_bottom = at;
-      for (int k = 0; k <= 200; ++k) {
-        const double r = at + feed_mm * k / 200.0, z = part.surface_mm(theta, r);
-        if (z < bottom) bottom = z, r_bottom = r;
+    const auto [x_axis, y_axis] = axis.at(5.0);
+    for (int i = 0; i < 12; ++i) {
+      const double theta = tool.c_start_rad + two_pi * 31.0 * i / 360.0;
+      double least = 1e9, through_spindle = 1e9;
+      for (int k = 0; k <= 4000; ++k) {
+        const double r = 28.0 + 0.1 * k / 4000.0, z = part.surface_mm(theta, r);
+        const double x = r * std::cos(theta), y = r * std::sin(theta);
+        least = std::min(least, z - (5.0 - 4e-3 * (x - x_axis) - 2e-3 * (y - y_axis)));
+        through_spindle = std::min(through_spindle, z - (5.0 - 4e-3 * x - 2e-3 * y));
       }
-      columns.row(i) << 1.0, r_bottom * std::cos(theta), r_bottom * std::sin(theta);
-      left[i] = bottom;
+      // Interpolation of the rows: 5 nm of A = 0.13 mm. The tool's height h shifts an edge of the
+      // face along itself only.
+      EXPECT_NEAR(least, 0.0, 6e-6) << theta;
+      // About the spindle axis it is off by slope times offset: z_mm is not that of this axis.
+      EXPECT_NEAR(through_spindle, 4e-3 * x_axis + 2e-3 * y_axis, 6e-6);
+      EXPECT_GT(std::abs(through_spindle), 3e-4);
     }
-    const Eigen::Vector3d plane = columns.colPivHouseholderQr().solve(left);
-    const auto [x, y] = axis.at(5.0);
-    // Interpolation of the rows (A = 0.13 mm: 5 nm) and the 0.5 µm steps of the search for a
-    // bottom.
-    EXPECT_NEAR(plane[0] + plane[1] * x + plane[2] * y, 5.0, 2e-5);
-    EXPECT_NEAR(plane[1], -4e-3, 2e-6);
-    EXPECT_NEAR(plane[2], -2e-3, 2e-6);
-    // On the spindle axis it is higher by the slope times the offset there: 0 shows which of the
-    // two axes z_mm belongs to.
-    EXPECT_NEAR(plane[0] - 5.0, 4e-3 * x + 2e-3 * y, 2e-5);
-    EXPECT_GT(std::abs(plane[0] - 5.0), 1e-4);
   }
 }
 
