@@ -32,7 +32,8 @@ struct Actuator {
   double following_limit_mm = 0.001;  ///< predicted following error that is still accepted
   bool precompensate = true;          ///< invert the response per harmonic
   std::vector<ResponsePoint>
-      measured;  ///< replaces the second-order model when there (ascending frequency)
+      measured;  ///< from the held set-point to the position, replaces the second-order model
+                 ///< when there (ascending frequency); delay_s and the hold are multiplied with it
 
   /// Position over set-point at a frequency ≥ 0 (e^{+iωt} convention): second order or measured
   /// response, delay, and the hold of the sampling: H = ω_n²/(ω_n² − ω² + 2iζω_nω) e^{−iωτ} sinc
@@ -93,8 +94,8 @@ struct TargetSurface {
   TargetKind kind = TargetKind::cylinder;
   bool bore = false;
   double z_start_mm = 0.0,
-         z_end_mm = 0.0;        ///< where the cut starts and ends, in the order of the feed
-  double radius_mm = 0.0;       ///< at z_start (cylinder, cone)
+         z_end_mm = 0.0;   ///< where the tool's contact starts and ends, in the order of the feed
+  double radius_mm = 0.0;  ///< at z_start (cylinder, cone)
   double tan_half_angle = 0.0;  ///< cone: signed, positive where the radius grows with Z
   double z_face_mm = 0.0;       ///< face: where the target axis meets it
   double radius_start_mm = 0.0, radius_end_mm = 0.0;  ///< face: X where the cut starts and ends
@@ -103,7 +104,8 @@ struct TargetSurface {
 /// Tool and cutting motion.
 struct ToolSetup {
   double nose_radius_mm = 0.0;
-  double height_mm = 0.0;  ///< Y of the cutting edge
+  double height_mm = 0.0;  ///< Y of the cutting edge in the tool's own frame: positive to the side
+                           ///< from which the surface comes when C grows
   double angle_from_probe_rad =
       0.0;                   ///< about the spindle from the probe to the tool; a turret behind: π
   double speed_rpm = 600.0;  ///< > 0
@@ -115,8 +117,8 @@ struct ToolSetup {
 
 /// The rows of a correction table, in the order in which they are run. For a face the actuator
 /// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
-/// Positions are those of the centre of the tool's nose. The rows are the fewest whole revolutions
-/// whose last row reaches the end.
+/// Positions are those of the centre of the tool's nose, so that the contact runs over the target.
+/// The rows are the fewest whole revolutions whose last row reaches the end.
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
@@ -143,11 +145,14 @@ struct ActuatorMargin {
   double set_points_per_revolution = 0.0;
   double following_uncompensated_mm = 0.0;  ///< peak, if the wanted profile were sent as it is
   double following_mm = 0.0;                ///< peak, with what X_command holds; steady run
+  double following_once_mm = 0.0;  ///< of it what turns once a revolution with the part, at the
+                                   ///< worst place: the axis of the cut moves by it (Eq. 116a)
   double following_limit_mm = 0.0;
   bool follows = false;
   std::string breaks;          ///< the numbers that break, empty when it follows
   double max_speed_rpm = 0.0;  ///< highest speed at which it would run (at most the bandwidth in
                                ///< revolutions a minute); 0: at none
+  std::string remedy;  ///< what would make it follow ("it would with …"), empty when it follows
 };
 
 /// An error motion of the machine that the probe saw along X and that repeats while cutting. The
@@ -165,6 +170,9 @@ struct Correction {
   Actuator actuator;
   AxisEstimate axis;                     ///< the target axis
   std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
+  /// Where the programmed path of the nose's centre starts and ends, Z (a face: X): the contact
+  /// then runs from the target's start to its end.
+  double position_start_mm = 0.0, position_end_mm = 0.0;
   CorrectionRows rows;
   std::vector<CorrectionHarmonic> harmonics;
   ActuatorMargin margin;

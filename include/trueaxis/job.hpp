@@ -41,6 +41,9 @@ struct Job {
   std::optional<TargetSurface> target;
   std::optional<double>
       coaxiality_tolerance_mm;  ///< ISO 1101, a diameter; of a face its axial run-out
+  /// The most that may be removed over the target as clamped, in radius (a face: along Z). Needed
+  /// where the target lies on the probed length of a reference.
+  std::optional<double> stock_mm;
   ToolSetup tool;
   Actuator actuator;
   /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
@@ -114,6 +117,8 @@ const FitResult& fit_used(const JobResult& result, std::size_t reference);
 /// Fit, diagnosis, the diagnosed measured again by the virtual lathe, target axis, correction, and
 /// the verdict, which is final. Streams come read, one per reference. Where the cut is refused (a
 /// tool that does not meet the target), the reason is the verdict's and nothing is thrown.
+/// @throws InputError as fit() does, and when the target lies on the probed length of a reference
+///         and the job does not say its stock.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 
 }  // namespace trueaxis

@@ -23,11 +23,13 @@ struct CutTable {
 /// The part as the tool leaves it, fixed in the spindle frame.
 ///
 /// The control feeds the nose centre along the section of the target at the tool's height, offset
-/// by the nose radius; the actuator adds its displacement. The table is interpolated linearly in C
+/// by the nose radius, from where the nose touches the target's start to where it touches its end;
+/// the actuator adds its displacement. The table is interpolated linearly in C
 /// at the actuator's sampling instants and held; the second-order equation is solved exactly from
 /// hold to hold. The surface is the envelope of the circular nose edge over the revolutions (with
 /// nose radius 0 straight between two of them), so feed marks are there. Before the first row and
-/// after the last the tool runs on along the path: the table is continued linearly, angle by angle.
+/// after the last the tool runs on along the path (CutProgram::runs_on): the table is continued
+/// linearly, angle by angle.
 class CutPart {
  public:
   /// @throws InputError when table and program contradict each other.

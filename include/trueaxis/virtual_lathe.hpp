@@ -24,7 +24,7 @@ struct CutTarget {
   CutKind kind = CutKind::cylinder;
   bool bore = false;
   double start_mm = 0.0,
-         end_mm = 0.0;          ///< Z (face: X) of the nose centre, in the order of the feed
+         end_mm = 0.0;          ///< Z (face: X) of the contact, in the order of the feed
   double radius_mm = 0.0;       ///< at start (cylinder, cone)
   double half_angle_rad = 0.0;  ///< cone: signed, > 0 where the radius grows with Z
   double z_face_mm = 0.0;
@@ -54,7 +54,8 @@ struct CutProgram {
   CutTool tool;
   CutActuator actuator;
   CutUse use = CutUse::command;
-  std::string table;  ///< file name of the table; not needed for CutUse::none
+  std::string table;    ///< file name of the table; not needed for CutUse::none
+  bool runs_on = true;  ///< the tool runs in before the programmed path and out after it
 };
 
 }  // namespace trueaxis::virtual_lathe
@@ -90,10 +91,11 @@ struct Probe {
 /// What was done before the passes of a set-up. Without x0 … m of its own the part's axis stays.
 struct Chucking {
   int number = 1;
-  double reindex_rad = 0.0;        ///< the part turned about its own axis, in the sense of C
-  double z_shift_mm = 0.0;         ///< the part moved along Z
-  bool rear = false;               ///< probed from the rear side: the smaller X
-  double x_jog_mm = 0.0;           ///< slide moved in X, sensor and machine still adding up to X
+  double reindex_rad = 0.0;  ///< the part turned about its own axis in the sense of C, as the
+                             ///< spindle turns it: a mark at C = 10° then stands at 10° − this
+  double z_shift_mm = 0.0;   ///< the part moved along Z
+  bool rear = false;         ///< probed from the rear side: the smaller X
+  double x_jog_mm = 0.0;     ///< slide moved in X, sensor and machine still adding up to X
   double clamp_force_ratio = 1.0;  ///< scales what the jaws do
   std::optional<double> x0_mm, y0_mm, l, m;
 };

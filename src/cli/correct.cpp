@@ -123,7 +123,7 @@ int execute(const Options& options) {
   outputs.check();
   conclude(result);
   const Verdict& verdict = result.verdict;
-  const bool cut = verdict.go && result.correction;
+  const bool cut = verdict.go() && result.correction;
   if (!options.preview) {
     if (cut) {
       outputs.write(options.table, correction_csv(*result.correction));

@@ -7,6 +7,7 @@
 #include "correct/margin.hpp"
 #include "correct/precompensate.hpp"
 #include "correct/profile.hpp"
+#include "correct/remedy.hpp"
 #include "correct/spectrum.hpp"
 
 namespace trueaxis {
@@ -30,10 +31,6 @@ CorrectionRows wanted_rows(const Profile& profile) {
   return rows;
 }
 
-double end_mm(const TargetSurface& target) {
-  return target.kind == TargetKind::face ? target.radius_end_mm : target.z_end_mm;
-}
-
 }  // namespace
 
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
@@ -48,9 +45,11 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.motions = std::move(motions);
 
   const Profile profile(axis.axis, target, tool, correction.motions);
+  correction.position_start_mm = profile.position_start_mm();
+  correction.position_end_mm = profile.position_end_mm();
   correction.rows = wanted_rows(profile);
   correction.rows.command_mm = correction.rows.wanted_mm;
-  correction.harmonics = table_harmonics(profile, end_mm(target), actuator);
+  correction.harmonics = table_harmonics(profile, actuator);
 
   const Spectrum spectrum(profile);
   if (actuator.precompensate) {
@@ -60,6 +59,8 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   const double searched_rpm = max_speed_rpm(spectrum, profile, actuator);
   correction.margin.max_speed_rpm =
       correction.margin.follows ? std::max(searched_rpm, tool.speed_rpm) : searched_rpm;
+  if (!correction.margin.follows)
+    correction.margin.remedy = remedy(spectrum, profile, actuator, searched_rpm);
   return correction;
 }
 

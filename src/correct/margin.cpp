@@ -50,13 +50,12 @@ std::vector<Complex> image_sum(const Actuator& actuator, int images, Weight weig
   return sum;
 }
 
-Chain make_chain(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
-                 double speed_rpm) {
+Chain make_chain(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator) {
   Chain chain;
-  chain.motion = motion_of(profile, speed_rpm);
+  chain.motion = motion;
   chain.paths = harmonic_paths(actuator, chain.motion, spectrum.orders());
   const int rows = chain.motion.rows_per_revolution;
-  const double turns_hz = speed_rpm / 60.0;
+  const double turns_hz = motion.omega_rad_per_s / two_pi;
   for (const int n : spectrum.orders()) {
     const double kept = kept_by_interpolation(n, rows);
     chain.between_rows.push_back(image_sum(
@@ -115,12 +114,33 @@ double peak_over_phases(const Chain& chain, const std::vector<Complex>& base,
 /// Demands of one place along the cut, largest over a revolution.
 struct Demand {
   Extremes command;
-  double slew_mm_per_s = 0.0, following_mm = 0.0;
+  double slew_mm_per_s = 0.0, following_mm = 0.0, following_once_mm = 0.0;
 };
 
+/// What turns once a revolution with the part, Eq. 116a: the first harmonic's own error, and the
+/// images n + kM = ±1 of others (those of the set-points are locked to the revolution nowhere).
+double once_a_revolution(const Chain& chain, const std::vector<Complex>& following,
+                         const std::vector<Complex>& command, const Actuator& actuator) {
+  const int rows = chain.motion.rows_per_revolution;
+  Complex once;
+  for (std::size_t k = 0; k < chain.paths.size(); ++k) {
+    const int n = chain.paths[k].order;
+    if (n == 1) once += following[k];
+    if (n < 2) continue;
+    for (const int image : {-1, 1}) {
+      if ((image - n) % rows != 0) continue;
+      const double share = kept_by_interpolation(n, rows) * n * n;
+      const Complex one = share * command[k] *
+                          signed_response(actuator, image * chain.motion.omega_rad_per_s / two_pi);
+      once += image > 0 ? one : std::conj(one);
+    }
+  }
+  return std::abs(once);
+}
+
 /// Eq. 116.
-Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted, bool precompensated,
-                 const std::vector<Complex>& turn) {
+Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted,
+                 const Actuator& actuator, bool precompensated, const std::vector<Complex>& turn) {
   const std::size_t orders = chain.paths.size();
   std::vector<Complex> command(orders), velocity(orders), following(orders);
   for (std::size_t k = 0; k < orders; ++k) {
@@ -142,6 +162,7 @@ Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted, b
   demand.following_mm = peak_over_phases(chain, following, command, chain.between_rows, turn) +
                         peak_over_phases(chain, std::vector<Complex>(orders), command,
                                          chain.between_set_points, turn);
+  demand.following_once_mm = once_a_revolution(chain, following, command, actuator);
   return demand;
 }
 
@@ -179,9 +200,8 @@ void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm)
 
 }  // namespace
 
-ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
-                         double speed_rpm) {
-  const Chain chain = make_chain(spectrum, profile, actuator, speed_rpm);
+ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator) {
+  const Chain chain = make_chain(spectrum, motion, actuator);
   std::vector<Complex> turn(angles);
   for (int i = 0; i < angles; ++i) {
     turn[static_cast<std::size_t>(i)] = std::polar(1.0, two_pi * i / angles);
@@ -193,12 +213,14 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const
   for (int place = 0; place < places; ++place) {
     const double share = static_cast<double>(place) / (places - 1);
     spectrum.at(spectrum.start_mm() + share * (spectrum.end_mm() - spectrum.start_mm()), wanted);
-    const Demand plain = demand_at(chain, wanted, false, turn);
-    const Demand sent = actuator.precompensate ? demand_at(chain, wanted, true, turn) : plain;
+    const Demand plain = demand_at(chain, wanted, actuator, false, turn);
+    const Demand sent =
+        actuator.precompensate ? demand_at(chain, wanted, actuator, true, turn) : plain;
     command.low = std::min(command.low, sent.command.low);
     command.high = std::max(command.high, sent.command.high);
     margin.slew_used_mm_per_s = std::max(margin.slew_used_mm_per_s, sent.slew_mm_per_s);
     margin.following_mm = std::max(margin.following_mm, sent.following_mm);
+    margin.following_once_mm = std::max(margin.following_once_mm, sent.following_once_mm);
     margin.following_uncompensated_mm =
         std::max(margin.following_uncompensated_mm, plain.following_mm);
     for (std::size_t k = 0; k < wanted.size(); ++k) {
@@ -210,12 +232,18 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const
   margin.stroke_used_mm = command.high - command.low;
   margin.stroke_available_mm = actuator.stroke_mm * (1.0 - actuator.stroke_reserve);
   margin.slew_available_mm_per_s = actuator.slew_mm_per_s;
-  margin.highest_frequency_hz = highest_order * speed_rpm / 60.0;
+  const double turns_hz = motion.omega_rad_per_s / two_pi;
+  margin.highest_frequency_hz = highest_order * turns_hz;
   margin.bandwidth_hz = actuator.bandwidth_hz();
-  margin.set_points_per_revolution = actuator.sampling_hz / (speed_rpm / 60.0);
+  margin.set_points_per_revolution = actuator.sampling_hz / turns_hz;
   margin.following_limit_mm = actuator.following_limit_mm;
   judge(margin, highest_order, actuator.following_limit_mm);
   return margin;
+}
+
+ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                         double speed_rpm) {
+  return margin_at(spectrum, motion_of(profile, speed_rpm), actuator);
 }
 
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator) {

@@ -11,6 +11,9 @@ namespace trueaxis {
 ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
                          double speed_rpm);
 
+/// The same of a run that differs from the profile's in its rows a revolution too.
+ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator);
+
 /// The highest speed at which margin_at follows; 0: at none. Never above the actuator's bandwidth
 /// in revolutions.
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator);

@@ -52,16 +52,18 @@ Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup&
   const bool face = target.kind == TargetKind::face;
   expects(motions_.empty() || (!face && side_of_tool(tool.angle_from_probe_rad) != 0),
           "a motion seen along X only for a tool along X");
-  start_mm_ = face ? target.radius_start_mm : target.z_start_mm;
-  const double travel = (face ? target.radius_end_mm : target.z_end_mm) - start_mm_;
-  feed_mm_per_rev_ = std::copysign(tool.feed_mm_per_rev, travel);
-
   const double z_ref = face ? target.z_face_mm : target.z_start_mm;
   const auto [x, y] = axis.at(z_ref);
   about_target_ = {
       {x, y, axis.slope_x, axis.slope_y, z_ref}, target.radius_mm, target.tan_half_angle};
   about_spindle_ = {{0.0, 0.0, 0.0, 0.0, z_ref}, target.radius_mm, target.tan_half_angle};
 
+  start_mm_ = face ? target.radius_start_mm : centre_over_mm(target.z_start_mm);
+  end_mm_ = face ? target.radius_end_mm : centre_over_mm(target.z_end_mm);
+  const double travel = end_mm_ - start_mm_;
+  if (!face && !(travel * (target.z_end_mm - target.z_start_mm) > 0.0))
+    refuse_miss("the tool's nose does not fit the target surface", tool.c_start_rad, start_mm_);
+  feed_mm_per_rev_ = std::copysign(tool.feed_mm_per_rev, travel);
   const double per_rev = tool.rows_per_revolution;
   const double last = std::ceil(std::abs(travel) / tool.feed_mm_per_rev * per_rev - 1e-6);
   const double revolutions = std::floor(last / per_rev) + 1.0;
@@ -86,6 +88,14 @@ double Profile::at(double c_rad, double position_mm) const {
   return nose_centre_mm(about_target_, c_rad, position_mm) -
          nose_centre_mm(about_spindle_, c_rad, position_mm) +
          side_of_tool(tool_.angle_from_probe_rad) * followed;
+}
+
+// A face is touched at the X of the nose's centre: its section has no slope.
+double Profile::centre_over_mm(double z_mm) const {
+  const Intersection hit = intersect(about_spindle_, 0.0, z_mm, tool_.height_mm);
+  if (!hit.hit) refuse_miss("the tool's line passes the target surface by", 0.0, z_mm);
+  const double nose = target_.bore ? -tool_.nose_radius_mm : tool_.nose_radius_mm;
+  return z_mm - nose * hit.dx_dz / std::sqrt(1.0 + hit.dx_dz * hit.dx_dz);
 }
 
 // The tool's line in its own frame is Y = height; that frame is the probe's turned by the angle

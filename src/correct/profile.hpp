@@ -21,7 +21,10 @@ class Profile {
   /// @throws Refusal where the tool's line or nose does not meet the target surface.
   double at(double c_rad, double position_mm) const;
 
+  /// Where the programmed path of the nose's centre starts and ends: the contact with the surface
+  /// about the spindle axis then runs over the target from its start to its end.
   double position_start_mm() const { return start_mm_; }
+  double position_end_mm() const { return end_mm_; }
   /// Along the feed, mm per revolution, with the sign of the direction.
   double feed_mm_per_rev() const { return feed_mm_per_rev_; }
   /// Rows of the table: the fewest whole revolutions of which the last row reaches the
@@ -33,6 +36,8 @@ class Profile {
   const ToolSetup& tool() const { return tool_; }
 
  private:
+  /// Z of the nose's centre when it touches the surface about the spindle axis at `z_mm`.
+  double centre_over_mm(double z_mm) const;
   /// Eq. 109.
   double nose_centre_mm(const Revolved& surface, double c_rad, double z_mm) const;
   /// Eq. 110.
@@ -42,7 +47,7 @@ class Profile {
   ToolSetup tool_;
   std::vector<RepeatingMotion> motions_;
   Revolved about_target_, about_spindle_;
-  double start_mm_ = 0.0, feed_mm_per_rev_ = 0.0;
+  double start_mm_ = 0.0, end_mm_ = 0.0, feed_mm_per_rev_ = 0.0;
   std::size_t rows_ = 0;
 };
 

@@ -53,12 +53,11 @@ std::vector<Complex> harmonics_at(const Profile& profile, double position_mm, in
   return amplitude;
 }
 
-std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, double position_end_mm,
-                                                const Actuator& actuator) {
+std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, const Actuator& actuator) {
   constexpr int highest = 8;
   const ToolSetup& tool = profile.tool();
   const std::vector<Complex> start = harmonics_at(profile, profile.position_start_mm(), highest);
-  const std::vector<Complex> end = harmonics_at(profile, position_end_mm, highest);
+  const std::vector<Complex> end = harmonics_at(profile, profile.position_end_mm(), highest);
   std::vector<CorrectionHarmonic> harmonics;
   for (int n = 0; n <= highest; ++n) {
     const Complex a = start[static_cast<std::size_t>(n)], b = end[static_cast<std::size_t>(n)];

@@ -16,8 +16,7 @@ std::vector<std::complex<double>> harmonics_at(const Profile& profile, double po
 
 /// The harmonics that a table holds, cos convention in C, at both ends of the cut: orders 0 to 8
 /// above 1 nm. Order 0 is the signed mean (phase 0).
-std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, double position_end_mm,
-                                                const Actuator& actuator);
+std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, const Actuator& actuator);
 
 /// One harmonic a_n as it varies along the cut.
 struct SlowAmplitude {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "job/cut_checks.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
@@ -23,6 +24,7 @@ void correct(JobResult& result) {
 }  // namespace
 
 void conclude(JobResult& result) {
+  require_stock(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   const bool slipped = std::ranges::any_of(

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "job/cut_checks.hpp"
 #include "job/doubts.hpp"
 #include "job/proof.hpp"
 #include "job/references.hpp"
@@ -29,10 +30,9 @@ double coaxiality_uncorrected(const std::vector<Reference>& references,
   return worst;
 }
 
-/// Of the following error, what turns once a revolution moves the axis by its amplitude; all of it
-/// is taken as such.
+/// What of the following error turns once a revolution moves the axis by its amplitude (Eq. 116a).
 double left_by_actuator_mm(const JobResult& result) {
-  return 2.0 * result.correction->margin.following_mm;
+  return 2.0 * result.correction->margin.following_once_mm;
 }
 
 CoaxialityDistribution distribution_of(const JobResult& result,
@@ -71,11 +71,7 @@ std::string numbers_of(const Verdict& v, TargetKind kind) {
 }
 
 std::string cannot_follow(const ActuatorMargin& margin) {
-  const std::string at_most =
-      margin.max_speed_rpm > 0.0
-          ? fmt::format("it would at {:.0f} rpm or less", std::floor(margin.max_speed_rpm))
-          : "it would not at any speed";
-  return "the actuator cannot follow: " + margin.breaks + "; " + at_most;
+  return "the actuator cannot follow: " + margin.breaks + "; " + margin.remedy;
 }
 
 /// Of the first reference whose findings the virtual lathe refutes; empty: of none.
@@ -104,6 +100,7 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
   }
   if (std::string slip = slip_objection(result); !slip.empty()) return slip;
   if (!result.refused.empty()) return result.refused;
+  if (std::string cut = cut_objection(result); !cut.empty()) return cut;
   if (result.correction) {
     if (!result.correction->margin.follows)
       return cannot_follow(result.correction->margin) + "; " +
@@ -170,11 +167,12 @@ Verdict decide(const JobResult& result) {
     return not_proven(std::move(verdict), why);
   const std::vector<OpenAxis> open = open_axes(result);
   for (const OpenAxis& o : open) verdict.reservations.push_back(o.why);
+  for (std::string& why : cut_reservations(result)) verdict.reservations.push_back(std::move(why));
   if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
     if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
     const double if_ideal_mm = open.empty() ? 0.0 : upper_if_ideal_mm(result, open);
-    if (!(if_ideal_mm <= *tolerance_mm)) {
+    if (if_ideal_mm > *tolerance_mm) {
       return not_proven(
           std::move(verdict),
           fmt::format("{}; were the axis where the ideal fit has it, the coaxiality would be up to "

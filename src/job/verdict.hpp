@@ -7,9 +7,10 @@ namespace trueaxis {
 
 /// The whole decision about a job, from fits, diagnoses, resimulations, inclusions, target axis and
 /// correction; Eq. 120. No go, in this order: a fit that failed; a slip of the part; a cut
-/// that is refused; an actuator that cannot follow; no uncertainty; a motion that must not enter the correction; findings that
-/// the virtual lathe refutes (refuted()). Not proven: something found that goes with the axis. Then
-/// the tolerance, and what is to be said beside a go.
+/// that is refused or that geometry forbids; an actuator that cannot follow; no uncertainty; a
+/// motion that must not enter the correction; findings that the virtual lathe refutes (refuted()).
+/// Not proven: something found that goes with the axis. Then the tolerance, and what is to be said
+/// beside a go.
 Verdict decide(const JobResult& result);
 
 }  // namespace trueaxis

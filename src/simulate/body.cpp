@@ -53,8 +53,9 @@ Body::Body(const Scenario& scenario, const Chain& chain)
 
 double Body::gap(const Vec3& in_part, const Chucking& setup) const {
   Vec3 p = in_part;
-  if (!chain_.bend.empty()) {  // fixed to the part: it turns with the re-indexing
-    const double cosine = std::cos(setup.reindex_rad), sine = std::sin(setup.reindex_rad);
+  // The part turned in the sense of C, as the spindle turns it, so that a mark stands at less C.
+  if (!chain_.bend.empty()) {
+    const double cosine = std::cos(setup.reindex_rad), sine = -std::sin(setup.reindex_rad);
     for (const auto& bend : chain_.bend) {
       const Vec3 away = bend(in_part.z);
       p = p - Vec3{away.x * cosine - away.y * sine, away.x * sine + away.y * cosine, away.z};
@@ -64,7 +65,7 @@ double Body::gap(const Vec3& in_part, const Chucking& setup) const {
   if (!chain_.form.empty()) {
     SurfacePoint point;
     point.chuck_theta_rad = std::atan2(p.y, p.x);
-    point.theta_rad = point.chuck_theta_rad - setup.reindex_rad;
+    point.theta_rad = point.chuck_theta_rad + setup.reindex_rad;
     point.s_mm = face_ ? std::hypot(p.x, p.y) : p.z;
     point.u = span_.u(point.s_mm);
     point.clamp = setup.clamp_force_ratio;

@@ -33,10 +33,15 @@ double section_mm(const CutProgram& program, double z_mm) {
   return std::sqrt(std::max(0.0, radius * radius - h * h));
 }
 
-/// Nose centre that touches the section and cuts into it nowhere: the extreme of section + circle.
-double touching_centre_mm(const CutProgram& program, double z_centre_mm) {
+/// Depth of a nose centre that touches the section and cuts into it nowhere, and where it touches.
+struct Touch {
+  double centre_depth_mm = 0.0, z_mm = 0.0;
+};
+
+/// The extreme of section + circle.
+Touch touching(const CutProgram& program, double z_centre_mm) {
   const double nose = program.tool.nose_radius_mm;
-  if (nose == 0.0) return section_mm(program, z_centre_mm);
+  if (nose == 0.0) return {section_mm(program, z_centre_mm), z_centre_mm};
   const double side = program.target.bore ? -1.0 : 1.0;
   const auto negative = [&](double phi) {
     const double z = z_centre_mm + nose * std::sin(phi);
@@ -44,7 +49,20 @@ double touching_centre_mm(const CutProgram& program, double z_centre_mm) {
   };
   const auto [phi, least] =
       boost::math::tools::brent_find_minima(negative, -0.25 * two_pi, 0.25 * two_pi, 50);
-  return -side * least;
+  return {-side * least, z_centre_mm + nose * std::sin(phi)};
+}
+
+/// Where the nose's centre is when it touches the section at z: bisection, the contact follows the
+/// centre. A face is touched at the centre's own place.
+double centre_touching_at(const CutProgram& program, double z_mm) {
+  const double nose = program.tool.nose_radius_mm;
+  if (nose == 0.0 || program.target.kind == CutKind::face) return z_mm;
+  double low = z_mm - nose, high = z_mm + nose;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (touching(program, middle).z_mm < z_mm ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
 }
 
 /// y'' + 2 ζ ω y' + ω² y = ω² u for a held u, solved exactly: with complex eigenvalues s1, s2 of
@@ -96,16 +114,16 @@ class SecondOrderServo {
 }  // namespace
 
 ToolPath::ToolPath(const CutProgram& program, const CutTable& table)
-    : start_mm_(program.target.start_mm) {
+    : start_mm_(centre_touching_at(program, program.target.start_mm)) {
   const CutTool& tool = program.tool;
-  const double travel = program.target.end_mm - start_mm_;
+  const double travel = centre_touching_at(program, program.target.end_mm) - start_mm_;
   if (travel == 0.0 || !(tool.feed_mm_per_rev > 0.0) || !(tool.speed_rpm > 0.0) ||
       (tool.sense != 1 && tool.sense != -1)) {
     throw InputError("cut", "needs two different ends, feed > 0, speed > 0 and a sense of 1 or -1");
   }
   feed_mm_ = std::copysign(tool.feed_mm_per_rev, travel);
   turns_ = std::abs(travel) / tool.feed_mm_per_rev;
-  lead_turns_ = std::ceil(tool.nose_radius_mm / tool.feed_mm_per_rev) + 2.0;
+  if (program.runs_on) lead_turns_ = std::ceil(tool.nose_radius_mm / tool.feed_mm_per_rev) + 2.0;
   corrected_ = program.use != CutUse::none;
   perfect_ = program.actuator.perfect;
   if (corrected_) load(program, table);
@@ -154,7 +172,7 @@ void ToolPath::program_line(const CutProgram& program) {
     const double turn = first_turn() + i / line_per_turn;
     line_mm_.push_back(program.target.kind == CutKind::face
                            ? program.target.z_face_mm + program.tool.nose_radius_mm
-                           : touching_centre_mm(program, position_mm(turn)));
+                           : touching(program, position_mm(turn)).centre_depth_mm);
   }
 }
 

@@ -34,6 +34,11 @@ std::string format(const char* text, double value) {
   return line;
 }
 
+/// A bore is opened, a shaft turned down: its own material is there.
+std::string target_radius(const Case& c) {
+  return c.bore ? "radius_mm = 34\n" : "radius_mm = 30\n";
+}
+
 std::string reference_scenario(const Case& c) {
   return std::string("seed = 4711\n[part]\nkind = \"cylinder\"\n") +
          (c.bore ? "bore = true\n" : "") + format("x0_mm = %.17g\n", x0) +
@@ -49,9 +54,10 @@ std::string job(const Case& c) {
       (c.bore ? "feature = \"bore\"\n" : "") + "[target]\n" +
       (c.cone_target ? "surface = \"cone\"\nhalf_angle_deg = 10\nopens = \"+z\"\n"
                      : "surface = \"cylinder\"\n") +
-      (c.bore ? "feature = \"bore\"\n" : "") + "radius_mm = 30\n" +
+      (c.bore ? "feature = \"bore\"\n" : "") + target_radius(c) +
       format("z_start_mm = %g\n", z_start) + format("z_end_mm = %g\n", z_end) +
-      "coaxiality_tolerance_um = 10\n[cut]\nspeed_rpm = 600\nfeed_mm_per_rev = 0.1\n";
+      "coaxiality_tolerance_um = 10\nstock_um = 8000\n[cut]\nspeed_rpm = 600\nfeed_mm_per_rev = "
+      "0.1\n";
   text += format("nose_radius_mm = %g\n", c.nose_mm) +
           format("tool_height_mm = %g\n", c.tool_height_mm) +
           format("angle_from_probe_deg = %g\n", c.tool_angle_deg);
@@ -64,7 +70,7 @@ std::string cut_scenario(const Case& c, const char* use) {
       std::string("seed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 30\n[cut]\nuse = \"") + use +
       "\"\n" + "[cut.target]\n" +
       (c.cone_target ? "kind = \"cone\"\nhalf_angle_deg = 10\n" : "kind = \"cylinder\"\n") +
-      (c.bore ? "bore = true\n" : "") + "radius_mm = 30\n" + format("z_start_mm = %g\n", z_start) +
+      (c.bore ? "bore = true\n" : "") + target_radius(c) + format("z_start_mm = %g\n", z_start) +
       format("z_end_mm = %g\n", z_end) + "[cut.tool]\nspeed_rpm = 600\nfeed_mm_per_rev = 0.1\n";
   text += format("nose_radius_mm = %g\n", c.nose_mm) +
           format("height_mm = %g\n", c.tool_height_mm) +

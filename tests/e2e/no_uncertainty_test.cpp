@@ -11,7 +11,8 @@ namespace trueaxis::testing {
 namespace {
 
 constexpr const char* target =
-    "[target]\nsurface = \"cylinder\"\nradius_mm = 30\nz_start_mm = 40\nz_end_mm = 20\n"
+    "[target]\nsurface = \"cylinder\"\nradius_mm = 30\nz_start_mm = 40\nz_end_mm = 20\nstock_um = "
+    "9000\n"
     "coaxiality_tolerance_um = 10\n[cut]\nspeed_rpm = 600\nsense = \"+c\"\nfeed_mm_per_rev = 0.1\n";
 
 /// Readings of a circle of 32 mm, 50 µm off along x, by its closed form; `count` of them along a

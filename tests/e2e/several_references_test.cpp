@@ -16,7 +16,7 @@ class SeveralReferences : public CommandTest {
   json run(const std::string& references) {
     file("job.toml", references +
                          "[target]\nsurface = \"cylinder\"\nradius_mm = 20\nz_start_mm = 40\n"
-                         "z_end_mm = 20\n[cut]\nspeed_rpm = 300\nsense = \"+c\"\n"
+                         "z_end_mm = 20\nstock_um = 20000\n[cut]\nspeed_rpm = 300\nsense = \"+c\"\n"
                          "feed_mm_per_rev = 0.5\n");
     const CommandStreams done = command("run job.toml -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err;

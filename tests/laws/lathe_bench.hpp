@@ -87,7 +87,7 @@ struct LatheColumns {
                          intersect(surface, c[i] - step, z[i], 0.0, root).dx_dc) /
                         (2.0 * step));
       add_contact(at.x_mm * std::cos(c[i]), at.x_mm * std::sin(c[i]), z[i]);
-      theta.push_back(chuck.back() - (second ? LatheBench::reindex_rad : 0.0));
+      theta.push_back(chuck.back() + (second ? LatheBench::reindex_rad : 0.0));
       clamp.push_back(second ? LatheBench::clamp : 1.0);
     }
   }

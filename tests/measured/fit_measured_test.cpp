@@ -85,11 +85,12 @@ class MeasuredJob : public CommandTest {};
 TEST_F(MeasuredJob, TubeToATable) {
   const std::string path = measured("tube_6in.csv");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
-  file("job.toml", "[[reference]]\nname = \"tube\"\nstream = \"" +
-                       std::filesystem::absolute(path).string() +
-                       "\"\nsurface = \"cylinder\"\n[target]\nsurface = \"cylinder\"\n"
-                       "radius_mm = 74\nz_start_mm = 20\nz_end_mm = 0\n[cut]\nspeed_rpm = 300\n"
-                       "sense = \"+c\"\nfeed_mm_per_rev = 0.2\nnose_radius_mm = 0.8\n");
+  file(
+      "job.toml",
+      "[[reference]]\nname = \"tube\"\nstream = \"" + std::filesystem::absolute(path).string() +
+          "\"\nsurface = \"cylinder\"\n[target]\nsurface = \"cylinder\"\n"
+          "radius_mm = 74\nz_start_mm = 20\nz_end_mm = 0\nstock_um = 5000\n[cut]\nspeed_rpm = 300\n"
+          "sense = \"+c\"\nfeed_mm_per_rev = 0.2\nnose_radius_mm = 0.8\n");
   const CommandStreams done = command("run job.toml -o out");
   ASSERT_EQ(done.exit_code, 0) << done.err << done.out;
   EXPECT_EQ(files_in(folder_ / "out"),

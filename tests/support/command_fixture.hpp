@@ -44,11 +44,12 @@ class CommandTest : public ::testing::Test {
 inline std::string simple_job(const std::string& reference, double speed_rpm = 600.0,
                               double tolerance_um = 20.0) {
   char cut[400];
-  std::snprintf(cut, sizeof cut,
-                "\n[target]\nsurface = \"cylinder\"\nradius_mm = 28\nz_start_mm = 40\n"
-                "z_end_mm = 36\ncoaxiality_tolerance_um = %g\n[cut]\nspeed_rpm = %g\n"
-                "sense = \"+c\"\nfeed_mm_per_rev = 0.1\n",
-                tolerance_um, speed_rpm);
+  std::snprintf(
+      cut, sizeof cut,
+      "\n[target]\nsurface = \"cylinder\"\nradius_mm = 28\nz_start_mm = 40\n"
+      "z_end_mm = 36\nstock_um = 20000\ncoaxiality_tolerance_um = %g\n[cut]\nspeed_rpm = %g\n"
+      "sense = \"+c\"\nfeed_mm_per_rev = 0.1\n",
+      tolerance_um, speed_rpm);
   return "[[reference]]\n" + reference + cut;
 }
 

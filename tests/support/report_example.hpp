@@ -140,8 +140,8 @@ inline Correction cylinder_correction(const AxisEstimate& axis) {
   correction.margin = {2.0 * start, 0.54,   start * two_pi * 10.0,
                        200.0,       20.0,   600.0,
                        2000.0,      0.0028, 4.1e-5,
-                       0.001,       true,   "",
-                       2950.0};
+                       2.0e-5,      0.001,  true,
+                       "",          2950.0, ""};
   return correction;
 }
 

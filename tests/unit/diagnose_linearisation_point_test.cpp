@@ -131,7 +131,7 @@ TEST_P(SceneOf, ContactsAreInThePartsFrame) {
         (contact - Eigen::Vector3d(axis.x_mm, axis.y_mm, 0.0));
     const double theta = std::atan2(own.y(), own.x());
     EXPECT_NEAR(std::remainder(point.chuck[i] - theta, two_pi), 0.0, 1e-12);
-    EXPECT_NEAR(std::remainder(point.theta[i] - theta + clamping.reindex_rad, two_pi), 0.0, 1e-12);
+    EXPECT_NEAR(std::remainder(point.theta[i] - theta - clamping.reindex_rad, two_pi), 0.0, 1e-12);
     EXPECT_NEAR(point.s[i], own.z() - clamping.z_shift_mm, 1e-11);
     EXPECT_NEAR(own.head<2>().norm(),
                 clamping.shape.radius_mm + clamping.shape.tan_half_angle * own.z(), 1e-10);

@@ -283,14 +283,14 @@ TEST(SimulateEffects, ReindexTurnsThePartAndNotTheChuck) {
   scenario.plan.setups.resize(1);
   scenario.plan.setups[0].reindex_rad = 0.5;
   EXPECT_LT(worst(scenario, {"part.roundness", {{"order", 2}, {"amplitude_mm", a}}},
-                  [](const At& at) { return a * std::cos(2 * (at.c - 0.5)); }),
+                  [](const At& at) { return a * std::cos(2 * (at.c + 0.5)); }),
             exact_mm);
   EXPECT_LT(worst(scenario, {"spindle.radial_synchronous", {{"order", 2}, {"amplitude_mm", a}}},
                   [](const At& at) { return a * std::cos(2 * at.c); }),
             exact_mm);
   EXPECT_LT(worst(scenario, {"part.bow", {{"sagitta_mm", 0.05}, {"length_mm", 40.0}}},
                   [&](const At& at) {
-                    const double e = 0.05 * at.u * at.u, angle = at.c - 0.5;
+                    const double e = 0.05 * at.u * at.u, angle = at.c + 0.5;
                     return e * std::cos(angle) +
                            std::sqrt(1600.0 - std::pow(e * std::sin(angle), 2)) - 40.0;
                   }),

@@ -48,12 +48,24 @@ std::string target_text(const TargetSurface& target) {
   return text;
 }
 
+/// "Z 60.000000 to 40.000000 mm"; of a face X.
+std::string range_text(bool face, double start_mm, double end_mm) {
+  return (face ? "X " : "Z ") + fixed(start_mm, 6) + " to " + fixed(end_mm, 6) + " mm";
+}
+
 std::string axis_text(const AxisEstimate& estimate) {
   const Axis& axis = estimate.axis;
   return "x " + fixed(axis.x_mm, 7) + " mm, y " + fixed(axis.y_mm, 7) + " mm at Z " +
          fixed(axis.z_ref_mm, 6) + " mm, dx/dz " + fixed(axis.slope_x, 9) + ", dy/dz " +
          fixed(axis.slope_y, 9) + ", u " + fixed(estimate.u_at(axis.z_ref_mm) * um, 4) +
          " µm there (k = 1)";
+}
+
+std::string contact_text(const Correction& correction) {
+  const TargetSurface& target = correction.target;
+  return target.kind == TargetKind::face
+             ? range_text(true, target.radius_start_mm, target.radius_end_mm)
+             : range_text(false, target.z_start_mm, target.z_end_mm);
 }
 
 std::string following_text(const ActuatorMargin& margin) {
@@ -84,6 +96,9 @@ std::string correction_header(const Correction& correction) {
                                           : "that of the probe stream; the centre of the tool's "
                                             "nose"},
       {"target", target_text(correction.target)},
+      {"contact", contact_text(correction)},
+      {"nose_centre", range_text(face, correction.position_start_mm, correction.position_end_mm) +
+                          ": the programmed path"},
       {"tool_height", fixed(tool.height_mm, 6) + " mm"},
       {"tool_angle_from_probe", fixed(tool.angle_from_probe_rad / rad_per_deg, 6) + " deg"},
       {"nose_radius", fixed(tool.nose_radius_mm, 6) + " mm"},
@@ -110,6 +125,8 @@ std::string correction_preview(const Correction& correction) {
     return fixed(*low * um, 3) + " to " + fixed(*high * um, 3) + " µm";
   };
   std::string text = "target      " + target_text(correction.target) + '\n';
+  text += "contact     " + contact_text(correction) + ", centre of the nose " +
+          range_text(face, correction.position_start_mm, correction.position_end_mm) + '\n';
   text += "rows        " + std::to_string(rows.wanted_mm.size()) + " in " +
           std::to_string(rows.revolution.empty() ? 0 : rows.revolution.back() + 1) +
           " revolutions\n";
@@ -131,7 +148,8 @@ std::string correction_preview(const Correction& correction) {
   text += "frequency   " + fixed(margin.highest_frequency_hz, 2) + " Hz, bandwidth " +
           fixed(margin.bandwidth_hz, 2) + " Hz\n";
   text += "following   " + following_text(margin) + '\n';
-  text += margin.follows ? "follows     yes" : "follows     no: " + margin.breaks;
+  text += margin.follows ? "follows     yes"
+                         : "follows     no: " + margin.breaks + "; " + margin.remedy;
   text += ", highest speed " + fixed(margin.max_speed_rpm, 1) + " rpm\n";
   return text;
 }

@@ -102,7 +102,7 @@ void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clamp
     point.d2x_dc2.push_back(-(centre[0] * cosine + centre[1] * sine));
     const auto polar = frame.at(at.x_mm * cosine, at.x_mm * sine, point.z[i]);
     point.chuck.push_back(polar.theta);
-    point.theta.push_back(polar.theta - now.reindex_rad);
+    point.theta.push_back(polar.theta + now.reindex_rad);
     point.s.push_back(polar.s - now.z_shift_mm);
     point.clamp.push_back(now.clamp_force_ratio);
     point.axis.push_back(now.axis);

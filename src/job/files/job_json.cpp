@@ -3,6 +3,7 @@
 
 #include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_json.hpp"
+#include "job/cut_checks.hpp"
 #include "resimulate/files/comparison_json.hpp"
 #include "trueaxis/units.hpp"
 
@@ -102,11 +103,20 @@ Json correction_object(const Correction& correction) {
                          {"actuator_lag", with_unit(h.lag_rad / rad_per_deg, "deg")}});
   }
   const ActuatorMargin& m = correction.margin;
+  const TargetSurface& target = correction.target;
+  const bool face = target.kind == TargetKind::face;
   return {{"rows", correction.rows.wanted_mm.size()},
+          {"contact",
+           {{"start", with_unit(face ? target.radius_start_mm : target.z_start_mm, "mm")},
+            {"end", with_unit(face ? target.radius_end_mm : target.z_end_mm, "mm")}}},
+          {"nose_centre",
+           {{"start", with_unit(correction.position_start_mm, "mm")},
+            {"end", with_unit(correction.position_end_mm, "mm")}}},
           {"harmonics", harmonics},
           {"margin",
            {{"follows", m.follows},
             {"breaks", m.breaks},
+            {"remedy", m.remedy},
             {"max_speed", with_unit(m.max_speed_rpm, "rpm")},
             {"stroke_used", with_unit(m.stroke_used_mm, "mm")},
             {"stroke_available", with_unit(m.stroke_available_mm, "mm")},
@@ -117,6 +127,7 @@ Json correction_object(const Correction& correction) {
             {"set_points_per_revolution", number(m.set_points_per_revolution)},
             {"following_uncompensated", with_unit(m.following_uncompensated_mm, "mm")},
             {"following", with_unit(m.following_mm, "mm")},
+            {"following_once", with_unit(m.following_once_mm, "mm")},
             {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
 }
 
@@ -139,6 +150,7 @@ std::string job_json(const JobResult& result) {
     Json reference{{"name", result.job.references[i].name},
                    {"weight", result.job.references[i].weight},
                    {"fit", fit_object(result.fits[i])}};
+    if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
     if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
     references.push_back(reference);
   }

@@ -104,6 +104,7 @@ TargetSurface read_target(TomlTable table, Job& job) {
   job.coaxiality_tolerance_mm = table.maybe_number(
       target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
       Range::positive());
+  job.stock_mm = table.maybe_number("stock_mm", Range::positive());
   return target;
 }
 
@@ -123,14 +124,22 @@ ToolSetup read_tool(TomlTable table) {
 
 constexpr double most_rows = 5e7;  // 2 GB of text; a bar of a metre at 0.02 mm/rev has 1.8e7
 
-/// The nose of a boring tool is smaller than the bore, at its narrow end too.
-void check_nose(TomlTable table, const TargetSurface& target, const ToolSetup& tool) {
+/// The nose of a boring tool stays on its own side of the axis, at the bore's narrow end too: its
+/// centre lies r/√(1+s²) off the wall X, s the wall's slope at the tool's height. (A target that
+/// the tool's line does not meet is refused by the correction.)
+void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   if (!target.bore) return;
-  const double at_end =
-      target.radius_mm + target.tan_half_angle * (target.z_end_mm - target.z_start_mm);
-  if (tool.nose_radius_mm >= std::min(target.radius_mm, at_end)) {
-    table.complain("nose_radius_mm",
-                   "does not fit into the bore: give the radius of the tool's nose");
+  for (const double z_mm : {target.z_start_mm, target.z_end_mm}) {
+    const double radius_mm = target.radius_mm + target.tan_half_angle * (z_mm - target.z_start_mm);
+    if (!(radius_mm > std::abs(tool.height_mm))) return;
+    const double wall_mm = std::sqrt(radius_mm * radius_mm - tool.height_mm * tool.height_mm);
+    const double slope = target.tan_half_angle * radius_mm / wall_mm;
+    if (tool.nose_radius_mm < wall_mm * std::hypot(1.0, slope)) continue;
+    cut.complain("nose_radius_mm",
+                 fmt::format("does not fit into the bore, of radius {:.6g} mm at Z = {:.6g} mm: "
+                             "give the radius of the tool's nose",
+                             radius_mm, z_mm));
+    return;
   }
 }
 
@@ -170,6 +179,12 @@ Actuator read_actuator(TomlTable table) {
       point.complain("frequency_hz", "frequencies must rise from point to point");
     }
     a.measured.push_back(response);
+  }
+  if (!a.measured.empty()) {
+    for (const char* key : {"natural_frequency_hz", "damping", "delay_s"}) {
+      if (table.has(key))
+        table.complain(key, "would count twice beside a measured response: remove it");
+    }
   }
   if (!a.measured.empty() && a.measured.back().frequency_hz == 0.0)
     table.complain("response", "has one point at 0 Hz: add measured frequencies above it");

@@ -27,8 +27,9 @@ namespace trueaxis {
 ///                  clamp_force_ratio x0_mm y0_mm l m
 ///     [[effect]]   id = "part.roundness" and the parameters of that effect
 ///     [cut]        table = "path.csv"  use = "command" | "wanted" | "none"
-///     [cut.target] kind = "cylinder" | "cone" | "face"  bore  z_start_mm z_end_mm radius_mm (at
-///                  z_start) half_angle_deg | z_face_mm x_start_mm x_end_mm
+///     [cut.target] kind = "cylinder" | "cone" | "face"  bore  z_start_mm z_end_mm (where the
+///                  contact starts and ends) radius_mm (at z_start) half_angle_deg | z_face_mm
+///                  x_start_mm x_end_mm
 ///     [cut.tool]   nose_radius_mm height_mm angle_from_probe_deg speed_rpm sense feed_mm_per_rev
 ///                  c_start_deg
 ///     [cut.actuator] perfect natural_frequency_hz damping delay_s sampling_hz
