@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/correction_data.hpp"
+
 #include <algorithm>
 
 #include "job/files/job_json.hpp"
 #include "report/chart_readings.hpp"
-#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/inputs_data.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "report/report_parts.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

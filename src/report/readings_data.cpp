@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/readings_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "report/chart_readings.hpp"
-#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 

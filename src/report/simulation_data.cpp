@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/simulation_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "report/chart_readings.hpp"
-#include "report/report_parts.hpp"
 #include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "report/target_data.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "report/report_parts.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

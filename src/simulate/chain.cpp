@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <string>
 
-#include "simulate/effects.hpp"
+#include "simulate/effects_extra.hpp"
+#include "simulate/effects_machine.hpp"
+#include "simulate/effects_part.hpp"
+#include "simulate/effects_probe.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::virtual_lathe {

@@ -204,6 +204,16 @@ Outcome judge(Group group, std::uint64_t seed) {
   }
   const JobResult result = run_job(drawn.job, std::move(streams));
   Outcome out;
+  const auto add = [](std::string& list, std::string_view id) {
+    list += (list.empty() ? "" : "+") + std::string(id);
+  };
+  for (const Scenario& s : drawn.scenarios)
+    for (const virtual_lathe::Effect& effect : s.effects) add(out.hidden, effect.id);
+  for (const auto& diagnosis : result.diagnoses) {
+    if (!diagnosis) continue;
+    for (const Finding& finding : diagnosis->findings) add(out.found, finding.effect());
+    for (std::size_t i = 0; i < diagnosis->unexplained.size(); ++i) add(out.found, "unexplained");
+  }
   out.decision = result.verdict.decision;
   out.reserved = !result.verdict.reservations.empty();
   out.upper_mm = result.verdict.upper_mm;

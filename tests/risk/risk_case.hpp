@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct Outcome {
   double coaxiality_mm = 0.0;           ///< of the part that the table cuts, in truth
   bool plain_go() const { return decision == Decision::untoleranced && !reserved; }
   bool reserved = false;
+  std::string hidden, found;  ///< ids, joined by +
 };
 
 /// Draws the job of this seed, simulates, runs and judges it.

@@ -59,7 +59,7 @@ TEST(CutChecks, MaterialIsThatBetweenTheAxesOfPartAndTarget) {
   EXPECT_NEAR(over->most.material_mm, 0.3, over->most.U_mm + 1e-4);
   EXPECT_EQ(cut_objection(result), "");
   EXPECT_TRUE(cut_reservations(result).empty());
-  EXPECT_TRUE(result.verdict.go) << result.verdict.line;
+  EXPECT_TRUE(result.verdict.go()) << result.verdict.line;
 }
 
 // An axis 50 µm beside another: 50 µm more at one side and less at the other.
