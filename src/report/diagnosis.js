@@ -70,8 +70,8 @@ function gainFacts({gain, options: {coverage_factor: k}}) {
     ['Ratio (95 %)', isNumber(ratio.value) && ratio.value > 0 ? `${fixed(ratio.value, 2)} (${fixed(ratio.low ?? ratio.value, 2)} to ${fixed(ratio.high ?? ratio.value, 2)})` : 'not determined'],
     ['Noise floor', micrometres(gain.noise_floor.value)],
     ['Shift of the axis', estimated(gain.axis_shift, k)],
-    ['Coaxiality cut from the ideal surface', estimated(gain.coaxiality_before, k)],
-    ['Coaxiality cut from the extended model', estimated(gain.coaxiality_after, k)],
+    ['Expected coaxiality over the probed length, cut about the axis of the ideal surface', estimated(gain.coaxiality_before, k)],
+    ['The same about the axis of the extended model', estimated(gain.coaxiality_after, k)],
   ]);
 }
 
