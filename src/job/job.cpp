@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "job/agreement.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/verdict.hpp"
@@ -44,10 +45,11 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
   }
+  result.agreement = hold_together(result);
   diagnose_all(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  if (fitted && result.job.target) correct(result);
+  if (fitted && result.job.target && result.agreement.reason.empty()) correct(result);
   result.verdict = decide(result);
   return result;
 }
