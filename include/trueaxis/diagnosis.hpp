@@ -161,6 +161,10 @@ struct Diagnosis {
   std::vector<double> effect_mm;                              ///< of all terms, one per reading
   std::vector<double> residual_before_mm, residual_after_mm;  ///< one per reading
   std::vector<SpectrumBin> spectrum;
+
+  /// The finding that is a slip of the part: the axes are then those of before, and the part stands
+  /// there no longer. nullptr: there is none.
+  const Finding* slip() const;
 };
 
 struct DiagnoseOptions {

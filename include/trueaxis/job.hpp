@@ -96,8 +96,8 @@ enum class Decision {
 struct Verdict {
   Decision decision = Decision::no_go;
   std::string line;  ///< the first line of the result
-  std::vector<std::string> reservations;
-  std::string what_would_prove;       ///< of not_proven: the measurement that would
+  std::vector<std::string> reservations{};
+  std::string what_would_prove{};     ///< of not_proven: the measurement that would
   double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
   double coaxiality_after_mm =
       0.0;  ///< expected with the table: what the compromise and the actuator leave

@@ -97,6 +97,10 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     return a.axis_shift.value > b.axis_shift.value;
   });
   add_evidence(ideal, *refit, search.model, explanation.between, out);
+  if (out.slip())
+    out.remarks.push_back(
+        "the part slipped: the axis of the extended model is that of before, and the part stands "
+        "there no longer");
   return out;
 }
 
@@ -108,6 +112,12 @@ std::vector<std::string> Finding::members() const {
 
 bool Finding::may_be(std::string_view id) const {
   return id == effect() || std::ranges::find(rivals, id, &Rival::effect) != rivals.end();
+}
+
+const Finding* Diagnosis::slip() const {
+  const auto found = std::ranges::find_if(
+      findings, [](const Finding& finding) { return is_step(finding.term.effect->term); });
+  return found == findings.end() ? nullptr : &*found;
 }
 
 const char* to_string(DiagnosisVerdict verdict) {

@@ -7,6 +7,7 @@
 #include "job/agreement.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
+#include "job/slip.hpp"
 #include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
 
@@ -49,7 +50,13 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   diagnose_all(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  if (fitted && result.job.target && result.agreement.reason.empty()) correct(result);
+  const bool slipped = std::ranges::any_of(
+      result.diagnoses, [](const auto& diagnosis) { return diagnosis && diagnosis->slip(); });
+  if (slipped) {
+    withhold_axes(result);
+    if (!result.agreement.disagreements.empty()) result.agreement = {};
+  }
+  if (fitted && result.job.target && !slipped && result.agreement.reason.empty()) correct(result);
   result.verdict = decide(result);
   return result;
 }

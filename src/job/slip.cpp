@@ -78,14 +78,27 @@ std::string slip_objection(const JobResult& result) {
     const Diagnosis& diagnosis = *result.diagnoses[i];
     const std::string reference = result.job.references[i].name;
     const std::string where = reference.empty() ? "" : reference + ": ";
+    if (const Finding* slip = diagnosis.slip())
+      return where + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
     for (const Finding& finding : diagnosis.findings) {
-      if (is_step(finding.term.effect->term))
-        return where + named(finding, diagnosis.baseline.coverage_factor) + remedy;
       const std::string maybe = possible(finding);
       if (perhaps.empty() && !maybe.empty()) perhaps = where + maybe + remedy;
     }
   }
   return perhaps;
+}
+
+void withhold_axes(JobResult& result) {
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i] || !result.diagnoses[i]->slip()) continue;
+    for (auto* parameters : {&result.fits[i].parameters, &result.fits[i].derived}) {
+      for (auto& [name, estimate] : *parameters) {
+        if (name == "half_angle" || name.starts_with("radius")) continue;
+        estimate = {.unit = estimate.unit,
+                    .why_not = "the part slipped: it stands there no longer"};
+      }
+    }
+  }
 }
 
 }  // namespace trueaxis

@@ -12,4 +12,8 @@ namespace trueaxis {
 /// class; empty: no diagnosis has any.
 std::string slip_objection(const JobResult& result);
 
+/// Takes the numbers of the axis out of the fit of every reference that slipped: none is where the
+/// part stands now. Those of its shape stay.
+void withhold_axes(JobResult& result);
+
 }  // namespace trueaxis

@@ -2,7 +2,8 @@
 // Reads the data in the page, builds it top to bottom, then draws the charts.
 
 const data = JSON.parse(document.getElementById('data').textContent);
-const outcomes = {go: ['GO', 'good', '✓'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–']};
+const outcomes = {go: ['GO', 'good', '✓'], reserved: ['GO with reservations', 'warning', '!'],
+  'not-proven': ['NOT PROVEN', 'warning', '?'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–']};
 
 function keyNumbers(verdict) {
   const k = verdict.k;
@@ -15,7 +16,7 @@ function keyNumbers(verdict) {
   const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
   return facts([
     ['Coaxiality before: cut about the spindle axis', plusMinus(verdict.coaxiality_before_mm, sameAsWorst ? worst.u_mm : null, k, 'U as after')],
-    ['Coaxiality after: cut with the correction', plusMinus(verdict.coaxiality_after_mm, verdict.u_coaxiality_mm, k, 'u unknown')],
+    ['Coaxiality after: cut with the correction', `${micrometres(verdict.coaxiality_after_mm)} expected, at most ${micrometres(verdict.coaxiality_at_most_mm)} in 95 of 100`],
     ['Tolerance (coaxiality, a diameter)', tolerance],
   ], 'numbers');
 }
@@ -24,7 +25,7 @@ function banner() {
   const [word, kind, sign] = outcomes[data.verdict.outcome];
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(data.verdict.line.replace(/^(NO-GO|GO|DONE)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
+    paragraph(data.verdict.line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
     paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet'));
 }
 

@@ -18,8 +18,16 @@ namespace {
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
-  if (!result.verdict.go()) return "no-go";
-  return judged ? "go" : "done";
+  switch (result.verdict.decision) {
+    case Decision::not_proven:
+      return "not-proven";
+    case Decision::go_with_reservations:
+      return "reserved";
+    case Decision::no_go:
+      return "no-go";
+    default:
+      return judged ? "go" : "done";
+  }
 }
 
 Json verdict_data(const JobResult& result) {
@@ -31,6 +39,7 @@ Json verdict_data(const JobResult& result) {
     data["coaxiality_before_mm"] = verdict.coaxiality_before_mm;
     data["coaxiality_after_mm"] = verdict.coaxiality_after_mm;
     data["u_coaxiality_mm"] = verdict.u_coaxiality_mm;
+    data["coaxiality_at_most_mm"] = verdict.upper_mm;
   }
   return data;
 }

@@ -39,7 +39,7 @@ function remaindersTable(target, references, k) {
   const rows = target.references.filter((r) => r.after).map((r) => [
     references[r.index].name, r.face ? 'axial run-out' : 'coaxiality',
     r.before ? plusMinus(r.before.coaxiality_mm, r.before.u_mm, k, 'u unknown') : 'not determined',
-    plusMinus(r.after.coaxiality_mm, r.after.u_coaxiality_mm, k, 'u unknown'),
+    isNumber(r.after.at_most_mm) ? `${micrometres(r.after.coaxiality_mm)}, at most ${micrometres(r.after.at_most_mm)} in 95 of 100` : `${micrometres(r.after.coaxiality_mm)}, u unknown`,
     r.face ? '–' : micrometres(r.after.offset_start_mm), r.face ? '–' : micrometres(r.after.offset_end_mm), tilt(r.after.tilt_deg),
     isNumber(r.weight) ? tick(r.weight) : '–']);
   return table(`What is left at each reference when the part is cut about the target axis, ± U (k = ${tick(k)})`,

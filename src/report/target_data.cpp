@@ -77,11 +77,9 @@ double face_radius(const JobResult& result, std::size_t i) {
 }
 
 Json remainder_data(const Remainder& left) {
-  return {{"offset_start_mm", left.offset_start_mm},
-          {"offset_end_mm", left.offset_end_mm},
-          {"tilt_deg", left.tilt_rad / rad_per_deg},
-          {"coaxiality_mm", left.coaxiality_mm},
-          {"u_coaxiality_mm", left.u_coaxiality_mm}};
+  return {{"offset_start_mm", left.offset_start_mm}, {"offset_end_mm", left.offset_end_mm},
+          {"tilt_deg", left.tilt_rad / rad_per_deg}, {"coaxiality_mm", left.coaxiality_mm},
+          {"u_coaxiality_mm", left.u_coaxiality_mm}, {"at_most_mm", left.limit_mm}};
 }
 
 }  // namespace
@@ -97,8 +95,10 @@ Json target_data(const JobResult& result) {
     data["apart"].push_back(how_apart(result, d));
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
+    const bool slipped =
+        result.diagnoses.size() > i && result.diagnoses[i] && result.diagnoses[i]->slip();
     const bool solved =
-        fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations;
+        !slipped && (fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations);
     const double radius = face_radius(result, i);
     Json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
     if (i < result.job.references.size()) reference["weight"] = result.job.references[i].weight;

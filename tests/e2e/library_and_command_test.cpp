@@ -19,11 +19,11 @@ class LibraryAndCommand : public CommandTest {
     const CommandStreams by_command = command("run " + shell_word(path) + " -o out");
     const Verdict& verdict = by_library.verdict;
     EXPECT_EQ(verdict.line, first_line(by_command.out));
-    EXPECT_EQ(by_command.exit_code, verdict.go ? 0 : 1) << by_command.err;
+    EXPECT_EQ(by_command.exit_code, verdict.go() ? 0 : 1) << by_command.err;
     const nlohmann::json written = result("out/result.json").at("verdict");
-    EXPECT_EQ(written.at("go"), verdict.go);
+    EXPECT_EQ(written.at("go"), verdict.go());
     EXPECT_EQ(written.at("line"), verdict.line);
-    EXPECT_EQ(there("out/table.csv"), verdict.go && by_library.correction.has_value());
+    EXPECT_EQ(there("out/table.csv"), verdict.go() && by_library.correction.has_value());
     for (const ResultFile& file : job_files(by_library))
       EXPECT_EQ(read_text(folder_ / "out" / file.name), file.text) << file.name;
     return verdict;
@@ -53,7 +53,7 @@ TEST_F(LibraryAndCommand, RefuseAlikeWhatTheLatheRefutes) {
   file("job.toml",
        simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
   const Verdict verdict = expect_same(folder_ / "job.toml");
-  EXPECT_FALSE(verdict.go);
+  EXPECT_FALSE(verdict.go());
   EXPECT_TRUE(contains(verdict.line, "what was found does not reproduce the readings"));
 }
 

@@ -165,9 +165,13 @@ inline JobResult cone_job(std::size_t readings = 1500) {
   result.job.target = result.correction->target;
   result.job.tool = result.correction->tool;
   const auto [x, y] = axis.axis.at(25.0);
-  result.target_axis = TargetAxis{axis, {{"taper seat", 0.0, 0.0, 0.0, 0.0, 2 * 2.8e-4}}};
-  result.verdict = {true, "", 2.0 * std::hypot(x, y), 8.2e-5, 2 * 2.8e-4, 2.0};
-  result.verdict.line = "GO: coaxiality 0.08 µm ± 1.12 µm after the correction, tolerance 5 µm";
+  result.target_axis = TargetAxis{axis, {{"taper seat", 0.0, 0.0, 0.0, 0.0, 2 * 2.8e-4, 1.4e-3}}};
+  result.verdict = {.decision = Decision::go,
+                    .line = "GO: coaxiality at most 1.4 µm with the table, tolerance 5 µm",
+                    .coaxiality_before_mm = 2.0 * std::hypot(x, y),
+                    .coaxiality_after_mm = 8.2e-5,
+                    .u_coaxiality_mm = 2 * 2.8e-4,
+                    .upper_mm = 1.4e-3};
   return result;
 }
 
@@ -290,7 +294,7 @@ inline JobResult shaft_and_face_job() {
   margin.follows = false;
   margin.breaks = "slew rate 231 mm/s of 200 mm/s; following error 3.1 µm of 1 µm";
   margin.max_speed_rpm = 410.0;
-  result.verdict.go = false;
+  result.verdict.decision = Decision::no_go;
   result.verdict.line = "NO-GO: the actuator cannot follow at 600 rpm; it would at 410 rpm";
   return result;
 }

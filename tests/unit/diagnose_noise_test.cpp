@@ -48,7 +48,7 @@ TEST_P(Correlation, IsFoundBesideAStrongHarmonic) {
   for (int s = 0; s < streams; ++s) {
     const auto y = b.with_lobes(testing::correlated_noise(b.point.size(), sigma_mm, rho,
                                                           seed + static_cast<std::uint64_t>(s)));
-    const std::vector<double> found = autoregression(b.point, b.mask, y, basis);
+    const std::vector<double> found = autoregression(b.point, b.mask, y, basis).phi;
     ASSERT_FALSE(found.empty()) << s;
     // Of a second order φ₁/(1 − φ₂) is the correlation of neighbours.
     const double neighbours = found.size() == 1 ? found[0] : found[0] / (1.0 - found[1]);
@@ -75,7 +75,7 @@ TEST(Autoregression, FindsNothingInWhiteNoise) {
   for (int s = 0; s < streams; ++s) {
     const auto y = b.with_lobes(testing::white_noise(b.point.size(), sigma_mm,
                                                      1000 + seed + static_cast<std::uint64_t>(s)));
-    found += !autoregression(b.point, b.mask, y, basis).empty();
+    found += !autoregression(b.point, b.mask, y, basis).phi.empty();
   }
   const boost::math::binomial hits(streams, level);
   std::cout << "level " << level << ", found in " << found << '\n';

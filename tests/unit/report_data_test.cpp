@@ -241,7 +241,7 @@ TEST(ReportData, WithoutToleranceThereIsNoGo) {
 TEST(ReportData, ARefusalIsNoGoWithoutToleranceToo) {
   JobResult result = example::cone_job(100);
   result.job.coaxiality_tolerance_mm.reset();
-  result.verdict.go = false;
+  result.verdict.decision = Decision::no_go;
   EXPECT_EQ(report_data(result)["verdict"]["outcome"], "no-go");
   result.target_axis.reset();
   EXPECT_EQ(report_data(result)["verdict"]["outcome"], "no-go");

@@ -26,14 +26,14 @@ JobResult resimulated(bool wrong_way) {
 
 TEST(Reproduction, AModelThatReproducesTheReadingsKeepsTheGo) {
   const Verdict verdict = decide(resimulated(false));
-  EXPECT_TRUE(verdict.go);
+  EXPECT_TRUE(verdict.go());
   EXPECT_EQ(verdict.line.rfind("GO: coaxiality ", 0), 0u) << verdict.line;
 }
 
 TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceIsNoGo) {
   const JobResult result = resimulated(true);
   const Verdict verdict = decide(result);
-  EXPECT_FALSE(verdict.go);
+  EXPECT_FALSE(verdict.go());
   const std::string& line = verdict.line;
   EXPECT_EQ(line.rfind("NO-GO: seat: what was found does not reproduce the readings: ", 0), 0u);
   const Comparison& c = result.resimulations.front()->comparison;
@@ -54,15 +54,15 @@ TEST(Reproduction, WhatIsRefutedIsNotHeldAgainstATolerance) {
   result.job.target.reset();
   result.target_axis.reset();
   result.correction.reset();
-  EXPECT_FALSE(decide(result).go);
+  EXPECT_FALSE(decide(result).go());
 }
 
 TEST(Reproduction, WithoutASimulationNothingIsRefuted) {
   JobResult result = resimulated(true);
   result.resimulations.front()->why_not = "the virtual lathe has no such effect";
-  EXPECT_TRUE(decide(result).go);
+  EXPECT_TRUE(decide(result).go());
   result.resimulations.front().reset();
-  EXPECT_TRUE(decide(result).go);
+  EXPECT_TRUE(decide(result).go());
 }
 
 TEST(Reproduction, AnActuatorThatCannotFollowIsSaidFirst) {

@@ -83,7 +83,7 @@ std::string gain_block(const Diagnosis& d) {
   text +=
       wrapped("  axis        ", "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
   text +=
-      wrapped("  coaxiality  ", "of the part that the correction would cut: " +
+      wrapped("  coaxiality  ", "expected over the probed length, cut about this axis alone: " +
                                     plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " +
                                     plus_minus(gain.coaxiality_after, k, um_per_mm, "µm"));
   if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// GO means go: streams that once got a GO and were cut 13 to 40 µm off, and what is said instead.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "trueaxis/job.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis {
+namespace {
+
+using virtual_lathe::Scenario;
+
+/// A cylinder of R 25 in one pass of 40 turns at 60 rpm, σ 1 µm.
+Scenario cylinder(std::uint64_t seed) {
+  Scenario s;
+  s.part.radius_mm = 25.0;
+  s.part.x0_mm = 0.03, s.part.y0_mm = -0.02, s.part.l = 2e-4, s.part.m = 1e-4;
+  s.noise.sigma_mm = 1e-3;
+  s.plan.passes.push_back({.start_mm = 0.0,
+                           .end_mm = 40.0,
+                           .feed_mm_per_rev = 1.0,
+                           .readings_per_revolution = 36.7,
+                           .jitter = 0.2});
+  s.seed = seed;
+  return s;
+}
+
+Job job_of(const Scenario& s, double tolerance_um) {
+  Job job;
+  job.references.resize(1);
+  job.references[0].name = "seat";
+  job.references[0].fit.surface =
+      s.part.kind == virtual_lathe::PartKind::cone ? SurfaceKind::cone : SurfaceKind::cylinder;
+  job.target = TargetSurface{.z_start_mm = 60.0, .z_end_mm = 45.0, .radius_mm = 20.0};
+  job.coaxiality_tolerance_mm = 1e-3 * tolerance_um;
+  job.tool.feed_mm_per_rev = 1.0;
+  return job;
+}
+
+JobResult decided(const Scenario& s, double tolerance_um = 10.0) {
+  return run_job(job_of(s, tolerance_um), {virtual_lathe::simulate(s)});
+}
+
+ProbeStream without_clock(ProbeStream stream) {
+  stream.time_s.clear();
+  stream.spindle_rpm.reset();
+  return stream;
+}
+
+TEST(Verdict, ASlipWithoutAClockIsNamedByTheReading) {
+  for (const double slip_mm : {0.02, 0.03}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      Scenario s = cylinder(seed);
+      const double at = static_cast<double>(seed);
+      s.effects.push_back({"part.slip",
+                           {{"dx_mm", slip_mm * std::cos(at)},
+                            {"dy_mm", slip_mm * std::sin(at)},
+                            {"turn_rad", 0.0},
+                            {"time_s", 20.0}}});
+      const JobResult result =
+          run_job(job_of(s, 10.0), {without_clock(virtual_lathe::simulate(s))});
+      EXPECT_EQ(result.verdict.decision, Decision::no_go) << result.verdict.line;
+      EXPECT_NE(result.verdict.line.find("the part slipped in the chuck at reading "),
+                std::string::npos)
+          << result.verdict.line;
+      ASSERT_NE(result.diagnoses[0]->slip(), nullptr);
+      // Half of 40 turns of 36.7: a few readings either way show no step.
+      EXPECT_NEAR(result.diagnoses[0]->slip()->parameter("onset").value, 734.0, 10.0);
+    }
+  }
+}
+
+TEST(Verdict, AfterASlipThereIsNoNumberOfAnAxis) {
+  Scenario s = cylinder(4);
+  s.effects.push_back(
+      {"part.slip", {{"dx_mm", 0.03}, {"dy_mm", 0.0}, {"turn_rad", 0.0}, {"time_s", 20.0}}});
+  const JobResult result = decided(s);
+  EXPECT_FALSE(result.target_axis.has_value());
+  EXPECT_FALSE(result.correction.has_value());
+  for (const char* name : {"x0", "y0", "l", "m", "tilt"}) {
+    EXPECT_FALSE(result.fits[0].parameter(name).determined()) << name;
+    EXPECT_FALSE(result.fits[0].parameter(name).why_not.empty()) << name;
+  }
+  EXPECT_TRUE(result.fits[0].parameter("radius").determined());
+}
+
+// 1.013 Hz under 60 rpm beats half a cycle over the stream: the axis takes the vibration in.
+TEST(Verdict, AVibrationThatBeatsWithTheSpindleIsNotProven) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    Scenario s = cylinder(seed);
+    s.effects.push_back({"environment.vibration",
+                         {{"frequency_hz", 1.013},
+                          {"amplitude_mm", 0.005},
+                          {"phase_rad", 1.1 * static_cast<double>(seed)}}});
+    const JobResult result = decided(s);
+    EXPECT_FALSE(result.verdict.go()) << seed << ": " << result.verdict.line;
+  }
+}
+
+TEST(Verdict, AStrongAsynchronousMotionIsNoNoise) {
+  for (const double amplitude_mm : {0.002, 0.005, 0.01}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+      Scenario s = cylinder(seed);
+      s.effects.push_back({"spindle.asynchronous",
+                           {{"order", 0.43},
+                            {"amplitude_mm", amplitude_mm},
+                            {"phase_rad", static_cast<double>(seed)}}});
+      const JobResult result = decided(s);
+      ASSERT_EQ(result.diagnoses[0]->findings.size(), 1u) << amplitude_mm << ' ' << seed;
+      EXPECT_TRUE(result.diagnoses[0]->findings[0].may_be("spindle.asynchronous"));
+      // σ of 1469 readings is known to 1/√(2 N): five of these.
+      EXPECT_NEAR(result.diagnoses[0]->noise.sigma_mm, 1e-3, 5.0 * 1e-3 / std::sqrt(2.0 * 1469));
+    }
+  }
+}
+
+TEST(Verdict, AConeNearlyToItsApexIsDiagnosed) {
+  for (const double small_radius_mm : {1.0, 0.3}) {
+    Scenario s = cylinder(1);
+    s.part.kind = virtual_lathe::PartKind::cone;
+    s.part.half_angle_rad = std::numbers::pi / 6.0;  // a centre of 60°
+    s.part.radius_mm = small_radius_mm;
+    s.plan.passes[0].end_mm = 15.6;
+    s.plan.passes[0].feed_mm_per_rev = 0.5;
+    const JobResult result = decided(s);
+    EXPECT_EQ(result.diagnoses[0]->verdict, DiagnosisVerdict::ideal);
+    const Estimate& x0 = result.fits[0].parameter("x0");
+    EXPECT_NEAR(x0.value, s.part.x0_mm, 5.0 * x0.u);
+  }
+}
+
+/// The readings that the line asks for prove it.
+TEST(Verdict, WhatWouldProveItDoes) {
+  Scenario s = cylinder(11);
+  const double upper_um = 1e3 * decided(s, 1e3).verdict.upper_mm;
+  const JobResult open = decided(s, 0.6 * upper_um);
+  ASSERT_EQ(open.verdict.decision, Decision::not_proven) << open.verdict.line;
+  const std::string& says = open.verdict.what_would_prove;
+  ASSERT_EQ(says.rfind("about ", 0), 0u) << says;
+  const double readings = std::stod(says.substr(6));
+  // Less than u shrinks with n, the following error of the actuator does not.
+  EXPECT_GT(readings, 1469.0 / (0.6 * 0.6));
+  s.plan.passes[0].readings_per_revolution *= readings / 1469.0;
+  EXPECT_EQ(decided(s, 0.6 * upper_um).verdict.decision, Decision::go)
+      << decided(s, 0.6 * upper_um).verdict.line;
+}
+
+TEST(Verdict, OutOfToleranceBeyondDoubtIsNoGo) {
+  Scenario s = cylinder(12), other = cylinder(13);
+  other.part.x0_mm += 0.05;  // two seats 50 µm apart: the compromise leaves 50 µm of diameter
+  other.plan.passes[0].start_mm = 70.0, other.plan.passes[0].end_mm = 110.0;
+  Job job = job_of(s, 10.0);
+  job.references.push_back(job.references[0]);
+  const JobResult result =
+      run_job(job, {virtual_lathe::simulate(s), virtual_lathe::simulate(other)});
+  EXPECT_EQ(result.verdict.decision, Decision::no_go) << result.verdict.line;
+  EXPECT_GT(result.verdict.lower_mm, 0.04);
+}
+
+TEST(Verdict, AnAxisThatTheDiagnosisMovedIsNoPlainGoWhileTheCauseIsOpen) {
+  Scenario s = cylinder(1);
+  s.effects.push_back(
+      {"spindle.asynchronous", {{"order", 0.43}, {"amplitude_mm", 0.01}, {"phase_rad", 1.0}}});
+  const JobResult result = decided(s);
+  ASSERT_FALSE(result.diagnoses[0]->findings.at(0).rivals.empty());
+  EXPECT_EQ(result.verdict.decision, Decision::go_with_reservations) << result.verdict.line;
+  EXPECT_EQ(result.verdict.line.rfind("GO with reservations: ", 0), 0u);
+  EXPECT_EQ(result.verdict.reservations.size(), 1u);
+  // Were the axis where the ideal fit has it, a tighter tolerance would not be kept.
+  const double tolerance_um = 1.01e3 * result.verdict.upper_mm;
+  EXPECT_EQ(decided(s, tolerance_um).verdict.decision, Decision::not_proven);
+}
+
+}  // namespace
+}  // namespace trueaxis

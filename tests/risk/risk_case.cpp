@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "risk/risk_case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <utility>
+
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis::risk {
+namespace {
+
+using virtual_lathe::Scenario;
+
+/// Numbers that are the same with every standard library.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : random_(seed) {}
+  double unit() { return static_cast<double>(random_() >> 11U) * 0x1p-53; }
+  double between(double low, double high) { return low + (high - low) * unit(); }
+  double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
+  double whole(int low, int high) { return std::floor(between(low, high + 1.0)); }
+  double phase() { return between(-std::numbers::pi, std::numbers::pi); }
+
+ private:
+  std::mt19937_64 random_;
+};
+
+constexpr double speed_rpm = 60.0;
+
+/// An effect at a size that the catalogue calls typical, along a length from 0.
+virtual_lathe::Effect draw_effect(Draw& draw, double length_mm) {
+  const double um = 1e-3;
+  switch (static_cast<int>(draw.whole(0, 9))) {
+    case 0:
+      return {"part.roundness",
+              {{"order", draw.whole(2, 8)},
+               {"amplitude_mm", draw.log_between(0.5, 10.0) * um},
+               {"phase_rad", draw.phase()}}};
+    case 1:
+      return {"part.chuck_lobing",
+              {{"jaws", draw.whole(2, 4)},
+               {"amplitude_mm", draw.log_between(1.0, 10.0) * um},
+               {"jaw_angle_rad", draw.phase()},
+               {"decay_length_mm", draw.log_between(10.0, 60.0)},
+               {"jaw_position_mm", -2.0}}};
+    case 2:
+      return {"part.barrel", {{"amplitude_mm", draw.log_between(1.0, 10.0) * um}}};
+    case 3:
+      return {"part.waviness",
+              {{"wavelength_mm", length_mm / draw.between(3.0, 12.0)},
+               {"amplitude_mm", draw.log_between(0.5, 5.0) * um},
+               {"phase_rad", draw.phase()}}};
+    case 4:
+      return {"spindle.radial_synchronous",
+              {{"order", draw.whole(2, 6)},
+               {"amplitude_mm", draw.log_between(0.3, 5.0) * um},
+               {"phase_rad", draw.phase()}}};
+    case 5:
+      return {"spindle.tilt_synchronous",
+              {{"order", draw.whole(2, 4)},
+               {"amplitude_rad", draw.log_between(1e-6, 2e-5)},
+               {"phase_rad", draw.phase()},
+               {"bearing_mm", draw.between(-200.0, -50.0)}}};
+    case 6:
+      return {"spindle.asynchronous",
+              {{"order", draw.between(0.4, 0.45)},
+               {"amplitude_mm", draw.log_between(0.5, 10.0) * um},
+               {"phase_rad", draw.phase()}}};
+    case 7:
+      return {"environment.vibration",
+              {{"frequency_hz", draw.between(0.5, 8.0)},
+               {"amplitude_mm", draw.log_between(0.3, 5.0) * um},
+               {"phase_rad", draw.phase()}}};
+    case 8:
+      return {"thermal.drift",
+              {{"rate_mm_per_s", draw.log_between(0.02, 0.3) * um},
+               {"amplitude_mm", 0.0},
+               {"time_constant_s", 300.0}}};
+    default:
+      return {"part.bow",
+              {{"sagitta_mm", draw.log_between(1.0, 10.0) * um},
+               {"length_mm", length_mm},
+               {"middle_mm", 0.5 * length_mm},
+               {"direction_rad", draw.phase()}}};
+  }
+}
+
+struct Drawn {
+  std::vector<Scenario> scenarios;
+  Job job;
+  double slip_x_mm = 0.0, slip_y_mm = 0.0;
+};
+
+/// A seat from Z `from` on; the second of a part is out of coaxial with the first.
+Scenario draw_seat(Group group, Draw& draw, double from_mm, const Scenario* first) {
+  Scenario s;
+  const double length = draw.between(20.0, 60.0);
+  s.part.radius_mm = draw.log_between(10.0, 80.0);
+  if (draw.unit() < 0.4) {
+    s.part.kind = virtual_lathe::PartKind::cone;
+    s.part.half_angle_rad = draw.between(2.0, 20.0) * std::numbers::pi / 180.0;
+    s.part.radius_at_mm = from_mm;
+  }
+  const double off = draw.log_between(0.005, 0.1), at = draw.phase();
+  s.part.x0_mm = off * std::cos(at), s.part.y0_mm = off * std::sin(at);
+  s.part.l = 5e-4 * draw.between(-1.0, 1.0), s.part.m = 5e-4 * draw.between(-1.0, 1.0);
+  if (first) {
+    s.part.x0_mm = first->part.x0_mm + draw.between(-0.01, 0.01);
+    s.part.y0_mm = first->part.y0_mm + draw.between(-0.01, 0.01);
+    s.part.l = first->part.l, s.part.m = first->part.m;
+  }
+  s.noise.sigma_mm = draw.between(0.5, 2.0) * 1e-3;
+  if (group == Group::correlated) s.noise.rho = draw.between(0.2, 0.7);
+  virtual_lathe::PlannedPass pass;
+  pass.start_mm = from_mm, pass.end_mm = from_mm + length;
+  pass.feed_mm_per_rev = draw.between(0.8, 2.0);
+  pass.speed_rpm = speed_rpm;
+  pass.readings_per_revolution = draw.between(18.0, 40.0);
+  pass.jitter = 0.2;
+  s.plan.passes.push_back(pass);
+  s.seed = static_cast<std::uint64_t>(draw.between(1.0, 1e15));
+  const int effects = group == Group::form              ? 1
+                      : group == Group::ambiguous_forms ? static_cast<int>(draw.whole(2, 4))
+                      : group == Group::without_t       ? static_cast<int>(draw.whole(1, 2))
+                                                        : 0;
+  for (int e = 0; e < effects; ++e) s.effects.push_back(draw_effect(draw, length));
+  return s;
+}
+
+Drawn draw_job(Group group, std::uint64_t seed) {
+  Draw draw(seed * 1000003 + static_cast<std::uint64_t>(group));
+  Drawn out;
+  out.scenarios.push_back(draw_seat(group, draw, 0.0, nullptr));
+  if (group == Group::two_references)
+    out.scenarios.push_back(
+        draw_seat(group, draw, out.scenarios[0].plan.passes[0].end_mm + 10.0, &out.scenarios[0]));
+  const virtual_lathe::PlannedPass& last = out.scenarios.back().plan.passes[0];
+  if (group == Group::slip || group == Group::slip_without_t) {
+    const double size = draw.between(0.01, 0.05), at = draw.phase();
+    out.slip_x_mm = size * std::cos(at), out.slip_y_mm = size * std::sin(at);
+    const double lasted_s = last.end_mm / last.feed_mm_per_rev * 60.0 / speed_rpm;
+    out.scenarios[0].effects.push_back({"part.slip",
+                                        {{"dx_mm", out.slip_x_mm},
+                                         {"dy_mm", out.slip_y_mm},
+                                         {"turn_rad", 0.0},
+                                         {"time_s", draw.between(0.2, 0.8) * lasted_s}}});
+  }
+  for (const Scenario& s : out.scenarios) {
+    JobReference reference;
+    reference.name = "seat " + std::to_string(out.job.references.size() + 1);
+    reference.fit.surface =
+        s.part.kind == virtual_lathe::PartKind::cone ? SurfaceKind::cone : SurfaceKind::cylinder;
+    out.job.references.push_back(reference);
+  }
+  TargetSurface target;  // beside the last seat
+  target.radius_mm = 0.5 * out.scenarios[0].part.radius_mm;
+  target.z_end_mm = last.end_mm + draw.between(2.0, 10.0);
+  target.z_start_mm = target.z_end_mm + draw.between(5.0, 15.0);
+  out.job.target = target;
+  out.job.tool.feed_mm_per_rev = 1.0;
+  return out;
+}
+
+/// Twice the largest distance of the cut axis from where a reference's axis is, over the cut.
+double true_coaxiality(const Drawn& drawn, const Axis& cut) {
+  double worst = 0.0;
+  for (const Scenario& s : drawn.scenarios) {
+    const double n = std::sqrt(1.0 - s.part.l * s.part.l - s.part.m * s.part.m);
+    for (const double z : {drawn.job.target->z_start_mm, drawn.job.target->z_end_mm}) {
+      const auto [x, y] = cut.at(z);
+      worst = std::max(worst, std::hypot(s.part.x0_mm + drawn.slip_x_mm + s.part.l / n * z - x,
+                                         s.part.y0_mm + drawn.slip_y_mm + s.part.m / n * z - y));
+    }
+  }
+  return 2.0 * worst;
+}
+
+}  // namespace
+
+std::string_view name_of(Group group) {
+  constexpr std::string_view names[] = {"one reference",
+                                        "two references",
+                                        "correlated noise",
+                                        "one form or motion",
+                                        "two to four of them",
+                                        "one or two without t",
+                                        "slip",
+                                        "slip without t"};
+  return names[static_cast<std::size_t>(group)];
+}
+
+Outcome judge(Group group, std::uint64_t seed) {
+  Drawn drawn = draw_job(group, seed);
+  std::vector<ProbeStream> streams;
+  for (const Scenario& s : drawn.scenarios) {
+    streams.push_back(virtual_lathe::simulate(s));
+    if (group != Group::without_t && group != Group::slip_without_t) continue;
+    streams.back().time_s.clear();
+    streams.back().spindle_rpm.reset();
+  }
+  const JobResult result = run_job(drawn.job, std::move(streams));
+  Outcome out;
+  out.decision = result.verdict.decision;
+  out.reserved = !result.verdict.reservations.empty();
+  out.upper_mm = result.verdict.upper_mm;
+  if (result.target_axis) out.coaxiality_mm = true_coaxiality(drawn, result.target_axis->axis.axis);
+  return out;
+}
+
+}  // namespace trueaxis::risk

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "trueaxis/job.hpp"
+
+/// The risk of a GO: jobs whose truth is sealed, decided by the library, judged by the part that
+/// the table would cut. The judge knows the drawn axes alone and shares nothing with the decision.
+namespace trueaxis::risk {
+
+/// What the streams of a job are like.
+enum class Group {
+  one_reference,    ///< noise alone
+  two_references,   ///< noise alone, seats that are out of coaxial by up to 20 µm
+  correlated,       ///< an autoregressive noise
+  form,             ///< one effect at a size that machines show
+  ambiguous_forms,  ///< two to four at once
+  without_t,        ///< one or two effects, no clock
+  slip,             ///< the part slips by 10 to 50 µm
+  slip_without_t
+};
+inline constexpr Group groups[] = {Group::one_reference, Group::two_references,  Group::correlated,
+                                   Group::form,          Group::ambiguous_forms, Group::without_t,
+                                   Group::slip,          Group::slip_without_t};
+std::string_view name_of(Group group);
+
+/// What came of one job.
+struct Outcome {
+  Decision decision = Decision::no_go;  ///< without a tolerance: `untoleranced` stands for a GO
+  double upper_mm = 0.0;                ///< the smallest tolerance that would be a GO
+  double coaxiality_mm = 0.0;           ///< of the part that the table cuts, in truth
+  bool plain_go() const { return decision == Decision::untoleranced && !reserved; }
+  bool reserved = false;
+};
+
+/// Draws the job of this seed, simulates, runs and judges it.
+Outcome judge(Group group, std::uint64_t seed);
+
+}  // namespace trueaxis::risk

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Of GOs at the edge of the tolerance 5 % are out (ISO 14253-1): a short run of the study of
+// docs/go_risk.md, with the binomial interval of its size.
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/binomial.hpp>
+#include <string>
+
+#include "risk/risk_case.hpp"
+
+namespace trueaxis::risk {
+namespace {
+
+using Binomial = boost::math::binomial_distribution<double>;
+
+class RiskOfAGo : public testing::TestWithParam<Group> {};
+
+TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
+  constexpr std::uint64_t first_seed = 7000;
+  constexpr int jobs = 60;
+  int go = 0, out = 0, far_out = 0;
+  for (int i = 0; i < jobs; ++i) {
+    const Outcome o = judge(GetParam(), first_seed + static_cast<std::uint64_t>(i));
+    if (!o.plain_go()) continue;
+    ++go;
+    out += o.coaxiality_mm > o.upper_mm;
+    far_out += o.coaxiality_mm > 3.0 * o.upper_mm;
+  }
+  RecordProperty("seed", std::to_string(first_seed));
+  RecordProperty("out", std::to_string(out) + " of " + std::to_string(go));
+  EXPECT_EQ(far_out, 0);
+  if (go == 0) return;
+  // 1 in 10 000 streams of tests fails by chance.
+  const double most = boost::math::quantile(Binomial(go, nonconformity_risk), 1.0 - 1e-4);
+  EXPECT_LE(out, most) << "of " << go << " GOs, seeds from " << first_seed;
+}
+
+INSTANTIATE_TEST_SUITE_P(Groups, RiskOfAGo, testing::ValuesIn(groups), [](const auto& info) {
+  std::string name(name_of(info.param));
+  std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+  return name;
+});
+
+}  // namespace
+}  // namespace trueaxis::risk
