@@ -103,8 +103,13 @@ bool applies(const Mistake& mistake, const HeldAxis& axis) {
   return !axis.plane || mistake.open != OpenNumber::z_zero;
 }
 
+/// Axes of one part, or of a part that was clamped anew.
+double without_mistake(const Held& held) {
+  return std::max(log_likelihood(held.axis), log_likelihood_clamped_anew(held.axis));
+}
+
 std::vector<Explanation> explanations(const Held& held, const Disagreement& worst) {
-  const double as_is = log_likelihood(held.axis);
+  const double as_is = without_mistake(held);
   std::vector<Explanation> list;
   for (std::size_t at = 0; at < held.axis.size(); ++at) {
     for (const Mistake& mistake : mistakes()) {
@@ -137,7 +142,7 @@ bool holds_on_data(const JobResult& result, const Held& held, Explanation& e) {
   std::optional<OpenMistake> open;
   if (e.mistake->open) open = {e.at, *e.mistake->open};
   e.log_odds = log_likelihood(right.axis, open) +
-               log_shrinkage(*e.mistake, right.axis[e.at].plane) - log_likelihood(held.axis);
+               log_shrinkage(*e.mistake, right.axis[e.at].plane) - without_mistake(held);
   return true;
 }
 
@@ -195,8 +200,8 @@ void hold_axes(const JobResult& result, Agreement& out) {
   if (!out.reason.empty() || !of_no_part(worst)) return;
   out.reason =
       how_apart(result, worst) +
-      ", which no part is, and no sign, unit, diameter or zero of one of them mends it: probe all "
-      "references of one part in one clamping";
+      ", farther than surfaces of one part are, and no sign, unit, diameter or zero of one stream "
+      "explains it: probe all references in one clamping";
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ constexpr double rounding_mm = 1e-7, rounding_rad = 1e-9;  // of a stream's digi
 // How far surfaces of real parts are out of their common axis: a ladder of a factor four.
 constexpr double out_of_axis_mm[] = {1e-3, 4e-3, 16e-3, 64e-3};
 constexpr double out_of_axis_rad[] = {1e-5, 4e-5, 16e-5, 64e-5};
+// And where a part stands that was clamped anew.
+constexpr double clamped_anew_mm = 1.0, clamped_anew_rad = 0.01;
 // A Gaussian with the height of the uniform law over a turn; of a datum of Z the size of a lathe.
 constexpr double any_turn_rad = 2.5066282746310002;
 constexpr double any_datum_mm = 200.0;
@@ -63,6 +65,38 @@ double middle_of(std::span<const HeldAxis> axes) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
+/// With surfaces that are out of their common axis by these scales, each at its own middle.
+double log_likelihood_of(std::span<const HeldAxis> axes, std::optional<OpenMistake> open,
+                         double s_mm, double s_rad) {
+  const double z_mm = middle_of(axes);
+  // A common axis of which nothing is known: a kilometre and a kiloradian.
+  Eigen::Matrix4d weight = 1e-6 * Eigen::Matrix4d::Identity();
+  Eigen::Vector4d weighted = Eigen::Vector4d::Zero();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const At at = axis_at(axes[i], axes[i].z_mid_mm);
+    const Eigen::Index from = axes[i].plane ? 2 : 0, n = 4 - from;
+    Eigen::Matrix4d covariance = at.covariance;
+    covariance.diagonal() += Eigen::Vector4d(s_mm, s_mm, s_rad, s_rad).cwiseAbs2();
+    if (open && open->reference == i) {
+      const Eigen::Vector4d direction = open_direction(open->number, at.value);
+      covariance += direction * direction.transpose();
+    }
+    Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
+    place(0, 2) = place(1, 3) = axes[i].z_mid_mm - z_mm;
+    const Eigen::MatrixXd model = place.bottomRows(n);
+    const Eigen::VectorXd value = at.value.tail(n);
+    const Eigen::LLT<Eigen::MatrixXd> factor(covariance.bottomRightCorner(n, n));
+    weight += model.transpose() * factor.solve(model);
+    weighted += model.transpose() * factor.solve(value);
+    sum += value.dot(factor.solve(value)) + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  }
+  const Eigen::LLT<Eigen::Matrix4d> common(weight);
+  sum += 2.0 * common.matrixLLT().diagonal().array().log().sum() -
+         weighted.dot(common.solve(weighted));
+  return -0.5 * sum;
+}
+
 }  // namespace
 
 HeldAxis held_axis(const FitResult& fit) {
@@ -95,45 +129,20 @@ Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double
 }
 
 double log_likelihood(std::span<const HeldAxis> axes, std::optional<OpenMistake> open) {
-  const double z_mm = middle_of(axes);
   std::vector<double> of_scales;
   for (const double s_mm : out_of_axis_mm) {
-    for (const double s_rad : out_of_axis_rad) {
-      // A common axis of which nothing is known: a kilometre and a kiloradian.
-      Eigen::Matrix4d weight = 1e-6 * Eigen::Matrix4d::Identity();
-      Eigen::Vector4d weighted = Eigen::Vector4d::Zero();
-      double sum = 0.0;
-      for (std::size_t i = 0; i < axes.size(); ++i) {
-        // At its own middle a surface is out of the axis by the two scales independently.
-        const At at = axis_at(axes[i], axes[i].z_mid_mm);
-        const Eigen::Index from = axes[i].plane ? 2 : 0, n = 4 - from;
-        Eigen::Matrix4d covariance = at.covariance;
-        covariance.diagonal() += Eigen::Vector4d(s_mm, s_mm, s_rad, s_rad).cwiseAbs2();
-        if (open && open->reference == i) {
-          const Eigen::Vector4d direction = open_direction(open->number, at.value);
-          covariance += direction * direction.transpose();
-        }
-        Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
-        place(0, 2) = place(1, 3) = axes[i].z_mid_mm - z_mm;
-        const Eigen::MatrixXd model = place.bottomRows(n);
-        const Eigen::VectorXd value = at.value.tail(n);
-        const Eigen::LLT<Eigen::MatrixXd> factor(covariance.bottomRightCorner(n, n));
-        weight += model.transpose() * factor.solve(model);
-        weighted += model.transpose() * factor.solve(value);
-        sum += value.dot(factor.solve(value)) +
-               2.0 * factor.matrixLLT().diagonal().array().log().sum();
-      }
-      const Eigen::LLT<Eigen::Matrix4d> common(weight);
-      sum += 2.0 * common.matrixLLT().diagonal().array().log().sum() -
-             weighted.dot(common.solve(weighted));
-      of_scales.push_back(-0.5 * sum);
-    }
+    for (const double s_rad : out_of_axis_rad)
+      of_scales.push_back(log_likelihood_of(axes, open, s_mm, s_rad));
   }
   const double most = *std::ranges::max_element(of_scales);
   double mean = 0.0;
   for (const double l : of_scales)
     mean += std::exp(l - most) / static_cast<double>(of_scales.size());
   return most + std::log(mean);
+}
+
+double log_likelihood_clamped_anew(std::span<const HeldAxis> axes) {
+  return log_likelihood_of(axes, {}, clamped_anew_mm, clamped_anew_rad);
 }
 
 }  // namespace trueaxis

@@ -35,4 +35,7 @@ Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double
 /// @param open what a mistake leaves open, taken at its best value: its width is paid for
 double log_likelihood(std::span<const HeldAxis> axes, std::optional<OpenMistake> open = {});
 
+/// The same of axes of which each is of another clamping: 1 mm and 10 mrad apart.
+double log_likelihood_clamped_anew(std::span<const HeldAxis> axes);
+
 }  // namespace trueaxis
