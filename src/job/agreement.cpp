@@ -76,7 +76,7 @@ double likelihood_with(std::vector<HeldAxis> axes, std::size_t at, const Mistake
                        double number, bool width) {
   axes[at] = mended(axes[at], mistake, number);
   std::optional<OpenMistake> open;
-  if (width && mistake.open) open = {at, *mistake.open};
+  if (width && mistake.open) open = {at, *mistake.open, number};
   return log_likelihood(axes, open) + log_shrinkage(mistake, axes[at].plane);
 }
 
@@ -140,7 +140,7 @@ bool holds_on_data(const JobResult& result, const Held& held, Explanation& e) {
   right.axis[e.at] = held_axis(again);
   e.left = right.pairs().front();
   std::optional<OpenMistake> open;
-  if (e.mistake->open) open = {e.at, *e.mistake->open};
+  if (e.mistake->open) open = {e.at, *e.mistake->open, e.number};
   e.log_odds = log_likelihood(right.axis, open) +
                log_shrinkage(*e.mistake, right.axis[e.at].plane) - without_mistake(held);
   return true;

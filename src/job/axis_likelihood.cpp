@@ -138,7 +138,9 @@ double log_likelihood(std::span<const HeldAxis> axes, std::optional<OpenMistake>
   double mean = 0.0;
   for (const double l : of_scales)
     mean += std::exp(l - most) / static_cast<double>(of_scales.size());
-  return most + std::log(mean);
+  const bool datum = open && open->number == OpenNumber::z_zero;
+  const double far = datum ? open->value / any_datum_mm : 0.0;
+  return most + std::log(mean) - 0.5 * far * far;
 }
 
 double log_likelihood_clamped_anew(std::span<const HeldAxis> axes) {

@@ -21,6 +21,7 @@ enum class OpenNumber { c_zero, z_zero };
 struct OpenMistake {
   std::size_t reference = 0;
   OpenNumber number = OpenNumber::c_zero;
+  double value = 0.0;  ///< rad or mm
 };
 
 HeldAxis held_axis(const FitResult& fit);
