@@ -66,7 +66,7 @@ struct Remainder {
   /// Of the part cut about the target axis: the target is a number by then, so it is the reference
   /// that is known no better than this (twice its u at the worse end, in the worse direction).
   double u_coaxiality_mm = 0.0;
-  double limit_mm = 0.0;  ///< that the coaxiality exceeds in 5 of 100 (Eq. 119)
+  double limit_mm = 0.0;  ///< that the coaxiality exceeds in 5 of 100 (Eq. 119), by run_job
 };
 
 struct TargetAxis {

@@ -60,7 +60,26 @@ struct Inclusion {
   std::string reference;  ///< where it was found; empty: nowhere
   bool included = false;
   bool refused = false;  ///< found, but it must not be cut with: then there is no go
-  std::string why;       ///< why it is not included
+  std::string why;       ///< why it is not included; of an included one what is left open
+};
+
+/// Two references whose axes are apart by more than their uncertainty: half-way between their
+/// lengths and in direction.
+struct Disagreement {
+  std::size_t first = 0, second = 0;          ///< references
+  double offset_mm = 0.0, U_offset_mm = 0.0;  ///< 0 where one of them is a plane
+  double tilt_rad = 0.0, U_tilt_rad = 0.0;
+  double between_mm = 0.0;  ///< from the middle of one probed length to that of the other
+  double p_value = 1.0;     ///< that the readings' noise alone sets them as far apart
+};
+
+/// The references held against each other. Surfaces of real parts are not quite coaxial, so a
+/// disagreement alone is ordinary: a reason is what a mistake in a stream or job, tried on the
+/// data, explains, or a disagreement that no part has.
+struct Agreement {
+  std::vector<Disagreement> disagreements;  ///< the largest first
+  std::string reason;                       ///< with what mends it; not empty: nothing may be cut
+  double odds = 0.0;  ///< of the mistake that is named against none, of equal odds before
 };
 
 /// Of a go, that the part is out of tolerance all the same (ISO 14253-1): 5 %.
@@ -99,6 +118,7 @@ struct JobResult {
   Job job;
   std::vector<ProbeStream> streams;  ///< one per reference
   std::vector<FitResult> fits;       ///< one per reference: the ideal surface
+  Agreement agreement;
   /// One per reference; none for a face, which is not diagnosed, and where a fit failed.
   std::vector<std::optional<Diagnosis>> diagnoses;
   /// Every diagnosed reference as the virtual lathe takes it again.

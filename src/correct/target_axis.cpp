@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "correct/coaxiality_distribution.hpp"
 #include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
 
@@ -77,8 +76,6 @@ Remainder remainder(const Reference& reference, const Axis& target, double z_sta
   Remainder left;
   left.name = reference.name;
   left.tilt_rad = tilt_between_rad(target, reference.axis.axis);
-  left.limit_mm =
-      CoaxialityDistribution({&reference, 1}, target, z_start_mm, z_end_mm).quantile(0.95);
   if (is_plane(reference)) {
     const double diameter = 2.0 * reference.face_radius_mm;
     AxisEstimate slopes;  // as a position, so that u_at gives the worse direction of the tilt

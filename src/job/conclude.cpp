@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "correct/coaxiality_distribution.hpp"
 #include "job/cut_checks.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
@@ -15,8 +16,15 @@ namespace {
 
 void correct(JobResult& result) {
   const TargetSurface& target = *result.job.target;
-  result.target_axis = solve_target_axis(references_of(result), target.z_start_mm, target.z_end_mm,
+  const std::vector<Reference> references = references_of(result);
+  result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm,
                                          target.kind != TargetKind::face);
+  TargetAxis& solved = *result.target_axis;
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    solved.remainders[i].limit_mm = CoaxialityDistribution({&references[i], 1}, solved.axis.axis,
+                                                           target.z_start_mm, target.z_end_mm)
+                                        .quantile(1.0 - nonconformity_risk);
+  }
   result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
                                       result.job.actuator, included_motions(result));
 }
@@ -29,8 +37,11 @@ void conclude(JobResult& result) {
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   const bool slipped = std::ranges::any_of(
       result.diagnoses, [](const auto& diagnosis) { return diagnosis && diagnosis->slip(); });
-  if (slipped) withhold_axes(result);
-  if (fitted && result.job.target && !slipped) {
+  if (slipped) {
+    withhold_axes(result);
+    if (!result.agreement.disagreements.empty()) result.agreement = {};
+  }
+  if (fitted && result.job.target && !slipped && result.agreement.reason.empty()) {
     try {
       correct(result);
     } catch (const Refusal& refusal) {

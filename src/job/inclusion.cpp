@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/inclusion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,14 +17,35 @@ bool repeats(std::string_view id) {
   return effect && effect->repeats_at_tool;
 }
 
-/// Why a finding must not be cut with; empty: it may.
+/// What a finding may be that must not be copied into the cut.
+struct ForbiddenCause {
+  std::string effect;        ///< the most probable of them; empty: there is none
+  double probability = 0.0;  ///< of all of them
+};
+
+ForbiddenCause forbidden_cause(const Finding& finding) {
+  ForbiddenCause out;
+  if (!repeats(finding.effect())) out = {finding.effect(), finding.probability};
+  for (const Rival& rival : finding.rivals) {  // the most probable first
+    if (repeats(rival.effect)) continue;
+    if (out.effect.empty()) out.effect = rival.effect;
+    out.probability += rival.probability;
+  }
+  return out;
+}
+
+/// Why a finding must not be cut with; empty: it may. A line that is free in its order fits noise a
+/// little better than the whole order beside it, so chance keeps it in the class with a small
+/// probability: what may be copied by mistake is what a go may be wrong by.
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
-  for (const std::string& member : finding.members()) {
-    if (repeats(member)) continue;
+  const ForbiddenCause other = forbidden_cause(finding);
+  if (other.probability > nonconformity_risk) {
     std::string names;
     for (const std::string& id : finding.members()) names += (names.empty() ? "" : ", ") + id;
-    return "the data cannot tell it from " + member + " (class " + names +
-           "), which must not be copied into the cut";
+    return fmt::format(
+        "the data cannot tell it from {} (class {}), which must not be copied into the cut; the "
+        "probability of such a cause is {:.2g}, allowed are {:.2g}",
+        other.effect, names, other.probability, nonconformity_risk);
   }
   if (std::abs(finding.term.shape.order - std::round(finding.term.shape.order)) > 1e-9)
     return "it does not repeat every revolution";
@@ -77,6 +100,10 @@ std::vector<RepeatingMotion> included_motions(JobResult& result) {
           inclusion.why = "another reference shows it already";
         } else {
           inclusion.included = true;
+          if (const ForbiddenCause other = forbidden_cause(finding); !other.effect.empty())
+            inclusion.why =
+                fmt::format("the probability that it is {}, which should not be, is {:.2g}",
+                            other.effect, other.probability);
           motions.push_back({finding.term, diagnosis.z_mid_mm, diagnosis.z_half_mm});
         }
         result.inclusions.push_back(inclusion);

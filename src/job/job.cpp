@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "job/agreement.hpp"
 #include "job/conclude.hpp"
 #include "trueaxis/error.hpp"
 
@@ -33,6 +34,7 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
   }
+  result.agreement = hold_together(result);
   diagnose_all(result);
   conclude(result);
   return result;

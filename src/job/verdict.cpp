@@ -9,6 +9,7 @@
 #include "correct/coaxiality_distribution.hpp"
 #include "job/cut_checks.hpp"
 #include "job/doubts.hpp"
+#include "job/exchanged.hpp"
 #include "job/proof.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
@@ -94,9 +95,11 @@ std::string refutation(const JobResult& result) {
 
 /// Why there is no go, whatever the tolerance; empty: nothing speaks against it.
 std::string objection(const JobResult& result, const Verdict& numbers) {
+  if (!result.agreement.reason.empty()) return result.agreement.reason;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     if (result.fits[i].status != FitStatus::converged)
-      return result.job.references[i].name + ": " + result.fits[i].message;
+      return result.job.references[i].name + ": " + result.fits[i].message + "; " +
+             turns_of(result.streams[i]);
   }
   if (std::string slip = slip_objection(result); !slip.empty()) return slip;
   if (!result.refused.empty()) return result.refused;

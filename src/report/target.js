@@ -107,6 +107,7 @@ function targetSection(data) {
   }
   if (!solved) parts.push(paragraph('No reference gave an axis.', 'alert'));
   if (solved) parts.push(axesTable(target, references, k));
+  for (const apart of target.apart) parts.push(paragraph(`Beyond U, half-way between them, ${apart}.`, 'quiet'));
   if (target.references.some((r) => r.after)) {
     parts.push(remaindersTable(target, references, k),
       paragraph('Offsets and tilt of the remainder are what the weights leave; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.', 'quiet'));

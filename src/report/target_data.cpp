@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "job/agreement.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -88,7 +89,10 @@ Json target_data(const JobResult& result) {
   Json data{{"z_start_mm", length.first},
             {"z_end_mm", length.second},
             {"of_cut", result.job.target.has_value()},
-            {"references", Json::array()}};
+            {"references", Json::array()},
+            {"apart", Json::array()}};
+  for (const Disagreement& d : result.agreement.disagreements)
+    data["apart"].push_back(how_apart(result, d));
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
     const bool slipped =

@@ -47,6 +47,24 @@ TEST(Inclusion, AClassThatHoldsTheFormIsRefusedByName) {
   EXPECT_NE(result.inclusions.at(0).why.find("probe.nonlinearity"), std::string::npos);
 }
 
+// Beside a whole order chance keeps a line of a free order in the class: seen are 0.1 to 2 %.
+TEST(Inclusion, WhatIsPossibleByChanceAloneForbidsNothing) {
+  Finding finding = spindle_lobes();
+  finding.probability = 0.982;
+  finding.rivals = {{"environment.vibration", 1.8, -2.7, 0.010, true},
+                    {"spindle.asynchronous", 1.0, -2.4, 0.008, true}};
+  JobResult result = asked(finding);
+  EXPECT_EQ(included_motions(result).size(), 1u);
+  EXPECT_TRUE(result.inclusions.at(0).included);
+  EXPECT_NE(result.inclusions.at(0).why.find("environment.vibration"), std::string::npos);
+  EXPECT_NE(result.inclusions.at(0).why.find("0.018"), std::string::npos);
+  // Together above the risk of a go they forbid, though each is below.
+  finding.rivals[0].probability = finding.rivals[1].probability = 0.03;
+  result = asked(finding);
+  EXPECT_TRUE(included_motions(result).empty());
+  EXPECT_TRUE(result.inclusions.at(0).refused);
+}
+
 TEST(Inclusion, WhatWasNotFoundIsNoRefusal) {
   JobResult result = asked(example::tilt_motion());
   EXPECT_TRUE(included_motions(result).empty());

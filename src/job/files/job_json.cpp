@@ -46,6 +46,25 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
           {"remainders", remainders}};
 }
 
+/// The references held against each other: what is apart beyond its U, and why nothing may be cut.
+Json agreement_object(const JobResult& result) {
+  const double k = result.job.references.front().fit.coverage_factor;
+  Json pairs = Json::array();
+  for (const Disagreement& d : result.agreement.disagreements) {
+    Json pair{{"first", result.job.references[d.first].name},
+              {"second", result.job.references[d.second].name},
+              {"tilt", to_json(Estimate{d.tilt_rad / rad_per_deg, d.U_tilt_rad / k / rad_per_deg,
+                                        "deg", ""})},
+              {"p_value", d.p_value}};
+    if (d.U_offset_mm > 0.0)
+      pair["offset"] = to_json(Estimate{d.offset_mm, d.U_offset_mm / k, "mm", ""});
+    pairs.push_back(std::move(pair));
+  }
+  return {{"disagreements", pairs},
+          {"reason", result.agreement.reason},
+          {"odds", number(result.agreement.odds)}};
+}
+
 Json resimulation_object(const Resimulation& again) {
   if (!again.why_not.empty()) return {{"why", again.why_not}};
   return comparison_object(again.comparison);
@@ -155,6 +174,8 @@ std::string job_json(const JobResult& result) {
     references.push_back(reference);
   }
   json["references"] = references;
+  if (result.fits.size() > 1 || !result.agreement.reason.empty())
+    json["agreement"] = agreement_object(result);
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.correction) json["correction"] = correction_object(*result.correction);

@@ -8,6 +8,7 @@
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "fit/files/fit_text.hpp"
+#include "job/agreement.hpp"
 #include "job/files/job_json.hpp"
 #include "job/files/residuals_csv.hpp"
 #include "measure/files/stream_csv.hpp"
@@ -79,6 +80,8 @@ std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
+  for (const Disagreement& d : result.agreement.disagreements)
+    text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions) text += inclusion_text(inclusion);
   if (result.correction) text += correction_preview(*result.correction) + "\n";
   return text;

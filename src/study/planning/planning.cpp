@@ -276,19 +276,14 @@ std::vector<Alone> each_alone(const PlanningTask& task, const PlanSearch& search
   return alone;
 }
 
-/// The fits' own U is what a user will see.
-void remark_on_stated(const PlanningTask& task, PlanningAnswer& out) {
-  constexpr double noticeable = 1.05;  // of the goal: more than an estimated sigma scatters by
-  double most_mm = 0.0;
-  for (const Recommendation& one : out.recommended) {
-    if (one.confirmed.repeats > 0) most_mm = std::max(most_mm, one.confirmed.stated_mm);
-  }
-  if (!(most_mm > noticeable * task.goal_mm)) return;
-  out.remarks.push_back(fmt::format(
-      "the bound meets the goal of {:.3g} µm, but the U that the fits state does not (up "
-      "to {:.3g} µm): they take for noise what the bound takes as known, as effects and "
-      "correlation",
-      task.goal_mm / mm_per_um, most_mm / mm_per_um));
+/// A plan is recommended where its simulated fits meet the goal and state so: their own U is what a
+/// user will see.
+void sort_by_confirmation(PlanningAnswer& out) {
+  const auto first_not = std::ranges::stable_partition(
+      out.recommended, [](const Recommendation& one) { return one.confirmed.good(); });
+  out.not_confirmed.assign(first_not.begin(), first_not.end());
+  out.recommended.erase(first_not.begin(), first_not.end());
+  out.confirmed = !out.recommended.empty();
 }
 
 }  // namespace
@@ -340,9 +335,7 @@ PlanningAnswer plan_measurement(const PlanningTask& asked, const PlanningProgres
   steps.begin(PlanningStage::simulation, out.recommended.size() * task.repeats);
   for (Recommendation& one : out.recommended)
     one.confirmed = search.confirm(one.plan, out.recommended.size());
-  remark_on_stated(task, out);
-  out.confirmed = std::ranges::any_of(
-      out.recommended, [](const Recommendation& one) { return !one.confirmed.misses; });
+  sort_by_confirmation(out);
   return out;
 }
 

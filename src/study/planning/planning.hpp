@@ -70,6 +70,9 @@ struct Confirmation {
   double stated_mm = 0.0;      ///< mean of the U that the fits state
   bool at_bound = false;  ///< the bound is within what chance leaves, at 1 % over all confirmations
   bool misses = false;    ///< the goal, by more than chance leaves: the fits are not efficient
+  bool states_more = false;  ///< than the goal: the user's fit would not show that it is met
+
+  bool good() const { return !misses && !states_more; }
 };
 
 /// A plan that meets the goal; which choices were changed.
@@ -95,14 +98,15 @@ struct TableRow {
 struct PlanningAnswer {
   PlannedMeasurement as_given;
   bool reached = false;    ///< whether some plan meets the goal, within time and rate
-  bool confirmed = false;  ///< and the simulation of one that is recommended does not miss it
+  bool confirmed = false;  ///< and simulated fits of one meet it and state that they do
   PlannedMeasurement
       nearest;               ///< smallest U that the ranges, time and rate allow, if they allow any
   std::vector<Alone> alone;  ///< in the order of `variables`
   Choice solved_for = Choice::readings_per_revolution;
   std::vector<TableRow> table;  ///< by the choices that are not solved for; empty without others
-  std::vector<Recommendation> recommended;  ///< each met by the bound and confirmed
-  std::vector<std::string> remarks;         ///< what limits the answer
+  std::vector<Recommendation> recommended;    ///< each meets the goal by the bound and confirmed
+  std::vector<Recommendation> not_confirmed;  ///< by the bound only
+  std::vector<std::string> remarks;           ///< what limits the answer
 };
 
 enum class PlanningStage {

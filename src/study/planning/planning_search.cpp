@@ -21,6 +21,7 @@ constexpr double met = 1.0 + 1e-9;     // of the goal: rounding of the bound
 constexpr double close_enough = 1e-3;  // of the goal, before a value is rounded to be set
 constexpr double beyond = 1.01, least_step = 0.01;  // of the first steps
 constexpr int most_steps = 25;
+constexpr double noticeable = 1.05;  // of the goal: more than an estimated sigma scatters by
 
 }  // namespace
 
@@ -190,6 +191,7 @@ Confirmation PlanSearch::confirm(const PlannedMeasurement& plan, std::size_t amo
   out.stated_mm = k * stated / n;
   out.at_bound = worst.sd_mm >= of_all.low && worst.sd_mm <= of_all.high;
   out.misses = !out.at_bound && out.interval_95_mm.low > task_.goal_mm;
+  out.states_more = out.stated_mm > noticeable * task_.goal_mm;
   return out;
 }
 

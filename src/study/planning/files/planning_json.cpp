@@ -29,7 +29,18 @@ Json confirmed_json(const Confirmation& confirmed) {
              {number(confirmed.interval_95_mm.low), number(confirmed.interval_95_mm.high)}}}},
           {"U_stated", with_unit(confirmed.stated_mm, "mm")},
           {"at_bound", confirmed.at_bound},
-          {"misses", confirmed.misses}};
+          {"misses", confirmed.misses},
+          {"states_more", confirmed.states_more}};
+}
+
+Json recommendations_json(const std::vector<Recommendation>& list) {
+  Json json = Json::array();
+  for (const Recommendation& one : list) {
+    json.push_back({{"what", one.what},
+                    {"plan", plan_json(one.plan)},
+                    {"confirmed", confirmed_json(one.confirmed)}});
+  }
+  return json;
 }
 
 }  // namespace
@@ -58,7 +69,7 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
   json["free"] = std::move(variables);
   json["as_given"] = plan_json(answer.as_given);
   json["nearest"] = plan_json(answer.nearest);
-  Json alone = Json::array(), table = Json::array(), recommended = Json::array();
+  Json alone = Json::array(), table = Json::array();
   for (const Alone& one : answer.alone) {
     alone.push_back({{"choice", info_of(one.choice).name},
                      {"reached", one.reached},
@@ -66,15 +77,11 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
   }
   for (const TableRow& row : answer.table)
     table.push_back({{"reached", row.reached}, {"plan", plan_json(row.plan)}});
-  for (const Recommendation& one : answer.recommended) {
-    recommended.push_back({{"what", one.what},
-                           {"plan", plan_json(one.plan)},
-                           {"confirmed", confirmed_json(one.confirmed)}});
-  }
   json["alone"] = std::move(alone);
   json["solved_for"] = info_of(answer.solved_for).name;
   json["table"] = std::move(table);
-  json["recommended"] = std::move(recommended);
+  json["recommended"] = recommendations_json(answer.recommended);
+  json["not_confirmed"] = recommendations_json(answer.not_confirmed);
   json["remarks"] = answer.remarks;
   return json_text(json);
 }

@@ -89,6 +89,11 @@ std::string confirmed_text(const Confirmation& confirmed, double goal_mm) {
   if (confirmed.at_bound)
     text += above ? ", yet the bound is still within chance" : ", as the bound says";
   if (confirmed.failures > 0) text += format(", {} failed", confirmed.failures);
+  if (confirmed.states_more)
+    text += format(
+        "\n    the U that the fits state is {} times the goal: they take for noise what "
+        "the bound takes as known, as effects and correlation",
+        digits(3, confirmed.stated_mm / goal_mm));
   return text + '\n';
 }
 
@@ -110,17 +115,44 @@ std::string not_reached_text(const PlanningTask& task, const PlanningAnswer& ans
   return text + "\n  " + head + "  " + row_text(plan) + beyond + '\n';
 }
 
-/// With the goal at which the least wasteful of the simulated fits would do.
+/// What would do, by the least wasteful of the simulated fits: a bound, or readings.
 std::string not_confirmed_text(const PlanningTask& task, const PlanningAnswer& answer) {
-  double efficiency = 0.0;
-  for (const Recommendation& one : answer.recommended) {
-    if (one.confirmed.repeats > 0)
-      efficiency = std::max(efficiency, one.plan.u_expanded_mm / one.confirmed.u_expanded_mm);
+  const std::string begin = "\nNot confirmed: the bound meets the goal";
+  const auto of_fits_mm = [](const Recommendation& one) {
+    return std::max(one.confirmed.u_expanded_mm, one.confirmed.stated_mm);
+  };
+  const Recommendation* best = nullptr;
+  for (const Recommendation& one : answer.not_confirmed) {
+    if (one.confirmed.repeats == 0) continue;
+    if (!best ||
+        of_fits_mm(one) / one.plan.u_expanded_mm < of_fits_mm(*best) / best->plan.u_expanded_mm)
+      best = &one;
   }
-  std::string text = "\nNot confirmed: the bound meets the goal, the simulated fits do not";
-  if (efficiency > 0.0)
-    text += "; ask for a bound of " + um(task.goal_mm * efficiency) + " µm (--goal-um)";
-  return text + '\n';
+  if (!best) return begin + ", the simulated fits do not\n";
+  if (best->confirmed.misses) {
+    return begin + format(", the simulated fits do not; ask for a bound of {} µm (--goal-um)\n",
+                          um(task.goal_mm * best->plan.u_expanded_mm / of_fits_mm(*best)));
+  }
+  // More readings a revolution would only correlate: more turns do not.
+  const double ratio = best->confirmed.stated_mm / task.goal_mm, times = ratio * ratio;
+  return begin + format(
+                     " of {} µm, but the U that the fits state does not: {} µm, {} times the goal; "
+                     "about {} times the turns (a feed of {} mm) would state it, or take away what "
+                     "the fits take for noise\n",
+                     um(task.goal_mm), um(best->confirmed.stated_mm), digits(3, ratio),
+                     digits(2, times), digits(2, best->plan.of(Choice::feed) / times));
+}
+
+/// The list of plans under a headline.
+std::string plans_text(const PlanningTask& task, const std::vector<Recommendation>& list,
+                       const std::string& headline) {
+  if (list.empty()) return "";
+  std::string text = format("\n{} (seed {})\n  {}", headline, task.seed, head);
+  for (const Recommendation& one : list) {
+    text += "  " + row_text(one.plan) + "  " + one.what + '\n';
+    text += confirmed_text(one.confirmed, task.goal_mm);
+  }
+  return text;
 }
 
 }  // namespace
@@ -136,13 +168,9 @@ std::string planning_text(const PlanningTask& task, const PlanningAnswer& answer
       text += "  " + row_text(row.plan) + (row.reached ? "" : "  misses the goal") +
               beyond_text(task, row.plan) + '\n';
   }
-  if (!answer.recommended.empty()) {
-    text += format("\nRecommended, and confirmed by simulation (seed {})\n  {}", task.seed, head);
-    for (const Recommendation& one : answer.recommended) {
-      text += "  " + row_text(one.plan) + "  " + one.what + '\n';
-      text += confirmed_text(one.confirmed, task.goal_mm);
-    }
-  }
+  text += plans_text(task, answer.recommended, "Recommended, and confirmed by simulation");
+  text +=
+      plans_text(task, answer.not_confirmed, "Not recommended: by the bound only, as simulated");
   for (const std::string& remark : answer.remarks) text += "\nNote: " + remark + '\n';
   if (answer.reached && !answer.confirmed) text += not_confirmed_text(task, answer);
   return answer.reached ? text : text + not_reached_text(task, answer);

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/agreement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <vector>
+
+#include "job/exchanged.hpp"
+#include "job/mistakes.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double by_chance = 1e-3;        // of a disagreement by the noise alone
+constexpr double tried_from_mm = 0.01;    // a smaller disagreement is that of parts
+constexpr double tilt_arm_mm = 100.0;     // at which a tilt counts as an offset
+constexpr double much_more_likely = 1e3;  // and among disagreements that no part has:
+constexpr double more_likely = 20.0;
+constexpr double taken_to = 0.2;  // of the disagreement, by a mistake that is named
+constexpr double as_likely = 10.0;
+// Beyond these the surfaces are not of one part as it stands.
+constexpr double no_part_mm = 0.5, no_part_rad = 0.01, no_part_mm_per_mm = 1e-3;
+
+double size_mm(const Disagreement& d) { return std::hypot(d.offset_mm, tilt_arm_mm * d.tilt_rad); }
+
+bool of_no_part(const Disagreement& d) {
+  return d.offset_mm - d.U_offset_mm > no_part_mm + no_part_mm_per_mm * d.between_mm ||
+         d.tilt_rad - d.U_tilt_rad > no_part_rad;
+}
+
+/// The references that have an axis.
+struct Held {
+  std::vector<std::size_t> reference;
+  std::vector<HeldAxis> axis;
+  double coverage_factor = 2.0;
+
+  std::vector<Disagreement> pairs() const {
+    std::vector<Disagreement> list;
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+      for (std::size_t j = i + 1; j < axis.size(); ++j) {
+        list.push_back(difference_of(axis[i], axis[j], coverage_factor));
+        list.back().first = reference[i], list.back().second = reference[j];
+      }
+    }
+    std::ranges::stable_sort(list, std::ranges::greater{}, size_mm);
+    return list;
+  }
+};
+
+Held held_of(const JobResult& result) {
+  Held held;
+  held.coverage_factor = result.job.references.front().fit.coverage_factor;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const FitResult& fit = result.fits[i];
+    if (fit.status != FitStatus::converged || fit.surface == SurfaceKind::section) continue;
+    held.reference.push_back(i);
+    held.axis.push_back(held_axis(fit));
+  }
+  return held;
+}
+
+/// A mistake that would explain a disagreement.
+struct Explanation {
+  const Mistake* mistake = nullptr;
+  std::size_t at = 0;     ///< place among the references held
+  double number = 0.0;    ///< that it leaves open
+  double log_odds = 0.0;  ///< against none
+  Disagreement left;      ///< the worst pair with it
+};
+
+double likelihood_with(std::vector<HeldAxis> axes, std::size_t at, const Mistake& mistake,
+                       double number, bool width) {
+  axes[at] = mended(axes[at], mistake, number);
+  std::optional<OpenMistake> open;
+  if (width && mistake.open) open = {at, *mistake.open, number};
+  return log_likelihood(axes, open) + log_shrinkage(mistake, axes[at].plane);
+}
+
+/// The open number at which the axes are most likely: the best of a ladder, refined.
+double best_number(const Held& held, std::size_t at, const Mistake& mistake) {
+  if (!mistake.open) return 0.0;
+  const bool turn = *mistake.open == OpenNumber::c_zero;
+  const double reach = turn ? 0.5 * two_pi : 500.0;
+  const int steps = turn ? 36 : 50;
+  const auto cost = [&](double number) {
+    return -likelihood_with(held.axis, at, mistake, number, false);
+  };
+  double best = 0.0, least = cost(0.0);
+  for (int i = -steps; i <= steps; ++i) {
+    const double number = reach * i / steps, here = cost(number);
+    if (here < least) least = here, best = number;
+  }
+  const double step = reach / steps;
+  return boost::math::tools::brent_find_minima(cost, best - step, best + step, 20).first;
+}
+
+/// Whether the readings of a reference can be of a mistake at all.
+bool applies(const Mistake& mistake, const HeldAxis& axis) {
+  return !axis.plane || mistake.open != OpenNumber::z_zero;
+}
+
+/// Axes of one part, or of a part that was clamped anew.
+double without_mistake(const Held& held) {
+  return std::max(log_likelihood(held.axis), log_likelihood_clamped_anew(held.axis));
+}
+
+std::vector<Explanation> explanations(const Held& held, const Disagreement& worst) {
+  const double as_is = without_mistake(held);
+  std::vector<Explanation> list;
+  for (std::size_t at = 0; at < held.axis.size(); ++at) {
+    for (const Mistake& mistake : mistakes()) {
+      if (!applies(mistake, held.axis[at])) continue;
+      Explanation e{&mistake, at, best_number(held, at, mistake), 0.0, {}};
+      e.log_odds = likelihood_with(held.axis, at, mistake, e.number, true) - as_is;
+      Held right = held;
+      right.axis[at] = mended(held.axis[at], mistake, e.number);
+      e.left = right.pairs().front();
+      if (size_mm(e.left) <= taken_to * size_mm(worst)) list.push_back(e);
+    }
+  }
+  std::ranges::stable_sort(list, std::ranges::greater{}, &Explanation::log_odds);
+  return list;
+}
+
+/// The same by a fit of the readings as they should have been read; false: it does not fit them.
+bool holds_on_data(const JobResult& result, const Held& held, Explanation& e) {
+  const std::size_t i = held.reference[e.at];
+  const FitResult again =
+      fit(mended(result.streams[i], *e.mistake, e.number), result.job.references[i].fit);
+  const bool face = result.streams[i].kind == StreamKind::face;
+  const double scale = std::abs(face ? e.mistake->z : e.mistake->x);
+  if (again.status != FitStatus::converged ||
+      again.rms_mm > 1.2 * scale * result.fits[i].rms_mm + 1e-6)
+    return false;
+  Held right = held;
+  right.axis[e.at] = held_axis(again);
+  e.left = right.pairs().front();
+  std::optional<OpenMistake> open;
+  if (e.mistake->open) open = {e.at, *e.mistake->open, e.number};
+  e.log_odds = log_likelihood(right.axis, open) +
+               log_shrinkage(*e.mistake, right.axis[e.at].plane) - without_mistake(held);
+  return true;
+}
+
+/// "212 µm and 1.3 mrad"
+std::string apart(const Disagreement& d) {
+  const std::string tilt = fmt::format("{:.2g} mrad", 1e3 * d.tilt_rad);
+  const double um = d.offset_mm / mm_per_um;
+  if (d.offset_mm == 0.0 && d.U_offset_mm == 0.0) return tilt;
+  return fmt::format("{:.{}f} µm and {}", um, um < 10.0 ? 1 : 0, tilt);
+}
+
+std::string said(const JobResult& result, const Held& held, const Explanation& e) {
+  std::string text =
+      fmt::format(fmt::runtime(e.mistake->what), reference_and_file(result, held.reference[e.at]));
+  if (e.mistake->open == OpenNumber::c_zero)
+    text += fmt::format(" ({:+.1f}° to be added)", e.number / rad_per_deg);
+  if (e.mistake->open == OpenNumber::z_zero)
+    text += fmt::format(" ({:+.3g} mm to be added)", e.number);
+  return text;
+}
+
+/// The most likely mistake, and what is nearly as likely.
+void name_mistake(const JobResult& result, const Held& held, const Disagreement& worst,
+                  Agreement& out) {
+  const double least = of_no_part(worst) ? more_likely : much_more_likely;
+  std::vector<Explanation> likely = explanations(held, worst);
+  std::erase_if(likely, [&](Explanation& e) {
+    return e.log_odds < std::log(least) || !holds_on_data(result, held, e) ||
+           e.log_odds < std::log(least);
+  });
+  if (likely.empty()) return;
+  std::ranges::stable_sort(likely, std::ranges::greater{}, &Explanation::log_odds);
+  const Explanation& best = likely.front();
+  std::string what, mend;
+  for (const Explanation& e : likely) {
+    if (e.log_odds < best.log_odds - std::log(as_likely)) break;
+    if (e.mistake->open && !best.mistake->open) continue;  // what explains it needs no number
+    what += (what.empty() ? "" : ", or ") + said(result, held, e);
+    if (mend.find(e.mistake->mend) == std::string::npos)
+      mend += (mend.empty() ? "" : ", or ") + std::string(e.mistake->mend);
+  }
+  out.odds = std::exp(std::min(best.log_odds, 600.0));
+  out.reason =
+      fmt::format("{}, {} if {}: {}", how_apart(result, worst), apart(best.left), what, mend);
+}
+
+void hold_axes(const JobResult& result, Agreement& out) {
+  const Held held = held_of(result);
+  if (held.axis.size() < 2) return;
+  out.disagreements = held.pairs();
+  std::erase_if(out.disagreements, [](const Disagreement& d) { return d.p_value >= by_chance; });
+  if (out.disagreements.empty() || size_mm(out.disagreements.front()) < tried_from_mm) return;
+  const Disagreement& worst = out.disagreements.front();
+  name_mistake(result, held, worst, out);
+  if (!out.reason.empty() || !of_no_part(worst)) return;
+  out.reason =
+      how_apart(result, worst) +
+      ", farther than surfaces of one part are, and no sign, unit, diameter or zero of one stream "
+      "explains it: probe all references in one clamping";
+}
+
+}  // namespace
+
+std::string how_apart(const JobResult& result, const Disagreement& d) {
+  std::string U = fmt::format("{:.2g} mrad", 1e3 * d.U_tilt_rad);
+  if (d.U_offset_mm > 0.0) U = fmt::format("{:.2g} µm and {}", d.U_offset_mm / mm_per_um, U);
+  return fmt::format("the axes of {} and {} are {} apart (U = {})",
+                     reference_and_file(result, d.first), reference_and_file(result, d.second),
+                     apart(d), U);
+}
+
+Agreement hold_together(const JobResult& result) {
+  Agreement out;
+  for (std::size_t i = 0; i < result.streams.size() && out.reason.empty(); ++i)
+    out.reason = wrong_unit_of_c(result, i);
+  if (out.reason.empty()) out.reason = exchanged_streams(result);
+  if (out.reason.empty()) hold_axes(result, out);
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// Holds streams and ideal fits of a job against each other. Tried are, in this order: C in another
+/// unit, of every stream; streams that were exchanged, by the fits; and where axes disagree beyond
+/// U the mistakes of mistakes(), one reference after the other. A mistake is named where it takes
+/// the disagreement to a fifth and the axes are a thousand times more likely with it, than with
+/// surfaces that are out of their common axis as those of parts are.
+Agreement hold_together(const JobResult& result);
+
+/// "the axes of seat (seat.csv) and journal (journal.csv) are 212 µm and 1.3 mrad apart (U = …)"
+std::string how_apart(const JobResult& result, const Disagreement& disagreement);
+
+}  // namespace trueaxis

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "job/axis_likelihood.hpp"
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// A way in which a stream is read wrongly: what its columns have to be multiplied by, or turned
+/// by, to be right.
+struct Mistake {
+  const char* what;  ///< "C of {} runs the other way", {} the name of the reference
+  const char* mend;  ///< "turn the sign of its column C"
+  double x = 1.0, z = 1.0, c = 1.0;
+  double turn_rad = 0.0;
+  std::optional<OpenNumber> open{};  ///< a number that only the data can tell
+};
+
+/// All that are tried on a disagreement of axes.
+std::span<const Mistake> mistakes();
+
+/// A C in the other unit of angle: no axis comes of it at all.
+std::span<const Mistake> mistakes_of_unit();
+
+/// The stream as it should have been read.
+/// @param number that a mistake leaves open: rad or mm that are added
+ProbeStream mended(ProbeStream stream, const Mistake& mistake, double number = 0.0);
+
+/// The same of an axis.
+HeldAxis mended(HeldAxis axis, const Mistake& mistake, double number = 0.0);
+
+/// ln of the density of a right axis over that of the axis as it was read, where that is smaller: a
+/// mistake that shrinks everything would make all axes agree.
+double log_shrinkage(const Mistake& mistake, bool plane);
+
+}  // namespace trueaxis
