@@ -100,6 +100,8 @@ double best_number(const Held& held, std::size_t at, const Mistake& mistake) {
 
 /// Whether the readings of a reference can be of a mistake at all.
 bool applies(const Mistake& mistake, const HeldAxis& axis) {
+  if (mistake.x == 0.5 && axis.diameter) return false;   // a diameter that was read as one
+  if (mistake.x == 2.0 && !axis.diameter) return false;  // a radius likewise
   return !axis.plane || mistake.open != OpenNumber::z_zero;
 }
 

@@ -101,7 +101,8 @@ double log_likelihood_of(std::span<const HeldAxis> axes, std::optional<OpenMista
 
 HeldAxis held_axis(const FitResult& fit) {
   const bool plane = fit.surface == SurfaceKind::plane;
-  return {fit.axis, plane ? 0.0 : 0.5 * (fit.position_min_mm + fit.position_max_mm), plane};
+  return {fit.axis, plane ? 0.0 : 0.5 * (fit.position_min_mm + fit.position_max_mm), plane,
+          fit.x_convention && fit.x_convention->diameter};
 }
 
 Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double coverage_factor) {

@@ -14,6 +14,7 @@ struct HeldAxis {
   AxisEstimate estimate;
   double z_mid_mm = 0.0;  ///< middle of the probed length
   bool plane = false;     ///< only its direction counts
+  bool diameter = false;  ///< X was read as a diameter
 };
 
 /// A number that a mistake leaves open, by what it does to an axis.

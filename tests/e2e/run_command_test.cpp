@@ -45,13 +45,13 @@ TEST_F(RunCommand, GoWithTableResultAndReport) {
             found.at("correction").at("rows").get<std::size_t>());
 }
 
-TEST_F(RunCommand, ToleranceNotMetIsNoGo) {
+TEST_F(RunCommand, ToleranceThatUExceedsIsNotProven) {
   file("job.toml", simple_job(cylinder_reference, 600, 0.1));
   std::filesystem::create_directories(folder_ / "out");
   file("out/table.csv", earlier_table);
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
-  EXPECT_EQ(done.out.substr(0, 7), "NO-GO: ");
+  EXPECT_EQ(done.out.substr(0, 12), "NOT PROVEN: ");
   EXPECT_TRUE(contains(first_line(done.out), "tolerance 0.1")) << first_line(done.out);
   EXPECT_EQ(files_in(folder_ / "out"),
             (std::vector<std::string>{"diagnosis_1_cylinder.json", "readings_1_cylinder.csv",

@@ -11,7 +11,7 @@ class Said : public CommandTest {
  protected:
   void write(const std::string& head) { file("part.csv", csv(probe({.noise_mm = 0.002}), head)); }
   json convention(const std::string& arguments) {
-    const CommandStreams done = command(arguments + " --json out.json");
+    const CommandStreams done = command(arguments + " --force --json out.json");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return result("out.json").at("input").at("x_convention");
   }

@@ -47,6 +47,7 @@ class AgreementBench {
     wrong.x = 1.0 / right.x, wrong.z = 1.0 / right.z, wrong.c = 1.0 / right.c;
     wrong.turn_rad = -right.turn_rad;
     result_.streams[1] = mended(result_.streams[1], wrong, -number);
+    if (right.x == 2.0) result_.streams[1].x_convention = {true, SaidBy::stream};
   }
 
   Agreement agreement() {

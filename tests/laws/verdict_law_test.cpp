@@ -20,11 +20,10 @@ Scenario cylinder(std::uint64_t seed) {
   s.part.radius_mm = 25.0;
   s.part.x0_mm = 0.03, s.part.y0_mm = -0.02, s.part.l = 2e-4, s.part.m = 1e-4;
   s.noise.sigma_mm = 1e-3;
-  s.plan.passes.push_back({.start_mm = 0.0,
-                           .end_mm = 40.0,
-                           .feed_mm_per_rev = 1.0,
-                           .readings_per_revolution = 36.7,
-                           .jitter = 0.2});
+  virtual_lathe::PlannedPass pass;
+  pass.end_mm = 40.0, pass.feed_mm_per_rev = 1.0;
+  pass.readings_per_revolution = 36.7, pass.jitter = 0.2;
+  s.plan.passes.push_back(pass);
   s.seed = seed;
   return s;
 }

@@ -205,7 +205,8 @@ Outcome judge(Group group, std::uint64_t seed) {
   const JobResult result = run_job(drawn.job, std::move(streams));
   Outcome out;
   const auto add = [](std::string& list, std::string_view id) {
-    list += (list.empty() ? "" : "+") + std::string(id);
+    if (!list.empty()) list += '+';
+    list += id;
   };
   for (const Scenario& s : drawn.scenarios)
     for (const virtual_lathe::Effect& effect : s.effects) add(out.hidden, effect.id);

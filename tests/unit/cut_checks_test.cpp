@@ -69,7 +69,7 @@ TEST(CutChecks, EccentricityCountsWhereTheTargetIsAboutAnotherAxis) {
   job.references[0].name = "far", job.references[0].weight = 1e6;
   job.stock_mm = 0.14;
   const JobResult result =
-      run_job(job, {probed(PartKind::cylinder, 0.10), probed(PartKind::cylinder, 0.05)});
+      run_job(job, {probed(PartKind::cylinder, 0.12), probed(PartKind::cylinder, 0.07)});
   const auto over = material_over(result, 1);
   ASSERT_TRUE(over);
   EXPECT_NEAR(over->least.material_mm, 0.05, 2e-3);
