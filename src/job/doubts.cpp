@@ -44,7 +44,8 @@ std::optional<double> order_in(const TermValue& term, const Pass& pass) {
 }
 
 /// Whether a term goes with the eccentricity in every pass: it then beats with it so slowly that
-/// the axis takes its amplitude in. Without passes, a pattern of one undulation alone does.
+/// the axis takes its amplitude in. So does a line that turns so slowly that it stands for other
+/// slow forms. Without passes, a pattern of one undulation alone does.
 bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
   if (passes.empty()) return !term.effect && term.pattern.order == 1.0;
   bool turns = false;
@@ -52,7 +53,9 @@ bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
     if (pass.c_sign == 0 || pass.readings_per_revolution <= 0.0) continue;
     const auto order = order_in(term, pass);
     const double turned = static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
-    if (!order || std::abs(*order - 1.0) * turned > least_beats) return false;
+    const bool line = term.effect || term.pattern.kind == Pattern::Kind::line;
+    const bool slow = line && order && *order * turned <= least_beats;
+    if (!order || (!slow && std::abs(*order - 1.0) * turned > least_beats)) return false;
     turns = true;
   }
   return turns;
@@ -113,8 +116,8 @@ std::string moves_with_axis(const JobResult& result) {
     for (const Finding& f : diagnosis.findings) {
       if (!goes_with_axis(f.term, passes)) continue;
       return fmt::format(
-          "{}{} is so near one undulation per revolution that it beats less than {:.2g} times with "
-          "the eccentricity, and the axis goes with it: {}",
+          "{}{} turns so nearly with the part that over the stream it makes at most {:.2g} turns "
+          "beside it or beside the eccentricity, and the axis goes with it: {}",
           where(result, i), f.effect(), least_beats, next);
     }
   }

@@ -20,7 +20,8 @@ std::vector<OpenAxis> open_axes(const JobResult& result);
 
 /// Of the first reference with a pattern of no known cause at one undulation per revolution, or
 /// with anything found so near to it that it hardly beats with the eccentricity over the stream:
-/// the axis takes its amplitude in, whatever its u says. Empty: there is none.
+/// the axis takes its amplitude in, whatever its u says; or with a line of hardly more than a
+/// cycle. Empty: there is none.
 std::string moves_with_axis(const JobResult& result);
 
 }  // namespace trueaxis

@@ -31,8 +31,16 @@ class Draw {
 
 constexpr double speed_rpm = 60.0;
 
+/// A wave that keeps step with the eccentricity is the axis itself to one pass: no data show it,
+/// and it is not drawn. It beats with it at least once over the stream.
+double away_from_one(double order, double turns) {
+  if (std::abs(order - 1.0) * turns >= 1.0) return order;
+  return 1.0 + (order < 1.0 ? -1.0 : 1.0) / turns;
+}
+
 /// An effect at a size that the catalogue calls typical, along a length from 0.
-virtual_lathe::Effect draw_effect(Draw& draw, double length_mm) {
+virtual_lathe::Effect draw_effect(Draw& draw, double length_mm, double feed_mm_per_rev) {
+  const double turns = length_mm / feed_mm_per_rev;
   const double um = 1e-3;
   switch (static_cast<int>(draw.whole(0, 9))) {
     case 0:
@@ -51,7 +59,8 @@ virtual_lathe::Effect draw_effect(Draw& draw, double length_mm) {
       return {"part.barrel", {{"amplitude_mm", draw.log_between(1.0, 10.0) * um}}};
     case 3:
       return {"part.waviness",
-              {{"wavelength_mm", length_mm / draw.between(3.0, 12.0)},
+              {{"wavelength_mm",
+                feed_mm_per_rev / away_from_one(draw.between(3.0, 12.0) / turns, turns)},
                {"amplitude_mm", draw.log_between(0.5, 5.0) * um},
                {"phase_rad", draw.phase()}}};
     case 4:
@@ -72,7 +81,7 @@ virtual_lathe::Effect draw_effect(Draw& draw, double length_mm) {
                {"phase_rad", draw.phase()}}};
     case 7:
       return {"environment.vibration",
-              {{"frequency_hz", draw.between(0.5, 8.0)},
+              {{"frequency_hz", away_from_one(draw.between(0.5, 8.0), turns)},
                {"amplitude_mm", draw.log_between(0.3, 5.0) * um},
                {"phase_rad", draw.phase()}}};
     case 8:
@@ -127,7 +136,8 @@ Scenario draw_seat(Group group, Draw& draw, double from_mm, const Scenario* firs
                       : group == Group::ambiguous_forms ? static_cast<int>(draw.whole(2, 4))
                       : group == Group::without_t       ? static_cast<int>(draw.whole(1, 2))
                                                         : 0;
-  for (int e = 0; e < effects; ++e) s.effects.push_back(draw_effect(draw, length));
+  for (int e = 0; e < effects; ++e)
+    s.effects.push_back(draw_effect(draw, length, pass.feed_mm_per_rev));
   return s;
 }
 

@@ -48,21 +48,18 @@ std::string line_of(std::string_view name, const Row& r) {
                      r.out, share, r.far_out, r.reserved_out, r.reserved, r.not_proven, r.no_go);
 }
 
-constexpr std::string_view head =
-    "# The risk of a GO\n\n"
-    "The virtual lathe draws jobs whose truth is sealed, `run_job` decides, and the cut axis is "
-    "held "
-    "against the drawn one:\nR 10–80 mm, cylinders and cones of 2–20°, 20–60 mm probed in one pass "
-    "at "
-    "18–40 readings a turn, σ 0.5–2 µm, the cut 2–25 mm\nbeside the probed length. A GO at the "
-    "edge is "
-    "one whose tolerance is just what it says the coaxiality is at most; out of it is\nwhere the "
-    "part "
-    "that is cut exceeds that. ISO 14253-1 allows 5 %. Far from the edge is three times that "
-    "tolerance.\n\n"
-    "| | jobs | GO | out at the edge | % (95 % interval) | out far from it | with reservations, "
-    "out | "
-    "NOT PROVEN | NO-GO |\n|---|---|---|---|---|---|---|---|---|\n";
+constexpr std::string_view head = R"(# The risk of a GO
+
+The virtual lathe draws jobs whose truth is sealed, `run_job` decides, and the cut axis is held against the drawn one:
+R 10–80 mm, cylinders and cones of 2–20°, 20–60 mm probed in one pass at 18–40 readings a turn, σ 0.5–2 µm, the cut 2–25 mm
+beside the probed length. A GO at the edge is one whose tolerance is just what it says the coaxiality is at most; out of it is
+where the part that is cut exceeds that. ISO 14253-1 allows 5 %. Far from the edge is three times that tolerance.
+Waves that keep step with the eccentricity, less than one beat over the stream, are the axis itself to a single pass: no data
+show them, and they are not drawn.
+
+| | jobs | GO | out at the edge | % (95 % interval) | out far from it | with reservations, out | NOT PROVEN | NO-GO |
+|---|---|---|---|---|---|---|---|---|
+)";
 
 }  // namespace
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double catalogue_first = 6.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
-constexpr double hides_a_line = 0.3;  // |φ|: less hardly weakens one
+constexpr double hides_a_term = 0.3;  // |φ|: less hardly weakens one
 
 Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
   Columns out;
@@ -58,28 +58,33 @@ class StepwiseSearch {
   }
 
  private:
-  /// Noise before any term. A line that is no whole order, such as an asynchronous motion, looks
-  /// like a noise that rings, and whitening then takes it away: where the likelihood of lines
-  /// beside a noise of their own is better than chance makes it, that noise is taken.
+  /// Noise before any term. A line that is no whole order, such as an asynchronous motion, or a
+  /// large step of the part looks like a noise that rings, and whitening then takes it away: where
+  /// the likelihood of terms beside a noise of their own is better than chance makes it, that noise
+  /// is taken.
   std::vector<double> first_noise() {
     Autoregression best = noise({});
-    std::vector<Hypothesis> lines;
-    while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_line; }) &&
-           lines.size() < problem_.most_terms) {
-      const Proposal p = proposer_.beside(lines, {});
-      const Candidate* line = nullptr;
+    std::vector<Hypothesis> terms;
+    while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
+           terms.size() < problem_.most_terms) {
+      const Proposal p = proposer_.beside(terms, {});
+      const Candidate* term = nullptr;
       for (const auto* list : {&p.causes, &p.patterns}) {
-        if (list->empty() || !is_line(list->front().hypothesis)) continue;
-        if (!line || list->front().gain > line->gain) line = &list->front();
+        if (list->empty() || !looks_like_noise(list->front().hypothesis)) continue;
+        if (!term || list->front().gain > term->gain) term = &list->front();
       }
-      if (!line) break;
-      lines.push_back(line->hypothesis);
-      Autoregression with = noise(lines);
+      if (!term) break;
+      terms.push_back(term->hypothesis);
+      Autoregression with = noise(terms);
       const double gain = best.deviance - with.deviance;
       if (!(p.family.p_value(std::exp(-0.5 * gain)) < problem_.false_alarm)) break;
       best = std::move(with);
     }
     return best.phi;
+  }
+
+  static bool looks_like_noise(const Hypothesis& h) {
+    return is_line(h) || (h.effect && is_step(h.effect->term));
   }
 
   Autoregression noise(const std::vector<Hypothesis>& terms) const {
