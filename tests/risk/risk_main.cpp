@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
   table += line_of("all", all);
   table += fmt::format(
       "\nMade by `scripts/go_risk_study --cases {} --seed {}`, which writes a line a job to "
-                       "build/go_risk.csv.\n",
+      "build/go_risk.csv.\n",
       cases, seed);
   if (!page.empty()) std::ofstream(page) << table;
 }
