@@ -95,10 +95,13 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     return a.axis_shift.value > b.axis_shift.value;
   });
   add_evidence(ideal, *refit, search.model, explanation.between, out);
-  if (out.slip())
+  if (out.slip()) {
+    out.gain.coaxiality_before = out.gain.coaxiality_after = {
+        .unit = "mm", .why_not = "the part slipped: it stands there no longer"};
     out.remarks.push_back(
         "the part slipped: the axis of the extended model is that of before, and the part stands "
         "there no longer");
+  }
   return out;
 }
 

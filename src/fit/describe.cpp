@@ -201,6 +201,21 @@ void report_rms(FitResult& result) {
   result.rms_mm = std::sqrt(std::max(0.0, sum) / std::max<double>(1.0, static_cast<double>(left)));
 }
 
+/// A radius that no part has: the ball is larger than the path of its centre.
+void note_radius(FitResult& result) {
+  if (result.surface == SurfaceKind::plane || result.surface == SurfaceKind::own) return;
+  for (const double z_mm : {result.position_min_mm, result.position_max_mm}) {
+    const double radius_mm =
+        result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);
+    if (!(radius_mm <= 0.0)) continue;
+    result.notes.push_back(
+        fmt::format("no part has a radius of {:.6g} mm, as this one at Z = {:.6g} mm: give the "
+                    "radius of the probe's ball, or none where the readings are of the contact",
+                    radius_mm, z_mm));
+    return;
+  }
+}
+
 constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
 
 void add_notes(const ReadingNoise& noise, FitResult& result) {
@@ -322,6 +337,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
                            " times; parameters and axis are those of " +
                            set_up_name(set_ups.back().set_up) + ", the last");
   }
+  note_radius(result);
   add_notes(noise, result);
 }
 

@@ -83,10 +83,12 @@ std::string gain_block(const Diagnosis& d) {
   std::string text = "\nGain\n";
   text +=
       wrapped("  axis        ", "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
-  text +=
-      wrapped("  coaxiality  ", "expected over the probed length, cut about this axis alone: " +
-                                    plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " +
-                                    plus_minus(gain.coaxiality_after, k, um_per_mm, "µm"));
+  const std::string after = plus_minus(gain.coaxiality_after, k, um_per_mm, "µm");
+  text += wrapped("  coaxiality  ",
+                  gain.coaxiality_after.determined()
+                      ? "expected over the probed length, cut about this axis alone: " +
+                            plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " + after
+                      : after);
   if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);
   return text;
 }
