@@ -93,7 +93,7 @@ double Profile::at(double c_rad, double position_mm) const {
 // A face is touched at the X of the nose's centre: its section has no slope.
 double Profile::centre_over_mm(double z_mm) const {
   const Intersection hit = intersect(about_spindle_, 0.0, z_mm, tool_.height_mm);
-  if (!hit.hit) refuse_miss("the tool's line passes the target surface by", 0.0, z_mm);
+  if (!hit.hit) refuse_miss("the tool's line misses the target surface", 0.0, z_mm);
   const double nose = target_.bore ? -tool_.nose_radius_mm : tool_.nose_radius_mm;
   return z_mm - nose * hit.dx_dz / std::sqrt(1.0 + hit.dx_dz * hit.dx_dz);
 }
@@ -108,7 +108,7 @@ double Profile::nose_centre_mm(const Revolved& surface, double c_rad, double z_m
   double z_contact = z_mm;
   for (int i = 0; i < 60; ++i) {
     const Intersection hit = intersect(surface, c_part, z_contact, tool_.height_mm);
-    if (!hit.hit) refuse_miss("the tool's line passes the target surface by", c_rad, z_contact);
+    if (!hit.hit) refuse_miss("the tool's line misses the target surface", c_rad, z_contact);
     const double secant = std::sqrt(1.0 + hit.dx_dz * hit.dx_dz);
     // A straight section needs one correction; contraction is r_n times the section's curvature.
     const double next = z_mm + nose * hit.dx_dz / secant;

@@ -22,6 +22,8 @@ Diagnosis not_diagnosable(Diagnosis out) {
           ? "faces are not diagnosed: the catalogue's terms are those of X_M"
       : out.baseline.surface == SurfaceKind::own
           ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
+      : out.baseline.points <= out.baseline.parameters.size()
+          ? "no more readings than parameters: nothing is left to diagnose"
           : "the surface was not found: nothing can be said beside it";
   out.next.why_not = out.noise.note;
   return out;

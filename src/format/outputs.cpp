@@ -174,7 +174,9 @@ void Outputs::remove_earlier(const std::string& path) {
   expects(checked_, "outputs that were checked");
   const auto place = std::ranges::find(places_, path, &Place::path);
   if (is_standard_output(path) || schema_of_file(path) != place->schema) return;
-  earlier_.push_back(path);
+  std::error_code error;  // a link is to the table that must go, not the table
+  const fs::path place_of_it = fs::canonical(path, error);
+  earlier_.push_back(error ? path : place_of_it.string());
 }
 
 void Outputs::commit() {

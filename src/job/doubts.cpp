@@ -14,7 +14,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr double least_beats = 1.5;  // of a line with the spindle, over a pass
+constexpr double least_beats = 3.0;  // of a line with the spindle, over a pass
 
 std::string where(const JobResult& result, std::size_t i) {
   const std::string& name = result.job.references[i].name;
@@ -73,7 +73,105 @@ std::string open_causes(const Diagnosis& diagnosis) {
   return text;
 }
 
+constexpr std::size_t least_end = 8;  // readings: fewer may be a splash at the end of a stream
+constexpr double mostly = 0.5, gathered = 3.0;
+
+/// The longest run of readings at an end of a stream of which most were left out, and three times
+/// the share of all others; 0: outliers lie anywhere. `from_end`: 0 is the last reading.
+template <typename LeftOut>
+std::size_t left_out_end(std::size_t count, LeftOut left_out) {
+  double total = 0.0, here = 0.0;
+  for (std::size_t i = 0; i < count; ++i) total += left_out(i) ? 1.0 : 0.0;
+  std::size_t longest = 0;
+  for (std::size_t i = 0; i < count / 2; ++i) {
+    here += left_out(i) ? 1.0 : 0.0;
+    const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
+    if (i + 1 >= least_end && here >= mostly * run &&
+        here / run >= gathered * (total - here + 1.0) / rest)
+      longest = i + 1;
+  }
+  return longest;
+}
+
+/// Whether all passes that turn run at one speed and not in both directions of Z.
+bool one_manner(const std::vector<Pass>& passes) {
+  const Pass* first = nullptr;
+  for (const Pass& p : passes) {
+    if (p.c_sign == 0 || p.readings_per_revolution <= 0.0) continue;
+    if (!first) first = &p;
+    const double apart = std::abs(p.speed_rad_per_s - first->speed_rad_per_s);
+    if (apart > 0.01 * std::abs(first->speed_rad_per_s) || p.feed_sign != first->feed_sign)
+      return false;
+  }
+  return true;
+}
+
+bool is_bow(const Finding& finding) {
+  const auto* harmonic = std::get_if<Harmonic>(&finding.term.effect->term);
+  return harmonic && harmonic->fixed_order == 1.0 &&
+         harmonic->envelope == Harmonic::Envelope::parabola;
+}
+
 }  // namespace
+
+std::string left_out_at_an_end(const JobResult& result) {
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const std::size_t count = result.streams.at(i).size();
+    std::vector<bool> left_out(count, false);
+    const auto mark = [&](const std::vector<Rejected>& rows) {
+      for (const Rejected& r : rows)
+        if (r.row >= 1 && r.row <= count) left_out[r.row - 1] = true;
+    };
+    mark(result.fits[i].rejected);
+    if (result.diagnoses[i]) mark(result.diagnoses[i]->noise.masked);
+    const std::vector<Pass> passes =
+        count > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
+    for (const Pass& pass : passes) {
+      const std::size_t size = pass.end - pass.begin;
+      const std::size_t last =
+          left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
+      const std::size_t first =
+          left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
+      if (first + last == 0) continue;
+      return fmt::format(
+          "{}most of the {} {} readings of a pass were left out, because they do not lie where the "
+          "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
+          "and probe again, or take that end out of the stream if the surface ends there",
+          where(result, i), last > 0 ? "last" : "first", last > 0 ? last : first);
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> model_reservations(const JobResult& result) {
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    if (!result.diagnoses[i]) {
+      if (result.fits[i].u_factor > 1.0)
+        list.push_back(where(result, i) +
+                       "its readings are not diagnosed, and what they leave correlates");
+      continue;
+    }
+    const Diagnosis& diagnosis = *result.diagnoses[i];
+    const double stated_mm = diagnosis.noise.stated_mm.value_or(0.0);
+    const double left_mm = std::max(diagnosis.noise.sigma_mm, diagnosis.gain.rms_after_mm);
+    if (stated_mm > 0.0 &&
+        left_mm - stated_mm > std::max(0.5 * stated_mm, 3.0 * diagnosis.noise.u_sigma_mm)) {
+      list.push_back(fmt::format(
+          "{}after all that was found a reading scatters by {:.2g} µm, {:.2g} times the stated "
+          "noise: something is in them that no model holds, or the statement is too small",
+          where(result, i), left_mm / mm_per_um, left_mm / stated_mm));
+    }
+    const bool one_pass =
+        result.streams.at(i).size() > 0 && one_manner(find_passes(result.streams[i]));
+    if (one_pass && std::ranges::any_of(diagnosis.findings, is_bow))
+      list.push_back(where(result, i) +
+                     "a bow in one pass, or in passes alike, looks like a motion that beats with "
+                     "the spindle, which "
+                     "would move the axis: a pass back at another speed tells");
+  }
+  return list;
+}
 
 std::vector<OpenAxis> open_axes(const JobResult& result) {
   std::vector<OpenAxis> list;

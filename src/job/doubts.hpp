@@ -24,4 +24,11 @@ std::vector<OpenAxis> open_axes(const JobResult& result);
 /// cycle. Empty: there is none.
 std::string moves_with_axis(const JobResult& result);
 
+/// Of the first reference where outliers gather at an end of a pass: a slip there leaves too few
+/// readings behind it to be a finding, and the part stands elsewhere now. Empty: there is none.
+std::string left_out_at_an_end(const JobResult& result);
+
+/// What the models of the references leave open and a reader of a go must know, a sentence each.
+std::vector<std::string> model_reservations(const JobResult& result);
+
 }  // namespace trueaxis

@@ -19,6 +19,7 @@ using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 using Covariance = std::array<double, 16>;
 
 constexpr double most_times = 100.0;  // readings; beyond that another measurement is meant
+constexpr double margin = 1.05;       // the next stream's σ and angles are not those of this one
 constexpr double longest = 10.0;      // times the probed length
 
 /// What the readings' noise alone leaves of a reference's axis: its fit without influences.
@@ -97,11 +98,12 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
   const auto longer = smallest(longest, [&](double l) { return proven(1.0, l); });
   std::string text;
   if (times)
-    text = fmt::format("about {:.0f} readings instead of {:.0f}", rounded_up(*times * readings),
-                       readings);
+    text = fmt::format("about {:.0f} readings instead of {:.0f}",
+                       rounded_up(margin * *times * readings), readings);
   if (longer && length_mm > 0.0)
-    text += fmt::format("{}the same number over {:.2g} mm instead of {:.2g} mm",
-                        text.empty() ? "" : ", or ", rounded_up(*longer * length_mm), length_mm);
+    text += fmt::format("{}the same number over {:.4g} mm instead of {:.4g} mm",
+                        text.empty() ? "" : ", or ", rounded_up(margin * *longer * length_mm),
+                        length_mm);
   if (!text.empty()) return text + " would prove it";
   if (proven(1e12, 1.0))
     return fmt::format("more than {:.0f} times the readings would be needed: take a quieter sensor",

@@ -166,10 +166,14 @@ Verdict decide(const JobResult& result) {
     verdict.line = "DONE: identified, no target to correct";
     return verdict;
   }
-  if (const std::string why = moves_with_axis(result); !why.empty())
-    return not_proven(std::move(verdict), why);
+  for (const auto& forbids : {left_out_at_an_end, moves_with_axis}) {
+    if (const std::string why = forbids(result); !why.empty())
+      return not_proven(std::move(verdict), why);
+  }
   const std::vector<OpenAxis> open = open_axes(result);
   for (const OpenAxis& o : open) verdict.reservations.push_back(o.why);
+  for (std::string& why : model_reservations(result))
+    verdict.reservations.push_back(std::move(why));
   for (std::string& why : cut_reservations(result)) verdict.reservations.push_back(std::move(why));
   if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);

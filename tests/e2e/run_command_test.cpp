@@ -91,12 +91,11 @@ TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
   file("job.toml", simple_job(cylinder_reference) + "tool_height_mm = 40\n");
   const CommandStreams done = command("run job.toml -o out");
   EXPECT_EQ(done.exit_code, 1);
-  EXPECT_EQ(done.err.rfind("refused: the tool's line passes the target surface by", 0), 0u);
+  EXPECT_EQ(done.err.rfind("refused: the tool's line misses the target surface", 0), 0u);
   const json found = result("out/result.json");
   EXPECT_FALSE(found.at("verdict").at("go").get<bool>());
   EXPECT_EQ(found.at("verdict").at("line"), first_line(done.out));
-  EXPECT_EQ(first_line(done.out).rfind("NO-GO: the tool's line passes the target surface by", 0),
-            0u);
+  EXPECT_EQ(first_line(done.out).rfind("NO-GO: the tool's line misses the target surface", 0), 0u);
   EXPECT_TRUE(contains(read_text(folder_ / "out/report.html"), "\"outcome\":\"no-go\""));
   EXPECT_FALSE(there("out/table.csv"));
 }

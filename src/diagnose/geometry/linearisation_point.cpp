@@ -208,7 +208,7 @@ void LinearisationPoint::fill_base(std::size_t begin, std::size_t end,
 bool is_diagnosable(const FitResult& fit) {
   const bool has_terms = fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder ||
                          fit.surface == SurfaceKind::section;
-  return has_terms && !fit.set_ups.empty() && !fit.residual_mm.empty() &&
+  return has_terms && !fit.set_ups.empty() && fit.points > fit.parameters.size() &&
          (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
 }
