@@ -77,7 +77,7 @@ constexpr std::size_t least_end = 8;  // readings: fewer may be a splash at the 
 constexpr double mostly = 0.5, gathered = 3.0;
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
-/// the share of all others; 0: outliers lie anywhere. `from_end`: 0 is the last reading.
+/// the share of all others; 0: outliers lie anywhere. `left_out(k)`: of the k-th from that end.
 template <typename LeftOut>
 std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   double total = 0.0, here = 0.0;

@@ -20,8 +20,8 @@ std::vector<OpenAxis> open_axes(const JobResult& result);
 
 /// Of the first reference with a pattern of no known cause at one undulation per revolution, or
 /// with anything found so near to it that it hardly beats with the eccentricity over the stream:
-/// the axis takes its amplitude in, whatever its u says; or with a line of hardly more than a
-/// cycle. Empty: there is none.
+/// the axis takes its amplitude in, whatever its u says; or with a line of at most three
+/// cycles. Empty: there is none.
 std::string moves_with_axis(const JobResult& result);
 
 /// Of the first reference where outliers gather at an end of a pass: a slip there leaves too few

@@ -19,6 +19,7 @@ using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 using Covariance = std::array<double, 16>;
 
 constexpr double most_times = 100.0;  // readings; beyond that another measurement is meant
+constexpr double no_noise = 2.0;      // widening of u by correlated residuals
 constexpr double margin = 1.05;       // the next stream's σ and angles are not those of this one
 constexpr double longest = 10.0;      // times the probed length
 
@@ -29,10 +30,11 @@ Covariance noise_of(const JobResult& result, std::size_t i) {
   options.influences.clear();
   const FitResult& used = fit_used(result, i);
   Covariance noise = fit(result.streams[i], options).axis.covariance;
-  // An extended model has its own σ; beyond that its covariance holds what rivals leave.
-  const double sigma_ratio =
-      result.fits[i].sigma_mm > 0.0 ? used.sigma_mm / result.fits[i].sigma_mm : 1.0;
-  for (double& c : noise) c *= sigma_ratio * sigma_ratio;
+  // An extended model has its own σ and widening; beyond that its covariance holds what rivals
+  // leave.
+  const double ideal = result.fits[i].sigma_mm * result.fits[i].u_factor;
+  const double ratio = ideal > 0.0 ? used.sigma_mm * used.u_factor / ideal : 1.0;
+  for (double& c : noise) c *= ratio * ratio;
   return noise;
 }
 
@@ -41,7 +43,6 @@ Covariance noise_of(const JobResult& result, std::size_t i) {
 Covariance with_more(const AxisEstimate& axis, const Covariance& noise, double times,
                      double longer) {
   const Eigen::Map<const Matrix4> whole(axis.covariance.data()), part(noise.data());
-  Matrix4 scaled = part;
   const double slope2 = part(2, 2) + part(3, 3);
   const double lever = slope2 > 0.0 ? -(part(0, 2) + part(1, 3)) / slope2 : 0.0;
   Matrix4 to_middle = Matrix4::Identity();
@@ -49,7 +50,7 @@ Covariance with_more(const AxisEstimate& axis, const Covariance& noise, double t
   Matrix4 shrink = Matrix4::Identity();
   shrink(2, 2) = shrink(3, 3) = 1.0 / longer;
   const Matrix4 move = to_middle.inverse() * shrink * to_middle;
-  scaled = move * part * move.transpose() / times;
+  const Matrix4 scaled = move * part * move.transpose() / times;
   Covariance out;
   Eigen::Map<Matrix4>(out.data()) = whole - part + scaled;
   return out;
@@ -80,6 +81,13 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
   std::vector<Covariance> noise;
   double readings = 0.0, length_mm = 0.0;
   for (std::size_t i = 0; i < references.size(); ++i) {
+    const FitResult& used = fit_used(result, i);
+    if (used.u_factor > no_noise)
+      return fmt::format(
+          "{}what the readings leave is no noise, neighbours are alike ({:.2f}): more of them "
+          "prove "
+          "nothing. Look for its cause, or clamp the part again and probe again",
+          references[i].name.empty() ? "" : references[i].name + ": ", used.autocorrelation);
     noise.push_back(noise_of(result, i));
     readings += static_cast<double>(result.fits[i].points);
     length_mm =
