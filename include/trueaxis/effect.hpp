@@ -64,7 +64,7 @@ struct Harmonic {
     growing,   ///< 1 and u
     lever,     ///< Z − Z_bearing
     jaws,      ///< exp(−|s − s_jaw|/L) × force; orders n and 2n
-    parabola   ///< u² cos α: a bent axis, for n = 1 along the normal
+    parabola  ///< (u² − 1/3) cos α: an axis bent about its nearest line, for n = 1 along the normal
   };
   Angle angle = Angle::spindle;
   Envelope envelope = Envelope::constant;
@@ -91,7 +91,8 @@ struct PeriodicInTime {};
 /// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// From an instant on: the part moved by x, y of the spindle frame, and turned (Eq. 46).
+/// At an instant the part moved by x, y of the spindle frame, and turned. The surface is where it
+/// stands afterwards (Eq. 46).
 struct PartStep {};
 
 /// Constant shifts of the arguments (Eqs. 47, 48).

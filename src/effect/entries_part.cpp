@@ -89,9 +89,9 @@ std::vector<Effect> part_roundness() {
        .slot = Slot::part,
        .frame = Frame::part,
        .term = Harmonic{Angle::part, Envelope::parabola, Port::normal, 1.0},
-       .formula =
-           "axis at a u^2 towards phi (kappa s^2 with its vertex at mid length); rho = a u^2 "
-           "cos alpha cos(theta - phi)",
+       .formula = "axis at a (u^2 - 1/3) towards phi, about the straight line nearest to it (kappa "
+                  "s^2 with "
+                  "its vertex at mid length); rho = a (u^2 - 1/3) cos alpha cos(theta - phi)",
        .parameters = {{"amplitude", "mm", 1e-3, 0.05, "a: sagitta over the probed length"},
                       {"phase", "rad", 0, 0, "phi, direction in the part"}},
        .signature = "1 undulation per revolution that grows as the square of Z",

@@ -50,7 +50,11 @@ std::string catalogue_name(std::string_view id, std::string_view lathe_name) {
 
 /// The catalogue's parameters of a term, inside units, and what the frame gives.
 Parameters values_in(const TermValue& term, const LatheFrame& frame) {
-  Parameters values{{"length", 2.0 * frame.z_half_mm}, {"middle", frame.z_mid_mm}};
+  // A bent axis about its nearest line (Eq. 40); the part as it stands after a step (Eq. 46).
+  Parameters values{{"length", 2.0 * frame.z_half_mm},
+                    {"middle", frame.z_mid_mm},
+                    {"share", 1.0 / 3.0},
+                    {"ends", 1.0}};
   for (const auto& [name, unit, value] : diagnose_detail::values_of(term)) values[name] = value;
   return values;
 }

@@ -36,6 +36,13 @@ constexpr EffectEntry extra_table[] = {
          return -p.outward * depth * std::exp(-0.5 * (v * v + w * w));
        })(of, chain);
      }},
+    // A step of the diameter.
+    {"extra.ledge",
+     "the radius larger from a place on",
+     {{"amplitude_mm", {}}, {"position_mm", {}}},
+     in<form>([](const SurfacePoint& p, double a, double position) {
+       return p.s_mm < position ? 0.0 : a;
+     })},
     // An error motion of the spindle whose amplitude swings with time.
     {"extra.beat",
      "error motion that swings with time",

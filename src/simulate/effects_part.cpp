@@ -53,19 +53,27 @@ constexpr EffectEntry part_table[] = {
      in<form>([](const SurfacePoint& p, double a, double feed, double phase) {
        return a * std::cos(two_pi / feed * p.s_mm - p.theta_rad + phase);
      })},
-    // The axis is a parabola: sagitta at half the length from its middle, towards `direction`.
+    // The axis is a parabola: sagitta at half the length from its middle, towards `direction`,
+    // which
+    // the part's axis touches in the middle, or is `share` of the sagitta away from.
     {"part.bow",
      "axis bent to a parabola",
-     {{"sagitta_mm", {}}, {"length_mm", {}}, {"middle_mm", 0.0}, {"direction_rad", 0.0}},
-     in<&Chain::bend>([](double s, double sagitta, double length, double middle, double direction) {
+     {{"sagitta_mm", {}},
+      {"length_mm", {}},
+      {"middle_mm", 0.0},
+      {"direction_rad", 0.0},
+      {"share", 0.0}},
+     in<&Chain::bend>([](double s, double sagitta, double length, double middle, double direction,
+                         double share) {
        const double kappa = sagitta / std::pow(0.5 * length, 2);
-       const double away = kappa * (s - middle) * (s - middle);
+       const double away = kappa * (s - middle) * (s - middle) - share * sagitta;
        return Vec3{away * std::cos(direction), away * std::sin(direction), 0.0};
      })},
     {"part.slip",
-     "step of the part in the chuck at a time",
-     {{"time_s", {}}, {"dx_mm", 0.0}, {"dy_mm", 0.0}, {"turn_rad", 0.0}},
-     in<&Chain::step>([](double t, double when, double dx, double dy, double turn) {
+     "step of the part in the chuck at a time; 'ends' 1: the part is described as it stands after",
+     {{"time_s", {}}, {"dx_mm", 0.0}, {"dy_mm", 0.0}, {"turn_rad", 0.0}, {"ends", 0.0}},
+     in<&Chain::step>([](double t, double when, double dx, double dy, double turn, double ends) {
+       if (ends > 0.5) return t < when ? PartStep{-dx, -dy, -turn} : PartStep{};
        return t < when ? PartStep{} : PartStep{dx, dy, turn};
      })},
     // Material is missing over a sector: a keyway, a hole, a groove.

@@ -79,7 +79,7 @@ AxisBiasCase angle(AxisBiasCase of, double size = small_rad) {
 /// cone turned by θ = b/(1 + tan²α) and displaced by a − R θ tanα.
 AxisBiasCase bow_from_the_end(const Where& at) {
   const double turned = 1.0 / at.length_mm() / (1.0 + at.tangent * at.tangent);
-  const double displaced = 0.25 - at.middle_radius_mm * turned * at.tangent;
+  const double displaced = 1.0 / 3.0 - at.middle_radius_mm * turned * at.tangent;
   const auto moved = [&](double z) { return displaced + turned * (z - at.middle_mm()); };
   const double low = moved(at.z_low_mm), high = moved(at.z_high_mm);
   const auto bow = [&](double direction_rad) {

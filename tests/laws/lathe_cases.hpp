@@ -81,22 +81,25 @@ inline std::vector<LatheCase> lathe_cases() {
       {"part.bow",
        1e-3,
        [](double a) {
-         return Parameters{
-             {"sagitta_mm", a}, {"length_mm", 50}, {"middle_mm", 5}, {"direction_rad", phi}};
+         return Parameters{{"sagitta_mm", a},
+                           {"length_mm", 50},
+                           {"middle_mm", 5},
+                           {"direction_rad", phi},
+                           {"share", 1.0 / 3.0}};
        },
        {},
        {co, si}},
       {"part.slip",
        1e-3,
        [](double a) {
-         return Parameters{{"time_s", 12.345}, {"dx_mm", a}, {"dy_mm", -0.5 * a}};
+         return Parameters{{"time_s", 12.345}, {"dx_mm", a}, {"dy_mm", -0.5 * a}, {"ends", 1}};
        },
        {.onset_s = 12.345},
        {1.0, -0.5, 0.0}},
       {"part.slip",
        1e-3,
        [](double a) {
-         return Parameters{{"time_s", 12.345}, {"turn_rad", a}};
+         return Parameters{{"time_s", 12.345}, {"turn_rad", a}, {"ends", 1}};
        },
        {.onset_s = 12.345},
        {0.0, 0.0, 1.0}},
