@@ -136,12 +136,25 @@ struct SpectrumBin {
   double before_mm = 0.0, after_mm = 0.0;  ///< amplitude
 };
 
+/// A model that the axis is averaged over beside the named one.
+struct AxisShare {
+  std::string effect;      ///< id; empty: none
+  std::string instead_of;  ///< id of the finding in whose place it stands; empty: beside all
+  double probability = 0.0;
+  Estimate axis_shift;  ///< mm; largest over Z, from the axis of the named model
+};
+
 enum class DiagnosisVerdict { ideal, effects, unexplained };
 
-/// What the model gets wrong. `extended` is the surface refitted with all findings.
+/// What the model gets wrong.
 struct Diagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
-  FitResult baseline, extended;
+  FitResult baseline;  ///< the ideal surface
+  FitResult named;     ///< refitted with all findings as they are named
+  /// Averaged over what may have caused the readings, each model by its probability: what is stated
+  /// and cut. Its u holds what the data cannot tell.
+  FitResult extended;
+  std::vector<AxisShare> shares;  ///< what moves the average from the named model, largest first
   std::vector<Finding> findings;  ///< by axis_bias, the largest first
   std::vector<Unexplained> unexplained;
   std::vector<NotObservable> not_observable;

@@ -301,6 +301,7 @@ struct Effect {
   int between_passes = 0;  ///< place among those that show from pass to pass, beside which the
                            ///< noise is judged, as many as it can bear; 0: none of them
   bool repeats_at_tool = false;  ///< a motion that the tool meets as the probe did
+  double wear = 1.0;  ///< by how much the sizes of what wears spread wider than their range
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "diagnose/advise/advise.hpp"
+#include "diagnose/explain/averaged_axis.hpp"
 #include "diagnose/explain/explanation.hpp"
 #include "diagnose/explain/gain.hpp"
 #include "diagnose/explain/observable.hpp"
@@ -31,9 +32,9 @@ Diagnosis not_diagnosable(Diagnosis out) {
 
 /// What the plan cannot see, and the next measurement.
 void add_advice(const IdealModel& ideal, const RelinearisedFit& refit, const Model& model,
-                const std::vector<AmbiguousFinding>& ambiguous, Diagnosis& out) {
+                const std::vector<AmbiguousFinding>& ambiguous,
+                const std::vector<Unobservable>& hidden, Diagnosis& out) {
   const double sigma_mm = refit.joint().sigma_mm;
-  const std::vector<Unobservable> hidden = unobservable_effects(refit.problem(), model, sigma_mm);
   Advice advice = advise(refit.problem(), model, ideal.stream,
                          clampings_of(out.extended, ideal.ball_mm), ambiguous, hidden, sigma_mm);
   for (std::size_t k = 0; k < out.findings.size(); ++k)
@@ -48,14 +49,14 @@ void add_advice(const IdealModel& ideal, const RelinearisedFit& refit, const Mod
 
 /// How sure all of it is: noise, checks of the data, gain, tests made.
 void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const Model& model,
-                  const Eigen::MatrixXd& between, Diagnosis& out) {
+                  const AveragedAxis& average, Diagnosis& out) {
   const Problem& problem = refit.problem();
   const Joint& joint = refit.joint();
   out.noise = report_noise(ideal.stream, joint, out.residual_after_mm, ideal.masked,
                            ideal.fit_options.noise_mm);
   out.checks = check_quality(ideal.stream, joint, out.residual_after_mm, out.noise);
   out.remarks = off_centre_remark(problem, model);
-  out.gain = measure_gain(problem, joint, between, out.noise.sigma_mm);
+  out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
   out.threshold = model.family.threshold(out.false_alarm);
   out.effective_hypotheses = out.false_alarm / std::exp(-0.5 * out.threshold);
@@ -72,7 +73,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   Diagnosis out;
   out.false_alarm = options.false_alarm;
   out.baseline = fit(stream, options.fit);
-  out.extended = out.baseline;
+  out.named = out.extended = out.baseline;
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
   const IdealModel ideal(stream, options, out.baseline);
@@ -86,24 +87,25 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
                 : !out.findings.empty()  ? DiagnosisVerdict::effects
                                          : DiagnosisVerdict::ideal;
-  out.extended = refit->extended(explanation.between);
+  const std::vector<Unobservable> hidden =
+      unobservable_effects(refit->problem(), search.model, refit->joint().sigma_mm);
+  AveragedAxis average =
+      average_axis(refit->problem(), refit->joint(), explanation.ambiguous, hidden);
+  out.named = refit->named();
+  out.extended = refit->shifted(average.shift, average.within, average.between);
+  out.shares = std::move(average.shares);
   out.effect_mm = refit->effect_mm();
   out.residual_before_mm = out.baseline.residual_mm;
   out.residual_after_mm = refit->residual_mm();
   const LinearisationPoint& point = refit->problem().point;
   out.z_mid_mm = point.z_mid_mm, out.z_half_mm = point.z_half_mm;
-  add_advice(ideal, *refit, search.model, explanation.ambiguous, out);
+  add_advice(ideal, *refit, search.model, explanation.ambiguous, hidden, out);
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });
-  add_evidence(ideal, *refit, search.model, explanation.between, out);
-  if (out.slip()) {
-    out.gain.coaxiality_before = out.gain.coaxiality_after = {
-        .unit = "mm", .why_not = "the part slipped: it stands there no longer"};
-    out.remarks.push_back(
-        "the part slipped: the axis of the extended model is that of before, and the part stands "
-        "there no longer");
-  }
+  add_evidence(ideal, *refit, search.model, average, out);
+  if (out.slip())
+    out.remarks.push_back("the part slipped: the axis is that of the part as it now stands");
   return out;
 }
 

@@ -27,7 +27,8 @@ std::vector<Effect> spindle() {
        .separations = {{"RC", "re-indexed, the motion stays with C and roundness turns"}},
        .source = "ISO 230-7 (synchronous radial error motion)",
        .search = {.when = When::told_apart},
-       .repeats_at_tool = true},
+       .repeats_at_tool = true,
+       .wear = 1.5},
       {.id = "spindle.tilt_synchronous",
        .title = "synchronous tilt error motion of the spindle",
        .slot = Slot::machine,
@@ -53,7 +54,8 @@ std::vector<Effect> spindle() {
                                         ShapeValues::In::itself,
                                         2}}}},
        .refinement = Refinement{&TermShape::lever_from_mm, By::lever, 1.0, 0.01, 1.2},
-       .repeats_at_tool = true},
+       .repeats_at_tool = true,
+       .wear = 1.5},
       {.id = "spindle.axial_synchronous",
        .title = "synchronous axial error motion of the spindle",
        .slot = Slot::arguments,
@@ -71,7 +73,8 @@ std::vector<Effect> spindle() {
        .source = "ISO 230-7 (axial error motion)",
        .needs = {.cone = true},
        .search = {.when = When::told_apart},
-       .repeats_at_tool = true},
+       .repeats_at_tool = true,
+       .wear = 1.5},
       {.id = "spindle.asynchronous",
        .title = "asynchronous error motion, as of a bearing's cage",
        .slot = Slot::machine,
@@ -89,7 +92,8 @@ std::vector<Effect> spindle() {
        .source = "ISO 230-7 (asynchronous error motion)",
        .typical = {{&TermShape::order, {0.43}}},
        .search = {When::scanned},
-       .line = Line{Line::In::angle, 0.3, 15.5}},
+       .line = Line{Line::In::angle, 0.3, 15.5},
+       .wear = 1.5},
   };
 }
 
@@ -143,7 +147,8 @@ std::vector<Effect> slide() {
        .needs = {.length = true, .cone = true},
        .typical = {{&TermShape::period_mm, {7.3}, ShapeValues::In::per_length}},
        .search = {When::scanned},
-       .line = Line{Line::In::slide, 1.0 / 30.0, 1.0, 1.5}},
+       .line = Line{Line::In::slide, 1.0 / 30.0, 1.0, 1.5},
+       .wear = 1.5},
       {.id = "slide.backlash",
        .title = "reversal error of the Z slide",
        .slot = Slot::arguments,
@@ -162,7 +167,8 @@ std::vector<Effect> slide() {
        .source = "ISO 230-2 (reversal error)",
        .needs = {.length = true, .both_feeds = true},
        .search = {.forms = {{{0}}, {{1}}, {}}},
-       .between_passes = 1},
+       .between_passes = 1,
+       .wear = 1.5},
   };
 }
 

@@ -117,7 +117,7 @@ DiagnosedScenarios diagnosed_scenarios(const Diagnosis& diagnosis, const ProbeSt
   out.before.name = "the ideal surface of " + diagnosis.baseline.source;
   out.after.name = "the extended model of " + diagnosis.baseline.source;
   place_part(diagnosis.baseline, measured, out.before);
-  place_part(diagnosis.extended, measured, out.after);
+  place_part(diagnosis.named, measured, out.after);
   const auto add = [&](const TermValue& term) {
     for (auto& effect : lathe_effects(term, frame)) out.after.effects.push_back(std::move(effect));
   };

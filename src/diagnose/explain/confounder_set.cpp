@@ -92,12 +92,15 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
   }
   if (out.members.empty()) out.members.push_back({named, best.gain, best.rank, 0.0, 0.0});
   double sum = 0.0;
-  const double lead = out.members.front().criterion;
-  for (const Candidate& c : out.members)
-    sum += std::exp(-0.5 * std::min(c.criterion - lead, 1400.0));
-  out.probability = 1.0 / sum;
+  const double best_criterion =
+      std::ranges::min(out.members, {}, &Candidate::criterion).criterion;
+  const auto likelihood = [&](const Candidate& c) {
+    return std::exp(-0.5 * (c.criterion - best_criterion));
+  };
+  for (const Candidate& c : out.members) sum += likelihood(c);
+  out.probability = likelihood(out.members.front()) / sum;
   for (std::size_t r = 0; r < out.rivals.size(); ++r)
-    out.rivals[r].probability = std::exp(-0.5 * (out.members[r + 1].criterion - lead)) / sum;
+    out.rivals[r].probability = likelihood(out.members[r + 1]) / sum;
   // Most probable first, behind the named one.
   std::vector<std::size_t> order(out.rivals.size());
   for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
@@ -131,37 +134,6 @@ void narrow(ConfounderSet& found, double likelihood_ratio) {
   found.probability /= rest;
   found.rivals.erase(at);
   for (Rival& rival : found.rivals) rival.probability /= rest;
-}
-
-Eigen::MatrixXd between_causes(const Problem& problem, const Joint& joint,
-                               const std::vector<AmbiguousFinding>& questions) {
-  const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
-  Eigen::MatrixXd between = Eigen::MatrixXd::Zero(n, n);
-  std::vector<Hypothesis> all = joint.terms;
-  for (const AmbiguousFinding& question : questions) {
-    for (std::size_t r = 1; r < question.found.members.size(); ++r)
-      all.push_back(question.found.members[r].hypothesis);
-  }
-  if (all.size() == joint.terms.size()) return between;
-  // One pass over the readings for all of them.
-  const Joint wide(problem, joint.equations.autoregression(), std::move(all), joint.terms.size());
-  std::size_t next = joint.terms.size();
-  for (const AmbiguousFinding& question : questions) {
-    Columns others = wide.equations.base();
-    for (std::size_t t = 0; t < joint.terms.size(); ++t) {
-      if (t != question.term)
-        others.insert(others.end(), wide.places[t].begin(), wide.places[t].end());
-    }
-    for (const Rival& rival : question.found.rivals) {
-      Columns columns = others;
-      columns.insert(columns.end(), wide.places[next].begin(), wide.places[next].end());
-      ++next;
-      const Solution instead = solve(wide.equations.total(), columns);
-      const Eigen::VectorXd off = instead.coefficients.head(n) - wide.base();
-      between += rival.probability * off * off.transpose();
-    }
-  }
-  return between;
 }
 
 }  // namespace trueaxis::diagnose_detail

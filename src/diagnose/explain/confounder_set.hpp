@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <vector>
 
 #include "diagnose/regression/joint.hpp"
@@ -30,12 +29,5 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
 /// The class of one of two effects that are one in the first order with what the second order says:
 /// −2 ln of the likelihood of the other over that of the named one (Eq. 94).
 void narrow(ConfounderSet& found, double likelihood_ratio);
-
-/// What the base of the named model may be off because the data cannot tell its causes from others:
-/// Σ p (b_rival − b)(b_rival − b)ᵀ over the rivals of all findings, p their probability in the
-/// class. The variance between models of Draper 1995 (J. R. Stat. Soc. B 57, 45), about the model
-/// that is named (Eq. 95).
-Eigen::MatrixXd between_causes(const Problem& problem, const Joint& joint,
-                               const std::vector<AmbiguousFinding>& questions);
 
 }  // namespace trueaxis::diagnose_detail

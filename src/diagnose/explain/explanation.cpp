@@ -62,7 +62,6 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
     out.ambiguous.push_back({t, std::move(found)});
   }
-  out.between = between_causes(fit.problem(), joint, out.ambiguous);
   return out;
 }
 

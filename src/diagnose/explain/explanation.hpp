@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
 #include <optional>
 #include <vector>
 
@@ -16,7 +15,6 @@ struct Explanation {
   std::vector<Finding> findings;            ///< in the order of the model
   std::vector<AmbiguousFinding> ambiguous;  ///< one a finding
   std::vector<Unexplained> unexplained;     ///< terms that no catalogued cause explains
-  Eigen::MatrixXd between;  ///< covariance of the base that the other causes of findings add
 };
 
 /// @param fit of the search's model

@@ -45,7 +45,7 @@ Interval interval(const std::vector<Block>& blocks, Statistic statistic) {
 
 }  // namespace
 
-Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
+Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis& average,
                   double noise_floor_mm) {
   Gain out;
   out.noise_floor_mm = noise_floor_mm;
@@ -78,12 +78,13 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::Matri
   out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;
 
   const Solution bare = solve(joint.equations.total(), before);
-  const Eigen::MatrixXd extended = joint.base_covariance();
+  const Eigen::MatrixXd extended = average.within + average.between;
   // Of nested least squares Cov(difference) = Cov(larger) − Cov(smaller), at the same σ.
   const Eigen::MatrixXd difference = extended - joint.sigma_mm * joint.sigma_mm * bare.inverse;
-  const AxisShift shift = axis_shift(problem.point, joint.base() - bare.coefficients, difference);
+  const AxisShift shift =
+      axis_shift(problem.point, joint.base() + average.shift - bare.coefficients, difference);
   out.axis_shift = {shift.value_mm, shift.u_mm, "mm", ""};
-  const AxisUncertainty u = axis_uncertainty(problem.point, extended + between);
+  const AxisUncertainty u = axis_uncertainty(problem.point, extended);
   const double from_extended = 2.0 * u.rms_mm;
   out.coaxiality_after = {from_extended, 2.0 * u.u_mm, "mm", ""};
   const AxisUncertainty u_bare =

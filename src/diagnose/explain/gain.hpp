@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "diagnose/explain/averaged_axis.hpp"
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/search/dictionary.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::diagnose_detail {
 /// Before and after: the surface alone and with all terms, block by block held out (Eqs. 101, 102).
-/// @param between covariance of the base that causes add which the data cannot tell
-Gain measure_gain(const Problem& problem, const Joint& joint, const Eigen::MatrixXd& between,
+/// @param average the axis that is stated
+Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis& average,
                   double noise_floor_mm);
 
 /// Amplitude of both residuals over the order, in steps of a resolution cell and at most 400 bins.

@@ -61,11 +61,11 @@ CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
   return out;
 }
 
-FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::MatrixXd& between) {
+FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
+                       const BaseUncertainty& base) {
   FitResult result = std::move(cleaned.fit);
   if (result.status != FitStatus::converged || result.set_ups.empty()) return result;
 
-  const LinearisationPoint& point = joint.equations.point();
   // Base columns of the last axis with the shared shape, in this order.
   const auto per = static_cast<Eigen::Index>(point.base.per_axis());
   const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
@@ -85,7 +85,7 @@ FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::Matr
     }
     return out;
   };
-  const Eigen::MatrixXd of_noise = of_last(joint.base_covariance()), of_causes = of_last(between);
+  const Eigen::MatrixXd of_noise = of_last(base.within), of_causes = of_last(base.between);
   const Eigen::MatrixXd covariance = of_noise + of_causes;
   const double z_mid = point.z_mid_mm;
   const std::size_t n = result.parameters.size();
@@ -140,9 +140,9 @@ FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::Matr
     result.set_ups.back().axis = result.axis;
     result.set_ups.back().parameters = result.parameters;
   }
-  result.sigma_mm = joint.sigma_mm;
+  result.sigma_mm = base.sigma_mm;
   result.u_factor = 1.0;
-  if (!joint.equations.autoregression().empty()) result.sigma_source = "residuals, whitened";
+  if (base.whitened) result.sigma_source = "residuals, whitened";
   return result;
 }
 

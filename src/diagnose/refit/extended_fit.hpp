@@ -23,9 +23,20 @@ CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
                        const std::vector<double>& effect_mm, const ObservationMask& mask,
                        const std::vector<Rejected>& masked, const FitResult* ideal = nullptr);
 
-/// The same with u of axis and parameters from the joint covariance, so that what a term takes from
-/// the axis widens it (Eq. 86).
-/// @param between covariance of the base that other causes add, or nothing
-FitResult extended_fit(CleanedFit cleaned, const Joint& joint, const Eigen::MatrixXd& between = {});
+/// What is known of the base of a model.
+struct BaseUncertainty {
+  Eigen::MatrixXd within;   ///< covariance by the noise
+  Eigen::MatrixXd between;  ///< what other causes add; empty: nothing
+  double sigma_mm = 0.0;    ///< of a reading's innovation
+  bool whitened = false;
+};
+inline BaseUncertainty uncertainty_of(const Joint& joint) {
+  return {joint.base_covariance(), {}, joint.sigma_mm, !joint.equations.autoregression().empty()};
+}
+
+/// The same with u of axis and parameters from the covariance of the joint fit's base, so that what
+/// a term takes from the axis widens it (Eq. 86).
+FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
+                       const BaseUncertainty& base);
 
 }  // namespace trueaxis::diagnose_detail

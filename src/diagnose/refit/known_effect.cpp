@@ -112,8 +112,9 @@ EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options
     if (round == 0) look_about(at, out);
     if (!out.separable) return out;
     const Eigen::VectorXd coefficients = at.joint.of(0);
-    FitResult next = extended_fit(
-        fit_cleaned(stream, options, at.joint.contribution_of(0), at.mask, {}), at.joint);
+    FitResult next =
+        extended_fit(fit_cleaned(stream, options, at.joint.contribution_of(0), at.mask, {}),
+                     at.point, uncertainty_of(at.joint));
     if (next.status != FitStatus::converged) {
       out.separable = false;
       return out;

@@ -63,11 +63,32 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   const auto count = static_cast<Eigen::Index>(columns_of(terms_));
   effect_mm_ =
       contribution(problem_->point, terms_, span_of(joint_->solution.coefficients.tail(count)));
-  std::vector<double> taken_off_mm = effect_mm_;  // of the readings, for the extended surface
-  if (!known_mm_.empty()) add(taken_off_mm, known_mm_, -1.0);
+  taken_off_mm_ = effect_mm_;
+  if (!known_mm_.empty()) add(taken_off_mm_, known_mm_, -1.0);
   if (moved_) add(effect_mm_, turned_mm_);
-  cleaned_ = fit_cleaned(moved_ ? *moved_ : ideal.stream, ideal.fit_options, taken_off_mm,
-                         first.mask, ideal.masked, moved_ ? nullptr : &ideal.fit);
+  cleaned_ = cleaned(taken_off_mm_);
+}
+
+CleanedFit RelinearisedFit::cleaned(const std::vector<double>& taken_off_mm) const {
+  return fit_cleaned(moved_ ? *moved_ : ideal_.stream, ideal_.fit_options, taken_off_mm,
+                     ideal_.problem.mask, ideal_.masked, moved_ ? nullptr : &ideal_.fit);
+}
+
+FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, const Eigen::MatrixXd& within,
+                                   const Eigen::MatrixXd& between) const {
+  const LinearisationPoint& point = problem_->point;
+  BaseUncertainty base = uncertainty_of(*joint_);
+  base.within = within, base.between = between;
+  if (shift.isZero(0.0)) return extended_fit(cleaned_, point, base);
+  // Readings of which the surface with that base is the best one.
+  std::vector<double> moved = taken_off_mm_;
+  const auto n = static_cast<std::size_t>(shift.size());
+  std::vector<std::vector<double>> columns(n, std::vector<double>(point.size()));
+  std::vector<double*> places;
+  for (std::vector<double>& column : columns) places.push_back(column.data());
+  point.fill_base(0, point.size(), places);
+  for (std::size_t j = 0; j < n; ++j) add(moved, columns[j], -shift(static_cast<Eigen::Index>(j)));
+  return extended_fit(cleaned(moved), point, base);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {

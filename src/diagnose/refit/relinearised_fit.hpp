@@ -28,13 +28,17 @@ class RelinearisedFit {
   const std::vector<double>& effect_mm() const { return effect_mm_; }
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;
-  /// The extended surface. @param between what other causes would make of its base, or nothing
-  FitResult extended(const Eigen::MatrixXd& between = {}) const {
-    return extended_fit(cleaned_, *joint_, between);
+  /// The surface of the model that is named.
+  FitResult named() const {
+    return extended_fit(cleaned_, problem_->point, uncertainty_of(*joint_));
   }
+  /// The surface whose base is off that of the named model, with covariances of its own.
+  FitResult shifted(const Eigen::VectorXd& shift, const Eigen::MatrixXd& within,
+                    const Eigen::MatrixXd& between) const;
 
  private:
   void relinearise(const Model& model);
+  CleanedFit cleaned(const std::vector<double>& taken_off_mm) const;
   void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
 
   const IdealModel& ideal_;
@@ -46,7 +50,7 @@ class RelinearisedFit {
   std::vector<double> deviation_mm_;
   std::optional<Problem> problem_;
   std::optional<Joint> joint_;
-  std::vector<double> effect_mm_;
+  std::vector<double> effect_mm_, taken_off_mm_;  ///< the latter of the readings, for the surface
   CleanedFit cleaned_;
 };
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/scan_bumps.hpp"
 #include "math/statistics.hpp"
@@ -46,16 +46,10 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
     const Score s = score(projection, own);
     Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
     c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
-    Eigen::VectorXd size = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(own.size()));
-    if (s.rank == own.size()) {
-      Columns all(own.size() + 1, 0), local(own.size());
-      std::ranges::copy(own, all.begin() + 1);
-      std::iota(local.begin(), local.end(), std::size_t{1});
-      size = solve(projection.gram(all, all), local).coefficients;
+    if (s.rank > 0) {
+      const Weighed weighed = weigh(list[h], equations.point(), projection, own, equations.count());
+      c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
     }
-    c.criterion = freedom * std::log(std::max(1.0 - s.gain / projection.rss, 1e-12)) +
-                  penalty(list[h], s.rank, equations.count(), size);
-    if (s.rank == 0) c.criterion = 0.0;
     out.push_back(std::move(c));
   }
   return out;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/dictionary.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -53,6 +54,7 @@ class StepwiseSearch {
       if (!changed) break;
       forward(model, patterns, pattern_was_better);
     }
+    backward(model);
     finish(model);
     return model;
   }
@@ -135,11 +137,16 @@ class StepwiseSearch {
     return out;
   }
 
-  double term_log_p(const Fitted& f, std::size_t i) const {
+  /// The base and all terms but one.
+  static Columns besides(const Fitted& f, std::size_t i) {
     Columns taken = f.equations.base();
     for (std::size_t t = 0; t < f.places.size(); ++t)
       if (t != i) taken.insert(taken.end(), f.places[t].begin(), f.places[t].end());
-    const Projection projection = project(f.equations.total(), taken);
+    return taken;
+  }
+
+  double term_log_p(const Fitted& f, std::size_t i) const {
+    const Projection projection = project(f.equations.total(), besides(f, i));
     const Score s = score(projection, f.places[i]);
     return log_p_value(s.gain, static_cast<double>(s.rank), projection.rss,
                        static_cast<double>(f.equations.count() - projection.rank));
@@ -179,7 +186,8 @@ class StepwiseSearch {
     return changed;
   }
 
-  /// ν ln RSS and the penalties: what two models with the same noise are compared by (Eq. 81).
+  /// ν ln RSS, and what prior and choice of each term cost: what two models with the same noise are
+  /// compared by (Eq. 81).
   double criterion(const Model& model) const {
     const Fitted f = fitted(model);
     Columns all = f.equations.base();
@@ -188,12 +196,14 @@ class StepwiseSearch {
     const Solution s = solve(f.equations.total(), all);
     double sum = static_cast<double>(f.equations.count() - f.equations.base().size()) *
                  std::log(s.rss / f.equations.total()(0, 0));
-    auto at = static_cast<Eigen::Index>(f.equations.base().size());
-    for (const Hypothesis& h : model.terms) {
-      const auto own = static_cast<Eigen::Index>(h.columns());
-      sum += penalty(h, h.columns(), f.equations.count(), s.coefficients.segment(at, own)) +
-             (h.effect ? 0.0 : catalogue_first);
-      at += own;
+    for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      const Hypothesis& h = model.terms[i];
+      const Projection beside = project(f.equations.total(), besides(f, i));
+      const Weighed weighed = weigh(h, problem_.point, beside, f.places[i], f.equations.count());
+      const double gain = score(beside, f.places[i]).gain;
+      sum += weighed.criterion + choice_of(h, weighed.mean) + (h.effect ? 0.0 : catalogue_first) -
+             static_cast<double>(f.equations.count() - beside.rank) *
+                 std::log(std::max(1.0 - gain / beside.rss, 1e-12));
     }
     return sum;
   }

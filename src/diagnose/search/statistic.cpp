@@ -10,20 +10,11 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double generous = 3.0;  // times the largest typical size: no surprise yet
-constexpr double surprise = 2.0;  // of ln(size/(generous × typical))², in units of 2 ln L
 // The second harmonic of j jaws that is no surprise yet. A thin ring has ((j² − 1)/(4j² − 1))² of
 // the first, below 1/16 for any j. Chosen, not derived: five times that, for jaws that press over
-// a width and not all alike. Twice as much costs 16 × surprise × ln² 2 = 15 in 2 ln L.
+// a width and not all alike. Twice as much costs 32 ln² 2 = 15 in 2 ln L.
 constexpr double most_second = 0.3;
-constexpr double second_surprise = 16.0 * surprise;
-
-/// Largest typical size of a linear parameter; 0: none.
-double typical_high(const Effect& effect, const TermShape& shape, std::string_view linear) {
-  const EffectParameter* p = size_for(effect, linear);
-  if (!p) return 0.0;
-  return p->share_of_range > 0.0 ? std::min(p->high, p->share_of_range * shape.range_mm) : p->high;
-}
+constexpr double second_surprise = 32.0;
 
 }  // namespace
 
@@ -54,32 +45,15 @@ double Family::threshold(double level) const {
   return boost::math::tools::bisect(excess, 0.0, 400.0, never, steps).second;
 }
 
-double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count,
-               const Eigen::VectorXd& coefficients) {
-  double sum = static_cast<double>(rank) * std::log(static_cast<double>(count)) +
-               2.0 * std::log(std::max(hypothesis.tests, 1.0));
-  if (!hypothesis.effect) return sum;
-  const auto names = linear_parameters(hypothesis.effect->term, hypothesis.shape);
-  double worst = 0.0, pair = 0.0;
-  for (Eigen::Index j = 0; j < coefficients.size(); ++j) {
-    if (hypothesis.with_radial && j >= coefficients.size() - 2) break;
-    const std::size_t place = hypothesis.free.empty()
-                                  ? static_cast<std::size_t>(j)
-                                  : hypothesis.free[static_cast<std::size_t>(j)];
-    const double high = typical_high(*hypothesis.effect, hypothesis.shape, names[place].name);
-    const bool second = names[place].name.ends_with("_sin");
-    pair = second ? std::hypot(pair, coefficients(j)) : std::abs(coefficients(j));
-    if (high > 0.0 && pair > generous * high)
-      worst = std::max(worst, std::log(pair / (generous * high)));
-  }
-  if (has_two_orders(hypothesis.effect->term) && coefficients.size() == 4) {
-    const double first = std::hypot(coefficients(0), coefficients(1));
-    const double second = std::hypot(coefficients(2), coefficients(3));
-    if (second > most_second * first)
-      sum +=
-          second_surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
-  }
-  return sum + surprise * worst * worst;
+double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients) {
+  const double sum = 2.0 * std::log(std::max(hypothesis.tests, 1.0));
+  if (!hypothesis.effect || !has_two_orders(hypothesis.effect->term) || coefficients.size() != 4)
+    return sum;
+  const double first = std::hypot(coefficients(0), coefficients(1));
+  const double second = std::hypot(coefficients(2), coefficients(3));
+  if (second <= most_second * first) return sum;
+  return sum +
+         second_surprise * std::pow(std::log(second / (most_second * std::max(first, 1e-12))), 2);
 }
 
 double held_out(const Eigen::MatrixXd& total, const Eigen::MatrixXd& fold, const Columns& columns) {

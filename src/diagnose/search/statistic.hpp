@@ -17,10 +17,9 @@ struct Family {
   double threshold(double level) const;
 };
 
-/// ln n per column, twice the log of the choice among its kind (Chen and Chen 2008), and what an
-/// implausible size costs (Eqs. 78–80).
-double penalty(const Hypothesis& hypothesis, std::size_t rank, std::size_t count,
-               const Eigen::VectorXd& coefficients);
+/// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008), and what a second
+/// harmonic costs that no jaws make (Eq. 78).
+double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
 
 /// ln p of an F test: `gain` for `rank` columns off `rss` with `freedom` degrees of freedom before.
 /// Eq. 69.
