@@ -100,7 +100,8 @@ struct Verdict {
   Decision decision = Decision::no_go;
   std::string line;  ///< the first line of the result
   std::vector<std::string> reservations{};
-  std::string what_would_prove{};     ///< of not_proven: the measurement that would
+  std::string what_would_prove{};  ///< of not_proven: the measurement that would
+  std::string moved{};  ///< that the part slipped, when and by how much; the axis is that of now
   double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
   double coaxiality_after_mm =
       0.0;  ///< expected with the table: what the compromise and the actuator leave

@@ -35,8 +35,7 @@ void conclude(JobResult& result) {
   require_stock(result);
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  const bool slipped = std::ranges::any_of(
-      result.diagnoses, [](const auto& diagnosis) { return diagnosis && diagnosis->slip(); });
+  const bool slipped = !slip_objection(result).empty();
   if (slipped) {
     withhold_axes(result);
     if (!result.agreement.disagreements.empty()) result.agreement = {};

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
@@ -69,33 +70,57 @@ std::string possible(const Finding& finding) {
   return "";
 }
 
+/// One slip, no rival of it, no finding that may be another, and nothing unexplained.
+bool is_sure(const Diagnosis& diagnosis) {
+  const Finding* slip = diagnosis.slip();
+  if (!slip || !slip->rivals.empty() || !diagnosis.unexplained.empty()) return false;
+  return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
+    return &finding != slip && std::ranges::any_of(finding.members(), is_slip);
+  });
+}
+
+std::string of_reference(const JobResult& result, std::size_t i) {
+  const std::string& reference = result.job.references[i].name;
+  return reference.empty() ? "" : reference + ": ";
+}
+
 }  // namespace
 
 std::string slip_objection(const JobResult& result) {
   std::string perhaps;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
+    if (!result.diagnoses[i] || is_sure(*result.diagnoses[i])) continue;
     const Diagnosis& diagnosis = *result.diagnoses[i];
-    const std::string reference = result.job.references[i].name;
-    const std::string where = reference.empty() ? "" : reference + ": ";
     if (const Finding* slip = diagnosis.slip())
-      return where + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
+      return of_reference(result, i) + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
     for (const Finding& finding : diagnosis.findings) {
       const std::string maybe = possible(finding);
-      if (perhaps.empty() && !maybe.empty()) perhaps = where + maybe + remedy;
+      if (perhaps.empty() && !maybe.empty()) perhaps = of_reference(result, i) + maybe + remedy;
     }
   }
   return perhaps;
 }
 
+std::string moved_part(const JobResult& result) {
+  std::string text;
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i] || !is_sure(*result.diagnoses[i])) continue;
+    text += (text.empty() ? "" : "; ") + of_reference(result, i) +
+            named(*result.diagnoses[i]->slip(), result.fits[i].coverage_factor) +
+            ": the axis is that of the part as it now stands";
+  }
+  return text;
+}
+
 void withhold_axes(JobResult& result) {
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !result.diagnoses[i]->slip()) continue;
+    if (!result.diagnoses[i] || !result.diagnoses[i]->slip() || is_sure(*result.diagnoses[i]))
+      continue;
     for (auto* parameters : {&result.fits[i].parameters, &result.fits[i].derived}) {
       for (auto& [name, estimate] : *parameters) {
         if (name == "half_angle" || name.starts_with("radius")) continue;
         estimate = {.unit = estimate.unit,
-                    .why_not = "the part slipped: it stands there no longer"};
+                    .why_not = "the part slipped, and where it stands now is not sure"};
       }
     }
   }

@@ -161,9 +161,11 @@ Verdict decide(const JobResult& result) {
     verdict.line = "NO-GO: " + why;
     return verdict;
   }
+  verdict.moved = moved_part(result);
+  const std::string moved = verdict.moved.empty() ? "" : "; " + verdict.moved;
   if (!result.correction) {
     verdict.decision = Decision::identified;
-    verdict.line = "DONE: identified, no target to correct";
+    verdict.line = "DONE: identified, no target to correct" + moved;
     return verdict;
   }
   for (const auto& forbids : {left_out_at_an_end, moves_with_axis}) {
@@ -177,6 +179,7 @@ Verdict decide(const JobResult& result) {
   for (std::string& why : cut_reservations(result)) verdict.reservations.push_back(std::move(why));
   if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
+    verdict.line += moved;
     if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
     const double if_ideal_mm = open.empty() ? 0.0 : upper_if_ideal_mm(result, open);
     if (if_ideal_mm > *tolerance_mm) {
@@ -190,7 +193,8 @@ Verdict decide(const JobResult& result) {
     verdict.line = "GO with reservations" + verdict.line.substr(2);
   } else {
     verdict.decision = Decision::untoleranced;
-    verdict.line = "DONE, no tolerance given: " + numbers_of(verdict, result.job.target->kind);
+    verdict.line =
+        "DONE, no tolerance given: " + numbers_of(verdict, result.job.target->kind) + moved;
   }
   for (const std::string& reservation : verdict.reservations) verdict.line += "; " + reservation;
   return verdict;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "job/agreement.hpp"
+#include "job/slip.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -93,10 +94,11 @@ Json target_data(const JobResult& result) {
             {"apart", Json::array()}};
   for (const Disagreement& d : result.agreement.disagreements)
     data["apart"].push_back(how_apart(result, d));
+  const bool unsure = !slip_objection(result).empty();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
     const bool slipped =
-        result.diagnoses.size() > i && result.diagnoses[i] && result.diagnoses[i]->slip();
+        unsure && result.diagnoses.size() > i && result.diagnoses[i] && result.diagnoses[i]->slip();
     const bool solved =
         !slipped && (fit.status == FitStatus::converged || fit.status == FitStatus::max_iterations);
     const double radius = face_radius(result, i);

@@ -32,9 +32,8 @@ class Draw {
 };
 
 constexpr double least_radius_mm = 3.0;
-/// An effect that moves the readings by less than this, in σ² of the sum of squares, or of which
-/// more than this is left beside the surface, is not absorbed.
-constexpr double seen = 2.0, harmless = 4.0;
+/// In σ², of the sum of squares: what half of all searches find, and what moves no axis.
+constexpr double seen = 30.0, harmless = 4.0;
 
 /// The part, and the plan stretched over its length to the wanted number of readings.
 void draw_part(Draw& draw, Case& out) {
@@ -121,7 +120,6 @@ Effect sized(Effect effect, Draw& draw) {
       break;
     }
   effect = blind::scaled(std::move(effect), share);
-  if (effect.id == "part.bow") effect.parameters["sagitta_mm"] *= 1.0;
   return effect;
 }
 
@@ -137,11 +135,13 @@ void fit_to(const Case& of, Effect& effect) {
   }
 }
 
-bool shows(const blind::Bench& bench, const Effect& effect, double sigma_mm) {
-  const Eigen::VectorXd change = bench.change({effect});
-  const double all = change.squaredNorm() / (sigma_mm * sigma_mm);
-  return all < harmless ||
-         bench.surface().residual(change).squaredNorm() / (sigma_mm * sigma_mm) > seen;
+/// Whether the plan would show the effect at the largest size that is typical of it, or the effect
+/// does nothing at its own.
+bool shows(const blind::Bench& bench, const Effect& effect, const Effect& largest,
+           double sigma_mm) {
+  const double variance = sigma_mm * sigma_mm;
+  return bench.change({effect}).squaredNorm() < harmless * variance ||
+         bench.surface().residual(bench.change({largest})).squaredNorm() > seen * variance;
 }
 
 Effect draw_outside(Draw& draw, const Case& of, const blind::Bench& bench) {
@@ -189,9 +189,10 @@ void draw_effects(Draw& draw, Case& out) {
         blind::families()[static_cast<std::size_t>(draw.whole(0, 28)) % blind::families().size()];
     if (family.id == "part.slip" || std::ranges::find(list, family.id, &Effect::id) != list.end())
       continue;
-    Effect effect = sized(blind::draw_effect(family.id, bench, draw.random), draw);
-    fit_to(out, effect);
-    if (out.group == Group::absorbed || shows(bench, effect, sigma))
+    Effect largest = blind::draw_effect(family.id, bench, draw.random);
+    fit_to(out, largest);
+    Effect effect = sized(largest, draw);
+    if (out.group == Group::absorbed || shows(bench, effect, largest, sigma))
       list.push_back(std::move(effect));
   }
   if (out.group == Group::outside) list.push_back(draw_outside(draw, out, bench));

@@ -23,7 +23,8 @@ struct Alternative {
 };
 
 /// Effects that might be there and were not found, though the plan would show them at their
-/// largest: those that the base can take in, and steps.
+/// largest. Harmonics of free order are left out: they are no neighbours of the axis, which is of
+/// order one.
 std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypothesis>& terms,
                                   const std::vector<AmbiguousFinding>& findings,
                                   const std::vector<Unobservable>& hidden) {
@@ -31,11 +32,9 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
   std::erase_if(list, [&](const Hypothesis& h) {
     const Effect* effect = h.effect;
     const auto is_it = [&](const Hypothesis& other) { return other.effect == effect; };
-    if (has_free_order(*effect) || (effect->absorbed_by.empty() && !is_step(effect->term)))
-      return true;
-    if (std::ranges::any_of(terms, is_it) || std::ranges::any_of(hidden, [&](const auto& u) {
-          return u.typical.hypothesis.effect == effect;
-        }))
+    if (has_free_order(*effect) || std::ranges::any_of(terms, is_it) ||
+        std::ranges::any_of(hidden,
+                            [&](const auto& u) { return u.typical.hypothesis.effect == effect; }))
       return true;
     return std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
       return std::ranges::any_of(f.found.members,

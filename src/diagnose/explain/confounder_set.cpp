@@ -92,8 +92,7 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
   }
   if (out.members.empty()) out.members.push_back({named, best.gain, best.rank, 0.0, 0.0});
   double sum = 0.0;
-  const double best_criterion =
-      std::ranges::min(out.members, {}, &Candidate::criterion).criterion;
+  const double best_criterion = std::ranges::min(out.members, {}, &Candidate::criterion).criterion;
   const auto likelihood = [&](const Candidate& c) {
     return std::exp(-0.5 * (c.criterion - best_criterion));
   };

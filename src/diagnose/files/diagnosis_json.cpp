@@ -182,6 +182,13 @@ Json diagnosis_summary(const Diagnosis& d) {
           {"next_measurement", d.next.plan}};
 }
 
+Json share_object(const AxisShare& share) {
+  return {{"effect", share.effect},
+          {"instead_of", share.instead_of},
+          {"probability", number(share.probability)},
+          {"axis_shift", estimate_object(share.axis_shift)}};
+}
+
 Json diagnosis_object(const Diagnosis& d) {
   Json json;
   json["schema"] = diagnosis_schema;
@@ -190,7 +197,9 @@ Json diagnosis_object(const Diagnosis& d) {
   json["options"] = options_object(d);
   json["verdict"] = to_string(d.verdict);
   json["baseline"] = fit_object(d.baseline);
+  json["named"] = fit_object(d.named);
   json["extended"] = fit_object(d.extended);
+  json["shares"] = list_of(d.shares, share_object);
   json["u_frame"] = {{"z_mid", length(d.z_mid_mm)}, {"z_half", length(d.z_half_mm)}};
   json["findings"] = list_of(d.findings, finding_object);
   json["unexplained"] = list_of(d.unexplained, unexplained_object);

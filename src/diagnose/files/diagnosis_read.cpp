@@ -56,6 +56,7 @@ Diagnosis diagnosis_from(const Json& json) {
   Diagnosis d;
   d.verdict = verdict_from(json.at("verdict"));
   d.baseline = fit_from_object(json.at("baseline"));
+  d.named = fit_from_object(json.at("named"));
   d.extended = fit_from_object(json.at("extended"));
   d.z_mid_mm = value(json.at("u_frame"), "z_mid");
   d.z_half_mm = value(json.at("u_frame"), "z_half");

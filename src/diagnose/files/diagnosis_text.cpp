@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "diagnose/files/axes_text.hpp"
 #include "diagnose/files/diagnosis_limits_text.hpp"
 #include "diagnose/files/finding_text.hpp"
 #include "format/text_layout.hpp"
@@ -48,9 +49,7 @@ std::string origin(const Diagnosis& d) {
 
 /// What a slip does to the meaning of the axis; empty for any other finding.
 std::string axis_note(const Finding& finding) {
-  return is_step(finding.term.effect->term)
-             ? "that of before the slip; the part stands there no longer"
-             : "";
+  return is_step(finding.term.effect->term) ? "that of the part as it stands after the slip" : "";
 }
 
 std::string finding_block(const Finding& finding, std::size_t number, double k) {
@@ -127,6 +126,8 @@ std::string findings_text(const Diagnosis& d) {
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
   }
+  for (const AxisShare& share : telling_shares(d))
+    text += wrapped("  axis: ", share_text(share, k));
   for (const Unexplained& u : d.unexplained) {
     text += wrapped("  ", "unexplained: " + harmonic_text(u.term.pattern) + ", " +
                               dependence_text(u.term.pattern) + ", amplitude " +
@@ -150,7 +151,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   }
   if (!d.unexplained.empty()) text += "\nUnexplained\n";
   for (const Unexplained& u : d.unexplained) text += unexplained_block(u, k);
-  return text + gain_block(d) + not_observable_text(d) + noise_text(d.noise) +
+  return text + axes_text(d) + gain_block(d) + not_observable_text(d) + noise_text(d.noise) +
          checks_text(d.checks) + remarks_text(d.remarks) + next_text(d.next);
 }
 

@@ -11,7 +11,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double catalogue_first = 6.0;  // 2 ln of the odds that a pattern is no new cause
+constexpr double catalogue_first = 4.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
 constexpr double hides_a_term = 0.3;  // |φ|: less hardly weakens one
 

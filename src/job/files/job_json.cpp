@@ -22,6 +22,7 @@ Json verdict_object(const Verdict& v) {
       {"coaxiality_at_most", with_unit(v.upper_mm, "mm")},
       {"risk", nonconformity_risk},
       {"what_would_prove", v.what_would_prove},
+      {"moved", v.moved},
       {"coverage_factor", v.coverage_factor}};
 }
 
