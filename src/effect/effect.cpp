@@ -5,11 +5,7 @@
 #include <type_traits>
 
 #include "base/edit_distance.hpp"
-#include "effect/entries_checks.hpp"
-#include "effect/entries_encoder_time.hpp"
-#include "effect/entries_machine.hpp"
-#include "effect/entries_part.hpp"
-#include "effect/entries_probe.hpp"
+#include "effect/entries.hpp"
 #include "effect/measuring_terms.hpp"
 #include "effect/position_terms.hpp"
 #include "trueaxis/error.hpp"
