@@ -50,6 +50,23 @@ constexpr Separator separator_list[] = {
     {"XJ", "a known jog of the X axis"},
 };
 
+/// Of a parameter of the shape other than its degree.
+double TermShape::*place_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, double TermShape::*> places[] = {
+      {"order", &TermShape::order},
+      {"lever_from_mm", &TermShape::lever_from_mm},
+      {"decay_length_mm", &TermShape::decay_length_mm},
+      {"period_mm", &TermShape::period_mm},
+      {"frequency_hz", &TermShape::frequency_hz},
+      {"time_constant_s", &TermShape::time_constant_s},
+      {"onset_s", &TermShape::onset_s},
+      {"reference_x_mm", &TermShape::reference_x_mm},
+      {"range_mm", &TermShape::range_mm}};
+  for (const auto& [known, place] : places)
+    if (known == name) return place;
+  throw ContractViolation("no parameter of a shape: " + std::string(name));
+}
+
 std::string_view after_family(std::string_view id) { return id.substr(id.find('.') + 1); }
 
 // The name alone counts too: the family is often not remembered.
@@ -82,20 +99,15 @@ void fill_columns(const Term& term, const TermContext& context, const TermShape&
 }
 
 double shape_value(const TermShape& shape, std::string_view name) {
-  static constexpr std::pair<std::string_view, double TermShape::*> places[] = {
-      {"order", &TermShape::order},
-      {"lever_from_mm", &TermShape::lever_from_mm},
-      {"decay_length_mm", &TermShape::decay_length_mm},
-      {"period_mm", &TermShape::period_mm},
-      {"frequency_hz", &TermShape::frequency_hz},
-      {"time_constant_s", &TermShape::time_constant_s},
-      {"onset_s", &TermShape::onset_s},
-      {"reference_x_mm", &TermShape::reference_x_mm},
-      {"range_mm", &TermShape::range_mm}};
-  if (name == "degree") return shape.degree;
-  for (const auto& [known, place] : places)
-    if (known == name) return shape.*place;
-  throw ContractViolation("no parameter of a shape: " + std::string(name));
+  return name == "degree" ? shape.degree : shape.*place_of(name);
+}
+
+void set_shape_value(TermShape& shape, std::string_view name, double value) {
+  if (name == "degree") {
+    shape.degree = static_cast<int>(value);
+  } else {
+    shape.*place_of(name) = value;
+  }
 }
 
 bool is_step(const Term& term) { return std::holds_alternative<PartStep>(term); }

@@ -26,4 +26,7 @@ FitResult fit_from_object(const Json& json);
 /// @throws InputError if it is no such trueaxis.fit/1.
 FitResult fit_from_json(std::string_view text, const std::string& path);
 
+/// The fit for a person at a terminal: status, parameters with U, what is left, what to do.
+std::string fit_text(const FitResult& result);
+
 }  // namespace trueaxis

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "trueaxis/effect.hpp"
 
 namespace trueaxis {
+
 /// All ids with their titles, by family.
 std::string effects_list_text();
 
@@ -17,5 +19,9 @@ std::string typical_size(const EffectParameter& parameter);
 
 /// The catalogue as docs/effects.md: the measuring chain, an index, a section an effect.
 std::string effects_markdown();
+
+/// Schema trueaxis.effects/1: the entries and the measurements that tell them apart. Lengths in mm,
+/// angles in degrees, times in s.
+std::string effects_json(const std::vector<const Effect*>& effects);
 
 }  // namespace trueaxis
