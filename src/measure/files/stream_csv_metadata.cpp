@@ -61,19 +61,12 @@ bool is_known(std::string_view key) {
   return csv_is_setup_key(key) || std::ranges::find(keys, key) != std::end(keys);
 }
 
-bool lacks_unit(std::string_view text) {
-  const auto number = csv_number_with_unit(text);
-  return number && number->unit.empty();
-}
-
-bool is_length(std::string_view key) {
-  return key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
-}
-
 std::string not_understood(const std::string& key, std::string_view value, const char* wanted) {
-  if (is_length(key) && lacks_unit(value))
-    return key + ": " + csv_quoted(value) + " has no unit: write " + wanted;
-  return key + ": " + csv_quoted(value) + " is not understood: write " + wanted;
+  const bool length = key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
+  const auto number = csv_number_with_unit(value);
+  const bool bare = length && number && number->unit.empty();
+  return key + ": " + csv_quoted(value) + (bare ? " has no unit" : " is not understood") +
+         ": write " + wanted;
 }
 
 }  // namespace
