@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "trueaxis/effect.hpp"
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 

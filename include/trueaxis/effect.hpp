@@ -361,6 +361,7 @@ const EffectParameter* size_for(const Effect& effect, std::string_view linear);
 /// Value of a shape parameter by the name that shape_parameters gives it.
 /// @throws ContractViolation for another name.
 double shape_value(const TermShape& shape, std::string_view name);
+void set_shape_value(TermShape& shape, std::string_view name, double value);
 
 /// All effects and checks, family by family.
 std::span<const Effect> effect_catalogue();

@@ -9,10 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/probe_stream.hpp"
-#include "trueaxis/profile.hpp"
 #include "trueaxis/surface.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
@@ -39,7 +38,7 @@ struct Influence {
 
 struct FitOptions {
   SurfaceKind surface = SurfaceKind::cone;
-  /// A surface of revolution of one's own in place of `surface`, see profile.hpp.
+  /// A surface of revolution of one's own in place of `surface`.
   std::shared_ptr<const RevolvedProfile> profile{};
   Loss loss = Loss::plain;
   bool bore = false;  ///< probed from inside: the sign of the ball's radius is reversed

@@ -9,10 +9,10 @@
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/diagnosis.hpp"
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/resimulation.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 

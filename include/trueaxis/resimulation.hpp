@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "trueaxis/diagnosis.hpp"
-#include "trueaxis/estimate.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 

@@ -9,13 +9,11 @@
 #include "trueaxis/diagnosis.hpp"      // what the ideal surface misses
 #include "trueaxis/effect.hpp"         // the catalogue of effects
 #include "trueaxis/error.hpp"          // InputError, ContractViolation
-#include "trueaxis/estimate.hpp"       // a value with its uncertainty
 #include "trueaxis/fit.hpp"            // association of a surface
 #include "trueaxis/job.hpp"            // streams in, verdict and table out
 #include "trueaxis/probe_stream.hpp"   // the readings
-#include "trueaxis/profile.hpp"        // a surface of one's own
 #include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
 #include "trueaxis/study.hpp"          // repeats against the Cramér-Rao bound
-#include "trueaxis/surface.hpp"        // axis, cone and cylinder, exact intersection
-#include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg
+#include "trueaxis/surface.hpp"        // axis, cone and cylinder, a surface of one's own
+#include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg; a value with its uncertainty
 #include "trueaxis/virtual_lathe.hpp"  // simulated streams with known truth

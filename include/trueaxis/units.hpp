@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 /// Factors between the units of the edge and those inside (mm, rad, s). Degrees, µm, inch and
 /// diameter exist at the edge only: multiply on the way in, divide on the way out.
@@ -12,5 +15,22 @@ inline constexpr double rad_per_deg = std::numbers::pi / 180.0;
 inline constexpr double mm_per_um = 1e-3;
 inline constexpr double mm_per_inch = 25.4;
 inline constexpr double mm_per_m = 1000.0;
+
+/// A result: value, standard uncertainty u (GUM), unit; or, in `why_not`, why there is none.
+struct Estimate {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  double u = std::numeric_limits<double>::quiet_NaN();  ///< standard uncertainty, k = 1
+  std::string unit;     ///< unit of value and u, as at the edge ("mm", "deg", "1")
+  std::string why_not;  ///< why value or u is missing; empty when both are there
+
+  bool determined() const { return std::isfinite(value); }
+};
+
+/// Decimals that show U with two digits (GUM 7.2.6), at least `least`; U of 0 or NaN shows `least`.
+inline int decimals_of(double U, int least = 3) {
+  if (!(U > 0.0)) return least;
+  const int digits = 1 - static_cast<int>(std::floor(std::log10(U)));
+  return digits < least ? least : digits > 12 ? 12 : digits;
+}
 
 }  // namespace trueaxis

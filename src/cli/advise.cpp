@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/advise.hpp"
-
 #include <iostream>
 #include <memory>
 
-#include "cli/fit_options.hpp"
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
-#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -26,8 +24,7 @@ int advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm)
   options.fit = fit;
   options.false_alarm = false_alarm;
   const Diagnosis diagnosis = diagnose(stream, options);
-  if (diagnosis.baseline.status == FitStatus::too_few)
-    throw InputError(stream.source, diagnosis.baseline.message + ": probe more");
+  expect_enough_readings(diagnosis.baseline);
   std::cout << advice_text(diagnosis);
   return diagnosis.baseline.status == FitStatus::converged ? done : numerical;
 }
@@ -56,10 +53,7 @@ void add_advise(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command, "probe stream (CSV), '-' for standard input, or a job (.toml)");
   const CLI::Option* surface = options->association.add_to(*command);
-  command
-      ->add_option("--false-alarm", options->false_alarm,
-                   "chance of a finding in a stream that has none (0.01)")
-      ->check(false_alarm_level());
+  add_false_alarm(*command, options->false_alarm);
   command->callback([options, surface, &exit_code] {
     if (options->stream.path.ends_with(".toml")) {
       exit_code = advise_job(*options);

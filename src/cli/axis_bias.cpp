@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/axis_bias.hpp"
-
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"

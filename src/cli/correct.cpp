@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/correct.hpp"
-
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "cli/commands.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
-#include "correct/files/table_csv.hpp"
-#include "correct/files/table_text.hpp"
-#include "diagnose/files/diagnosis_read.hpp"
-#include "fit/files/fit_json.hpp"
+#include "cli/options.hpp"
+#include "correct/files/table_files.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/conclude.hpp"
@@ -166,10 +164,7 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->excludes(diagnosis);
   command->add_option("--stream", options->stream.path, "where the diagnosed stream is now");
   options->stream.add_meaning_to(*command);
-  command
-      ->add_option("--ball-radius", options->ball_radius_mm,
-                   "of the probe's ball, mm, as given to the diagnosis")
-      ->check(a_length());
+  StreamOptions::add_ball_radius(*command, options->ball_radius_mm);
   add_force(*command, options->force);
   command->callback([options, &exit_code] {
     if (!options->preview && options->table.empty())

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/diagnose.hpp"
-
 #include <iostream>
 #include <memory>
 
-#include "cli/fit_options.hpp"
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
+#include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
-#include "job/files/residuals_csv.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/diagnosis.hpp"
-#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -21,8 +19,7 @@ struct Options {
   StreamOptions stream;
   AssociationOptions association;
   double false_alarm = DiagnoseOptions{}.false_alarm;
-  std::string json, residuals;
-  bool force = false;
+  ResultOptions result;
 };
 
 /// The fit that broke, or nullptr.
@@ -34,22 +31,21 @@ const FitResult* broken_fit(const Diagnosis& diagnosis) {
 
 int execute(const Options& options) {
   const ProbeStream stream = options.stream.read();
-  Outputs outputs(options.force);
+  const auto& [json, residuals, force] = options.result;
+  Outputs outputs(force);
   outputs.reads(options.stream.path);
-  outputs.may_write(options.json, "trueaxis.diagnosis");
-  outputs.may_write(options.residuals, "trueaxis.residuals");
+  outputs.may_write(json, "trueaxis.diagnosis");
+  outputs.may_write(residuals, "trueaxis.residuals");
   outputs.check();
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
   const Diagnosis diagnosis = diagnose(stream, diagnose_options);
-  if (diagnosis.baseline.status == FitStatus::too_few)
-    throw InputError(stream.source, diagnosis.baseline.message + ": probe more");
-  if (!options.json.empty()) outputs.write(options.json, diagnosis_json(diagnosis));
-  if (!options.residuals.empty())
-    outputs.write(options.residuals, residuals_csv(stream, diagnosis));
+  expect_enough_readings(diagnosis.baseline);
+  if (!json.empty()) outputs.write(json, diagnosis_json(diagnosis));
+  if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, diagnosis));
   outputs.commit();
-  if (options.json != "-" && options.residuals != "-") std::cout << diagnosis_text(diagnosis);
+  if (!options.result.printed()) std::cout << diagnosis_text(diagnosis);
   if (const FitResult* fit = broken_fit(diagnosis)) {
     std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
     return numerical;
@@ -65,20 +61,10 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command);
   options->association.add_to(*command)->required();
-  command
-      ->add_option("--false-alarm", options->false_alarm,
-                   "chance of a finding in a stream that has none (0.01)")
-      ->check(false_alarm_level());
-  command->add_option("--json", options->json, "write the result here, '-' prints it")
-      ->check(a_place());
-  command
-      ->add_option("--residuals", options->residuals,
-                   "write every reading with what is left before and after here (CSV)")
-      ->check(a_place());
-  add_force(*command, options->force);
+  add_false_alarm(*command, options->false_alarm);
+  options->result.add_to(*command, "what is left before and after here (CSV)");
   command->callback([options, &exit_code] {
-    if (!options->json.empty() && options->json == options->residuals)
-      throw CLI::ValidationError("--residuals", "cannot go where --json goes");
+    options->result.expect_apart();
     exit_code = execute(*options);
   });
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/effects.hpp"
+#include <fmt/ranges.h>
 
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "effect/files/effects_json.hpp"
-#include "effect/files/effects_text.hpp"
+#include "effect/files/effects_files.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 
@@ -20,12 +20,9 @@ struct Options {
 
 const Effect& known_effect(const std::string& id) {
   if (const Effect* effect = find_effect(id)) return *effect;
-  std::string nearest;
-  for (const std::string_view near : nearest_effects(id)) {
-    nearest += (nearest.empty() ? "" : ", ") + std::string(near);
-  }
-  throw InputError(id, "is no effect of the catalogue; the nearest are " + nearest +
-                           " ('trueaxis effects' lists all)");
+  throw InputError(id, fmt::format("is no effect of the catalogue; the nearest are {} ('trueaxis "
+                                   "effects' lists all)",
+                                   fmt::join(nearest_effects(id), ", ")));
 }
 
 int execute(const Options& options) {

@@ -3,17 +3,8 @@
 
 #include <iostream>
 
-#include "cli/advise.hpp"
-#include "cli/axis_bias.hpp"
-#include "cli/correct.hpp"
-#include "cli/diagnose.hpp"
-#include "cli/effects.hpp"
-#include "cli/fit.hpp"
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/plan.hpp"
-#include "cli/run.hpp"
-#include "cli/simulate.hpp"
-#include "cli/sweep.hpp"
 #include "trueaxis/error.hpp"
 
 namespace {
@@ -28,16 +19,9 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a "
       "bug.");
   int code = done;
-  add_run(app, code);
-  add_fit(app, code);
-  add_diagnose(app, code);
-  add_advise(app, code);
-  add_correct(app, code);
-  add_simulate(app, code);
-  add_sweep(app, code);
-  add_plan(app, code);
-  add_axis_bias(app, code);
-  add_effects(app, code);
+  for (const auto add : {add_run, add_fit, add_diagnose, add_advise, add_correct, add_simulate,
+                         add_sweep, add_plan, add_axis_bias, add_effects})
+    add(app, code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

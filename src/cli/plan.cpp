@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/plan.hpp"
-
 #include <algorithm>
 #include <functional>
 #include <iostream>
 #include <memory>
 
-#include "cli/checks.hpp"
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
 #include "cli/progress.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "simulate/files/scenario_toml.hpp"
-#include "study/planning/files/design_variable_text.hpp"
-#include "study/planning/files/planning_json.hpp"
-#include "study/planning/files/planning_text.hpp"
+#include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/run.hpp"
-
 #include <algorithm>
 #include <iostream>
 #include <memory>
 #include <utility>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "report/report.hpp"
-#include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {
@@ -42,10 +40,7 @@ int execute(const Options& options) {
   outputs.check();
 
   const JobResult result = run_job(job, std::move(streams));
-  for (const FitResult& fit : result.fits) {
-    if (fit.status == FitStatus::too_few)
-      throw InputError(fit.source, fit.message + ": probe more");
-  }
+  std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
   files.insert(files.begin() + 1, {"report.html", render_report(result)});
   for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);

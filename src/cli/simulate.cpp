@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/simulate.hpp"
-
 #include <cstdint>
 #include <iostream>
 #include <memory>
 #include <optional>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
 #include "cli/simulate_from.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
@@ -15,7 +14,6 @@
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/virtual_cut.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::cli {
@@ -115,11 +113,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->needs(diagnosis);
   add_force(*command, options->force);
   from->stream.add_meaning_to(*command);
-  command
-      ->add_option("--ball-radius", from->ball_radius_mm,
-                   "of the probe's ball, mm, as given to the diagnosis")
-      ->check(a_length())
-      ->needs(diagnosis);
+  StreamOptions::add_ball_radius(*command, from->ball_radius_mm)->needs(diagnosis);
   command->callback([options, from, &exit_code] {
     if (from->diagnosis.empty()) {
       if (options->scenario.empty()) throw CLI::RequiredError("scenario");

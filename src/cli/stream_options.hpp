@@ -3,10 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
-#include "cli/checks.hpp"
+#include "cli/options.hpp"
 #include "measure/files/stream_csv.hpp"
-#include "trueaxis/units.hpp"
+#include "surface/surface.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
 
 namespace trueaxis::cli {
 
@@ -31,6 +34,14 @@ struct StreamOptions {
         ->check(positive_length());
   }
 
+  /// `--ball-radius` of a command that reads a diagnosed stream again.
+  static CLI::Option* add_ball_radius(CLI::App& command, double& radius_mm) {
+    return command
+        .add_option("--ball-radius", radius_mm,
+                    "of the probe's ball, mm, as given to the diagnosis")
+        ->check(a_length());
+  }
+
   bool says_anything() const { return diameter || radius || relative || nominal_radius_mm > 0.0; }
 
   ProbeStream read() const {
@@ -41,5 +52,44 @@ struct StreamOptions {
     return read_stream_csv(path, options);
   }
 };
+
+/// How a stream is to be associated, the same for every command that fits one.
+struct AssociationOptions {
+  FitOptions fit;
+  std::string surface = "cone", loss = "plain";
+  double noise_um = -1.0;
+
+  CLI::Option* add_to(CLI::App& command) {
+    std::vector<std::string> surfaces;
+    for (const SurfaceInfo& info : surface_catalogue()) surfaces.emplace_back(info.id);
+    CLI::Option* option = command.add_option("--surface", surface, "reference surface")
+                              ->check(CLI::IsMember(surfaces));
+    command.add_option("--loss", loss, "plain (default), huber or tukey")
+        ->check(CLI::IsMember({"plain", "huber", "tukey"}));
+    command.add_flag("--bore", fit.bore, "probed from inside");
+    command
+        .add_option("--ball-radius", fit.ball_radius_mm,
+                    "X_M is the centre of a ball of this radius, mm")
+        ->check(a_length());
+    command.add_option("--noise", noise_um, "standard deviation of one reading if known, µm")
+        ->check(a_length());
+    command.add_option("--coverage-factor", fit.coverage_factor, "k of U = k u (2)")
+        ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
+    return option;
+  }
+
+  FitOptions chosen() const {
+    FitOptions options = fit;
+    options.surface = surface_from_id(surface);
+    options.loss = loss == "huber" ? Loss::huber : loss == "tukey" ? Loss::tukey : Loss::plain;
+    if (noise_um >= 0.0) options.noise_mm = noise_um * mm_per_um;
+    return options;
+  }
+};
+
+/// @throws InputError where a stream has fewer readings than the surface has parameters
+inline void expect_enough_readings(const FitResult& fit) {
+  if (fit.status == FitStatus::too_few) throw InputError(fit.source, fit.message + ": probe more");
+}
 
 }  // namespace trueaxis::cli

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/sweep.hpp"
-
 #include <iostream>
 #include <memory>
 
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
 #include "cli/sweep_run.hpp"
 #include "studies/published/published_toml.hpp"
-#include "study/sweep/run.hpp"
+#include "study/sweep/block.hpp"
 
 namespace trueaxis::cli {
 

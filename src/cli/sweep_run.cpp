@@ -11,10 +11,8 @@
 #include "studies/published/published_json.hpp"
 #include "studies/published/published_page.hpp"
 #include "studies/published/published_text.hpp"
-#include "study/sweep/files/sweep_csv.hpp"
 #include "study/sweep/files/sweep_journal.hpp"
-#include "study/sweep/files/sweep_json.hpp"
-#include "study/sweep/files/sweep_text.hpp"
+#include "study/sweep/files/sweep_results.hpp"
 #include "study/sweep/summary.hpp"
 
 namespace trueaxis::cli {

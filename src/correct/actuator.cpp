@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/error.hpp"
@@ -53,9 +54,7 @@ double measured_bandwidth_hz(const std::vector<ResponsePoint>& points) {
 
 void require(bool holds, const char* quantity, double value, const char* limit) {
   if (holds) return;
-  std::ostringstream text;
-  text << "actuator: " << quantity << " is " << value << ", must be " << limit;
-  throw ContractViolation(text.str());
+  throw ContractViolation(fmt::format("actuator: {} is {:g}, must be {}", quantity, value, limit));
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "correct/margin.hpp"
 #include "correct/precompensate.hpp"
 #include "correct/profile.hpp"
-#include "correct/remedy.hpp"
 #include "correct/spectrum.hpp"
 
 namespace trueaxis {

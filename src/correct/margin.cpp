@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correct/margin.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <sstream>
 
 #include "trueaxis/units.hpp"
 
@@ -166,12 +166,7 @@ Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted,
   return demand;
 }
 
-std::string number(double value, const char* unit) {
-  std::ostringstream text;
-  text.precision(4);
-  text << value << ' ' << unit;
-  return text.str();
-}
+std::string number(double value, const char* unit) { return fmt::format("{:.4g} {}", value, unit); }
 
 void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm) {
   const auto check = [&](bool holds, const std::string& what) {
@@ -196,6 +191,29 @@ void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm)
         "following error " + number(margin.following_mm * um, "µm") + " of " +
             number(following_limit_mm * um, "µm"));
   margin.follows = margin.breaks.empty();
+}
+
+/// The least value of a doubling scale above `now` that holds, then halved towards `now`; 0: none
+/// up to `most`.
+template <typename Holds>
+double least_that_holds(double now, double most, double step, Holds holds) {
+  double good = now;
+  do good *= 2.0;
+  while (good <= most && !holds(good));
+  if (good > most) return 0.0;
+  for (double bad = 0.5 * good; good - bad > step;) {
+    const double middle = step * std::ceil(0.5 * (good + bad) / step);
+    if (middle >= good) break;
+    (holds(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+std::string at_speed(double now_rpm, double rpm) {
+  if (!(rpm > 0.0)) return "not at any speed";
+  const std::string less = rpm < now_rpm ? " or less" : "";
+  if (rpm >= 10.0) return fmt::format("at {:.12g} rpm{}", std::floor(rpm), less);
+  return fmt::format("at {:.2g} rpm{}", std::floor(10.0 * rpm) / 10.0, less);
 }
 
 }  // namespace
@@ -269,6 +287,36 @@ double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Act
     (follows(middle) ? good : broken) = middle;
   }
   return good;
+}
+
+std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                   double max_speed_rpm) {
+  const double now_rpm = profile.tool().speed_rpm;
+  Motion motion = motion_of(profile, now_rpm);
+  const int rows = motion.rows_per_revolution;
+  constexpr double most_rows = 1e5, most_sampling = 64.0;
+  const double more_rows = least_that_holds(rows, most_rows, 1.0, [&](double tried) {
+    motion.rows_per_revolution = static_cast<int>(tried);
+    return margin_at(spectrum, motion, actuator).follows;
+  });
+  if (more_rows > 0.0) {
+    return "it would with " + std::to_string(static_cast<int>(more_rows)) +
+           " rows a revolution (rows_per_revolution): between " + std::to_string(rows) +
+           " the interpolation errs too much";
+  }
+  motion.rows_per_revolution = rows;
+  const double faster_hz =
+      least_that_holds(actuator.sampling_hz, most_sampling * actuator.sampling_hz,
+                       0.01 * actuator.sampling_hz, [&](double tried) {
+                         Actuator sampled = actuator;
+                         sampled.sampling_hz = tried;
+                         return margin_at(spectrum, motion, sampled).follows;
+                       });
+  const std::string speed = "it would " + at_speed(now_rpm, max_speed_rpm);
+  if (!(faster_hz > 0.0)) return speed;
+  const bool slower = max_speed_rpm > 0.0 && max_speed_rpm < now_rpm;
+  return "it would with set-points at " + fmt::format("{:.12g} Hz", faster_hz) + " (sampling_hz)" +
+         (slower ? ", or " + at_speed(now_rpm, max_speed_rpm) : "");
 }
 
 }  // namespace trueaxis

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "correct/precompensate.hpp"
+#include "correct/spectrum.hpp"
 
 namespace trueaxis {
 
@@ -17,5 +20,11 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
 /// The highest speed at which margin_at follows; 0: at none. Never above the actuator's bandwidth
 /// in revolutions.
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator);
+
+/// What would make a profile that breaks a limit follow: more rows a revolution where it is the
+/// interpolation between them, faster set-points where it is the sampling, else the speed. Each was
+/// tried, alone.
+std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+                   double max_speed_rpm);
 
 }  // namespace trueaxis

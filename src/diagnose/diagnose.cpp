@@ -126,15 +126,8 @@ const Finding* Diagnosis::slip() const {
 }
 
 const char* to_string(DiagnosisVerdict verdict) {
-  switch (verdict) {
-    case DiagnosisVerdict::ideal:
-      return "ideal";
-    case DiagnosisVerdict::effects:
-      return "effects";
-    case DiagnosisVerdict::unexplained:
-      return "unexplained";
-  }
-  return "";
+  static constexpr const char* words[] = {"ideal", "effects", "unexplained"};
+  return words[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace trueaxis

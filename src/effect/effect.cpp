@@ -2,23 +2,14 @@
 #include "trueaxis/effect.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "base/edit_distance.hpp"
-#include "effect/entries_checks.hpp"
-#include "effect/entries_encoder_time.hpp"
-#include "effect/entries_machine.hpp"
-#include "effect/entries_part.hpp"
-#include "effect/entries_probe.hpp"
-#include "effect/measuring_terms.hpp"
-#include "effect/position_terms.hpp"
+#include "effect/entries.hpp"
+#include "effect/kinds.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
-
-template <class T>
-constexpr bool is_nothing = std::is_same_v<std::decay_t<T>, std::monostate>;
 
 // A column that is not there is empty; the one column that only probe.lag reads may be.
 void check(const Term& term, const TermContext& at) {
@@ -59,6 +50,23 @@ constexpr Separator separator_list[] = {
     {"XJ", "a known jog of the X axis"},
 };
 
+/// Of a parameter of the shape other than its degree.
+double TermShape::*place_of(std::string_view name) {
+  static constexpr std::pair<std::string_view, double TermShape::*> places[] = {
+      {"order", &TermShape::order},
+      {"lever_from_mm", &TermShape::lever_from_mm},
+      {"decay_length_mm", &TermShape::decay_length_mm},
+      {"period_mm", &TermShape::period_mm},
+      {"frequency_hz", &TermShape::frequency_hz},
+      {"time_constant_s", &TermShape::time_constant_s},
+      {"onset_s", &TermShape::onset_s},
+      {"reference_x_mm", &TermShape::reference_x_mm},
+      {"range_mm", &TermShape::range_mm}};
+  for (const auto& [known, place] : places)
+    if (known == name) return place;
+  throw ContractViolation("no parameter of a shape: " + std::string(name));
+}
+
 std::string_view after_family(std::string_view id) { return id.substr(id.find('.') + 1); }
 
 // The name alone counts too: the family is often not remembered.
@@ -70,27 +78,11 @@ std::size_t unlikeness(std::string_view asked, std::string_view id) {
 }  // namespace
 
 std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape) {
-  return std::visit(
-      [&](const auto& of) -> kind::Linear {
-        if constexpr (is_nothing<decltype(of)>) {
-          return {};
-        } else {
-          return kind::linear(of, shape);
-        }
-      },
-      term);
+  return std::visit([&](const auto& of) { return kind::parameters(of, shape).linear; }, term);
 }
 
 std::vector<std::string> shape_parameters(const Term& term) {
-  return std::visit(
-      [](const auto& of) -> kind::Names {
-        if constexpr (is_nothing<decltype(of)>) {
-          return {};
-        } else {
-          return kind::shapes(of);
-        }
-      },
-      term);
+  return std::visit([](const auto& of) { return kind::parameters(of, {}).shape; }, term);
 }
 
 void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
@@ -101,30 +93,21 @@ void fill_columns(const Term& term, const TermContext& context, const TermShape&
   for (std::size_t from = 0; from < context.size(); from += kind::chunk_size) {
     const std::size_t count = std::min(kind::chunk_size, context.size() - from);
     const TermContext part = part_of(context, from, count);
-    std::visit(
-        [&](const auto& of) {
-          if constexpr (!is_nothing<decltype(of)>) kind::fill(of, part, shape, out);
-        },
-        term);
+    std::visit([&](const auto& of) { kind::fill(of, part, shape, out); }, term);
     for (double*& column : out) column += count;
   }
 }
 
 double shape_value(const TermShape& shape, std::string_view name) {
-  static constexpr std::pair<std::string_view, double TermShape::*> places[] = {
-      {"order", &TermShape::order},
-      {"lever_from_mm", &TermShape::lever_from_mm},
-      {"decay_length_mm", &TermShape::decay_length_mm},
-      {"period_mm", &TermShape::period_mm},
-      {"frequency_hz", &TermShape::frequency_hz},
-      {"time_constant_s", &TermShape::time_constant_s},
-      {"onset_s", &TermShape::onset_s},
-      {"reference_x_mm", &TermShape::reference_x_mm},
-      {"range_mm", &TermShape::range_mm}};
-  if (name == "degree") return shape.degree;
-  for (const auto& [known, place] : places)
-    if (known == name) return shape.*place;
-  throw ContractViolation("no parameter of a shape: " + std::string(name));
+  return name == "degree" ? shape.degree : shape.*place_of(name);
+}
+
+void set_shape_value(TermShape& shape, std::string_view name, double value) {
+  if (name == "degree") {
+    shape.degree = static_cast<int>(value);
+  } else {
+    shape.*place_of(name) = value;
+  }
 }
 
 bool is_step(const Term& term) { return std::holds_alternative<PartStep>(term); }
@@ -196,39 +179,14 @@ std::vector<std::string_view> nearest_effects(std::string_view id, std::size_t c
 std::span<const Separator> separators() { return separator_list; }
 
 std::string_view to_string(Slot slot) {
-  switch (slot) {
-    case Slot::arguments:
-      return "A";
-    case Slot::probe_line:
-      return "B";
-    case Slot::part:
-      return "C";
-    case Slot::machine:
-      return "D";
-    case Slot::sensor:
-      return "E";
-    case Slot::noise:
-      break;
-  }
-  return "noise";
+  static constexpr std::string_view words[] = {"A", "B", "C", "D", "E", "noise"};
+  return words[static_cast<std::size_t>(slot)];
 }
 
 std::string_view to_string(Frame frame) {
-  switch (frame) {
-    case Frame::part:
-      return "part";
-    case Frame::chuck:
-      return "chuck";
-    case Frame::spindle:
-      return "spindle";
-    case Frame::machine:
-      return "machine";
-    case Frame::probe:
-      return "probe";
-    case Frame::time:
-      break;
-  }
-  return "time";
+  static constexpr std::string_view words[] = {"part",    "chuck", "spindle",
+                                               "machine", "probe", "time"};
+  return words[static_cast<std::size_t>(frame)];
 }
 
 }  // namespace trueaxis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/entries_encoder_time.hpp"
+#include "effect/entries.hpp"
 
 namespace trueaxis::entries {
 

@@ -1,24 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "math/sincos.hpp"
 #include "trueaxis/effect.hpp"
 
-/// What the kinds of term share; each has names of the linear and of the shape parameters, columns.
 namespace trueaxis::kind {
 
 /// Readings that a `fill` is given at most: its buffers lie on the stack, in the first cache.
 inline constexpr std::size_t chunk_size = 256;
-
+using Chunk = std::array<double, chunk_size>;
 using Columns = std::span<double* const>;
-using Linear = std::vector<LinearParameter>;
-using Names = std::vector<std::string>;
 
-/// The factors cos, sin of a value that moves `port`.
-inline std::string unit_of(Port port) { return port == Port::c ? "rad" : "mm"; }
+/// What a term is linear in, in the order of its columns, and the shape parameters that it reads.
+struct Parameters {
+  std::vector<LinearParameter> linear = {};
+  std::vector<std::string> shape = {};
+};
+
+inline Parameters parameters(const std::monostate&, const TermShape&) { return {}; }
+inline void fill(const std::monostate&, const TermContext&, const TermShape&, Columns) {}
+
+// Functions of angle, Z and time: position_terms.cpp.
+Parameters parameters(const Harmonic& term, const TermShape& shape);
+Parameters parameters(const PolynomialInZ& term, const TermShape& shape);
+Parameters parameters(const PeriodicInZ& term, const TermShape& shape);
+Parameters parameters(const PeriodicInTime& term, const TermShape& shape);
+Parameters parameters(const GrowthInTime& term, const TermShape& shape);
+void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const PeriodicInTime& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const GrowthInTime& term, const TermContext& at, const TermShape& shape, Columns out);
+
+// What measures, and where the part is: measuring_terms.cpp.
+Parameters parameters(const ArgumentShift& term, const TermShape& shape);
+Parameters parameters(const ProbeLine& term, const TermShape& shape);
+Parameters parameters(const Response& term, const TermShape& shape);
+Parameters parameters(const PartStep& term, const TermShape& shape);
+void fill(const ArgumentShift& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const ProbeLine& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out);
+void fill(const PartStep& term, const TermContext& at, const TermShape& shape, Columns out);
 
 }  // namespace trueaxis::kind
+
+/// The contact, from X(C, Z) and its slopes alone: seen by the machine, the surface is a height X
+/// over (Y, Z) whatever its kind. Its gradient along Y follows from turning it:
+/// ∂X/∂C = Y + X ∂X/∂Y at Y = h, with x = X cos C − Y sin C. Columns over one chunk.
+namespace trueaxis::contact {
+
+using kind::Chunk;
+
+/// sin and cos of an angle (rad) over the readings of `at`.
+inline void sin_cos(const TermContext& at, const double* angle_rad, double* sine, double* cosine) {
+  sincos({angle_rad, at.size()}, {sine, at.size()}, {cosine, at.size()});
+}
+
+/// Eq. 38.
+inline void dx_dy(const TermContext& at, double* out) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[i] = (at.dx_dc[i] - at.height_mm) / at.x_mm[i];
+  }
+}
+
+/// `sign` times 1/|n_x| of the unit normal.
+inline void secant(const TermContext& at, double sign, double* out) {
+  dx_dy(at, out);
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    out[i] = sign * std::sqrt(1.0 + out[i] * out[i] + at.dx_dz[i] * at.dx_dz[i]);
+  }
+}
+
+/// Sign of X out of the material.
+inline double away(const TermContext& at) { return at.rear == at.bore ? 1.0 : -1.0; }
+
+/// Multiplies by dX/d(value of `port`). Form is positive away from the part's axis: at the rear
+/// that is towards smaller X (Eq. 37).
+inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* const> columns) {
+  if (port == Port::x) return;
+  Chunk normal;
+  if (port == Port::normal) secant(at, at.rear ? -1.0 : 1.0, normal.data());
+  const double* factor = port == Port::normal ? normal.data()
+                         : port == Port::c    ? at.dx_dc.data()
+                                              : at.dx_dz.data();
+  for (double* column : columns) {
+    for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
+  }
+}
+
+/// Position that a term along Z is written in: s for what the part has, Z for the machine.
+inline std::span<const double> along_mm(Port port, const TermContext& at) {
+  return port == Port::normal ? at.s_mm : at.z_mm;
+}
+
+/// u = (along − z_mid)/z_half.
+inline void normalised(Port port, const TermContext& at, double* out) {
+  const std::span<const double> along = along_mm(port, at);
+  for (std::size_t i = 0; i < at.size(); ++i) out[i] = (along[i] - at.z_mid_mm) / at.z_half_mm;
+}
+
+}  // namespace trueaxis::contact

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/measuring_terms.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "effect/geometry.hpp"
+#include "effect/kinds.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
@@ -20,7 +18,7 @@ using Of = Response::Of;
 // across the stylus, sin of its angle to X being the size (Eq. 51).
 void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
   const double out_of = contact::away(at);
-  contact::Chunk slope, secant, across, psi;
+  Chunk slope, secant, across, psi;
   contact::dx_dy(at, slope.data());
   contact::secant(at, 1.0, secant.data());
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -49,19 +47,17 @@ double lag(const TermContext& at, double T, std::size_t i) {
 
 }  // namespace
 
-Linear linear(const ArgumentShift& term, const TermShape&) {
+Parameters parameters(const ArgumentShift& term, const TermShape&) {
   switch (term.by) {
     case By::delay:
-      return {{"delay", "s"}};
+      return {{{"delay", "s"}}};
     case By::backlash:
-      return {{"along", "mm"}, {"across", "mm"}};
+      return {{{"along", "mm"}, {"across", "mm"}}};
     case By::angle:
       break;
   }
-  return {{"angle", "rad"}};
+  return {{{"angle", "rad"}}};
 }
-
-Names shapes(const ArgumentShift&) { return {}; }
 
 void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Columns out) {
   switch (term.by) {
@@ -82,19 +78,17 @@ void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Co
   }
 }
 
-Linear linear(const ProbeLine& term, const TermShape&) {
+Parameters parameters(const ProbeLine& term, const TermShape&) {
   switch (term.of) {
     case ProbeLine::Of::tilt:
-      return {{"tilt", "rad"}};
+      return {{{"tilt", "rad"}}};
     case ProbeLine::Of::ball:
-      return {{"radius", "mm"}};
+      return {{{"radius", "mm"}}};
     case ProbeLine::Of::height:
       break;
   }
-  return {{"height", "mm"}};
+  return {{{"height", "mm"}}};
 }
-
-Names shapes(const ProbeLine&) { return {}; }
 
 // Tilt: the contact's height on the line is Z + X sin γ. Ball: its centre stands off along the
 // normal, out of the material.
@@ -110,36 +104,20 @@ void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Column
   }
 }
 
-Linear linear(const Response& term, const TermShape&) {
+Parameters parameters(const Response& term, const TermShape&) {
   switch (term.of) {
     case Of::nonlinearity:
-      return {{"quadratic", "mm"}, {"cubic", "mm"}};
+      return {{{"quadratic", "mm"}, {"cubic", "mm"}}, {"reference_x_mm", "range_mm"}};
     case Of::cyclic:
-      return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+      return {{{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}}, {"period_mm"}};
     case Of::pretravel:
-      return {{"amplitude", "mm"}, {"lobing_cos", "mm"}, {"lobing_sin", "mm"}};
+      return {{{"amplitude", "mm"}, {"lobing_cos", "mm"}, {"lobing_sin", "mm"}}, {"order"}};
     case Of::lag:
-      return {{"time_constant", "s"}};
+      return {{{"time_constant", "s"}}, {"time_constant_s"}};
     case Of::gain:
       break;
   }
-  return {{"gain", "1"}};
-}
-
-Names shapes(const Response& term) {
-  switch (term.of) {
-    case Of::nonlinearity:
-      return {"reference_x_mm", "range_mm"};
-    case Of::cyclic:
-      return {"period_mm"};
-    case Of::pretravel:
-      return {"order"};
-    case Of::lag:
-      return {"time_constant_s"};
-    case Of::gain:
-      break;
-  }
-  return {"reference_x_mm"};
+  return {{{"gain", "1"}}, {"reference_x_mm"}};
 }
 
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {
@@ -158,7 +136,7 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
       }
       return;
     case Of::cyclic: {
-      contact::Chunk angle;
+      Chunk angle;
       for (std::size_t i = 0; i < at.size(); ++i) {
         angle[i] = two_pi * at.sensed_mm[i] / shape.period_mm;
       }
@@ -172,17 +150,15 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
   }
 }
 
-Linear linear(const PartStep&, const TermShape&) {
-  return {{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}};
+Parameters parameters(const PartStep&, const TermShape&) {
+  return {{{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}}, {"onset_s"}};
 }
-
-Names shapes(const PartStep&) { return {"onset_s"}; }
 
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
 // motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. The
 // surface is where the part stands after it: before the step, all of that is missing.
 void fill(const PartStep&, const TermContext& at, const TermShape& shape, Columns out) {
-  contact::Chunk sine, cosine, slope;
+  Chunk sine, cosine, slope;
   contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
   contact::dx_dy(at, slope.data());
   for (std::size_t i = 0; i < at.size(); ++i) {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/position_terms.hpp"
-
 #include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
-#include <cmath>
 
-#include "effect/geometry.hpp"
+#include "effect/kinds.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::kind {
@@ -13,6 +10,9 @@ namespace {
 
 using Angle = Harmonic::Angle;
 using Envelope = Harmonic::Envelope;
+
+/// Of the factors cos, sin of a value that moves `port`.
+std::string unit_of(Port port) { return port == Port::c ? "rad" : "mm"; }
 
 double order_of(const Harmonic& term, const TermShape& shape) {
   return term.fixed_order > 0.0 ? term.fixed_order : shape.order;
@@ -37,7 +37,7 @@ constexpr double mean_of_u2 = 1.0 / 3.0;
 // δ cos α cos θ along the normal.
 void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermShape& shape,
                        Columns out) {
-  contact::Chunk factor;
+  Chunk factor;
   switch (term.envelope) {
     case Envelope::lever: {
       const std::span<const double> along = contact::along_mm(term.port, at);
@@ -67,7 +67,7 @@ void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermSh
 }
 
 void fill_growing(const Harmonic& term, const TermContext& at, Columns out) {
-  contact::Chunk u;
+  Chunk u;
   contact::normalised(term.port, at, u.data());
   for (const std::size_t j : {0u, 1u}) {
     for (std::size_t i = 0; i < at.size(); ++i) out[j + 2][i] = u[i] * out[j][i];
@@ -80,32 +80,24 @@ int last_degree(const PolynomialInZ& term, const TermShape& shape) {
 
 }  // namespace
 
-Linear linear(const Harmonic& term, const TermShape&) {
+Parameters parameters(const Harmonic& term, const TermShape&) {
   const std::string unit = term.envelope == Envelope::lever ? "rad" : unit_of(term.port);
-  Linear list{{"amplitude_cos", unit}, {"amplitude_sin", unit}};
-  if (term.envelope == Envelope::growing) {
-    list.insert(list.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
-  }
+  Parameters out{{{"amplitude_cos", unit}, {"amplitude_sin", unit}}};
+  if (term.fixed_order == 0.0) out.shape.emplace_back("order");
+  if (term.envelope == Envelope::lever) out.shape.emplace_back("lever_from_mm");
+  if (term.envelope == Envelope::growing)
+    out.linear.insert(out.linear.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
   if (term.envelope == Envelope::jaws) {
-    list.insert(list.end(), {{"second_cos", unit}, {"second_sin", unit}});
+    out.linear.insert(out.linear.end(), {{"second_cos", unit}, {"second_sin", unit}});
+    out.shape.insert(out.shape.end(), {"lever_from_mm", "decay_length_mm"});
   }
-  return list;
-}
-
-Names shapes(const Harmonic& term) {
-  Names names;
-  if (term.fixed_order == 0.0) names.emplace_back("order");
-  if (term.envelope == Envelope::lever) names.emplace_back("lever_from_mm");
-  if (term.envelope == Envelope::jaws) {
-    names.insert(names.end(), {"lever_from_mm", "decay_length_mm"});
-  }
-  return names;
+  return out;
 }
 
 void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out) {
   const double n = order_of(term, shape);
   const std::span<const double> angle = angle_of(term.angle, at);
-  contact::Chunk turned;
+  Chunk turned;
   for (std::size_t i = 0; i < at.size(); ++i) turned[i] = n * angle[i];
   contact::sin_cos(at, turned.data(), out[1], out[0]);
   if (term.envelope == Envelope::jaws) {
@@ -118,16 +110,17 @@ void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, C
   if (term.envelope == Envelope::growing) fill_growing(term, at, out);
 }
 
-Linear linear(const PolynomialInZ& term, const TermShape& shape) {
-  if (term.plain) return {{"slope", "rad"}};
-  Linear list;
-  for (int l = term.first; l <= last_degree(term, shape); ++l) {
-    list.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
+Parameters parameters(const PolynomialInZ& term, const TermShape& shape) {
+  Parameters out;
+  if (term.last == 0) out.shape.emplace_back("degree");
+  if (term.plain) {
+    out.linear = {{"slope", "rad"}};
+    return out;
   }
-  return list;
+  for (int l = term.first; l <= last_degree(term, shape); ++l)
+    out.linear.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
+  return out;
 }
-
-Names shapes(const PolynomialInZ& term) { return term.last > 0 ? Names{} : Names{"degree"}; }
 
 // Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
 void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
@@ -138,7 +131,7 @@ void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& sha
     return contact::scale_by_dx_d(term.port, at, out);
   }
   const int last = last_degree(term, shape);
-  contact::Chunk u, before, now;
+  Chunk u, before, now;
   contact::normalised(term.port, at, u.data());
   std::fill_n(before.begin(), size, 1.0);
   std::copy_n(u.begin(), size, now.begin());
@@ -154,16 +147,15 @@ void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& sha
   contact::scale_by_dx_d(term.port, at, out);
 }
 
-Linear linear(const PeriodicInZ& term, const TermShape&) {
-  return {{"amplitude_cos", unit_of(term.port)}, {"amplitude_sin", unit_of(term.port)}};
+Parameters parameters(const PeriodicInZ& term, const TermShape&) {
+  const std::string unit = unit_of(term.port);
+  return {{{"amplitude_cos", unit}, {"amplitude_sin", unit}}, {"period_mm"}};
 }
-
-Names shapes(const PeriodicInZ&) { return {"period_mm"}; }
 
 void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
   const double k = two_pi / shape.period_mm;
   const std::span<const double> along = contact::along_mm(term.port, at);
-  contact::Chunk angle;
+  Chunk angle;
   for (std::size_t i = 0; i < at.size(); ++i) {
     angle[i] = k * along[i] - term.turns * at.theta_rad[i];
   }
@@ -171,24 +163,20 @@ void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape
   contact::scale_by_dx_d(term.port, at, out);
 }
 
-Linear linear(const PeriodicInTime&, const TermShape&) {
-  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+Parameters parameters(const PeriodicInTime&, const TermShape&) {
+  return {{{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}}, {"frequency_hz"}};
 }
-
-Names shapes(const PeriodicInTime&) { return {"frequency_hz"}; }
 
 void fill(const PeriodicInTime&, const TermContext& at, const TermShape& shape, Columns out) {
   const double turning_rad_per_s = two_pi * shape.frequency_hz;
-  contact::Chunk angle;
+  Chunk angle;
   for (std::size_t i = 0; i < at.size(); ++i) angle[i] = turning_rad_per_s * at.time_s[i];
   contact::sin_cos(at, angle.data(), out[1], out[0]);
 }
 
-Linear linear(const GrowthInTime&, const TermShape&) {
-  return {{"rate", "mm/s"}, {"amplitude", "mm"}};
+Parameters parameters(const GrowthInTime&, const TermShape&) {
+  return {{{"rate", "mm/s"}, {"amplitude", "mm"}}, {"time_constant_s"}};
 }
-
-Names shapes(const GrowthInTime&) { return {"time_constant_s"}; }
 
 void fill(const GrowthInTime&, const TermContext& at, const TermShape& shape, Columns out) {
   for (std::size_t i = 0; i < at.size(); ++i) {

@@ -7,7 +7,6 @@
 
 #include "fit/associate.hpp"
 #include "fit/describe.hpp"
-#include "fit/input_notes.hpp"
 #include "fit/uncertainty.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"
@@ -185,17 +184,9 @@ const Estimate& FitResult::parameter(std::string_view name) const {
 }
 
 const char* to_string(FitStatus status) {
-  switch (status) {
-    case FitStatus::converged:
-      return "converged";
-    case FitStatus::max_iterations:
-      return "max_iterations";
-    case FitStatus::rank_deficient:
-      return "rank_deficient";
-    case FitStatus::too_few:
-      return "too_few";
-  }
-  return "";
+  static constexpr const char* words[] = {"converged", "max_iterations", "rank_deficient",
+                                          "too_few"};
+  return words[static_cast<std::size_t>(status)];
 }
 
 const char* to_string(Loss loss) {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/input_notes.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "fit/describe.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 

@@ -10,19 +10,13 @@
 namespace trueaxis {
 namespace {
 
-/// Extremes of a column within a set-up.
-struct Extremes {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-};
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Extent nothing{infinity, -infinity};
 
-std::vector<Extremes> find_extremes(const ProbeStream& stream, const std::vector<SetUp>& set_ups,
-                                    const std::vector<double>& column) {
-  if (set_ups.size() == 1) {
-    const auto [low, high] = range_of(column);
-    return {{low, high}};
-  }
-  std::vector<Extremes> extremes(set_ups.size());
+std::vector<Extent> find_extremes(const ProbeStream& stream, const std::vector<SetUp>& set_ups,
+                                  const std::vector<double>& column) {
+  if (set_ups.size() == 1) return {range_of(column)};
+  std::vector<Extent> extremes(set_ups.size(), nothing);
   std::size_t at = 0;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     if (stream.setup[i] != set_ups[at].number) {
@@ -39,7 +33,7 @@ std::string of_set_up(const ProbeStream& stream, const SetUp& set_up) {
   return stream.setup.empty() ? "" : " of " + set_up_name(set_up);
 }
 
-Root find_root(const ProbeStream& stream, const SetUp& set_up, const Extremes& x) {
+Root find_root(const ProbeStream& stream, const SetUp& set_up, const Extent& x) {
   if (stream.kind == StreamKind::face) return Root::front;
   if (stream.indication == Indication::relative) return set_up.rear ? Root::rear : Root::front;
   if (x.high < 0.0) return Root::rear;
@@ -69,7 +63,7 @@ std::string set_up_name(const SetUp& set_up) { return "set-up " + std::to_string
 
 std::vector<PlacedSetUp> place_set_ups(const ProbeStream& stream) {
   const std::vector<SetUp> set_ups = list_set_ups(stream);
-  const std::vector<Extremes> extremes = find_extremes(stream, set_ups, stream.reading_mm);
+  const std::vector<Extent> extremes = find_extremes(stream, set_ups, stream.reading_mm);
   std::vector<PlacedSetUp> placed;
   for (std::size_t i = 0; i < set_ups.size(); ++i) {
     const bool moved = i > 0 && !set_ups[i].clamped_as(set_ups[i - 1]);
@@ -85,15 +79,15 @@ std::vector<std::array<double, 2>> probed_ranges(const ProbeStream& stream,
                                                  const std::vector<PlacedSetUp>& set_ups) {
   std::vector<SetUp> stated;
   for (const PlacedSetUp& placed : set_ups) stated.push_back(placed.set_up);
-  const std::vector<Extremes> extremes = find_extremes(stream, stated, stream.position_mm);
-  std::vector<Extremes> of_clamping(set_ups.back().clamping + 1);
+  const std::vector<Extent> extremes = find_extremes(stream, stated, stream.position_mm);
+  std::vector<Extent> of_clamping(set_ups.back().clamping + 1, nothing);
   for (std::size_t i = 0; i < set_ups.size(); ++i) {
-    Extremes& range = of_clamping[set_ups[i].clamping];
+    Extent& range = of_clamping[set_ups[i].clamping];
     range.low = std::min(range.low, extremes[i].low - set_ups[i].z_shift_mm);
     range.high = std::max(range.high, extremes[i].high - set_ups[i].z_shift_mm);
   }
   std::vector<std::array<double, 2>> ranges;
-  for (const Extremes& range : of_clamping) ranges.push_back({range.low, range.high});
+  for (const Extent& range : of_clamping) ranges.push_back({range.low, range.high});
   return ranges;
 }
 

@@ -19,19 +19,9 @@ constexpr double size_share =
     0.1;  // of the radius: uncertainties beyond it are not linear any more
 
 const char* influence_name(Influence::Kind kind) {
-  switch (kind) {
-    case Influence::Kind::probe_height:
-      return "probe height";
-    case Influence::Kind::probe_gain:
-      return "probe gain";
-    case Influence::Kind::c_offset:
-      return "spindle angle datum";
-    case Influence::Kind::z_offset:
-      return "position datum";
-    case Influence::Kind::ball_radius:
-      return "ball radius";
-  }
-  return "";
+  static constexpr const char* names[] = {"probe height", "probe gain", "spindle angle datum",
+                                          "position datum", "ball radius"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 /// Jᵀa for the effect a of one unit of an influence on every reading; J column by column from the

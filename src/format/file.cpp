@@ -2,6 +2,8 @@
 #include "format/file.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
@@ -27,6 +29,53 @@ std::string read_file(const std::string& path) {
 
 std::string content_hash(std::string_view bytes) {
   return fmt::format("xxh3-64:{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<FileIdentity> of_file(const struct stat& status) {
+  if (!S_ISREG(status.st_mode)) return std::nullopt;
+  return FileIdentity{status.st_dev, status.st_ino, {}};
+}
+
+/// Of a file there is, or of a place for one; "-" is the open file `descriptor`.
+std::optional<FileIdentity> identity(const std::string& path, int descriptor) {
+  struct stat status {};
+  if (path == "-")
+    return ::fstat(descriptor, &status) == 0 ? of_file(status) : std::optional<FileIdentity>();
+  const std::string place = link_target(path);
+  if (::stat(place.c_str(), &status) == 0) return of_file(status);
+  const fs::path folder = fs::path(place).parent_path();
+  if (::stat(folder.empty() ? "." : folder.c_str(), &status) != 0)
+    return FileIdentity{0, 0, fs::absolute(place).lexically_normal().string()};
+  return FileIdentity{status.st_dev, status.st_ino, fs::path(place).filename().string()};
+}
+
+}  // namespace
+
+std::optional<FileIdentity> identity_of_input(const std::string& path) {
+  return identity(path, STDIN_FILENO);
+}
+
+std::optional<FileIdentity> identity_of_output(const std::string& path) {
+  return identity(is_standard_output(path) ? "-" : path, STDOUT_FILENO);
+}
+
+std::string link_target(const std::string& path) {
+  fs::path place = path;
+  std::error_code error;
+  for (int links = 0; links < 40 && fs::is_symlink(place, error); ++links) {
+    const fs::path to = fs::read_symlink(place, error);
+    if (error) break;
+    place = place.parent_path() / to;  // an absolute one replaces all
+  }
+  return place.string();
+}
+
+bool is_standard_output(const std::string& path) {
+  return path == "-" || path == "/dev/stdout" || path == "/dev/fd/1";
 }
 
 }  // namespace trueaxis

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "trueaxis/estimate.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
@@ -18,6 +18,27 @@ inline Json number(double value) { return std::isfinite(value) ? Json(value) : J
 /// {"value", "unit"}
 inline Json with_unit(double value, const char* unit) {
   return {{"value", number(value)}, {"unit", unit}};
+}
+
+/// A name whose suffix is the unit inside, as a file has it: "half_angle_rad" is half_angle in deg.
+struct NameAndUnit {
+  std::string name;
+  const char* unit;
+  double factor = 1.0;  ///< from inside to the file
+};
+inline NameAndUnit name_and_unit(std::string_view name) {
+  static constexpr struct {
+    std::string_view inside;
+    const char* unit;
+    double factor = 1.0;
+  } suffixes[] = {{"_mm_per_rev", "mm/rev"},          {"_mm_per_s", "mm/s"}, {"_mm", "mm"},
+                  {"_rad", "deg", 1.0 / rad_per_deg}, {"_hz", "Hz"},         {"_s", "s"}};
+  for (const auto& suffix : suffixes) {
+    if (name.ends_with(suffix.inside))
+      return {std::string(name.substr(0, name.size() - suffix.inside.size())), suffix.unit,
+              suffix.factor};
+  }
+  return {std::string(name), "1"};
 }
 
 /// {"value", "u", "unit"} and "why" where a number is missing.

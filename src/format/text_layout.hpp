@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "trueaxis/estimate.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::layout {
 

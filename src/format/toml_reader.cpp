@@ -2,26 +2,66 @@
 #include "format/toml_reader.hpp"
 
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <sstream>
 #include <tuple>
 
 #include "format/file.hpp"
-#include "format/toml_state.hpp"
 #include "format/toml_units.hpp"
 
 namespace trueaxis {
+
+struct TomlTable::State {
+  TomlDocument::Impl* document = nullptr;
+  const toml::table* table = nullptr;
+  toml::source_position place;
+  std::string name;
+  bool absent = false;  // stands for a required table that is not there
+  bool rest_ignored = false;
+  std::vector<std::string> known;  // usual spellings, in the order of asking
+  std::vector<std::string> accepted;
+
+  struct Found {
+    std::string key;
+    double factor = 1.0;
+    const toml::node* node = nullptr;
+  };
+  Found find(std::string_view key);
+  /// The same of a type; what is of another is noted and counts as nothing.
+  Found find(std::string_view key, bool (toml::node::*is)() const noexcept,
+             const std::string& give);
+  void note(const toml::source_position& at, std::string message);
+  void wrong(const Found& found, const std::string& message);
+  void missing(std::string_view key, std::string_view what);
+  /// Of a table within this one; keys of tables have no unit.
+  std::string full_name(std::string_view key) const {
+    return (name.empty() ? "" : name + '.') + std::string(key);
+  }
+  std::string where() const { return name.empty() ? "the top level" : '[' + name + ']'; }
+};
+
+struct TomlDocument::Impl {
+  std::string path;
+  toml::table root;
+  std::deque<TomlTable::State> states;
+  std::vector<Diagnostic> diagnostics;
+
+  TomlTable::State* open(const toml::table* table, std::string name, toml::source_position place) {
+    states.push_back({this, table, place, std::move(name), false, false, {}, {}});
+    return &states.back();
+  }
+  void parse(std::string_view content);
+  void report_unknown(const TomlTable::State& state);
+};
+
 namespace {
 
-std::string number_text(double value) {
-  std::ostringstream text;
-  text.precision(12);
-  text << value;
-  return text.str();
-}
+std::string number_text(double value) { return fmt::format("{:.12g}", value); }
 
 std::string range_text(const Range& range, double factor) {
   const std::string low = number_text(range.low / factor);
@@ -66,6 +106,16 @@ TomlTable::State::Found TomlTable::State::find(std::string_view key) {
   return found;
 }
 
+TomlTable::State::Found TomlTable::State::find(std::string_view key,
+                                               bool (toml::node::*is)() const noexcept,
+                                               const std::string& give) {
+  Found found = find(key);
+  if (!found.node || (found.node->*is)()) return found;
+  wrong(found, "is " + type_text(*found.node) + ": give " + give);
+  found.node = nullptr;
+  return found;
+}
+
 void TomlTable::State::note(const toml::source_position& at, std::string message) {
   document->diagnostics.push_back({document->path, at.line, at.column, std::move(message)});
 }
@@ -81,12 +131,8 @@ void TomlTable::State::missing(std::string_view key, std::string_view what) {
 }
 
 std::optional<double> TomlTable::maybe_number(std::string_view key, const Range& range) {
-  const State::Found found = state_->find(key);
+  const State::Found found = state_->find(key, &toml::node::is_number, "a number");
   if (!found.node) return std::nullopt;
-  if (!found.node->is_number()) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a number");
-    return std::nullopt;
-  }
   const double value = found.node->value<double>().value_or(0.0) * found.factor;
   if (!std::isfinite(value)) {
     state_->wrong(found, "must be finite");
@@ -110,15 +156,11 @@ double TomlTable::required_number(std::string_view key, const Range& range) {
 }
 
 std::vector<double> TomlTable::numbers(std::string_view key, const Range& range) {
-  const State::Found found = state_->find(key);
+  const State::Found found =
+      state_->find(key, &toml::node::is_array, "a list of numbers [a, b, …]");
   if (!found.node) return {};
-  const toml::array* array = found.node->as_array();
-  if (!array) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a list of numbers [a, b, …]");
-    return {};
-  }
   std::vector<double> values;
-  for (const toml::node& node : *array) {
+  for (const toml::node& node : *found.node->as_array()) {
     const State::Found item{found.key, found.factor, &node};
     const double value = node.value<double>().value_or(0.0) * found.factor;
     if (!node.is_number() || !std::isfinite(value)) {
@@ -135,12 +177,8 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
 
 std::optional<long long> TomlTable::maybe_integer(std::string_view key, long long low,
                                                   long long high) {
-  const State::Found found = state_->find(key);
+  const State::Found found = state_->find(key, &toml::node::is_integer, "a whole number");
   if (!found.node) return std::nullopt;
-  if (!found.node->is_integer()) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a whole number");
-    return std::nullopt;
-  }
   const long long value = found.node->value<int64_t>().value_or(0);
   if (value < low || value > high) {
     state_->wrong(found, "is " + std::to_string(value) + " but must be in [" + std::to_string(low) +
@@ -156,22 +194,13 @@ long long TomlTable::integer(std::string_view key, long long fallback, long long
 }
 
 bool TomlTable::flag(std::string_view key, bool fallback) {
-  const State::Found found = state_->find(key);
-  if (!found.node) return fallback;
-  if (!found.node->is_boolean()) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give true or false");
-  }
-  return found.node->value<bool>().value_or(fallback);
+  const State::Found found = state_->find(key, &toml::node::is_boolean, "true or false");
+  return found.node ? *found.node->value<bool>() : fallback;
 }
 
 std::optional<std::string> TomlTable::maybe_text(std::string_view key) {
-  const State::Found found = state_->find(key);
-  if (!found.node) return std::nullopt;
-  if (!found.node->is_string()) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a text in quotes");
-    return std::nullopt;
-  }
-  return found.node->value<std::string>();
+  const State::Found found = state_->find(key, &toml::node::is_string, "a text in quotes");
+  return found.node ? found.node->value<std::string>() : std::nullopt;
 }
 
 std::string TomlTable::text(std::string_view key, std::string fallback) {
@@ -184,15 +213,10 @@ std::string TomlTable::required_text(std::string_view key) {
 }
 
 std::vector<std::string> TomlTable::texts(std::string_view key) {
-  const State::Found found = state_->find(key);
+  const State::Found found = state_->find(key, &toml::node::is_array, "a list [\"a\", \"b\"]");
   if (!found.node) return {};
-  const toml::array* array = found.node->as_array();
-  if (!array) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a list [\"a\", \"b\"]");
-    return {};
-  }
   std::vector<std::string> values;
-  for (const toml::node& node : *array) {
+  for (const toml::node& node : *found.node->as_array()) {
     if (node.is_string()) {
       values.push_back(*node.value<std::string>());
     } else {
@@ -220,29 +244,23 @@ std::string TomlTable::required_path(std::string_view key) {
 std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
                                                    std::span<const std::string_view> words,
                                                    bool required) {
-  const std::vector<std::string> list(words.begin(), words.end());
+  const std::string one_of = fmt::format("one of: {}", fmt::join(words, ", "));
   const State::Found found = state_->find(key);
-  if (!found.node && required)
-    state_->missing(key, "one of: " + fmt::format("{}", fmt::join(list, ", ")));
+  if (!found.node && required) state_->missing(key, one_of);
   const std::optional<std::string> word = maybe_text(key);
   if (!word) return std::nullopt;
-  const auto place = std::find(list.begin(), list.end(), *word);
-  if (place != list.end()) return static_cast<std::size_t>(place - list.begin());
-  state_->wrong(found, "is \"" + *word +
-                           "\" but must be one of: " + fmt::format("{}", fmt::join(list, ", ")));
+  const auto place = std::ranges::find(words, *word);
+  if (place != words.end()) return static_cast<std::size_t>(place - words.begin());
+  state_->wrong(found, "is \"" + *word + "\" but must be " + one_of);
   return std::nullopt;
 }
 
 std::optional<TomlTable> TomlTable::maybe_table(std::string_view key) {
-  const State::Found found = state_->find(key);
+  const std::string full = state_->full_name(key);
+  const State::Found found = state_->find(key, &toml::node::is_table, "a table [" + full + "]");
   if (!found.node) return std::nullopt;
-  const toml::table* table = found.node->as_table();
-  const std::string full = state_->name.empty() ? found.key : state_->name + '.' + found.key;
-  if (!table) {
-    state_->wrong(found, "is " + type_text(*found.node) + ": give a table [" + full + "]");
-    return std::nullopt;
-  }
-  return TomlTable(state_->document->open(table, full, table->source().begin));
+  return TomlTable(
+      state_->document->open(found.node->as_table(), full, found.node->source().begin));
 }
 
 TomlTable TomlTable::required_table(std::string_view key) {
@@ -256,7 +274,7 @@ TomlTable TomlTable::required_table(std::string_view key) {
 std::vector<TomlTable> TomlTable::tables(std::string_view key) {
   const State::Found found = state_->find(key);
   if (!found.node) return {};
-  const std::string full = state_->name.empty() ? found.key : state_->name + '.' + found.key;
+  const std::string full = state_->full_name(key);
   const toml::array* array = found.node->as_array();
   std::vector<TomlTable> views;
   if (array) {

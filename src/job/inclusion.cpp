@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/inclusion.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "trueaxis/effect.hpp"
-#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
@@ -40,12 +39,10 @@ ForbiddenCause forbidden_cause(const Finding& finding) {
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
   const ForbiddenCause other = forbidden_cause(finding);
   if (other.probability > nonconformity_risk) {
-    std::string names;
-    for (const std::string& id : finding.members()) names += (names.empty() ? "" : ", ") + id;
     return fmt::format(
         "the data cannot tell it from {} (class {}), which must not be copied into the cut; the "
         "probability of such a cause is {:.2g}, allowed are {:.2g}",
-        other.effect, names, other.probability, nonconformity_risk);
+        other.effect, fmt::join(finding.members(), ", "), other.probability, nonconformity_risk);
   }
   if (std::abs(finding.term.shape.order - std::round(finding.term.shape.order)) > 1e-9)
     return "it does not repeat every revolution";

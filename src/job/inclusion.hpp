@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "correct/repeating_motion.hpp"
+#include "correct/profile.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {

@@ -7,7 +7,6 @@
 #include <span>
 
 #include "measure/passes_motion.hpp"
-#include "measure/passes_speed.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

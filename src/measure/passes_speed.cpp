@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/passes_speed.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "measure/passes_motion.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -6,17 +6,8 @@
 namespace trueaxis {
 
 const char* to_string(SaidBy said_by) {
-  switch (said_by) {
-    case SaidBy::nobody:
-      return "nobody";
-    case SaidBy::stream:
-      return "stream";
-    case SaidBy::option:
-      return "option";
-    case SaidBy::job:
-      return "job";
-  }
-  return "";
+  static constexpr const char* words[] = {"nobody", "stream", "option", "job"};
+  return words[static_cast<std::size_t>(said_by)];
 }
 namespace {
 

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "cli/guarded.hpp"
-#include "cli/output_options.hpp"
+#include "cli/options.hpp"
 #include "cli/sweep_run.hpp"
 #include "mpi/distribute.hpp"
 #include "studies/published/published_toml.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/inputs_data.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

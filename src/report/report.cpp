@@ -5,13 +5,9 @@
 #include <limits>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "fit/files/fit_json.hpp"
-#include "report/correction_data.hpp"
-#include "report/inputs_data.hpp"
+#include "fit/files/fit_files.hpp"
 #include "report/page.hpp"
-#include "report/readings_data.hpp"
-#include "report/simulation_data.hpp"
-#include "report/target_data.hpp"
+#include "report/page_data.hpp"
 
 namespace trueaxis {
 namespace {

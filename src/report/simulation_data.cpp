@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/simulation_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "report/chart_readings.hpp"
+#include "report/page_data.hpp"
 #include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"

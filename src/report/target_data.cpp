@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/target_data.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "job/agreement.hpp"
 #include "job/slip.hpp"
+#include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "resimulate/lathe_effects.hpp"
 #include "simulate/clean_stream.hpp"
 #include "trueaxis/error.hpp"
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "resimulate/lathe_effects.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 #include <string_view>
 
 #include "diagnose/explain/named_values.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

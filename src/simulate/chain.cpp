@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <string>
 
-#include "simulate/effects_extra.hpp"
-#include "simulate/effects_machine.hpp"
-#include "simulate/effects_part.hpp"
-#include "simulate/effects_probe.hpp"
+#include "simulate/effects.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::virtual_lathe {

@@ -69,4 +69,18 @@ inline double legendre(double degree, double u) {
   return now;
 }
 
+/// Slot C: what the part's surface is, in the part's own frame.
+std::span<const EffectEntry> part_effects();
+
+/// Slots A and D: where spindle and slides really are against what is recorded, and when. What the
+/// encoder says comes first: the errors of the spindle follow its true angle.
+std::span<const EffectEntry> machine_effects();
+
+/// Slots B and E: the probe's line and the sensor's response.
+std::span<const EffectEntry> probe_effects();
+
+/// What no catalogue has: forms and motions for tests that must end with "unknown", then patterns
+/// without a cause, which play back what a diagnosis leaves unexplained.
+std::span<const EffectEntry> extra_effects();
+
 }  // namespace trueaxis::virtual_lathe

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/effects_machine.hpp"
-
 #include <cmath>
 
+#include "simulate/effects.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {

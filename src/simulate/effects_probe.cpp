@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/effects_probe.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "simulate/effects.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::virtual_lathe {

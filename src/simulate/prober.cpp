@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/prober.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "simulate/contact.hpp"
 #include "trueaxis/error.hpp"
@@ -13,10 +14,10 @@ namespace trueaxis::virtual_lathe {
 namespace {
 
 [[noreturn]] void miss(const Moment& at) {
-  std::ostringstream text;
-  text << "the probe misses the part at C = " << at.c_rad / rad_per_deg
-       << " deg, position = " << at.position_mm << " mm: change the plan or the part";
-  throw InputError("scenario", text.str());
+  throw InputError("scenario",
+                   fmt::format("the probe misses the part at C = {:g} deg, position = {:g} mm: "
+                               "change the plan or the part",
+                               at.c_rad / rad_per_deg, at.position_mm));
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <sstream>
 
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -18,10 +19,7 @@ SetUp stated(const Chucking& setup) {
 void describe_setup(const SetUp& setup, std::map<std::string, std::string>& metadata) {
   const std::string prefix = "setup." + std::to_string(setup.number) + '.';
   const auto put = [&](const char* key, double value, const char* unit) {
-    std::ostringstream text;
-    text.precision(12);
-    text << value << unit;
-    metadata[prefix + key] = text.str();
+    metadata[prefix + key] = fmt::format("{:.12g}{}", value, unit);
   };
   if (setup.reindex_rad != 0.0) put("reindex", setup.reindex_rad / rad_per_deg, " deg");
   if (setup.z_shift_mm != 0.0) put("z_shift", setup.z_shift_mm, " mm");

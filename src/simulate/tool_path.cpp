@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/tool_path.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
-#include <sstream>
 
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -144,10 +145,9 @@ void ToolPath::check(const CutProgram& program, const CutTable& table) const {
   for (std::size_t i = 0; i < count; ++i) {
     const double off = table.position_mm[i] - position_mm(row_turn_[i]);
     if (std::abs(off) <= 0.01 * std::abs(feed_mm_) + 1e-5) continue;
-    std::ostringstream text;
-    text << "row " << i + 1 << " of the table is " << off
-         << " mm off the programmed path: start, feed, c_start or sense differ from the table's";
-    throw InputError("cut", text.str());
+    throw InputError("cut", fmt::format("row {} of the table is {:g} mm off the programmed path: "
+                                        "start, feed, c_start or sense differ from the table's",
+                                        i + 1, off));
   }
 }
 

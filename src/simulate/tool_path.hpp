@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/virtual_cut.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 #include "simulate/contact.hpp"
 #include "simulate/recorder.hpp"
 #include "simulate/tool_path.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 
@@ -154,10 +154,9 @@ class CutReader {
   static constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
   [[noreturn]] static void miss(const Moment& at) {
-    std::ostringstream text;
-    text << "the probe leaves the cut length at position = " << at.position_mm
-         << " mm: probe between the ends of the cut";
-    throw InputError("cut", text.str());
+    throw InputError("cut", fmt::format("the probe leaves the cut length at position = {:g} mm: "
+                                        "probe between the ends of the cut",
+                                        at.position_mm));
   }
 
   const CutPart& part_;

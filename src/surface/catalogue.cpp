@@ -5,10 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "surface/cone.hpp"
-#include "surface/cylinder.hpp"
-#include "surface/plane.hpp"
-#include "surface/section.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "surface/catalogue.hpp"
-#include "trueaxis/profile.hpp"
+#include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 

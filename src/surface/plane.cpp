@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/plane.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "surface/catalogue.hpp"
 #include "surface/revolved_surface.hpp"
 
 namespace trueaxis {
@@ -89,16 +88,13 @@ class Plane final : public Surface {
 }  // namespace
 
 CatalogueEntry plane_entry() {
-  return {{SurfaceKind::plane,
-           "plane",
-           "face, n·p = d",
-           StreamKind::face,
-           true,
-           {"l", "m", "d"},
-           {"1", "1", "mm"}},
-          [](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
-            return std::make_unique<Plane>(frame);
-          }};
+  return entry_of<Plane>({SurfaceKind::plane,
+                          "plane",
+                          "face, n·p = d",
+                          StreamKind::face,
+                          true,
+                          {"l", "m", "d"},
+                          {"1", "1", "mm"}});
 }
 
 }  // namespace trueaxis

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "resimulate/lathe_effects.hpp"
+#include "resimulate/diagnosed_scenarios.hpp"
 #include "simulate/clean_stream.hpp"
-#include "study/bound/estimated_parameters.hpp"
+#include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "simulate/clean_stream.hpp"
-#include "study/bound/estimated_parameters.hpp"
+#include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"

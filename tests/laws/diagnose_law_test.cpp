@@ -8,7 +8,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "diagnose/files/finding_text.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/refit/extended_fit.hpp"
 #include "laws/lathe_cases.hpp"
 #include "support/diagnose_bench.hpp"

@@ -8,7 +8,7 @@
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/planning/planning.hpp"
-#include "study/planning/planning_bound.hpp"
+#include "study/planning/planning_search.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/error.hpp"
 

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_read.hpp"
 #include "laws/lathe_bench.hpp"
 #include "laws/lathe_cases.hpp"
 #include "trueaxis/resimulation.hpp"

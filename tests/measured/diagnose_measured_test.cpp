@@ -10,7 +10,7 @@
 #include <iostream>
 #include <set>
 
-#include "diagnose/files/finding_text.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/units.hpp"

@@ -10,7 +10,7 @@
 #include <map>
 #include <optional>
 
-#include "diagnose/files/finding_text.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/units.hpp"
 

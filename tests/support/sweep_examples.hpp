@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "study/sweep/run.hpp"
+#include "study/sweep/block.hpp"
 #include "study/sweep/summary.hpp"
 
 namespace trueaxis::testing {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured against simulated: discrepancies whose RMS, share and spectrum follow from a formula.
+#include "resimulate/files/comparison.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "resimulate/files/comparison_json.hpp"
-#include "resimulate/files/comparison_text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/units.hpp"

@@ -13,7 +13,7 @@
 
 #include "trueaxis/correction.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

@@ -6,12 +6,9 @@
 #include <sstream>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_read.hpp"
-#include "diagnose/files/diagnosis_term_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "diagnose/files/finding_text.hpp"
 #include "format/text_layout.hpp"
-#include "job/files/residuals_csv.hpp"
+#include "job/files/job_results.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
@@ -149,6 +146,33 @@ TEST(DiagnosisJson, EveryTermComesBack) {
     const TermValue back = pattern_term_from(term_object(term));
     EXPECT_EQ(back.pattern.spindle, pattern.spindle);
     EXPECT_EQ(term_object(back).dump(), term_object(term).dump());
+  }
+}
+
+TEST(DiagnosisJson, AnEffectOfOnesOwnIsReadByWhoGivesIt) {
+  const Effect own{
+      .id = "own.five_at_the_ends",
+      .title = "five undulations towards both ends",
+      .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, Port::normal, 5.0},
+      .parameters = {{"amplitude", "mm", 1e-3, 0.02, "at the ends"}}};
+  Diagnosis diagnosis = example::cone_diagnosis();
+  ASSERT_FALSE(diagnosis.findings.empty());
+  TermValue& term = diagnosis.findings[0].term;
+  term = {};
+  term.effect = &own;
+  term.linear = {0.004, -0.003};
+  const std::string text = diagnosis_json(diagnosis);
+  const Diagnosis back = diagnosis_from_json(text, "d.json", {&own, 1});
+  EXPECT_EQ(back.findings.at(0).term.effect, &own);
+  EXPECT_EQ(back.findings.at(0).effect(), own.id);
+  EXPECT_EQ(back.findings.at(0).term.linear, term.linear);
+  try {
+    diagnosis_from_json(text, "d.json");
+    FAIL() << "an effect that nobody knows was read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "d.json: the catalogue has no `own.five_at_the_ends`: what names an effect of a "
+              "program's own is read by that program alone");
   }
 }
 

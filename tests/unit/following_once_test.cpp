@@ -9,7 +9,7 @@
 
 #include "correct/margin.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 namespace {

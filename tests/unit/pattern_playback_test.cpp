@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_read.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

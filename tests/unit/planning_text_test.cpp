@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/planning/files/planning_text.hpp"
-
 #include <gtest/gtest.h>
 
+#include "study/planning/files/planning_files.hpp"
 #include "support/sweep_examples.hpp"
 
 namespace trueaxis {

@@ -10,7 +10,7 @@
 #include "simulate/files/cut_table_csv.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
-#include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::virtual_lathe {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "study/sweep/files/sweep_csv.hpp"
+#include "study/sweep/files/sweep_results.hpp"
 #include "study/sweep/summary.hpp"
 #include "support/sweep_examples.hpp"
 #include "trueaxis/error.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correct/files/table_csv.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "correct/files/table_text.hpp"
+#include "correct/files/table_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correct/files/table_csv.hpp"
-
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 
-#include "correct/files/table_text.hpp"
+#include "correct/files/table_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

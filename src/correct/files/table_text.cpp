@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correct/files/table_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "correct/files/table_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

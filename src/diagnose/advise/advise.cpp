@@ -7,7 +7,6 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 
-#include "diagnose/advise/candidate_measurements.hpp"
 #include "diagnose/search/causes.hpp"
 
 namespace trueaxis::diagnose_detail {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/advise/candidate_measurements.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
+#include "diagnose/advise/advise.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "diagnose/files/finding_text.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

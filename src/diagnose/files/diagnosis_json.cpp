@@ -3,10 +3,8 @@
 
 #include <limits>
 
-#include "diagnose/files/diagnosis_term_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "diagnose/files/finding_text.hpp"
-#include "fit/files/fit_json.hpp"
+#include "fit/files/fit_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "format/json.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
+
 /// Schema trueaxis.diagnosis/2: lengths in mm, angles in degrees, times in s, each with its unit; a
 /// number that is not there is null beside the reason. `findings[].term` and `unexplained[].term`
 /// hold
@@ -42,5 +46,25 @@ Json check_object(const QualityCheck& check);
 /// Lag-1 autocorrelation of ε_i = Σ φ_j ε_{i−j} + e_i; 0 for white noise, NaN where it is not
 /// stationary.
 double neighbour_correlation(const std::vector<double>& autoregression);
+
+/// A fitted term: of an effect its formula, slot and the shape parameters that it reads; of a
+/// pattern its numbers; then the linear parameters by name and their covariance.
+Json term_object(const TermValue& term);
+
+/// Back again, without the covariance. @throws InputError naming "diagnosis" for what the catalogue
+/// has not, Json::exception for a malformed term.
+TermValue effect_term_from(const std::string& id, const Json& json,
+                           std::span<const Effect> own_effects = {});
+TermValue pattern_term_from(const Json& json);
+
+/// What the virtual lathe and a verdict need of a diagnosis: its verdict, both fits as
+/// `fit_from_object` has them, u's frame, findings and patterns with their classes, the next
+/// measurement; σ, autoregression and masked rows.
+/// @param path of the text, for messages
+/// @param own_effects that it was made with; they outlive the result
+/// @throws InputError when the text is no trueaxis.diagnosis/2, or names an effect that neither the
+/// catalogue nor `own_effects` has.
+Diagnosis diagnosis_from_json(std::string_view text, const std::string& path,
+                              std::span<const Effect> own_effects = {});
 
 }  // namespace trueaxis

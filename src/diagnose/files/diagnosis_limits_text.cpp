@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/files/diagnosis_limits_text.hpp"
-
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/files/diagnosis_text.hpp"
-#include "diagnose/files/finding_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -95,10 +92,10 @@ std::string noise_text(const NoiseReport& noise) {
           source_line("stated", noise.stated_mm));
   if (!noise.note.empty()) text += wrapped("  note        ", noise.note);
   if (!noise.autoregression.empty()) {
-    std::string factors;
-    for (const double phi : noise.autoregression) factors += fmt::format(" {:.2f}", phi);
-    text += wrapped("  correlated  ",
-                    "autoregression" + factors + ": every test and uncertainty is widened by it");
+    text +=
+        wrapped("  correlated  ",
+                fmt::format("autoregression {:.2f}: every test and uncertainty is widened by it",
+                            fmt::join(noise.autoregression, " ")));
   }
   text += rejected_lines("  masked      ", noise.masked);
   for (const std::string& gap : noise.gaps) text += wrapped("  gap         ", gap);
@@ -123,8 +120,7 @@ std::string next_text(const NextMeasurement& next) {
   if (next.plan.empty() && next.why_not.empty()) return "";
   std::string text = "\nNext measurement\n";
   if (next.plan.empty()) return text + wrapped("  ", "none: " + next.why_not);
-  std::string separates;
-  for (const std::string& id : next.separates) separates += (separates.empty() ? "" : ", ") + id;
+  const std::string separates = fmt::format("{}", fmt::join(next.separates, ", "));
   text += wrapped("  " + next.plan + "  ",
                   next.what + fmt::format("; {:.3g} min; right name ", next.minutes) +
                       probability(next.power_before) + " → " + probability(next.power_after) +

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/files/diagnosis_read.hpp"
-
-#include <cmath>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_term_json.hpp"
-#include "fit/files/fit_json.hpp"
+#include "fit/files/fit_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -27,9 +23,9 @@ DiagnosisVerdict verdict_from(const std::string& text) {
   throw InputError("diagnosis", "no diagnosis says `" + text + "`");
 }
 
-Finding finding_from(const Json& json) {
+Finding finding_from(const Json& json, std::span<const Effect> own_effects) {
   Finding finding;
-  finding.term = effect_term_from(json.at("effect"), json.at("term"));
+  finding.term = effect_term_from(json.at("effect"), json.at("term"), own_effects);
   for (const Json& rival : json.at("rivals")) {
     finding.rivals.push_back({rival.at("effect"), number_from(rival.at("distance")),
                               number_from(rival.at("likelihood_ratio")),
@@ -49,7 +45,7 @@ Unexplained unexplained_from(const Json& json) {
           number_from(json.at("p_value"))};
 }
 
-Diagnosis diagnosis_from(const Json& json) {
+Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) {
   if (json.at("schema") != diagnosis_schema)
     throw InputError("diagnosis", std::string("is no ") + diagnosis_schema +
                                       ": write one with 'trueaxis diagnose --json'");
@@ -60,7 +56,8 @@ Diagnosis diagnosis_from(const Json& json) {
   d.extended = fit_from_object(json.at("extended"));
   d.z_mid_mm = value(json.at("u_frame"), "z_mid");
   d.z_half_mm = value(json.at("u_frame"), "z_half");
-  for (const Json& finding : json.at("findings")) d.findings.push_back(finding_from(finding));
+  for (const Json& finding : json.at("findings"))
+    d.findings.push_back(finding_from(finding, own_effects));
   for (const Json& pattern : json.at("unexplained"))
     d.unexplained.push_back(unexplained_from(pattern));
   d.next.plan = json.at("next_measurement").at("plan");
@@ -73,9 +70,10 @@ Diagnosis diagnosis_from(const Json& json) {
 
 }  // namespace
 
-Diagnosis diagnosis_from_json(std::string_view text, const std::string& path) {
+Diagnosis diagnosis_from_json(std::string_view text, const std::string& path,
+                              std::span<const Effect> own_effects) {
   try {
-    return diagnosis_from(Json::parse(text));
+    return diagnosis_from(Json::parse(text), own_effects);
   } catch (const Json::exception& error) {
     throw InputError(
         path, std::string("cannot be read as ") + diagnosis_schema + " (" + error.what() + ")");

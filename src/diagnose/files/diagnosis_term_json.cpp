@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "diagnose/files/diagnosis_term_json.hpp"
-
-#include <string_view>
 
 #include "diagnose/files/diagnosis_json.hpp"
 #include "trueaxis/error.hpp"
@@ -9,33 +6,6 @@
 
 namespace trueaxis {
 namespace {
-
-/// A parameter of TermShape: the name that a term reads it by, its name and unit in the file.
-struct ShapeEntry {
-  std::string_view name;
-  const char* written;
-  const char* unit;
-  double TermShape::*value;
-};
-
-constexpr ShapeEntry shape_entries[] = {
-    {"order", "order", "1", &TermShape::order},
-    {"lever_from_mm", "lever_from", "mm", &TermShape::lever_from_mm},
-    {"decay_length_mm", "decay_length", "mm", &TermShape::decay_length_mm},
-    {"period_mm", "period", "mm", &TermShape::period_mm},
-    {"frequency_hz", "frequency", "Hz", &TermShape::frequency_hz},
-    {"time_constant_s", "time_constant", "s", &TermShape::time_constant_s},
-    {"onset_s", "onset", "s", &TermShape::onset_s},
-    {"reference_x_mm", "reference_x", "mm", &TermShape::reference_x_mm},
-    {"range_mm", "range", "mm", &TermShape::range_mm},
-};
-
-const ShapeEntry& shape_entry(std::string_view name) {
-  for (const ShapeEntry& entry : shape_entries) {
-    if (entry.name == name) return entry;
-  }
-  throw ContractViolation("a shape parameter without a place in the file: " + std::string(name));
-}
 
 struct PatternKind {
   Pattern::Kind kind;
@@ -87,12 +57,8 @@ Json covariance_array(const TermValue& term) {
 Json shape_object(const TermValue& term) {
   Json shape = Json::object();
   for (const std::string& name : shape_parameters(term.effect->term)) {
-    if (name == "degree") {
-      shape["degree"] = with_unit(term.shape.degree, "1");
-      continue;
-    }
-    const ShapeEntry& entry = shape_entry(name);
-    shape[entry.written] = quantity_object(term.shape.*entry.value, entry.unit, "left open");
+    const NameAndUnit written = name_and_unit(name);
+    shape[written.name] = quantity_object(shape_value(term.shape, name), written.unit, "left open");
   }
   return shape;
 }
@@ -182,18 +148,17 @@ Json term_object(const TermValue& term) {
   return json;
 }
 
-TermValue effect_term_from(const std::string& id, const Json& json) {
+TermValue effect_term_from(const std::string& id, const Json& json,
+                           std::span<const Effect> own_effects) {
   TermValue term;
-  term.effect = find_effect(id);
-  if (term.effect == nullptr) throw InputError("diagnosis", "the catalogue has no `" + id + "`");
-  for (const std::string& name : shape_parameters(term.effect->term)) {
-    if (name == "degree") {
-      term.shape.degree = static_cast<int>(inside_value(json.at("shape").at("degree")));
-      continue;
-    }
-    const ShapeEntry& entry = shape_entry(name);
-    term.shape.*entry.value = inside_value(json.at("shape").at(entry.written));
-  }
+  const auto own = std::ranges::find(own_effects, id, &Effect::id);
+  term.effect = own != own_effects.end() ? &*own : find_effect(id);
+  if (term.effect == nullptr)
+    throw InputError("diagnosis", "the catalogue has no `" + id +
+                                      "`: what names an effect of a program's own is read by that "
+                                      "program alone");
+  for (const std::string& name : shape_parameters(term.effect->term))
+    set_shape_value(term.shape, name, inside_value(json.at("shape").at(name_and_unit(name).name)));
   term.linear = linear_from(json.at("linear"), term);
   return term;
 }

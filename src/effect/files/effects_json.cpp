@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/files/effects_json.hpp"
-
+#include "effect/files/effects_files.hpp"
 #include "format/json.hpp"
 #include "format/toml_units.hpp"
 #include "trueaxis/units.hpp"

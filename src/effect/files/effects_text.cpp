@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "effect/files/effects_text.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "effect/files/effects_files.hpp"
 #include "format/toml_units.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/files/fit_json.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
+#include "fit/files/fit_files.hpp"
 #include "format/json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/files/fit_text.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "fit/files/fit_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -3,20 +3,118 @@
 
 #include <utility>
 
-#include "correct/files/table_csv.hpp"
-#include "correct/files/table_text.hpp"
+#include "correct/files/table_files.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
-#include "fit/files/fit_text.hpp"
+#include "fit/files/fit_files.hpp"
 #include "job/agreement.hpp"
-#include "job/files/job_json.hpp"
-#include "job/files/residuals_csv.hpp"
+#include "job/cut_checks.hpp"
 #include "measure/files/stream_csv.hpp"
-#include "resimulate/files/comparison_text.hpp"
+#include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
+
+Json verdict_object(const Verdict& v) {
+  return {
+      {"go", v.go()},
+      {"decision", to_string(v.decision)},
+      {"line", v.line},
+      {"reservations", v.reservations},
+      {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
+      {"coaxiality_after", to_json(Estimate{v.coaxiality_after_mm, v.u_coaxiality_mm, "mm", ""})},
+      {"coaxiality_at_least", with_unit(v.lower_mm, "mm")},
+      {"coaxiality_at_most", with_unit(v.upper_mm, "mm")},
+      {"risk", nonconformity_risk},
+      {"what_would_prove", v.what_would_prove},
+      {"moved", v.moved},
+      {"coverage_factor", v.coverage_factor}};
+}
+
+Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
+  Json remainders = Json::array();
+  for (const Remainder& r : target.remainders) {
+    remainders.push_back(
+        {{"reference", r.name},
+         {"offset_start", with_unit(r.offset_start_mm, "mm")},
+         {"offset_end", with_unit(r.offset_end_mm, "mm")},
+         {"tilt", with_unit(r.tilt_rad / rad_per_deg, "deg")},
+         {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})},
+         {"coaxiality_at_most", with_unit(r.limit_mm, "mm")}});
+  }
+  const auto [x, y] = target.axis.axis.at(surface.z_start_mm);
+  return {{"x_at_start", with_unit(x, "mm")},
+          {"y_at_start", with_unit(y, "mm")},
+          {"u_at_start", with_unit(target.axis.u_at(surface.z_start_mm), "mm")},
+          {"u_at_end", with_unit(target.axis.u_at(surface.z_end_mm), "mm")},
+          {"slope_x", with_unit(target.axis.axis.slope_x, "1")},
+          {"slope_y", with_unit(target.axis.axis.slope_y, "1")},
+          {"remainders", remainders}};
+}
+
+/// The references held against each other: what is apart beyond its U, and why nothing may be cut.
+Json agreement_object(const JobResult& result) {
+  const double k = result.job.references.front().fit.coverage_factor;
+  Json pairs = Json::array();
+  for (const Disagreement& d : result.agreement.disagreements) {
+    Json pair{{"first", result.job.references[d.first].name},
+              {"second", result.job.references[d.second].name},
+              {"tilt", to_json(Estimate{d.tilt_rad / rad_per_deg, d.U_tilt_rad / k / rad_per_deg,
+                                        "deg", ""})},
+              {"p_value", d.p_value}};
+    if (d.U_offset_mm > 0.0)
+      pair["offset"] = to_json(Estimate{d.offset_mm, d.U_offset_mm / k, "mm", ""});
+    pairs.push_back(std::move(pair));
+  }
+  return {{"disagreements", pairs},
+          {"reason", result.agreement.reason},
+          {"odds", number(result.agreement.odds)}};
+}
+
+Json resimulation_object(const Resimulation& again) {
+  if (!again.why_not.empty()) return {{"why", again.why_not}};
+  return comparison_object(again.comparison);
+}
+
+Json diagnosis_of(const JobResult& result, std::size_t i) {
+  if (!result.diagnoses[i]) {
+    const bool face = result.streams[i].kind == StreamKind::face;
+    return {{"verdict", nullptr},
+            {"why", face ? "a face is not diagnosed" : "its fit did not converge"}};
+  }
+  Json summary = diagnosis_summary(*result.diagnoses[i]);
+  summary["file"] = diagnosis_file(result.job, i);
+  summary["readings"] = readings_file(result.job, i);
+  if (result.resimulations[i])
+    summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
+  summary["axis_of_the_correction"] =
+      &fit_used(result, i) == &result.fits[i] ? "ideal surface" : "extended model";
+  return summary;
+}
+
+Json inclusions_array(const std::vector<Inclusion>& inclusions) {
+  Json list = Json::array();
+  for (const Inclusion& i : inclusions) {
+    list.push_back({{"effect", i.effect},
+                    {"reference", i.reference},
+                    {"included", i.included},
+                    {"refused", i.refused},
+                    {"why", i.why}});
+  }
+  return list;
+}
+
+/// Number and name of a reference, as far as any file system takes it.
+std::string file_stem(const Job& job, std::size_t reference) {
+  std::string name;
+  for (const char c : job.references[reference].name) {
+    const bool kept = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    name += kept ? c : '_';
+  }
+  return std::to_string(reference + 1) + "_" + name.substr(0, 40);
+}
 
 std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
   if (!result.diagnoses[i]) {
@@ -35,6 +133,79 @@ std::string inclusion_text(const Inclusion& i) {
 }
 
 }  // namespace
+
+Json correction_object(const Correction& correction) {
+  Json harmonics = Json::array();
+  for (const CorrectionHarmonic& h : correction.harmonics) {
+    harmonics.push_back({{"order", h.order},
+                         {"amplitude_start", with_unit(h.amplitude_start_mm, "mm")},
+                         {"phase_start", with_unit(h.phase_start_rad / rad_per_deg, "deg")},
+                         {"amplitude_end", with_unit(h.amplitude_end_mm, "mm")},
+                         {"phase_end", with_unit(h.phase_end_rad / rad_per_deg, "deg")},
+                         {"actuator_gain", h.gain},
+                         {"actuator_lag", with_unit(h.lag_rad / rad_per_deg, "deg")}});
+  }
+  const ActuatorMargin& m = correction.margin;
+  const TargetSurface& target = correction.target;
+  const bool face = target.kind == TargetKind::face;
+  return {{"rows", correction.rows.wanted_mm.size()},
+          {"contact",
+           {{"start", with_unit(face ? target.radius_start_mm : target.z_start_mm, "mm")},
+            {"end", with_unit(face ? target.radius_end_mm : target.z_end_mm, "mm")}}},
+          {"nose_centre",
+           {{"start", with_unit(correction.position_start_mm, "mm")},
+            {"end", with_unit(correction.position_end_mm, "mm")}}},
+          {"harmonics", harmonics},
+          {"margin",
+           {{"follows", m.follows},
+            {"breaks", m.breaks},
+            {"remedy", m.remedy},
+            {"max_speed", with_unit(m.max_speed_rpm, "rpm")},
+            {"stroke_used", with_unit(m.stroke_used_mm, "mm")},
+            {"stroke_available", with_unit(m.stroke_available_mm, "mm")},
+            {"slew_used", with_unit(m.slew_used_mm_per_s, "mm/s")},
+            {"slew_available", with_unit(m.slew_available_mm_per_s, "mm/s")},
+            {"highest_frequency", with_unit(m.highest_frequency_hz, "Hz")},
+            {"bandwidth", with_unit(m.bandwidth_hz, "Hz")},
+            {"set_points_per_revolution", number(m.set_points_per_revolution)},
+            {"following_uncompensated", with_unit(m.following_uncompensated_mm, "mm")},
+            {"following", with_unit(m.following_mm, "mm")},
+            {"following_once", with_unit(m.following_once_mm, "mm")},
+            {"following_limit", with_unit(m.following_limit_mm, "mm")}}}};
+}
+
+std::string diagnosis_file(const Job& job, std::size_t reference) {
+  return "diagnosis_" + file_stem(job, reference) + ".json";
+}
+
+std::string readings_file(const Job& job, std::size_t reference) {
+  return "readings_" + file_stem(job, reference) + ".csv";
+}
+
+std::string job_json(const JobResult& result) {
+  Json json;
+  json["schema"] = "trueaxis.run/2";
+  json["version"] = TRUEAXIS_VERSION;
+  json["job"] = result.job.name;
+  json["verdict"] = verdict_object(result.verdict);
+  Json references = Json::array();
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    Json reference{{"name", result.job.references[i].name},
+                   {"weight", result.job.references[i].weight},
+                   {"fit", fit_object(result.fits[i])}};
+    if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
+    if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
+    references.push_back(reference);
+  }
+  json["references"] = references;
+  if (result.fits.size() > 1 || !result.agreement.reason.empty())
+    json["agreement"] = agreement_object(result);
+  if (result.target_axis)
+    json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
+  if (result.correction) json["correction"] = correction_object(*result.correction);
+  if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
+  return json_text(json);
+}
 
 std::vector<ProbeStream> read_streams(const Job& job) {
   std::vector<ProbeStream> streams;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "format/json.hpp"
+#include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
@@ -31,5 +33,30 @@ std::vector<ResultFile> job_files(const JobResult& result);
 /// The run for a person at a terminal: the verdict's line, fits and findings, what became of the
 /// motions asked into the correction, and the correction's extremes.
 std::string job_text(const JobResult& result);
+
+/// Schema trueaxis.run/2: verdict, fits, target axis with what is left at each reference, harmonics
+/// of the correction and the actuator's margin.
+std::string job_json(const JobResult& result);
+
+/// Rows, harmonics and the actuator's margin of a correction.
+Json correction_object(const Correction& correction);
+
+/// Name of the file beside the result that holds the diagnosis of a reference.
+std::string diagnosis_file(const Job& job, std::size_t reference);
+
+/// Name of the file with its readings: measured, simulated, what is left.
+std::string readings_file(const Job& job, std::size_t reference);
+
+/// A line with the schema trueaxis.residuals/1, a header, and one row per reading: row, C[deg],
+/// position[mm], reading[mm], residual[um], rejected (0/1).
+std::string residuals_csv(const ProbeStream& stream, const FitResult& result);
+
+/// One row per reading: row, C[deg], Z[mm], X_M[mm], residual_before[um] of the ideal surface,
+/// effect[um] of all findings, residual_after[um] of the extended model, masked (0/1). A number
+/// that is not determined is an empty cell. With `simulated` two columns more: what the virtual
+/// lathe reads off the ideal surface and the extended model, simulated_before[mm] and
+/// simulated_after[mm].
+std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
+                          const SimulatedReadings* simulated = nullptr);
 
 }  // namespace trueaxis

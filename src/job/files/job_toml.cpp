@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_toml.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -197,13 +197,9 @@ void read_include(TomlTable table, Job& job) {
   for (const std::string& id : job.include) {
     const auto known = repeating_effects();
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    std::string names;
-    for (const std::string_view name : known)
-      names += (names.empty() ? "" : ", ") + std::string(name);
-    table.complain("include", "holds '" + id +
-                                  "', which no correction may follow; those that repeat at the "
-                                  "tool are " +
-                                  names);
+    table.complain("include", fmt::format("holds '{}', which no correction may follow; those that "
+                                          "repeat at the tool are {}",
+                                          id, fmt::join(known, ", ")));
   }
 }
 

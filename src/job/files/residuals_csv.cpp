@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/residuals_csv.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iterator>
 
+#include "job/files/job_results.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

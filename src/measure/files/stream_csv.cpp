@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
 
-#include "measure/files/stream_csv_finish.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_rows.hpp"
@@ -31,39 +29,33 @@ class ByteSource {
  public:
   explicit ByteSource(const std::string& path) : path_(path) {
     if (path == "-") return;
-    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail(errno);
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0) return;
-    if (S_ISDIR(status.st_mode)) {
-      ::close(descriptor_);
-      throw InputError(path, "is a folder: name a file");
-    }
-    if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) throw InputError(path, "is a folder: name a file");
+    own_.reset(std::fopen(path.c_str(), "rbe"));
+    if (!own_) fail();
+    if (std::filesystem::is_regular_file(status)) size_ = std::filesystem::file_size(path, error);
   }
-  ~ByteSource() {
-    if (descriptor_ > STDIN_FILENO) ::close(descriptor_);
-  }
-  ByteSource(const ByteSource&) = delete;
-  ByteSource& operator=(const ByteSource&) = delete;
 
   /// Up to `room` bytes; 0 at the end.
   std::size_t read(char* to, std::size_t room) {
-    for (;;) {
-      const ssize_t got = ::read(descriptor_, to, room);
-      if (got >= 0) return static_cast<std::size_t>(got);
-      if (errno != EINTR) fail(errno);
-    }
+    std::FILE* const file = own_ ? own_.get() : stdin;
+    const std::size_t got = std::fread(to, 1, room, file);
+    if (got == 0 && std::ferror(file) != 0) fail();
+    return got;
   }
   std::size_t size() const { return size_; }  ///< 0 where it is not known
 
  private:
-  [[noreturn]] void fail(int why) const {
-    throw InputError(path_, std::string("cannot be read (") + std::strerror(why) +
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  [[noreturn]] void fail() const {
+    throw InputError(path_, std::string("cannot be read (") + std::strerror(errno) +
                                 "): name a file that can be read");
   }
   std::string path_;
-  int descriptor_ = STDIN_FILENO;
+  std::unique_ptr<std::FILE, Close> own_;  ///< none: standard input
   std::size_t size_ = 0;
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/files/stream_csv_comment.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <span>
 #include <vector>
 
 #include "base/edit_distance.hpp"
+#include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
@@ -127,14 +126,6 @@ std::vector<Word> words_of(std::string_view text) {
   return words;
 }
 
-bool starts_with_number(std::string_view text) {
-  const auto digit = [&](std::size_t i) {
-    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i])) != 0;
-  };
-  const std::size_t sign = !text.empty() && (text[0] == '-' || text[0] == '+') ? 1 : 0;
-  return digit(sign) || (sign < text.size() && text[sign] == '.' && digit(sign + 1));
-}
-
 /// Whether words[at …] is a value of the key: a number, or one of its words.
 bool is_value(const Known& known, std::span<const Word> words) {
   while (!words.empty() && (words[0].folded == "is" || words[0].folded == "a"))
@@ -143,7 +134,7 @@ bool is_value(const Known& known, std::span<const Word> words) {
   if (!known.values.empty()) return one_of(known.values, words[0].folded);
   const std::string_view first = words[0].written;
   const std::size_t begin = first.find_last_of(" \t\r,;:=");
-  return starts_with_number(first.substr(begin == std::string_view::npos ? 0 : begin + 1));
+  return csv_starts_number(first.substr(begin == std::string_view::npos ? 0 : begin + 1));
 }
 
 bool looks_like(const Known& known, const std::string& key, const Word& last,

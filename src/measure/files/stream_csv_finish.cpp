@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/files/stream_csv_finish.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <string>
+
+#include "measure/files/stream_csv_metadata.hpp"
 
 namespace trueaxis {
 namespace {

@@ -32,12 +32,6 @@ bool same_name(std::string_view a, std::string_view b) {
   });
 }
 
-bool starts_like_number(std::string_view text) {
-  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
-  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
-  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0;
-}
-
 /// The first of , ; tab outside brackets, else blanks.
 char find_separator(std::string_view line) {
   bool in_bracket = false;
@@ -47,6 +41,13 @@ char find_separator(std::string_view line) {
     if (!in_bracket && (c == ',' || c == ';' || c == '\t')) return c;
   }
   return ' ';
+}
+
+/// The column of a name that is known and not refused.
+std::vector<CsvColumn>::iterator named(CsvHeader& header, std::string_view name) {
+  return std::ranges::find_if(header.columns, [&](const CsvColumn& column) {
+    return column.role != CsvRole::unknown && column.name == name;
+  });
 }
 
 class HeaderParser {
@@ -59,9 +60,9 @@ class HeaderParser {
     const std::size_t bracket = field.text.find('[');
     const std::string_view name = csv_trimmed(field.text.substr(0, bracket));
     column.character = csv_character(line_, field.byte);
-    const auto known =
-        std::find_if(std::begin(known_columns), std::end(known_columns),
-                     [&](const KnownColumn& candidate) { return same_name(candidate.name, name); });
+    const auto* known = std::ranges::find_if(known_columns, [&](const KnownColumn& candidate) {
+      return same_name(candidate.name, name);
+    });
     if (field.text.empty()) {
       add(column, "a column has no name: name it or remove the separator");
     } else if (known == std::end(known_columns)) {
@@ -87,10 +88,7 @@ class HeaderParser {
   }
 
   bool twice(const CsvColumn& column) {
-    const bool found =
-        std::any_of(header_.columns.begin(), header_.columns.end(), [&](const CsvColumn& other) {
-          return other.role != CsvRole::unknown && other.name == column.name;
-        });
+    const bool found = named(header_, column.name) != header_.columns.end();
     if (found) add(column, "column " + column.name + " is named twice: keep one");
     return found;
   }
@@ -128,30 +126,27 @@ class HeaderParser {
 
 /// Columns that are missing, or that belong to the other kind of stream.
 void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
-  const auto named = [&](std::string_view name) {
-    return std::find_if(header.columns.begin(), header.columns.end(), [&](const CsvColumn& column) {
-      return column.role != CsvRole::unknown && column.name == name;
-    });
-  };
   const auto none = header.columns.end();
-  const bool face = named("Z_M") != none && named("X_M") == none;
+  const auto lacks = [&](const char* name) { return named(header, name) == none; };
+  const bool face = !lacks("Z_M") && lacks("X_M");
   header.kind = face ? StreamKind::face : StreamKind::lateral;
-  const auto refuse = [&](std::vector<CsvColumn>::iterator column, const char* message) {
+  const auto refuse = [&](const char* name, const char* message) {
+    const auto column = named(header, name);
     if (column == none) return;
     diagnostics.add(header.line, column->character, message);
     column->role = CsvRole::unknown;
   };
   if (face) {
-    refuse(named("Z"), "Z is the reading of a face (Z_M,C,X): remove column Z");
-    if (named("X") == none) diagnostics.add(header.line, 0, "no column X: a face is Z_M,C,X");
+    refuse("Z", "Z is the reading of a face (Z_M,C,X): remove column Z");
+    if (lacks("X")) diagnostics.add(header.line, 0, "no column X: a face is Z_M,C,X");
   } else {
-    refuse(named("Z_M"), "X_M and Z_M in one stream: a face is Z_M,C,X, all else X_M,C,Z");
-    refuse(named("X"), "X is a column of a face (Z_M,C,X): name the position Z or remove it");
-    if (named("X_M") == none) {
+    refuse("Z_M", "X_M and Z_M in one stream: a face is Z_M,C,X, all else X_M,C,Z");
+    refuse("X", "X is a column of a face (Z_M,C,X): name the position Z or remove it");
+    if (lacks("X_M")) {
       diagnostics.add(header.line, 0, "no column X_M: name the columns X_M,C,Z (a face: Z_M,C,X)");
     }
   }
-  if (named("C") == none) {
+  if (lacks("C")) {
     diagnostics.add(header.line, 0, "no column C: name the spindle angle's column C");
   }
 }
@@ -159,8 +154,7 @@ void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
 }  // namespace
 
 const CsvColumn* CsvHeader::find(CsvRole role) const {
-  const auto found = std::find_if(columns.begin(), columns.end(),
-                                  [&](const CsvColumn& column) { return column.role == role; });
+  const auto found = std::ranges::find(columns, role, &CsvColumn::role);
   return found == columns.end() ? nullptr : &*found;
 }
 
@@ -171,7 +165,7 @@ CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
   header.separator = find_separator(csv_trimmed(line));
   std::vector<CsvField> fields;
   csv_split(line, header.separator, fields);
-  if (starts_like_number(fields.front().text)) {
+  if (csv_starts_number(fields.front().text)) {
     diagnostics.add(line_number, csv_character(line, fields.front().byte),
                     "the header is missing: name the columns in the first line, such as "
                     "X_M[mm],C[deg],Z[mm]");

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_text.hpp"
-#include "measure/files/stream_csv_unit.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {

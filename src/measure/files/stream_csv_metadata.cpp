@@ -3,15 +3,50 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
+#include <charconv>
+#include <optional>
+#include <set>
 
-#include "measure/files/stream_csv_comment.hpp"
 #include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_setup.hpp"
-#include "measure/files/stream_csv_unit.hpp"
+#include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
 namespace {
+
+constexpr std::string_view prefix = "setup.";
+
+struct SetupKey {
+  int number = 0;
+  std::string_view what;
+};
+
+std::optional<SetupKey> parse_key(std::string_view key) {
+  SetupKey out;
+  const char *begin = key.data() + prefix.size(), *end = key.data() + key.size();
+  const auto [stop, error] = std::from_chars(begin, end, out.number);
+  if (error != std::errc{} || stop == end || *stop != '.') return {};
+  out.what = {stop + 1, static_cast<std::size_t>(end - stop - 1)};
+  return out;
+}
+
+/// The keys after the number, what may stand there, and where it goes.
+struct Quantity {
+  std::string_view what;
+  CsvQuantity quantity;
+  double SetUp::*member;
+  const char* unit;  ///< as it is written
+  const char* wanted;
+};
+constexpr Quantity quantities[] = {
+    {"reindex", CsvQuantity::angle, &SetUp::reindex_rad, " rad",
+     "an angle in deg, rad or rev, such as 70 deg"},
+    {"z_shift", CsvQuantity::length, &SetUp::z_shift_mm, " mm",
+     "a length in mm, um, \xC2\xB5m, m or in, such as 12 mm"},
+    {"x_jog", CsvQuantity::length, &SetUp::x_jog_mm, " mm",
+     "a length in mm, um, \xC2\xB5m, m or in, such as 0.1 mm"},
+    {"clamp_force_ratio", CsvQuantity::count, &SetUp::clamp_force_ratio, "",
+     "the force over that of the first clamping, 0 or more and without unit, such as 0.6"},
+};
 
 std::string lower_case(std::string_view text) {
   std::string out(text);
@@ -23,51 +58,74 @@ std::string lower_case(std::string_view text) {
 bool is_known(std::string_view key) {
   constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
                                        "sensor_noise", "spindle_rpm", "ball_radius"};
-  return csv_is_setup_key(key) ||
-         std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
-}
-
-/// A finite number and what follows it.
-struct NumberWithUnit {
-  double value = 0.0;
-  std::string_view unit;
-};
-
-std::optional<NumberWithUnit> parse_number(std::string_view text) {
-  NumberWithUnit out;
-  std::errc error{};
-  const char* end = text.data() + text.size();
-  const char* stop = csv_number(text.data(), end, out.value, error);
-  if (stop == text.data() || error != std::errc{} || !std::isfinite(out.value)) return {};
-  out.unit = csv_trimmed({stop, static_cast<std::size_t>(end - stop)});
-  return out;
-}
-
-/// "14.5 mm" in mm; a number alone is no length.
-std::optional<double> parse_length_mm(std::string_view text) {
-  const auto number = parse_number(text);
-  if (!number) return {};
-  const auto unit = csv_find_unit(CsvQuantity::length, number->unit);
-  if (!unit) return {};
-  return number->value * unit->factor;
-}
-
-bool lacks_unit(std::string_view text) {
-  const auto number = parse_number(text);
-  return number && number->unit.empty();
-}
-
-bool is_length(std::string_view key) {
-  return key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
+  return csv_is_setup_key(key) || std::ranges::find(keys, key) != std::end(keys);
 }
 
 std::string not_understood(const std::string& key, std::string_view value, const char* wanted) {
-  if (is_length(key) && lacks_unit(value))
-    return key + ": " + csv_quoted(value) + " has no unit: write " + wanted;
-  return key + ": " + csv_quoted(value) + " is not understood: write " + wanted;
+  const bool length = key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
+  const auto number = csv_number_with_unit(value);
+  const bool bare = length && number && number->unit.empty();
+  return key + ": " + csv_quoted(value) + (bare ? " has no unit" : " is not understood") +
+         ": write " + wanted;
 }
 
 }  // namespace
+
+bool csv_is_setup_key(std::string_view key) { return key.starts_with(prefix); }
+
+int csv_setup_number(std::string_view key) { return parse_key(key).value_or(SetupKey{}).number; }
+
+std::string csv_take_setup(std::string_view key, std::string_view value,
+                           std::map<int, SetUp>& set_ups) {
+  const auto parsed = parse_key(key);
+  if (!parsed)
+    return "unknown key " + csv_quoted(key) +
+           ": write the number of the set-up behind setup, such as setup.2.reindex";
+  const auto not_understood = [&](const char* wanted) {
+    return std::string(key) + ": " + csv_quoted(value) + " is not understood: write " + wanted;
+  };
+  const bool is_side = parsed->what == "side";
+  for (const Quantity& quantity : quantities) {
+    if (quantity.what != parsed->what) continue;
+    const auto number = csv_quantity(value, quantity.quantity);
+    if (!number || (quantity.quantity == CsvQuantity::count && *number < 0.0))
+      return not_understood(quantity.wanted);
+    SetUp& set_up = set_ups[parsed->number];
+    set_up.number = parsed->number;
+    set_up.*quantity.member = *number;
+    return "";
+  }
+  if (!is_side)
+    return "unknown key " + csv_quoted(key) +
+           ": a set-up has reindex, z_shift, side, x_jog and clamp_force_ratio";
+  if (value != "front" && value != "rear") return not_understood("front or rear");
+  SetUp& set_up = set_ups[parsed->number];
+  set_up.number = parsed->number;
+  set_up.rear = value == "rear";
+  return "";
+}
+
+void csv_put_setups(const ProbeStream& stream, const std::map<int, SetUp>& stated,
+                    std::map<std::string, std::string>& metadata) {
+  std::set<int> listed;
+  for (const SetUp& set_up : list_set_ups(stream)) {
+    listed.insert(set_up.number);
+    const auto at = stated.find(set_up.number);
+    const SetUp said = at == stated.end() ? SetUp{} : at->second;
+    const auto key = [&](std::string_view what) {
+      return std::string(prefix).append(std::to_string(set_up.number)).append(".").append(what);
+    };
+    for (const Quantity& quantity : quantities) {
+      const double value = set_up.*quantity.member;
+      if (value != said.*quantity.member)
+        metadata[key(quantity.what)] = csv_text(value) + quantity.unit;
+    }
+    if (set_up.rear != said.rear) metadata[key("side")] = set_up.rear ? "rear" : "front";
+  }
+  std::erase_if(metadata, [&](const auto& entry) {
+    return csv_is_setup_key(entry.first) && !listed.contains(csv_setup_number(entry.first));
+  });
+}
 
 bool csv_is_key(std::string_view key) {
   return !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
@@ -144,19 +202,19 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     if (value != "absolute" && value != "relative") return refuse("absolute or relative");
     known.indication = value == "relative" ? Indication::relative : Indication::absolute;
   } else if (key == "nominal_radius") {
-    const auto radius_mm = parse_length_mm(value);
+    const auto radius_mm = csv_quantity(value, CsvQuantity::length);
     if (!radius_mm || !(*radius_mm > 0.0)) return refuse("a length above zero, such as 14.5 mm");
     known.nominal_radius_mm = radius_mm;
   } else if (key == "sensor_noise") {
-    const auto noise_mm = parse_length_mm(value);
+    const auto noise_mm = csv_quantity(value, CsvQuantity::length);
     if (!noise_mm || *noise_mm < 0.0) return refuse("a standard deviation, such as 2 um");
     known.sensor_noise_mm = noise_mm;
   } else if (key == "ball_radius") {
-    const auto radius_mm = parse_length_mm(value);
+    const auto radius_mm = csv_quantity(value, CsvQuantity::length);
     if (!radius_mm || *radius_mm < 0.0) return refuse("a length, such as 1.5 mm");
     known.ball_radius_mm = radius_mm;
   } else {
-    const auto rpm = parse_number(value);
+    const auto rpm = csv_number_with_unit(value);
     if (!rpm || !(rpm->unit.empty() || rpm->unit == "rpm")) {
       return refuse("revolutions per minute, signed like C, such as 60");
     }

@@ -6,7 +6,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "measure/files/stream_csv.hpp"
+#include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/probe_stream.hpp"
 
@@ -52,5 +55,36 @@ class CsvMetadataReader {
 
 /// Whether `key` can be written as metadata and read again unchanged.
 bool csv_is_key(std::string_view key);
+
+/// Whether a key in small letters is one of a set-up: "setup.2.reindex".
+bool csv_is_setup_key(std::string_view key);
+
+/// Takes "setup.2.reindex", "70 deg" into `set_ups`. @returns what is wrong and what to write
+/// instead, empty where nothing is.
+std::string csv_take_setup(std::string_view key, std::string_view value,
+                           std::map<int, SetUp>& set_ups);
+
+/// Number of the set-up that a key which was taken is of.
+int csv_setup_number(std::string_view key);
+
+/// Makes the metadata of set-ups say what the stream's set-ups say; `stated` is what they said.
+void csv_put_setups(const ProbeStream& stream, const std::map<int, SetUp>& stated,
+                    std::map<std::string, std::string>& metadata);
+
+/// Judges the text behind '#' of a comment that holds no known key as it is spelt. Prose is free;
+/// what looks like a known key (another spelling, '=' or blanks for ':', a letter or two wrong, a
+/// word that means one), or says a unit or convention for the whole file, must not be passed over.
+/// @returns what is wrong and what to write instead, empty for free text. Text that begins with a
+/// further '#' is always free.
+std::string csv_comment_trouble(std::string_view text);
+
+/// Whether a C column is wrapped: it stays within one turn, [0, turn] or [-turn/2, turn/2] up to a
+/// thousandth of a turn, and jumps by more than half a turn.
+bool csv_is_wrapped(const std::vector<double>& c, double turn);
+
+/// From the numbers as they stand in the file to mm, rad (running), s and radii. What contradicts
+/// is a diagnostic; nothing is changed then.
+void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
+                const StreamReadOptions& options, ProbeStream& stream, CsvDiagnostics& diagnostics);
 
 }  // namespace trueaxis

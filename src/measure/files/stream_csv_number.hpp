@@ -2,11 +2,61 @@
 #pragma once
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
+#include "measure/files/stream_csv_text.hpp"
+#include "trueaxis/units.hpp"
+
 namespace trueaxis {
+
+/// What a column measures; `count` has no unit.
+enum class CsvQuantity { length, angle, time, count };
+
+/// A unit at the edge: value inside = value outside × factor (mm, rad, s); `turn` is one turn in an
+/// angle's unit.
+struct CsvUnit {
+  std::string_view name;
+  CsvQuantity quantity;
+  double factor;
+  double turn = 0.0;
+};
+
+/// Micro is U+00B5 or U+03BC in UTF-8, or the byte B5 of a Latin-1 file.
+inline constexpr CsvUnit csv_units[] = {
+    {"mm", CsvQuantity::length, 1.0},
+    {"um", CsvQuantity::length, mm_per_um},
+    {"\xC2\xB5m", CsvQuantity::length, mm_per_um},
+    {"\xCE\xBCm", CsvQuantity::length, mm_per_um},
+    {"\xB5m", CsvQuantity::length, mm_per_um},
+    {"m", CsvQuantity::length, mm_per_m},
+    {"in", CsvQuantity::length, mm_per_inch},
+    {"inch", CsvQuantity::length, mm_per_inch},
+    {"deg", CsvQuantity::angle, rad_per_deg, 360.0},
+    {"rad", CsvQuantity::angle, 1.0, two_pi},
+    {"rev", CsvQuantity::angle, two_pi, 1.0},
+    {"s", CsvQuantity::time, 1.0},
+    {"ms", CsvQuantity::time, 1e-3},
+};
+
+inline std::optional<CsvUnit> csv_find_unit(CsvQuantity quantity, std::string_view name) {
+  for (const CsvUnit& unit : csv_units) {
+    if (unit.quantity == quantity && unit.name == name) return unit;
+  }
+  return std::nullopt;
+}
+
+/// The known units of a quantity, for a diagnostic.
+inline const char* csv_known_units(CsvQuantity quantity) {
+  static constexpr const char* units[] = {"mm, um, µm, m or in", "deg, rad or rev", "s or ms",
+                                          "no unit"};
+  return units[static_cast<std::size_t>(quantity)];
+}
 
 /// Reads the number at `p`; returns where it ends, or `p` where none starts. The value is the
 /// double nearest to the text. `error` is result_out_of_range as in std::from_chars.
@@ -47,6 +97,38 @@ inline const char* csv_number(const char* p, const char* end, double& value, std
   const auto [stop, why] = std::from_chars(start, end, value);
   error = why;
   return stop == start ? p : stop;
+}
+
+/// A finite number and what follows it.
+struct CsvNumberWithUnit {
+  double value = 0.0;
+  std::string_view unit;
+};
+inline std::optional<CsvNumberWithUnit> csv_number_with_unit(std::string_view text) {
+  CsvNumberWithUnit out;
+  std::errc error{};
+  const char* end = text.data() + text.size();
+  const char* stop = csv_number(text.data(), end, out.value, error);
+  if (stop == text.data() || error != std::errc{} || !std::isfinite(out.value)) return {};
+  out.unit = csv_trimmed({stop, static_cast<std::size_t>(end - stop)});
+  return out;
+}
+
+/// The same of a quantity inside (mm, rad); nothing without a unit of it.
+inline std::optional<double> csv_quantity(std::string_view text, CsvQuantity quantity) {
+  const auto number = csv_number_with_unit(text);
+  if (!number) return {};
+  if (quantity == CsvQuantity::count)
+    return number->unit.empty() ? std::optional(number->value) : std::nullopt;
+  const auto unit = csv_find_unit(quantity, number->unit);
+  return unit ? std::optional(number->value * unit->factor) : std::nullopt;
+}
+
+/// Whether a number starts `text`: its sign, its point, a digit.
+inline bool csv_starts_number(std::string_view text) {
+  if (!text.empty() && (text.front() == '-' || text.front() == '+')) text.remove_prefix(1);
+  if (!text.empty() && text.front() == '.') text.remove_prefix(1);
+  return !text.empty() && text.front() >= '0' && text.front() <= '9';
 }
 
 /// The shortest text that reads back as the same number, appended.

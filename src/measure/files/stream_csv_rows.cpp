@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "measure/files/stream_csv_rows.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -28,11 +27,6 @@ std::string with_point(std::string_view text) {
   std::errc error{};
   const char* end = point.data() + point.size();
   return csv_number(point.data(), end, value, error) == end ? point : std::string{};
-}
-
-std::string shortest(double value) {
-  char text[32];
-  return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
 
 }  // namespace
@@ -170,7 +164,7 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
     if (fine && k == time_at_) {
       if (row_[k] < last_time_) {
         fine = false;
-        why = "t falls from " + shortest(last_time_) + " to " + shortest(row_[k]) +
+        why = "t falls from " + csv_text(last_time_) + " to " + csv_text(row_[k]) +
               ": sort the rows by time";
       }
       last_time_ = row_[k];

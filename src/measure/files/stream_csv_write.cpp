@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "format/output_file.hpp"
-#include "measure/files/stream_csv_finish.hpp"
+#include "format/outputs.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_setup.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

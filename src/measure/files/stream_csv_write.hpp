@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "format/output_file.hpp"
+#include "format/outputs.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {

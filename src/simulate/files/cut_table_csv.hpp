@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "trueaxis/virtual_cut.hpp"
+#include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis {
 

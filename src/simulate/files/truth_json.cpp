@@ -14,25 +14,6 @@ using namespace virtual_lathe;
 Json length(double value_mm) { return with_unit(value_mm, "mm"); }
 Json angle(double value_rad) { return with_unit(value_rad / rad_per_deg, "deg"); }
 
-/// A parameter whose unit inside is the suffix of its name.
-void put(Json& to, const std::string& name, double value) {
-  struct Suffix {
-    std::string_view inside;
-    const char* unit;
-    double factor;
-  };
-  static constexpr Suffix suffixes[] = {
-      {"_mm_per_rev", "mm/rev", 1.0},     {"_mm_per_s", "mm/s", 1.0}, {"_mm", "mm", 1.0},
-      {"_rad", "deg", 1.0 / rad_per_deg}, {"_hz", "Hz", 1.0},         {"_s", "s", 1.0}};
-  for (const Suffix& suffix : suffixes) {
-    if (!name.ends_with(suffix.inside)) continue;
-    to[name.substr(0, name.size() - suffix.inside.size())] =
-        with_unit(value * suffix.factor, suffix.unit);
-    return;
-  }
-  to[name] = with_unit(value, "1");
-}
-
 Json part_json(const Part& part) {
   static constexpr const char* kinds[] = {"cone", "cylinder", "plane"};
   Json parameters;
@@ -72,7 +53,9 @@ Json effects_json(const std::vector<Effect>& effects) {
   for (const Effect& effect : effects) {
     Json parameters = Json::object();
     for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
-      put(parameters, std::string(known.name), parameter(effect, known.name));
+      const NameAndUnit written = name_and_unit(known.name);
+      parameters[written.name] =
+          with_unit(written.factor * parameter(effect, known.name), written.unit);
     }
     list.push_back({{"effect", effect.id}, {"parameters", parameters}});
   }

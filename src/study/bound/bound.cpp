@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "simulate/clean_stream.hpp"
-#include "study/bound/estimated_parameters.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/error.hpp"
 

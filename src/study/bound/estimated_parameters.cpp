@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/bound/estimated_parameters.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

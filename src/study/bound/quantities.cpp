@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "surface/surface.hpp"
-#include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
@@ -75,15 +74,9 @@ std::vector<double> face_of(const Scenario& scenario) {
 }  // namespace
 
 SurfaceKind surface_of(PartKind kind) {
-  switch (kind) {
-    case PartKind::cone:
-      return SurfaceKind::cone;
-    case PartKind::cylinder:
-      return SurfaceKind::cylinder;
-    case PartKind::face:
-      return SurfaceKind::plane;
-  }
-  throw ContractViolation("a part without a surface that is fitted to it");
+  static constexpr SurfaceKind fitted[] = {SurfaceKind::cone, SurfaceKind::cylinder,
+                                           SurfaceKind::plane};
+  return fitted[static_cast<std::size_t>(kind)];
 }
 
 std::vector<Quantity> quantities(SurfaceKind surface) {

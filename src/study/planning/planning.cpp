@@ -9,12 +9,11 @@
 #include <utility>
 
 #include "simulate/clean_stream.hpp"
-#include "study/bound/estimated_parameters.hpp"
+#include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/planning/planning_search.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 

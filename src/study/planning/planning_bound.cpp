@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/planning/planning_bound.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "simulate/timeline.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/planning/planning_search.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "study/sweep/block.hpp"
-#include "study/sweep/run.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 
 namespace trueaxis::study {

@@ -5,8 +5,12 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <utility>
 
+#include "base/threads.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/diagnosis.hpp"
@@ -14,6 +18,7 @@
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis::study {
+
 namespace {
 
 using virtual_lathe::CleanStream;
@@ -233,6 +238,18 @@ std::vector<Block> blocks_of(const Sweep& sweep) {
       blocks.push_back({cell, first, std::min(most, sweep.repeats - first)});
   }
   return blocks;
+}
+
+void run_blocks(const Sweep& sweep, std::span<const Block> blocks, int threads,
+                const std::function<void(BlockResult&&)>& finished) {
+  std::mutex one_at_a_time;
+  for_each_index_with(blocks.size(), threads, [&]() -> IndexedWork {
+    return [&, worker = std::make_shared<Worker>(sweep)](std::size_t i) {
+      BlockResult result = worker->run(blocks[i]);
+      const std::lock_guard lock(one_at_a_time);
+      finished(std::move(result));
+    };
+  });
 }
 
 }  // namespace trueaxis::study

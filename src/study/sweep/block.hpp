@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,5 +63,11 @@ class Worker {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Runs blocks on `threads` threads (0: as many as there are), in about their order; `finished` is
+/// called for each as it is done, one call at a time. What it throws, or a block throws, ends the
+/// run and is thrown again.
+void run_blocks(const Sweep& sweep, std::span<const Block> blocks, int threads,
+                const std::function<void(BlockResult&&)>& finished);
 
 }  // namespace trueaxis::study

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "study/sweep/run.hpp"
+#include "study/sweep/block.hpp"
 #include "study/sweep/summary.hpp"
 
 namespace trueaxis::study {

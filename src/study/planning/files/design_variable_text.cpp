@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/planning/files/design_variable_text.hpp"
-
 #include <charconv>
 #include <cmath>
 
 #include "format/toml_units.hpp"
+#include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

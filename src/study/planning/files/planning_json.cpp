@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/planning/files/planning_json.hpp"
-
 #include "format/json.hpp"
+#include "study/planning/files/planning_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/planning/files/planning_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "format/text_layout.hpp"
+#include "study/planning/files/planning_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -32,17 +31,9 @@ std::string u_text(double length_mm) {
 
 std::string value_text(const PlannedMeasurement& plan, Choice choice) {
   const double value = plan.of(choice);
-  switch (choice) {
-    case Choice::readings_per_revolution:
-      return digits(4, value);
-    case Choice::sigma:
-      return digits(3, value / mm_per_um) + " µm";
-    case Choice::feed:
-      return digits(3, value) + " mm/rev";
-    case Choice::length:
-      break;
-  }
-  return digits(3, value) + " mm";
+  if (choice == Choice::readings_per_revolution) return digits(4, value);
+  if (choice == Choice::sigma) return digits(3, value / mm_per_um) + " µm";
+  return digits(3, value) + (choice == Choice::feed ? " mm/rev" : " mm");
 }
 
 const char* const head =

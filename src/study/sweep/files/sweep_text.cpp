@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "study/sweep/files/sweep_text.hpp"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "format/text_layout.hpp"
+#include "study/sweep/files/sweep_results.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace trueaxis::cli {
+
+// Each adds the command of its name to `app`; the code that it ends with goes to `exit_code`.
+void add_run(CLI::App& app, int& exit_code);
+void add_fit(CLI::App& app, int& exit_code);
+void add_diagnose(CLI::App& app, int& exit_code);
+void add_advise(CLI::App& app, int& exit_code);
+void add_correct(CLI::App& app, int& exit_code);
+void add_simulate(CLI::App& app, int& exit_code);
+void add_sweep(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
+void add_axis_bias(CLI::App& app, int& exit_code);
+void add_effects(CLI::App& app, int& exit_code);
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+/// What several commands check and are told alike.
+namespace trueaxis::cli {
+
+/// A finite number from `low` (itself not allowed when `open`) to `high`.
+inline CLI::Validator number_in(double low, bool open, double high, const std::string& meaning) {
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
+            const bool inside = number && value <= high && (open ? value > low : value >= low);
+            return inside ? std::string() : text + " is not " + meaning;
+          },
+          "", "number"};
+}
+
+inline CLI::Validator more_than_0() {
+  return {[](const std::string& text) -> std::string {
+            double value = 0.0;
+            if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value))
+              return text + " is no finite number";
+            return value > 0.0 ? "" : text + " must be more than 0";
+          },
+          "", "number"};
+}
+
+inline CLI::Validator a_length() { return number_in(0.0, false, 1e6, "a length of 0 to 1e6"); }
+inline CLI::Validator positive_length() {
+  return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");
+}
+
+/// `--false-alarm` of a diagnosis.
+inline void add_false_alarm(CLI::App& command, double& level) {
+  command
+      .add_option("--false-alarm", level, "chance of a finding in a stream that has none (0.01)")
+      ->check(number_in(0.0, true, 0.5, "a probability above 0, up to 0.5"));
+}
+
+/// A place to write to: any text but an empty one, which a script's empty variable gives.
+inline CLI::Validator a_place() {
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("is empty: name a place for the result")
+                                : std::string();
+          },
+          "", "place"};
+}
+
+/// `--force`, the same for every command that writes.
+inline CLI::Option* add_force(CLI::App& command, bool& force) {
+  return command.add_flag("--force", force,
+                          "replace files that are there and are not earlier results of this kind; "
+                          "never one that is read");
+}
+
+/// `--json`, `--residuals` and `--force` of a command that fits a stream.
+struct ResultOptions {
+  std::string json, residuals;
+  bool force = false;
+
+  void add_to(CLI::App& command, const std::string& residuals_hold) {
+    command.add_option("--json", json, "write the result here, '-' prints it")->check(a_place());
+    command.add_option("--residuals", residuals, "write every reading with " + residuals_hold)
+        ->check(a_place());
+    add_force(command, force);
+  }
+  void expect_apart() const {
+    if (!json.empty() && json == residuals)
+      throw CLI::ValidationError("--residuals", "cannot go where --json goes");
+  }
+  bool printed() const { return json == "-" || residuals == "-"; }
+};
+
+}  // namespace trueaxis::cli

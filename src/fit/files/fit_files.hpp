@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "format/json.hpp"
+#include "trueaxis/fit.hpp"
+
+namespace trueaxis {
+
+/// Schema trueaxis.fit/1: lengths in mm, angles in degrees, every number with unit and u or the
+/// reason why not.
+std::string fit_json(const FitResult& result);
+
+/// The same as an object, for results that hold one.
+Json fit_object(const FitResult& result);
+
+/// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
+/// derived quantities or covariance of the parameters; of each set-up the axis. One that did not
+/// converge has no numbers. @throws Json::exception and InputError for what is no fit.
+FitResult fit_from_object(const Json& json);
+
+/// The same of a file's text, converged and with the covariance of its axis.
+/// @param path of the text, for messages
+/// @throws InputError if it is no such trueaxis.fit/1.
+FitResult fit_from_json(std::string_view text, const std::string& path);
+
+/// The fit for a person at a terminal: status, parameters with U, what is left, what to do.
+std::string fit_text(const FitResult& result);
+
+}  // namespace trueaxis
