@@ -87,8 +87,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
                 : !out.findings.empty()  ? DiagnosisVerdict::effects
                                          : DiagnosisVerdict::ideal;
-  const std::vector<Unobservable> hidden =
-      unobservable_effects(refit->problem(), search.model, refit->joint().sigma_mm);
+  const std::vector<Unobservable> hidden = unobservable_effects(
+      refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
   AveragedAxis average =
       average_axis(refit->problem(), refit->joint(), explanation.ambiguous, hidden);
   out.named = refit->named();

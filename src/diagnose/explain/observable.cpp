@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
+#include <optional>
 
 #include "diagnose/search/causes.hpp"
 #include "math/statistics.hpp"
@@ -41,6 +42,31 @@ Typical typical_of(const Effect& effect, const Form& form, const LinearisationPo
   const bool angle = linear.unit == "rad";
   return {of_effect(effect, shape, form.free), size_of(effect, linear), angle ? "deg" : linear.unit,
           angle ? 1.0 / rad_per_deg : 1.0, std::string(form.told)};
+}
+
+/// The share of columns that is left beside others, RMS.
+double left_of(const Joint& joint, const Columns& columns, const Columns& beside) {
+  const Projection projection = project(joint.equations.total(), beside);
+  double kept = 0.0, whole = 0.0;
+  for (const std::size_t column : columns) {
+    const auto c = static_cast<Eigen::Index>(column);
+    kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
+  }
+  return whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
+}
+
+/// The term that takes columns in which the surface alone would leave; none: the surface does.
+std::optional<std::size_t> absorbing_term(const Joint& joint, const Columns& columns) {
+  if (left_of(joint, columns, joint.equations.base()) < nearly_absorbed) return {};
+  std::optional<std::size_t> most;
+  double largest = 0.0;
+  for (std::size_t t = 0; t < joint.fitted; ++t) {
+    Columns beside = joint.equations.base();
+    beside.insert(beside.end(), joint.places[t].begin(), joint.places[t].end());
+    const double taken = 1.0 - left_of(joint, columns, beside);
+    if (taken > largest) largest = taken, most = t;
+  }
+  return most;
 }
 
 }  // namespace
@@ -80,6 +106,7 @@ double typical_lambda(const Projection& projection, const Columns& columns, doub
 }
 
 std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
+                                               const std::vector<AmbiguousFinding>& findings,
                                                double sigma_mm) {
   const LinearisationPoint& point = problem.point;
   const std::vector<Typical> all = typical_effects(problem);
@@ -97,7 +124,11 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
         std::ranges::any_of(model.terms, [&](const Hypothesis& h) { return h.effect == &effect; });
     const bool listed = std::ranges::any_of(
         out, [&](const Unobservable& h) { return h.typical.hypothesis.effect == &effect; });
-    if (named || listed) continue;
+    const bool in_a_class = std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
+      return std::ranges::any_of(
+          f.found.members, [&](const Candidate& c) { return c.hypothesis.effect == &effect; });
+    });
+    if (named || listed || in_a_class) continue;
     const Columns& own = joint.places[model.terms.size() + k];
     Unobservable h{t, {}, 0.0, 0.0};
     h.entry.effect = effect.id;
@@ -130,8 +161,10 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     } else if (whole <= 0.0) {
       h.entry.why = "the plan has no readings in which it shows";
     } else if (share < nearly_absorbed) {
-      const std::string by(effect.absorbed_by.empty() ? "the surface's own parameters"
-                                                      : effect.absorbed_by);
+      const std::optional<std::size_t> finding = absorbing_term(joint, own);
+      const std::string by(finding ? "the finding " + model.terms[*finding].id()
+                           : effect.absorbed_by.empty() ? "the surface's own parameters"
+                                                        : effect.absorbed_by);
       h.entry.why = fmt::format("absorbed by {}: {:.2g} % of it is left", by, 100.0 * share);
     } else {
       h.entry.why =

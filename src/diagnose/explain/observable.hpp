@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/regression/joint.hpp"
 #include "diagnose/search/search.hpp"
 #include "trueaxis/diagnosis.hpp"
@@ -37,8 +38,10 @@ struct Unobservable {
   double axis_bias_mm = 0.0;  ///< at the typical size
   double power = 0.0;
 };
-/// Eq. 98.
+/// Eq. 98. One that is in the class of a finding is said there; of one that a finding takes in,
+/// which.
 std::vector<Unobservable> unobservable_effects(const Problem& problem, const Model& model,
+                                               const std::vector<AmbiguousFinding>& findings,
                                                double sigma_mm);
 
 }  // namespace trueaxis::diagnose_detail
