@@ -180,10 +180,17 @@ double true_coaxiality(const Drawn& drawn, const Axis& cut) {
   double worst = 0.0;
   for (const Scenario& s : drawn.scenarios) {
     const double n = std::sqrt(1.0 - s.part.l * s.part.l - s.part.m * s.part.m);
+    double x = s.part.x0_mm + drawn.slip_x_mm, y = s.part.y0_mm + drawn.slip_y_mm;
+    for (const virtual_lathe::Effect& effect : s.effects) {
+      if (effect.id != "part.bow") continue;  // its axis is the line nearest to the parabola
+      const double away = effect.parameters.at("sagitta_mm") / 3.0;
+      x += away * std::cos(effect.parameters.at("direction_rad"));
+      y += away * std::sin(effect.parameters.at("direction_rad"));
+    }
     for (const double z : {drawn.job.target->z_start_mm, drawn.job.target->z_end_mm}) {
-      const auto [x, y] = cut.at(z);
-      worst = std::max(worst, std::hypot(s.part.x0_mm + drawn.slip_x_mm + s.part.l / n * z - x,
-                                         s.part.y0_mm + drawn.slip_y_mm + s.part.m / n * z - y));
+      const auto [cut_x, cut_y] = cut.at(z);
+      worst =
+          std::max(worst, std::hypot(x + s.part.l / n * z - cut_x, y + s.part.m / n * z - cut_y));
     }
   }
   return 2.0 * worst;

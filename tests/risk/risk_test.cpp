@@ -29,10 +29,6 @@ TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
   RecordProperty("seed", std::to_string(first_seed));
   RecordProperty("out", std::to_string(out) + " of " + std::to_string(go));
   EXPECT_EQ(far_out, 0);
-  if (GetParam() == Group::slip || GetParam() == Group::slip_without_t) {
-    EXPECT_EQ(go, 0) << "the part stands elsewhere";
-    return;
-  }
   EXPECT_GE(go, jobs / 2) << "a verdict that always refuses is none";
   // 1 in 10 000 streams of tests fails by chance.
   const double most = boost::math::quantile(Binomial(go, nonconformity_risk), 1.0 - 1e-4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A slip that a diagnosis names, or cannot exclude, forbids the table and says so plainly.
+// A slip that is sure is said; one that is not, or cannot be excluded, forbids the table.
 #include "job/slip.hpp"
 
 #include <gtest/gtest.h>
@@ -28,18 +28,42 @@ JobResult found(const std::vector<Finding>& findings) {
   return result;
 }
 
+/// Sure but for a pattern that nobody explains.
+JobResult unsure(const std::vector<Finding>& findings) {
+  JobResult result = found(findings);
+  result.diagnoses.front()->unexplained.emplace_back();
+  return result;
+}
+
+TEST(Slip, OneThatIsSureIsNoObjection) {
+  const Finding step = slipped(
+      {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
+  EXPECT_EQ(slip_objection(found({step})), "");
+  EXPECT_EQ(moved_part(found({step})),
+            "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: the axis is that of "
+            "the part as it now stands");
+  EXPECT_EQ(moved_part(unsure({step})), "");
+}
+
+TEST(Slip, TwoOrOneWithRivalsAreNotSure) {
+  Finding step = slipped({example::parameter("dx", 0.012, 0.003, "mm")});
+  EXPECT_NE(slip_objection(found({step, step})), "");
+  step.rivals = {{"part.bow", 0.4, 1.1, 0.37, false}};
+  EXPECT_NE(slip_objection(found({step})), "");
+}
+
 TEST(Slip, AStepIsGivenAsItsLength) {
   // 3-4-5: u of the length is that along its direction, √(0.6² 3² + 0.8² 1²) = 1.97 µm.
   const Finding step = slipped(
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
-  EXPECT_EQ(slip_objection(found({step})),
+  EXPECT_EQ(slip_objection(unsure({step})),
             "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: clamp it again and "
             "probe again");
 }
 
 TEST(Slip, ATurnIsGivenInDegrees) {
   const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
-  EXPECT_EQ(slip_objection(found({turn})),
+  EXPECT_EQ(slip_objection(unsure({turn})),
             "seat: the part slipped in the chuck at 12.0 s by 9.5 ± 1.0°: clamp it again and probe "
             "again");
 }
@@ -74,7 +98,7 @@ TEST(Slip, TheTextSaysWhoseAxisItIs) {
     const JobResult result = found({slip ? turn : example::lobes()});
     for (const std::string& text :
          {diagnosis_text(*result.diagnoses.front()), findings_text(*result.diagnoses.front())})
-      EXPECT_EQ(text.find("that of before the slip") != std::string::npos, slip) << text;
+      EXPECT_EQ(text.find("as it stands after the slip") != std::string::npos, slip) << text;
   }
 }
 

@@ -12,7 +12,7 @@
 namespace trueaxis::diagnose_detail {
 
 /// The base of the model averaged over all that may have caused the readings (Hoeting et al. 1999,
-/// Statistical Science 14, 382), weighted by their probability (Eqs. 95–95c).
+/// Statistical Science 14, 382), weighted by their probability (Eq. 95).
 struct AveragedAxis {
   Eigen::VectorXd shift;          ///< of the base, against that of the named model by least squares
   Eigen::MatrixXd within;         ///< covariance of the base by the noise, sizes being plausible

@@ -18,7 +18,7 @@ struct Family {
 };
 
 /// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008), and what a second
-/// harmonic costs that no jaws make (Eq. 78).
+/// harmonic costs that no jaws make (Eqs. 78, 80a).
 double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
 
 /// ln p of an F test: `gain` for `rank` columns off `rss` with `freedom` degrees of freedom before.

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The axis after a diagnosis on a few streams of the axis study; docs/axis_study.md has many.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "axis/axis_case.hpp"
+
+namespace trueaxis::axis {
+namespace {
+
+constexpr std::uint64_t seed = 4100;
+constexpr int streams = 16;
+
+struct Sums {
+  double ideal = 0.0, stated = 0.0;
+  int covered = 0;
+};
+
+Sums run(Group group) {
+  Sums sums;
+  for (int i = 0; i < streams; ++i) {
+    const Outcome o = run_case(group, seed + static_cast<std::uint64_t>(i));
+    sums.ideal += std::pow(o.ideal.rms_mm(), 2), sums.stated += std::pow(o.extended.rms_mm(), 2);
+    sums.covered += o.extended.covered();
+  }
+  return sums;
+}
+
+TEST(AxisStudy, SeveralSmallEffectsMakeTheAxisNoWorse) {
+  const Sums sums = run(Group::mixture);
+  EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
+  // The four numbers of a stream go together: of 16 streams covered with probability 0.9 each,
+  // fewer than 11 are by chance 0.3 times in 100.
+  EXPECT_GE(sums.covered, 4 * 11) << "seed " << seed;
+}
+
+// The ideal fit mixes what was probed before the slip and after it.
+TEST(AxisStudy, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
+  const Sums sums = run(Group::slip);
+  EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
+}
+
+// The nearest straight line of κ(s − middle)² is κ L²/12 all over the length: its ends and its
+// middle are on either side of it.
+TEST(AxisStudy, TheTrueAxisOfABentPartIsItsNearestLine) {
+  Case of;
+  of.low_mm = 0.0, of.high_mm = 60.0;
+  of.scenario.plan.passes.resize(1);
+  of.scenario.effects = {
+      {"part.bow",
+       {{"sagitta_mm", 0.03}, {"length_mm", 60.0}, {"middle_mm", 30.0}, {"direction_rad", 0.0}}}};
+  double sum = 0.0, moment = 0.0;  // residuals of the parabola about the stated line
+  const std::array<double, 4> ends = true_ends(of);
+  for (int i = 0; i < 6000; ++i) {
+    const double s = (i + 0.5) * 0.01, bent = 0.03 * std::pow((s - 30.0) / 30.0, 2);
+    const double left = bent - (ends[0] + (ends[2] - ends[0]) * s / 60.0);
+    sum += left, moment += left * (s - 30.0);
+  }
+  EXPECT_NEAR(sum / 6000, 0.0, 1e-8);  // the rectangle rule errs by 0.03/(12 · 6000²) · 8
+  EXPECT_NEAR(moment / 6000, 0.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace trueaxis::axis

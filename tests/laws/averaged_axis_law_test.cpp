@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/sweep_examples.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using namespace virtual_lathe;
+
+double apart_mm(const FitResult& a, const FitResult& b) {
+  double worst = 0.0;
+  for (const double z : {a.position_min_mm, a.position_max_mm}) {
+    const auto p = a.axis.axis.at(z), q = b.axis.axis.at(z);
+    worst = std::max(worst, std::hypot(p[0] - q[0], p[1] - q[1]));
+  }
+  return worst;
+}
+
+// Two undulations of some tenths of a µm that grow along a small cylinder look like a probe that is
+// millimetres off its height, by which the axis would be tens of µm elsewhere.
+TEST(AveragedAxis, FollowsNoCauseThatIsImplausiblyLarge) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    Scenario s = probed_part(PartKind::cylinder);
+    s.part.radius_mm = 17.0;
+    s.part.x0_mm = 0.15, s.part.y0_mm = -0.1;
+    s.noise.sigma_mm = 0.001;
+    s.plan.passes[0].end_mm = 40.0;
+    s.plan.passes[0].feed_mm_per_rev = 1.0;
+    s.plan.passes[0].readings_per_revolution = 36.7;
+    s.effects = {{"spindle.tilt_synchronous",
+                  {{"order", 2.0},
+                   {"amplitude_rad", 4e-6},
+                   {"bearing_mm", -60.0},
+                   {"phase_rad", 0.4 * static_cast<double>(seed)}}}};
+    s.seed = seed;
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cylinder;
+    const Diagnosis d = diagnose(simulate(s), options);
+    for (const Finding& finding : d.findings) EXPECT_NE(finding.effect(), "probe.height");
+    // The ideal axis is off by thousandths of the ovality and by its noise.
+    EXPECT_LT(apart_mm(d.extended, d.baseline), 5e-4) << "seed " << seed;
+    EXPECT_LT(d.extended.axis.u_at(0.0), 5e-4) << "seed " << seed;
+  }
+}
+
+// What the named model and the average have in common: one base, moved by what the shares say.
+TEST(AveragedAxis, IsBetweenTheModelsItIsTheAverageOf) {
+  Scenario s = probed_part(PartKind::cone);
+  s.noise.sigma_mm = 0.002;
+  s.effects = {{"part.roundness", {{"order", 2.0}, {"amplitude_mm", 0.004}, {"phase_rad", 1.0}}}};
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::cone;
+  const Diagnosis d = diagnose(simulate(s), options);
+  ASSERT_FALSE(d.findings.empty());
+  double most_mm = 0.0;
+  for (const AxisShare& share : d.shares) {
+    EXPECT_GT(share.probability, 0.0);
+    EXPECT_LE(share.probability, 1.0);
+    most_mm += share.probability * share.axis_shift.value;
+  }
+  // Shares below 1e-3 are not listed; sizes shrink by less than the noise of the axis.
+  EXPECT_LE(apart_mm(d.extended, d.named), most_mm + d.named.axis.u_at(d.named.position_max_mm));
+  EXPECT_GE(d.extended.axis.u_at(d.extended.position_min_mm),
+            0.99 * d.named.axis.u_at(d.named.position_min_mm));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

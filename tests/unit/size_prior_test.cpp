@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/regression/size_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <numbers>
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+using boost::math::quadrature::gauss_kronrod;
+
+double normal(double x, double sigma) {
+  return std::exp(-0.5 * x * x / (sigma * sigma)) / (sigma * std::sqrt(2.0 * std::numbers::pi));
+}
+
+/// −2 ln of ∫∫ L(a)/L(0) N(a; 0, s²) p(ln s) da d ln s for a column of Gram `gram` that is found at
+/// `a_hat`, σ = 1.
+double by_quadrature(double gram, double a_hat, double median, double spread) {
+  const auto over_scale = [&](double log_scale) {
+    const double s = median * std::exp(log_scale);
+    const auto over_size = [&](double a) {
+      return std::exp(-0.5 * gram * (a - a_hat) * (a - a_hat)) * normal(a, s);
+    };
+    const double width = std::min(s, 1.0 / std::sqrt(gram));
+    const double about = a_hat * s * s / (s * s + 1.0 / gram);
+    return normal(log_scale, spread) * gauss_kronrod<double, 31>::integrate(
+                                           over_size, about - 9.0 * width, about + 9.0 * width, 8);
+  };
+  const double integral =
+      gauss_kronrod<double, 31>::integrate(over_scale, -5.0 * spread, 5.0 * spread, 8);
+  return -2.0 * std::log(integral) - gram * a_hat * a_hat;
+}
+
+Weighed weighed(double gram, double a_hat, double median, double spread) {
+  const SizePrior prior{Eigen::VectorXd::Constant(1, median), spread};
+  const double rss = 1e6 + gram * a_hat * a_hat;  // so many readings that σ is known: 1
+  return weigh(prior, Eigen::MatrixXd::Constant(1, 1, gram),
+               Eigen::VectorXd::Constant(1, gram * a_hat), Eigen::VectorXd::Constant(1, gram), rss,
+               1e6 + 1.0);
+}
+
+// Nine scales a spread apart stand for the integral over all: 2 ln of their sum is off by tenths
+// where the data choose one scale, and by what the tail is heavier beyond three spreads.
+TEST(SizePrior, TheMarginalLikelihoodIsTheIntegral) {
+  for (const double spread : {1.0, 1.4})
+    for (const double a_hat : {0.0, 0.05, 0.2, 1.0, 3.0, 8.0})
+      for (const double gram : {1e-2, 1.0, 1e2, 1e4})
+        EXPECT_NEAR(weighed(gram, a_hat, 0.5, spread).criterion,
+                    by_quadrature(gram, a_hat, 0.5, spread), 0.5)
+            << "a " << a_hat << ", gram " << gram << ", spread " << spread;
+}
+
+TEST(SizePrior, WhatTheDataDoNotDetermineShrinksAndWhatTheyDoStays) {
+  EXPECT_NEAR(weighed(1e6, 0.7, 0.5, 1.0).mean(0), 0.7, 1e-5);
+  const Weighed loose = weighed(0.05, 6.0, 0.2, 1.0);  // 6.0 ± 4.5 where 0.2 is usual
+  EXPECT_LT(std::abs(loose.mean(0)), 1.0);
+  EXPECT_LT(loose.covariance(0, 0), 1.0 / 0.05);
+  EXPECT_GT(loose.criterion, -1.0);  // hardly better than none
+}
+
+TEST(SizePrior, AColumnThatTheSurfaceTakesInSaysNothing) {
+  const SizePrior prior{Eigen::VectorXd::Constant(1, 0.5), 1.0};
+  const Weighed none =
+      weigh(prior, Eigen::MatrixXd::Constant(1, 1, 1e-12), Eigen::VectorXd::Constant(1, 1e-9),
+            Eigen::VectorXd::Constant(1, 1e4), 1e3, 1e3);
+  EXPECT_NEAR(none.criterion, 0.0, 1e-2);
+  EXPECT_EQ(none.mean(0), 0.0);
+  EXPECT_GT(none.covariance(0, 0), 0.25);  // the prior alone
+}
+
+// Without a known size it is the BIC: ln N of a column that the surface leaves whole.
+TEST(SizePrior, AnUnknownSizeIsTheBic) {
+  const double n = 2000.0, gram = 500.0, a_hat = 0.3, rss = n + gram * a_hat * a_hat;
+  const SizePrior unknown{Eigen::VectorXd::Zero(1), 1.0};
+  const double criterion =
+      weigh(unknown, Eigen::MatrixXd::Constant(1, 1, gram),
+            Eigen::VectorXd::Constant(1, gram * a_hat), Eigen::VectorXd::Constant(1, gram), rss, n)
+          .criterion;
+  EXPECT_NEAR(criterion, n * std::log(1.0 - gram * a_hat * a_hat / rss) + std::log(n), 0.1);
+}
+
+}  // namespace
+}  // namespace trueaxis::diagnose_detail
