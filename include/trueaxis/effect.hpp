@@ -62,7 +62,7 @@ struct Harmonic {
   enum class Envelope {
     constant,  ///< 1
     growing,   ///< 1 and u
-    lever,     ///< Z − Z_bearing
+    lever,     ///< Z − Z_bearing, and 1: a tilt and a radial motion, each with its own phase
     jaws,      ///< exp(−|s − s_jaw|/L) × force; orders n and 2n
     parabola  ///< (u² − 1/3) cos α: an axis bent about its nearest line, for n = 1 along the normal
   };
@@ -328,11 +328,9 @@ struct TermValue {
   TermShape shape;                 ///< of an effect
   std::vector<std::size_t> free;   ///< which linear parameters are free; empty: all
   Pattern pattern;                 ///< of no effect
-  bool with_radial = false;  ///< beside a tilt motion the radial one of its order: a lever anywhere
 
-  /// Amplitudes in the order of linear_parameters(effect->term, shape), 0 where not free, then
-  /// those of the radial motion; of a pattern the factors of cos and sin, or of the bump. mm, rad,
-  /// s. Empty: not fitted.
+  /// Amplitudes in the order of linear_parameters(effect->term, shape), 0 where not free; of a
+  /// pattern the factors of cos and sin, or of the bump. mm, rad, s. Empty: not fitted.
   std::vector<double> linear;
   std::vector<double> covariance;  ///< of `linear`, row-major; empty: not fitted
 

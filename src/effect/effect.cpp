@@ -122,9 +122,7 @@ std::size_t TermValue::columns() const {
     const bool line = pattern.kind == Pattern::Kind::line;
     return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
   }
-  const std::size_t own =
-      free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
-  return own + (with_radial ? 2 : 0);
+  return free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
 }
 
 std::span<const Effect> effect_catalogue() {

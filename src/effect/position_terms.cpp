@@ -87,6 +87,10 @@ Parameters parameters(const Harmonic& term, const TermShape&) {
   if (term.envelope == Envelope::lever) out.shape.emplace_back("lever_from_mm");
   if (term.envelope == Envelope::growing)
     out.linear.insert(out.linear.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
+  if (term.envelope == Envelope::lever) {
+    const std::string at_bearing = unit_of(term.port);
+    out.linear.insert(out.linear.end(), {{"radial_cos", at_bearing}, {"radial_sin", at_bearing}});
+  }
   if (term.envelope == Envelope::jaws) {
     out.linear.insert(out.linear.end(), {{"second_cos", unit}, {"second_sin", unit}});
     out.shape.insert(out.shape.end(), {"lever_from_mm", "decay_length_mm"});
@@ -104,9 +108,11 @@ void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, C
     for (std::size_t i = 0; i < at.size(); ++i) turned[i] *= 2.0;
     contact::sin_cos(at, turned.data(), out[3], out[2]);
   }
-  const Columns own = term.envelope == Envelope::growing ? out.first(2) : out;
-  scale_by_envelope(term, at, shape, own);
-  contact::scale_by_dx_d(term.port, at, own);
+  if (term.envelope == Envelope::lever)
+    for (const std::size_t j : {0u, 1u}) std::copy_n(out[j], at.size(), out[j + 2]);
+  const bool two_envelopes = term.envelope == Envelope::growing || term.envelope == Envelope::lever;
+  scale_by_envelope(term, at, shape, two_envelopes ? out.first(2) : out);
+  contact::scale_by_dx_d(term.port, at, term.envelope == Envelope::growing ? out.first(2) : out);
   if (term.envelope == Envelope::growing) fill_growing(term, at, out);
 }
 

@@ -79,6 +79,15 @@ LatheEffects roundness(const std::string& id, const Parameters& values) {
   return {constant, by_name(id, growth)};
 }
 
+/// In the lathe a tilt is about a bearing; what is beside it is radial.
+LatheEffects tilt(const std::string& id, const Parameters& values) {
+  return {by_name(id, values),
+          {"spindle.radial_synchronous",
+           {{"order", values.at("order")},
+            {"amplitude_mm", values.at("radial")},
+            {"phase_rad", values.at("radial_phase")}}}};
+}
+
 /// In the lathe the ring's theory ties the second harmonic to the first.
 LatheEffects chuck_lobing(const TermValue& term) {
   const TermShape& shape = term.shape;
@@ -115,6 +124,7 @@ LatheEffects of_effect(TermValue term, const LatheFrame& frame) {
   if (id == "part.roundness") return roundness(id, values_in(term, frame));
   if (id == "part.chuck_lobing") return chuck_lobing(term);
   if (id == "slide.z_straightness") return straightness(id, term);
+  if (id == "spindle.tilt_synchronous") return tilt(id, values_in(term, frame));
   return {by_name(id, values_in(term, frame))};
 }
 

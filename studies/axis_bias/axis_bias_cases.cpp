@@ -132,7 +132,7 @@ std::vector<AxisBiasCase> machine_cases(const Where& at) {
   rate.directions = {{{1.0 / at.duration_s}}};
   return {mm("spindle.radial_synchronous", "2 UPR", {.order = 2}),
           angle(mm("spindle.tilt_synchronous", "2 UPR, bearing at Z = -250",
-                   {.order = 2, .lever_from_mm = bearing_mm}),
+                   {.order = 2, .lever_from_mm = bearing_mm}, {0, 1}),
                 small_slope_rad),
           mm("spindle.axial_synchronous", "2 UPR", {.order = 2}),
           mm("spindle.asynchronous", "0.43 per turn", {.order = 0.43}),

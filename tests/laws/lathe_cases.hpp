@@ -117,7 +117,7 @@ inline std::vector<LatheCase> lathe_cases() {
              {"order", 2}, {"amplitude_rad", a}, {"phase_rad", phi}, {"bearing_mm", -150}};
        },
        {.order = 2, .lever_from_mm = -150},
-       {co, si}},
+       {co, si, 0.0, 0.0}},
       {"spindle.axial_synchronous",
        1e-3,
        [](double a) {

@@ -44,8 +44,8 @@ inline Finding lobes() {
 
 inline Finding tilt_motion() {
   Finding finding;
-  finding.term =
-      fitted("spindle.tilt_synchronous", {.order = 2.0, .lever_from_mm = -120.0}, {1.9e-5, -2e-6});
+  finding.term = fitted("spindle.tilt_synchronous", {.order = 2.0, .lever_from_mm = -120.0},
+                        {1.9e-5, -2e-6, 0.0, 0.0});
   finding.parameters = {parameter("amplitude", 0.0011, 1e-4, "deg")};
   finding.p_value = 0.004;
   finding.probability = 1.0;

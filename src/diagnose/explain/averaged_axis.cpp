@@ -101,8 +101,7 @@ class Averaging {
   }
 
   Weighed weigh_term(std::size_t place, const Projection& beside) const {
-    return weigh(wide_.terms[place], problem_.point, beside, wide_.places[place],
-                 wide_.equations.count());
+    return weigh(wide_.terms[place], beside, wide_.places[place], wide_.equations.count());
   }
 
   /// −2 ln of the odds of a term against none.

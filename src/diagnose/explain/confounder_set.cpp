@@ -108,8 +108,7 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
   });
   ConfounderSet sorted{{out.members.front()}, {}, out.probability};
   for (const std::size_t r : order) {
-    if (out.rivals[r].probability < implausible && !out.members[r + 1].hypothesis.with_radial)
-      continue;
+    if (out.rivals[r].probability < implausible) continue;
     sorted.members.push_back(out.members[r + 1]);
     sorted.rivals.push_back(out.rivals[r]);
   }

@@ -77,12 +77,6 @@ void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::si
           std::size_t end, std::span<double* const> columns) {
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
   const Term& term = hypothesis.effect->term;
-  if (hypothesis.with_radial) {
-    static const Term radial =
-        Harmonic{Harmonic::Angle::spindle, Harmonic::Envelope::constant, Port::x};
-    fill_columns(radial, point.context(begin, end), hypothesis.shape, columns.last(2));
-    columns = columns.first(columns.size() - 2);
-  }
   if (hypothesis.free.empty()) {
     return fill_columns(term, point.context(begin, end), hypothesis.shape, columns);
   }

@@ -47,13 +47,12 @@ Range range_of_size(const Effect& effect, const TermShape& shape, std::string_vi
 
 }  // namespace
 
-SizePrior size_prior(const Hypothesis& h, const LinearisationPoint& point) {
+SizePrior size_prior(const Hypothesis& h) {
   const auto count = static_cast<Eigen::Index>(h.columns());
   SizePrior out{Eigen::VectorXd::Zero(count), least_spread};
   if (!h.effect) return out;
   const auto names = linear_parameters(h.effect->term, h.shape);
-  const Eigen::Index own = count - (h.with_radial ? 2 : 0);
-  for (Eigen::Index j = 0; j < own; ++j) {
+  for (Eigen::Index j = 0; j < count; ++j) {
     const auto k = static_cast<std::size_t>(j);
     const std::string& name = names[h.free.empty() ? k : h.free[k]].name;
     const Range range = range_of_size(*h.effect, h.shape, name);
@@ -62,11 +61,6 @@ SizePrior size_prior(const Hypothesis& h, const LinearisationPoint& point) {
     out.spread = std::max(out.spread, range.spread);
   }
   out.spread *= h.effect->wear;
-  if (h.with_radial) {  // as large as the tilt makes it over its lever
-    const double lever =
-        std::max(std::abs(point.z_mid_mm - h.shape.lever_from_mm), point.z_half_mm);
-    out.median.tail(2).setConstant(out.median(0) * lever);
-  }
   return out;
 }
 
@@ -139,9 +133,9 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
   return out;
 }
 
-Weighed weigh(const Hypothesis& hypothesis, const LinearisationPoint& point,
-              const Projection& projection, const Columns& own, std::size_t count) {
-  return weigh(size_prior(hypothesis, point), projection.gram(own, own), projection.gram(own, 0),
+Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
+              std::size_t count) {
+  return weigh(size_prior(hypothesis), projection.gram(own, own), projection.gram(own, 0),
                projection.norm2(own), projection.rss,
                static_cast<double>(count - std::min(count, projection.rank)));
 }

@@ -13,7 +13,7 @@ struct SizePrior {
   Eigen::VectorXd median;  ///< of the scale of every column, mm, rad, s; 0: no size is known
   double spread = 1.0;     ///< standard deviation of the logarithm of the scale
 };
-SizePrior size_prior(const Hypothesis& hypothesis, const LinearisationPoint& point);
+SizePrior size_prior(const Hypothesis& hypothesis);
 
 /// What data and prior say of a term beside others.
 struct Weighed {
@@ -33,7 +33,7 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
 
 /// The same of a hypothesis whose columns are `own`, beside what the projection took out.
 /// @param count rows of the equations
-Weighed weigh(const Hypothesis& hypothesis, const LinearisationPoint& point,
-              const Projection& projection, const Columns& own, std::size_t count);
+Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
+              std::size_t count);
 
 }  // namespace trueaxis::diagnose_detail

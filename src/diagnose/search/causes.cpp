@@ -189,7 +189,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
     }
     return list;
   }
-  if (!h.effect->refinement || h.with_radial) return list;
+  if (!h.effect->refinement) return list;
   const Refinement& r = *h.effect->refinement;
   if (r.reader && std::ranges::find(h.free, *r.reader) == h.free.end()) return list;
   const Extent time = range_of(point.time);

@@ -47,7 +47,7 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
     Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
     c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
     if (s.rank > 0) {
-      const Weighed weighed = weigh(list[h], equations.point(), projection, own, equations.count());
+      const Weighed weighed = weigh(list[h], projection, own, equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
     }
     out.push_back(std::move(c));
@@ -125,9 +125,8 @@ void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypo
     const auto* tilt = std::get_if<Harmonic>(&effect->term);
     if (!tilt || tilt->envelope != Harmonic::Envelope::lever) continue;
     TermShape shape = named.shape;
-    shape.lever_from_mm = typical_shape(*effect, problem.point).lever_from_mm;
+    shape.lever_from_mm = problem.point.z_mid_mm;
     list.push_back(of_effect(*effect, shape, {}, problem.resolution.harmonics));
-    list.back().with_radial = true;
   }
 }
 

@@ -199,7 +199,7 @@ class StepwiseSearch {
     for (std::size_t i = 0; i < model.terms.size(); ++i) {
       const Hypothesis& h = model.terms[i];
       const Projection beside = project(f.equations.total(), besides(f, i));
-      const Weighed weighed = weigh(h, problem_.point, beside, f.places[i], f.equations.count());
+      const Weighed weighed = weigh(h, beside, f.places[i], f.equations.count());
       const double gain = score(beside, f.places[i]).gain;
       sum += weighed.criterion + choice_of(h, weighed.mean) + (h.effect ? 0.0 : catalogue_first) -
              static_cast<double>(f.equations.count() - beside.rank) *
