@@ -15,6 +15,7 @@
 #include "trueaxis/probe_stream.hpp"   // the readings
 #include "trueaxis/profile.hpp"        // a surface of one's own
 #include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
+#include "trueaxis/spindle.hpp"        // part and spindle separated
 #include "trueaxis/study.hpp"          // repeats against the Cramér-Rao bound
 #include "trueaxis/surface.hpp"        // axis, cone and cylinder, exact intersection
 #include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg

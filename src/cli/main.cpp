@@ -13,6 +13,7 @@
 #include "cli/plan.hpp"
 #include "cli/run.hpp"
 #include "cli/simulate.hpp"
+#include "cli/spindle.hpp"
 #include "cli/sweep.hpp"
 #include "trueaxis/error.hpp"
 
@@ -36,6 +37,7 @@ int run(int argc, char** argv) {
   add_simulate(app, code);
   add_sweep(app, code);
   add_plan(app, code);
+  add_spindle(app, code);
   add_axis_bias(app, code);
   add_effects(app, code);
   try {

@@ -7,6 +7,7 @@
 
 #include "measure/files/stream_csv_comment.hpp"
 #include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_sensors.hpp"
 #include "measure/files/stream_csv_setup.hpp"
 #include "measure/files/stream_csv_unit.hpp"
 
@@ -22,7 +23,8 @@ std::string lower_case(std::string_view text) {
 
 bool is_known(std::string_view key) {
   constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
-                                       "sensor_noise", "spindle_rpm", "ball_radius"};
+                                       "sensor_noise", "spindle_rpm", "ball_radius",
+                                       "sensor_angles"};
   return csv_is_setup_key(key) ||
          std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
@@ -155,6 +157,10 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     const auto radius_mm = parse_length_mm(value);
     if (!radius_mm || *radius_mm < 0.0) return refuse("a length, such as 1.5 mm");
     known.ball_radius_mm = radius_mm;
+  } else if (key == "sensor_angles") {
+    const std::string wrong = csv_take_sensor_angles(value, known.sensor_angles_rad);
+    if (!wrong.empty()) return diagnostics_.add(line, column, key + ": " + wrong);
+    known.sensor_angles_place = {line, column};
   } else {
     const auto rpm = parse_number(value);
     if (!rpm || !(rpm->unit.empty() || rpm->unit == "rpm")) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/probe_stream.hpp"
@@ -22,6 +23,8 @@ struct CsvKnownMetadata {
   struct Place {
     std::size_t line = 0, column = 0;
   };
+  std::vector<double> sensor_angles_rad;
+  Place sensor_angles_place;
   std::map<int, Place> set_up_places;  ///< where each is first spoken of
 };
 
