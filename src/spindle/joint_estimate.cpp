@@ -20,6 +20,24 @@ constexpr double outlying = 8.0;         // robust σ: no noise, a chip
 constexpr double least_sigma_mm = 1e-6;  // below it rounding is not Gaussian
 constexpr double contradiction = 1.5;    // χ²/ν from which sensors and set-ups disagree
 
+/// Values less the median of those at about the same angle: a chip that has moved the mean of its
+/// angle does not make its neighbours of other turns look like chips.
+std::vector<double> less_usual(std::span<const double> c_rad, std::span<const double> value,
+                               double per_turn) {
+  const auto places = static_cast<std::size_t>(std::max(1.0, std::round(per_turn)));
+  std::vector<std::vector<std::size_t>> at(places);
+  for (std::size_t i = 0; i < value.size(); ++i) at[place_in_turn(c_rad[i], places)].push_back(i);
+  std::vector<double> out(value.begin(), value.end());
+  for (const std::vector<std::size_t>& rows : at) {
+    if (rows.empty()) continue;
+    std::vector<double> here;
+    for (const std::size_t i : rows) here.push_back(value[i]);
+    const double usual = median(std::move(here));
+    for (const std::size_t i : rows) out[i] -= usual;
+  }
+  return out;
+}
+
 }  // namespace
 
 JointEstimate::JointEstimate(std::vector<RunReadings> runs, const SpindleOptions& options)
@@ -33,6 +51,7 @@ JointEstimate::JointEstimate(std::vector<RunReadings> runs, const SpindleOptions
   fit();
   leave_outliers_out();
   solve();
+  for (const SynchronousPart& part : parts_) linear_.push_back(part.harmonics);
   for (int round = 0; round < second_order_rounds && has_radius(); ++round) {
     correct();
     solve();
@@ -121,12 +140,14 @@ void JointEstimate::leave_outliers_out() {
   bool any = false;
   for (std::size_t r = 0; r < runs_.size(); ++r) {
     const Eigen::MatrixXd& left = parts_[r].asynchronous_mm;
-    std::vector<bool> marks(static_cast<std::size_t>(left.rows()), false);
+    std::vector<bool> marks(runs_[r].c_rad.size(), false);
+    const double per_turn = static_cast<double>(marks.size()) / fits_[r].turns();
     for (Index s = 0; s < left.cols(); ++s) {
-      const std::span column(left.col(s).data(), marks.size());
-      const double limit = outlying * std::max(mad_sigma(column), least_sigma_mm);
+      const std::vector<double> off =
+          less_usual(runs_[r].c_rad, {left.col(s).data(), marks.size()}, per_turn);
+      const double limit = outlying * std::max(mad_sigma(off), least_sigma_mm);
       for (std::size_t i = 0; i < marks.size(); ++i)
-        marks[i] = marks[i] || std::abs(column[i]) > limit;
+        marks[i] = marks[i] || std::abs(off[i]) > limit;
     }
     if (std::ranges::find(marks, true) == marks.end()) continue;
     leave_out(runs_[r], marks);
@@ -153,13 +174,14 @@ void JointEstimate::correct() {
   const Series across = guessed(layout_.across());
   remainder_mm_ = remainder(form, along);
   for (std::size_t r = 0; r < runs_.size(); ++r) {
-    auto columns = runs_[r].columns_mm;
-    for (std::size_t s = 0; s < columns.size(); ++s) {
-      const auto left =
-          second_order(runs_[r], s, sensitive_rad_, eccentricity(r), form, along, across);
-      for (std::size_t i = 0; i < left.size(); ++i) columns[s][i] -= left[i];
+    const PartInRun part{eccentricity(r), form, along, across};
+    for (std::size_t s = 0; s < runs_[r].angles_rad.size(); ++s) {
+      const Series left = second_order(runs_[r], s, sensitive_rad_, part, order_max_);
+      for (int n = 0; n <= order_max_; ++n) {
+        const auto at = static_cast<Index>(s);
+        parts_[r].harmonics(at, n) = linear_[r](at, n) - left[static_cast<std::size_t>(n)];
+      }
     }
-    parts_[r] = fits_[r](columns);
   }
 }
 

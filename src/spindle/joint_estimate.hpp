@@ -64,6 +64,7 @@ class JointEstimate {
   std::vector<AngleInfluence> influences_;
   std::vector<SynchronousFit> fits_;
   std::vector<SynchronousPart> parts_;
+  std::vector<Eigen::MatrixXcd> linear_;  ///< harmonics of the parts as they were read
   std::vector<OrderSolution> orders_;
   double disagreement_ = std::numeric_limits<double>::quiet_NaN();
   double widening_ = 1.0, remainder_mm_ = 0.0;

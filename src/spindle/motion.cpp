@@ -7,9 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <tuple>
 
 #include "spindle/joint_estimate.hpp"
+#include "spindle/sensors_agree.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -90,8 +91,8 @@ MotionValues values_of(const JointEstimate& all, const UncertainSeries& series, 
     out.asynchronous = out.total = {nan, nan, "mm", "no set-up sees this direction alone"};
     return out;
   }
-  out.asynchronous = asynchronous_estimate(moving, least_per_turn(all));
-  out.total = total_estimate(series, moving);
+  std::tie(out.asynchronous, out.total) =
+      asynchronous_and_total(series, moving, least_per_turn(all));
   return out;
 }
 
@@ -171,6 +172,7 @@ void add_notes(const JointEstimate& all, const SpindleOptions& options,
 ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
                          std::vector<std::string>& notes) {
   const JointEstimate all(std::move(runs), options);
+  if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), notes);
   const Layout& layout = all.layout();
   ErrorMotion out;
   out.sensitive_rad = all.sensitive_rad();

@@ -17,8 +17,11 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::size_t curve_points = 2048;  // a peak of order 100 to 1.2 % of its own
-constexpr std::size_t harmonic_draws = 500, surrogate_draws = 100;  // u to 3 and 7 %
+constexpr std::size_t curve_points = 2048;   // a peak of order 100 to 1.2 % of its own
+constexpr std::size_t harmonic_draws = 500;  // u to 3 %
+// u to 7 % (long recordings: 14 %)
+constexpr std::size_t most_surrogates = 100, least_surrogates = 25;
+constexpr std::size_t most_surrogate_readings = 4'000'000;
 constexpr std::size_t seed = 230'7;
 
 double spread_of(double value, const std::vector<double>& drawn) {
@@ -108,12 +111,6 @@ class Surrogates {
   std::vector<double> size_;
 };
 
-std::size_t place_in_turn(double c_rad, std::size_t places) {
-  const double turns = c_rad / two_pi;
-  return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(places) + 0.5) %
-         places;
-}
-
 /// The readings' extents in each of some places of the turn.
 class Bands {
  public:
@@ -134,22 +131,6 @@ class Bands {
  private:
   std::vector<double> low_, high_;
 };
-
-/// A number of a set of runs' motions, and how much it differs for motions of the same spectra.
-/// `value(motions)` takes a column for every run, no longer than its angles.
-template <class Value>
-double spread_of_surrogates(std::span<const AsynchronousMotion> runs, const Value& value) {
-  boost::random::mt19937_64 engine(seed);
-  std::vector<Surrogates> sources;
-  for (const AsynchronousMotion& run : runs) sources.emplace_back(run.motion_mm);
-  std::vector<double> drawn;
-  for (std::size_t k = 0; k < surrogate_draws; ++k) {
-    std::vector<std::vector<double>> motions;
-    for (Surrogates& source : sources) motions.push_back(source.draw(engine));
-    drawn.push_back(value(motions));
-  }
-  return deviation_of(drawn);
-}
 
 double band_of(std::span<const AsynchronousMotion> runs,
                const std::vector<std::vector<double>>& motions, std::size_t places) {
@@ -172,13 +153,13 @@ double total_of(const std::vector<double>& curve, std::span<const AsynchronousMo
   return high - low;
 }
 
-std::vector<std::vector<double>> motions_of(std::span<const AsynchronousMotion> runs) {
-  std::vector<std::vector<double>> out;
-  for (const AsynchronousMotion& run : runs) out.push_back(run.motion_mm);
-  return out;
-}
-
 }  // namespace
+
+std::size_t place_in_turn(double c_rad, std::size_t places) {
+  const double turns = c_rad / two_pi;
+  return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(places) + 0.5) %
+         places;
+}
 
 Estimate range_estimate(const UncertainSeries& series) {
   CurveSource source(series);
@@ -189,20 +170,31 @@ Estimate range_estimate(const UncertainSeries& series) {
   return {value, spread_of(value, drawn), "mm", ""};
 }
 
-Estimate asynchronous_estimate(std::span<const AsynchronousMotion> runs, double per_turn) {
-  const auto places = static_cast<std::size_t>(std::max(8.0, std::round(per_turn)));
-  return {band_of(runs, motions_of(runs), places),
-          spread_of_surrogates(runs,
-                               [&](const auto& motions) { return band_of(runs, motions, places); }),
-          "mm", ""};
-}
-
-Estimate total_estimate(const UncertainSeries& series, std::span<const AsynchronousMotion> runs) {
+std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+                                                     std::span<const AsynchronousMotion> runs,
+                                                     double per_turn) {
   CurveSource source(series);
-  return {total_of(source.best(), runs, motions_of(runs)),
-          spread_of_surrogates(
-              runs, [&](const auto& motions) { return total_of(source.draw(), runs, motions); }),
-          "mm", ""};
+  const auto places = static_cast<std::size_t>(std::max(8.0, std::round(per_turn)));
+  std::vector<std::vector<double>> motions;
+  std::vector<Surrogates> surrogates;
+  std::size_t readings = 0;
+  for (const AsynchronousMotion& run : runs) {
+    motions.push_back(run.motion_mm);
+    surrogates.emplace_back(run.motion_mm);
+    readings += run.motion_mm.size();
+  }
+  const double band = band_of(runs, motions, places);
+  const double total = total_of(source.best(), runs, motions);
+  boost::random::mt19937_64 engine(seed);
+  std::vector<double> bands, totals;
+  const std::size_t draws =
+      std::clamp(most_surrogate_readings / readings, least_surrogates, most_surrogates);
+  for (std::size_t k = 0; k < draws; ++k) {
+    for (std::size_t r = 0; r < runs.size(); ++r) motions[r] = surrogates[r].draw(engine);
+    bands.push_back(band_of(runs, motions, places));
+    totals.push_back(total_of(source.draw(), runs, motions));
+  }
+  return {{band, deviation_of(bands), "mm", ""}, {total, deviation_of(totals), "mm", ""}};
 }
 
 std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad) {

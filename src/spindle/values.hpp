@@ -5,6 +5,7 @@
 #include <complex>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "spindle/second_order.hpp"
@@ -28,12 +29,15 @@ struct AsynchronousMotion {
 /// distance of what is drawn from the value, so that the noise's bias of a range is in u.
 Estimate range_estimate(const UncertainSeries& series);
 
-/// The widest band at one angle over all turns; u is how much it differs between recordings as
-/// long, from series of the same spectrum with phases drawn anew (Theiler et al. 1992).
-Estimate asynchronous_estimate(std::span<const AsynchronousMotion> runs, double per_turn);
+/// The widest band at one angle over all turns, and largest − smallest of what repeats and what
+/// does not together. u is how much they differ between recordings as long, from series of the same
+/// spectrum with phases drawn anew (Theiler et al. 1992).
+std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+                                                     std::span<const AsynchronousMotion> runs,
+                                                     double per_turn);
 
-/// Largest − smallest of what repeats and what does not, together.
-Estimate total_estimate(const UncertainSeries& series, std::span<const AsynchronousMotion> runs);
+/// Which of some places evenly around the turn is nearest.
+std::size_t place_in_turn(double c_rad, std::size_t places);
 
 /// u of the curve at every angle.
 std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad);
