@@ -84,6 +84,22 @@ class StreamChecks {
       add(stream, name + " is probed from behind: a face has no rear side");
   }
 
+  /// Of readings of positions their sign tells on which side of the axis the sensor stands.
+  void one_side(const ProbeStream& stream, const SetUp& set_up, const RunReadings& run) {
+    if (run.axial || stream.indication == Indication::relative) return;
+    const std::string name = "set-up " + std::to_string(set_up.number);
+    std::size_t outside = 0;
+    for (const auto& column : run.columns_mm) outside += mean_of(column) > 0.0;
+    if (outside == run.columns_mm.size()) return;
+    add(stream, outside > 0
+                    ? "in " + name +
+                          " some sensors read more than 0 and others less: each is to "
+                          "read outwards from the spindle axis at its own angle"
+                    : name +
+                          " is said to be probed from behind, and X_M is more than 0: behind it "
+                          "is counted along +X as ever, or is the part only turned?");
+  }
+
   void enough(const ProbeStream& stream, const RunReadings& run) {
     if (run.c_rad.size() < 2 || run.turns() < least_turns)
       add(stream, "set-up " + std::to_string(run.set_up.number) + " has " +
@@ -128,8 +144,8 @@ RunReadings take_run(const ProbeStream& stream, const SetUp& set_up) {
   const bool absolute = stream.indication == Indication::absolute;
   double sum_mm = 0.0;
   for (const auto& column : run.columns_mm) sum_mm += mean_of(column);
-  const bool rear = set_up.rear || (absolute && sum_mm < 0.0);
-  if (rear) {
+  run.rear = set_up.rear || (absolute && sum_mm < 0.0);
+  if (run.rear) {
     for (double& angle : run.angles_rad) angle += std::numbers::pi;
     for (auto& column : run.columns_mm)
       for (double& reading : column) reading = -reading;
@@ -155,6 +171,7 @@ std::vector<RunReadings> take_runs(std::span<const ProbeStream> streams) {
     for (const SetUp& set_up : list_set_ups(stream)) {
       checks.one_part(stream, set_up);
       runs.push_back(take_run(stream, set_up));
+      checks.one_side(stream, set_up, runs.back());
       checks.enough(stream, runs.back());
     }
   }
@@ -185,7 +202,7 @@ Layout layout_of(std::span<const RunReadings> runs, double sensitive_rad) {
     const RunReadings& run = runs[r];
     for (std::size_t s = 0; s < run.angles_rad.size(); ++s) {
       const double angle = run.angles_rad[s];
-      const double bracket = run.set_up.rear ? angle - std::numbers::pi : angle;
+      const double bracket = run.rear ? angle - std::numbers::pi : angle;
       const auto known = std::ranges::find_if(
           brackets, [&](double other) { return std::abs(other - bracket) < one_line_rad; });
       channels.push_back({.run = r,

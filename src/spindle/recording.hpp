@@ -19,7 +19,8 @@ struct RunReadings {
   std::vector<double> c_rad;
   std::vector<std::vector<double>> columns_mm;  ///< one a sensor
   double radius_mm = 0.0;                       ///< of the part there; 0: nobody says
-  bool axial = false, on_axis = false;          ///< on_axis: a face read at X = 0
+  bool rear = false;
+  bool axial = false, on_axis = false;  ///< on_axis: a face read at X = 0
   std::size_t left_out = 0;
 
   double turns() const;

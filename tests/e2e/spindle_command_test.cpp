@@ -71,6 +71,24 @@ TEST_F(SpindleCommand, AReversalIsKnownInTheSensitiveDirectionOnly) {
   EXPECT_EQ(radial.at("runs").size(), 2U);
 }
 
+TEST_F(SpindleCommand, AReversalMayBeTwoFiles) {
+  const std::string part =
+      "[part]\nkind = \"cylinder\"\nradius_mm = 20\nx0_mm = 0.005\n[noise]\nsigma_um = 0.02\n"
+      "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 0.5\n[[effect]]\n"
+      "id = \"spindle.radial_synchronous\"\norder = 3\namplitude_um = 0.4\n[[pass]]\nz_mm = 10\n"
+      "readings_per_revolution = 250\nrevolutions = 12\n";
+  file("front.toml", part);
+  file("rear.toml",
+       part + "setup = 2\n[[setup]]\nnumber = 2\nreindex_deg = 180\nside = \"rear\"\n");
+  simulate("front.toml", "front.csv");
+  simulate("rear.toml", "rear.csv");
+  const CommandStreams done = command("spindle front.csv rear.csv --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json radial = result("r.json").at("radial");
+  expect_within(radial.at("values").at("synchronous"), 0.8e-3, "synchronous");
+  expect_within(radial.at("form"), 1.0e-3, "roundness");
+}
+
 TEST_F(SpindleCommand, AJobAndTwoStreamsSayTheSameAsOptions) {
   simulate(of_data("spindle_three_sensors.toml"), "s.csv");
   file("face.toml",
