@@ -68,6 +68,13 @@ struct ProbeStream {
   std::vector<int> pass;            ///< empty when the stream has no pass column
   std::vector<int> setup;           ///< empty when the stream has no setup column
 
+  /// Several sensors of one recording (X_M1, X_M2 …): `reading_mm` is of the first, these are of
+  /// the others at the same instants. Such a stream belongs to separate_spindle() (spindle.hpp).
+  std::vector<std::vector<double>> more_reading_mm;
+  /// Where each sensor stands, the first included, from +X towards +Y; each reads outwards from the
+  /// spindle axis. Empty for a stream of the one sensor X_M at +X.
+  std::vector<double> sensor_angles_rad;
+
   /// One for every number in the column `setup`, in order of number (see list_set_ups); without the
   /// column one, number 1.
   std::vector<SetUp> setups{SetUp{}};

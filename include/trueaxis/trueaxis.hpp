@@ -13,6 +13,7 @@
 #include "trueaxis/job.hpp"            // streams in, verdict and table out
 #include "trueaxis/probe_stream.hpp"   // the readings
 #include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
+#include "trueaxis/spindle.hpp"        // part and spindle separated
 #include "trueaxis/study.hpp"          // repeats against the Cramér-Rao bound
 #include "trueaxis/surface.hpp"        // axis, cone and cylinder, a surface of one's own
 #include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg; a value with its uncertainty

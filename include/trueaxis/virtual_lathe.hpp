@@ -87,6 +87,9 @@ struct Probe {
   std::optional<double> relative_zero_mm;   ///< a gauge: this unknown constant is taken off
   std::optional<double> nominal_radius_mm;  ///< what the operator states beside a relative reading
   bool states_noise = true;                 ///< the stream says its sensor_noise
+  /// Several sensors that read at once, each outwards along its own line through the spindle axis:
+  /// their angles from +X towards +Y (columns X_M1, X_M2 …). Empty: one, at +X.
+  std::vector<double> sensor_angles_rad{};
 };
 
 /// What was done before the passes of a set-up. Without x0 … m of its own the part's axis stays.
@@ -195,6 +198,7 @@ struct Simulation {
 
 /// Probes the part of a scenario: C, Z (X), t, pass and setup columns; C running. Same scenario,
 /// same bits.
+/// With several sensors each has noise of its own.
 /// @throws InputError when the scenario contradicts itself, or the probe misses the part.
 ProbeStream simulate(const Scenario& scenario);
 Simulation simulate_with_truth(const Scenario& scenario);
@@ -203,7 +207,7 @@ Simulation simulate_with_truth(const Scenario& scenario);
 /// a plan's: that stream with other readings, its `clean_mm` without noise. Speeds and feeds are
 /// those of its passes; a stream without t and speed has neither. The scenario's plan only says how
 /// the part stands in each set-up; u needs the scenario's u_start_mm and u_end_mm.
-/// @throws InputError as simulate().
+/// @throws InputError as simulate(), and for several sensors.
 Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded);
 
 /// A correction table as the control runs it; for a face `position_mm` is X and the offsets are in

@@ -20,7 +20,7 @@ int run(int argc, char** argv) {
       "bug.");
   int code = done;
   for (const auto add : {add_run, add_fit, add_diagnose, add_advise, add_correct, add_simulate,
-                         add_sweep, add_plan, add_axis_bias, add_effects})
+                         add_sweep, add_plan, add_spindle, add_axis_bias, add_effects})
     add(app, code);
   try {
     app.parse(argc, argv);

@@ -44,13 +44,16 @@ struct StreamOptions {
 
   bool says_anything() const { return diameter || radius || relative || nominal_radius_mm > 0.0; }
 
-  ProbeStream read() const {
+  /// What the options say of a stream.
+  StreamReadOptions said() const {
     StreamReadOptions options;
     if (diameter || radius) options.diameter = diameter;
     if (relative) options.indication = Indication::relative;
     if (nominal_radius_mm > 0.0) options.nominal_radius_mm = nominal_radius_mm;
-    return read_stream_csv(path, options);
+    return options;
   }
+
+  ProbeStream read() const { return read_stream_csv(path, said()); }
 };
 
 /// How a stream is to be associated, the same for every command that fits one.

@@ -92,6 +92,9 @@ CatalogueEntry surface_entry(const FitOptions& options) {
 void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
   validate(options);
   expects(stream.size() > 0, "readings");
+  if (!stream.sensor_angles_rad.empty())
+    throw InputError(stream.source,
+                     "several sensors of one recording: separate_spindle takes them");
   expect_kind(stream, surface_entry(options).info);
   const bool ball = stream.ball_radius_mm.value_or(0.0) > 0.0 || options.ball_radius_mm > 0.0;
   if (options.profile && (ball || stream.indication == Indication::relative)) {

@@ -28,6 +28,7 @@ struct TrueState {
   double position_mm = 0.0;  ///< true position of the probe line: Z, or X for a face
   double across_mm = 0.0;    ///< error of slide and frame in the direction that is read
   double part_x_mm = 0.0;    ///< displacement of the part along machine X …
+  double part_y_mm = 0.0;    ///< … along machine Y …
   double part_z_mm = 0.0;    ///< … and along machine Z
 };
 

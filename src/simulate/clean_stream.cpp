@@ -41,6 +41,7 @@ void add_gaussian_or_student(const CleanStream& clean, const Noise& noise, std::
 }  // namespace
 
 CleanStream simulate_clean(const Scenario& scenario) {
+  need_one_sensor(scenario);
   validate(scenario.part);
   validate(scenario.noise);
   const std::vector<TimedPass> timeline = make_timeline(scenario.plan);

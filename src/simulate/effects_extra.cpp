@@ -50,6 +50,13 @@ constexpr EffectEntry extra_table[] = {
        state.part_x_mm +=
            a * std::cos(two_pi * beat * state.at.t_s) * std::cos(n * state.c_rad - phase);
      })},
+    // What one probe at +X cannot see: the spindle moves across it. The order may be fractional.
+    {"extra.radial_motion_y",
+     "the part moves along Y by a cos(n C - phase)",
+     {{"order", {}}, {"amplitude_mm", {}}, {"phase_rad", 0.0}},
+     in<machine>([](TrueState& state, double n, double a, double phase) {
+       state.part_y_mm += a * std::cos(n * state.c_rad - phase);
+     })},
     {"extra.form_cell",
      "a P_degree(u) cos(n theta - phase)",
      {{"order", 0.0}, {"amplitude_mm", {}}, {"phase_rad", 0.0}, {"degree", 0.0}},

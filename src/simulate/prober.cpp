@@ -30,7 +30,7 @@ struct Prober::PartView {
 };
 
 Prober::Prober(const Scenario& scenario, const Chain& chain, const Body& body,
-               const Chucking& setup)
+               const Chucking& setup, double angle_rad)
     : chain_(chain),
       body_(body),
       setup_(setup),
@@ -40,7 +40,9 @@ Prober::Prober(const Scenario& scenario, const Chain& chain, const Body& body,
       side_(setup.rear ? -1.0 : 1.0),
       ball_mm_(scenario.probe.ball_radius_mm + chain.line.extra_ball_mm),
       cos_tilt_(std::cos(chain.line.tilt_rad)),
-      sin_tilt_(std::sin(chain.line.tilt_rad)) {
+      sin_tilt_(std::sin(chain.line.tilt_rad)),
+      cos_angle_(std::cos(angle_rad)),
+      sin_angle_(std::sin(angle_rad)) {
   if (body.face() && setup.rear) {
     throw InputError("scenario", "a face has no rear side: take `rear` out of the set-up");
   }
@@ -100,7 +102,10 @@ template <class Gap>
 CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_incidence) const {
   const PartView view = view_at(state);
   const bool face = body_.face();
-  const double h = chain_.line.height_mm;
+  // The probe's own frame is the machine's turned by its angle: along its line, and across.
+  const double along_mm = state.part_x_mm * cos_angle_ + state.part_y_mm * sin_angle_;
+  const double h =
+      chain_.line.height_mm + state.part_x_mm * sin_angle_ - state.part_y_mm * cos_angle_;
   Line line;
   double centre = 0.0;  // of the search: the axis, or the height of a face
   if (face) {
@@ -108,8 +113,8 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
             view.vector(-sin_tilt_, 0.0, cos_tilt_)};
     centre = (body_.level_mm() - line.base.z) / line.direction.z;
   } else {
-    line = {view.point(0.0, h, state.position_mm - state.part_z_mm),
-            side_ * view.vector(cos_tilt_, 0.0, sin_tilt_)};
+    line = {view.point(-h * sin_angle_, h * cos_angle_, state.position_mm - state.part_z_mm),
+            side_ * view.vector(cos_tilt_ * cos_angle_, cos_tilt_ * sin_angle_, sin_tilt_)};
     centre = -(line.base.x * line.direction.x + line.base.y * line.direction.y);
   }
   const auto point_reading = [&](const Line& on) { return contact(gap, on, centre); };
@@ -119,7 +124,7 @@ CleanReading Prober::read_on(const Gap& gap, const TrueState& state, bool with_i
   if (!q) miss(state.at);
 
   CleanReading reading;
-  reading.value_mm = side_ * *q + state.across_mm + (face ? state.part_z_mm : state.part_x_mm);
+  reading.value_mm = side_ * *q + state.across_mm + (face ? state.part_z_mm : along_mm);
   Sensed sensor{state, side_};
   if (chain_.needs_normal || with_incidence) {
     const Vec3 n = outward_ * normal_at(gap, line.at(*q));

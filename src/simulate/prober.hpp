@@ -18,7 +18,9 @@ struct CleanReading {
 /// Probes a body in one set-up, reading by reading.
 class Prober {
  public:
-  Prober(const Scenario& scenario, const Chain& chain, const Body& body, const Chucking& setup);
+  /// `angle_rad`: of the probe's line from +X towards +Y.
+  Prober(const Scenario& scenario, const Chain& chain, const Body& body, const Chucking& setup,
+         double angle_rad = 0.0);
 
   /// @throws InputError when the probe misses the part.
   CleanReading read(const Moment& moment, bool with_incidence = false) const;
@@ -42,6 +44,7 @@ class Prober {
   Span span_;
   double outward_ = 1.0, side_ = 1.0, ball_mm_ = 0.0;
   double cos_tilt_ = 1.0, sin_tilt_ = 0.0;
+  double cos_angle_, sin_angle_;
 };
 
 }  // namespace trueaxis::virtual_lathe

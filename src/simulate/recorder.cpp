@@ -49,6 +49,11 @@ void validate(const Part& part) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
+void need_one_sensor(const Scenario& scenario) {
+  if (!scenario.probe.sensor_angles_rad.empty())
+    throw InputError("scenario", "probe: one sensor only here: take sensor_angles out");
+}
+
 Recording recording_of(const Scenario& scenario, const Chain& chain) {
   const double rounding =
       chain.quantisation_mm > 0.0 ? chain.quantisation_mm : scenario.noise.quantisation_mm;
@@ -77,6 +82,7 @@ void describe(const Scenario& scenario, ProbeStream& stream) {
   for (const Chucking& setup : scenario.plan.setups) stream.setups.push_back(stated(setup));
   stream.setups = list_set_ups(stream);
   for (const SetUp& setup : stream.setups) describe_setup(setup, stream.metadata);
+  stream.sensor_angles_rad = scenario.probe.sensor_angles_rad;
   if (scenario.probe.ball_radius_mm > 0.0) stream.ball_radius_mm = scenario.probe.ball_radius_mm;
 }
 

@@ -84,7 +84,9 @@ class LagFilter {
 /// Turns clean readings into recorded ones, in their order.
 class Recorder {
  public:
-  explicit Recorder(const Recording& how) : how_(how), noise_(how.noise, how.seed) {}
+  /// Sensors of one recording differ by their number alone; the first has the scenario's noise.
+  explicit Recorder(const Recording& how, std::size_t sensor = 0)
+      : how_(how), noise_(how.noise, how.seed + 0x9E3779B97F4A7C15U * sensor) {}
 
   bool wants_incidence() const { return noise_.wants_incidence(); }
 
@@ -105,6 +107,9 @@ class Recorder {
 
 /// What a scenario's chain and noise do between the sensor's head and the file.
 Recording recording_of(const Scenario& scenario, const Chain& chain);
+
+/// @throws InputError for a scenario with several sensors.
+void need_one_sensor(const Scenario& scenario);
 
 /// @throws InputError for a part that contradicts itself.
 void validate(const Part& part);
@@ -152,8 +157,8 @@ CleanStream record_clean(const std::vector<TimedPass>& timeline, const Recording
 /// The stream of a timeline with the noise of a scenario.
 template <class MakeReader>
 Simulation record(const std::vector<TimedPass>& timeline, const Recording& how,
-                  const MakeReader& make_reader) {
-  Recorder recorder(how);
+                  const MakeReader& make_reader, std::size_t sensor = 0) {
+  Recorder recorder(how, sensor);
   CleanStream clean = record_clean(timeline, how, make_reader);
   Simulation out{std::move(clean.stream), {}};
   for (std::size_t row = 0; row < clean.value_mm.size(); ++row) {

@@ -75,12 +75,21 @@ std::map<int, Prober> make_probers(const Scenario& scenario, const Chain& chain,
 
 Simulation simulate_with_truth(const Scenario& scenario) {
   validate(scenario.part);
+  if (scenario.part.kind == PartKind::face) need_one_sensor(scenario);
   const std::vector<TimedPass> timeline = make_timeline(scenario.plan);
   const Chain chain = make_chain(scenario.effects);
   const Body body(scenario, chain);
-  Simulation out = record(timeline, recording_of(scenario, chain), [&](const Chucking& setup) {
-    return Prober(scenario, chain, body, setup);
-  });
+  const std::vector<double>& angles = scenario.probe.sensor_angles_rad;
+  const auto of_sensor = [&](std::size_t sensor) {
+    const double angle_rad = angles.empty() ? 0.0 : angles[sensor];
+    const auto make = [&](const Chucking& setup) {
+      return Prober(scenario, chain, body, setup, angle_rad);
+    };
+    return record(timeline, recording_of(scenario, chain), make, sensor);
+  };
+  Simulation out = of_sensor(0);
+  for (std::size_t sensor = 1; sensor < angles.size(); ++sensor)
+    out.stream.more_reading_mm.push_back(std::move(of_sensor(sensor).stream.reading_mm));
   describe(scenario, out.stream);
   out.truth.scenario = scenario;
   return out;
@@ -94,6 +103,7 @@ Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded) {
   const bool face = scenario.part.kind == PartKind::face;
   if (face != (recorded.kind == StreamKind::face))
     throw InputError("scenario", "a face is probed along Z, a lateral surface along X");
+  need_one_sensor(scenario);
   expects(scenario.u_start_mm.has_value() && scenario.u_end_mm.has_value(), "the ends of u");
   validate(scenario.part);
   const Chain chain = make_chain(scenario.effects);

@@ -132,6 +132,14 @@ std::string advice_text(const Diagnosis& d) {
   std::string text = wrapped("", diagnosis_line(d));
   const std::string next = next_text(d.next);
   text += next.empty() ? "\nNext measurement\n  none: there is nothing to tell apart\n" : next;
+  const bool either = std::ranges::any_of(d.findings, [](const Finding& finding) {
+    return finding.may_be("part.roundness") && finding.may_be("spindle.radial_synchronous");
+  });
+  if (either)
+    text += '\n' + wrapped("",
+                           "Roundness of the part or motion of the spindle: several sensors at "
+                           "once or a reversal tell for sure, order by order (`trueaxis spindle "
+                           "--advise` says where to place them)");
   if (d.plans.empty()) return text;
   std::size_t widest = 4;
   for (const Separating& plan : d.plans) widest = std::max(widest, width(plan.plan));

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "trueaxis/probe_stream.hpp"
 
@@ -14,6 +15,8 @@ struct StreamReadOptions {
   SaidBy diameter_said_by = SaidBy::option;  ///< who says so
   std::optional<Indication> indication;      ///< overrides metadata `reading`
   std::optional<double> nominal_radius_mm;   ///< overrides metadata `nominal_radius`
+  bool several_sensors = false;              ///< columns X_M1, X_M2 … may be read
+  std::vector<double> sensor_angles_rad{};   ///< of a stream that does not say `sensor_angles`
   std::size_t max_diagnostics = 1000;        ///< further ones are counted, not listed
 };
 

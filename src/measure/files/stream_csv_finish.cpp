@@ -4,6 +4,7 @@
 #include <string>
 
 #include "measure/files/stream_csv_metadata.hpp"
+#include "measure/files/stream_csv_sensors.hpp"
 
 namespace trueaxis {
 namespace {
@@ -85,6 +86,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
                 CsvDiagnostics& diagnostics) {
   const CsvKnownMetadata& known = metadata.known;
   stream.x_convention = x_convention(header, known, options, diagnostics);
+  csv_finish_sensors(header, known, options, stream, diagnostics);
   if (diagnostics.any()) return;
   const CsvColumn& angle = *header.find(CsvRole::angle);
   if (stream.c_rad.empty()) {
@@ -103,7 +105,9 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   }
   const double half = stream.x_convention->diameter ? 0.5 : 1.0;
   const bool face = header.kind == StreamKind::face;
-  scale(stream.reading_mm, header.find(CsvRole::reading)->unit.factor * (face ? 1.0 : half));
+  const double reading_factor = header.find(CsvRole::reading)->unit.factor * (face ? 1.0 : half);
+  scale(stream.reading_mm, reading_factor);
+  for (auto& column : stream.more_reading_mm) scale(column, reading_factor);
   scale(stream.c_rad, angle.unit.factor);
   if (const CsvColumn* position = header.find(CsvRole::position)) {
     scale(stream.position_mm, position->unit.factor * (face ? half : 1.0));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 
 namespace trueaxis {
 namespace {
@@ -30,6 +31,15 @@ bool same_name(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
     return std::tolower(x) == std::tolower(y);
   });
+}
+
+/// 2 of "X_M2"; 0 of any other name.
+std::size_t sensor_number(std::string_view name) {
+  if (name.size() <= 3 || name.size() > 5 || !same_name(name.substr(0, 3), "X_M")) return 0;
+  std::size_t number = 0;
+  const char* end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(name.data() + 3, end, number);
+  return error == std::errc{} && stop == end ? number : 0;
 }
 
 /// The first of , ; tab outside brackets, else blanks.
@@ -65,6 +75,16 @@ class HeaderParser {
     });
     if (field.text.empty()) {
       add(column, "a column has no name: name it or remove the separator");
+    } else if (const std::size_t sensor = sensor_number(name); sensor > 0) {
+      column.role = sensor == 1 ? CsvRole::reading : CsvRole::more_reading;
+      column.name = "X_M" + std::to_string(sensor);
+      column.sensor = sensor;
+      column.unit = *csv_find_unit(CsvQuantity::length, "mm");
+      if (twice(column)) {
+        column.role = CsvRole::unknown;
+      } else if (bracket != std::string_view::npos) {
+        unit(column, CsvQuantity::length, field.text.substr(bracket + 1));
+      }
     } else if (known == std::end(known_columns)) {
       add(column,
           "unknown column " + csv_quoted(name) +
@@ -106,7 +126,7 @@ class HeaderParser {
       text = csv_trimmed(text.substr(0, text.size() - word.size()));
       return true;
     };
-    if (column.name == "X_M" || column.name == "X") column.diameter = drop_word("dia");
+    if (column.name.starts_with('X')) column.diameter = drop_word("dia");
     if (column.role == CsvRole::angle) column.running = drop_word("running");
     if (quantity == CsvQuantity::count) {
       return add(column, column.name + " is a number without unit: write " + column.name);
@@ -123,6 +143,29 @@ class HeaderParser {
   CsvHeader& header_;
   CsvDiagnostics& diagnostics_;
 };
+
+/// X_M1, X_M2 …: numbered without a gap, of one unit, and without an X_M or Z_M beside them.
+void check_sensors(CsvHeader& header, CsvDiagnostics& diagnostics) {
+  const std::size_t sensors = header.sensors();
+  const CsvColumn* first = nullptr;
+  for (CsvColumn& column : header.columns) {
+    const auto refuse = [&](const std::string& message) {
+      diagnostics.add(header.line, column.character, message);
+      column.role = CsvRole::unknown;
+    };
+    if (sensors > 0 && (column.name == "X_M" || column.name == "Z_M"))
+      refuse(column.name + " beside X_M1: number all sensors of a recording X_M1, X_M2 …" +
+             (column.name == "Z_M" ? ", and give an axial sensor a stream of its own" : ""));
+    if (column.sensor == 0 || column.role == CsvRole::unknown) continue;
+    if (first == nullptr) first = &column;
+    if (column.sensor > sensors) {
+      refuse(column.name + " is one of " + std::to_string(sensors) +
+             " sensors: number them X_M1 to X_M" + std::to_string(sensors));
+    } else if (column.unit.factor != first->unit.factor || column.diameter != first->diameter) {
+      refuse(column.name + " has another unit than " + first->name + ": give all sensors one unit");
+    }
+  }
+}
 
 /// Columns that are missing, or that belong to the other kind of stream.
 void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
@@ -142,7 +185,7 @@ void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
   } else {
     refuse("Z_M", "X_M and Z_M in one stream: a face is Z_M,C,X, all else X_M,C,Z");
     refuse("X", "X is a column of a face (Z_M,C,X): name the position Z or remove it");
-    if (lacks("X_M")) {
+    if (lacks("X_M") && header.sensors() == 0) {
       diagnostics.add(header.line, 0, "no column X_M: name the columns X_M,C,Z (a face: Z_M,C,X)");
     }
   }
@@ -156,6 +199,11 @@ void check_kind(CsvHeader& header, CsvDiagnostics& diagnostics) {
 const CsvColumn* CsvHeader::find(CsvRole role) const {
   const auto found = std::ranges::find(columns, role, &CsvColumn::role);
   return found == columns.end() ? nullptr : &*found;
+}
+
+std::size_t CsvHeader::sensors() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(columns, [](const CsvColumn& column) { return column.sensor > 0; }));
 }
 
 CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
@@ -173,6 +221,7 @@ CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
   }
   HeaderParser parser(line, header, diagnostics);
   for (const CsvField& field : fields) parser.column(field);
+  check_sensors(header, diagnostics);
   check_kind(header, diagnostics);
   return header;
 }

@@ -12,12 +12,13 @@
 
 namespace trueaxis {
 
-enum class CsvRole { reading, angle, position, time, pass, setup, unknown };
+enum class CsvRole { reading, more_reading, angle, position, time, pass, setup, unknown };
 
 /// A column as its header names it.
 struct CsvColumn {
   CsvRole role = CsvRole::unknown;
-  std::string name;           ///< as we write it: X_M, C, Z, t, pass, setup
+  std::string name;           ///< as we write it: X_M, X_M1, C, Z, t, pass, setup
+  std::size_t sensor = 0;     ///< of X_M1, X_M2 …: 1, 2 …
   std::size_t character = 0;  ///< where the header names it
   CsvUnit unit{};
   bool diameter = false;  ///< unit says `dia`
@@ -33,6 +34,8 @@ struct CsvHeader {
 
   /// The column of a role, or nullptr.
   const CsvColumn* find(CsvRole role) const;
+  /// How many columns X_M1, X_M2 … there are; 0 for a stream of one sensor X_M.
+  std::size_t sensors() const;
 };
 
 /// Reads the header line (comment stripped); what is wrong goes to `diagnostics`. A line of numbers

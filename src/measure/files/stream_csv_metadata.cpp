@@ -8,6 +8,7 @@
 #include <set>
 
 #include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_sensors.hpp"
 #include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
@@ -57,7 +58,8 @@ std::string lower_case(std::string_view text) {
 
 bool is_known(std::string_view key) {
   constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
-                                       "sensor_noise", "spindle_rpm", "ball_radius"};
+                                       "sensor_noise", "spindle_rpm", "ball_radius",
+                                       "sensor_angles"};
   return csv_is_setup_key(key) || std::ranges::find(keys, key) != std::end(keys);
 }
 
@@ -213,6 +215,10 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     const auto radius_mm = csv_quantity(value, CsvQuantity::length);
     if (!radius_mm || *radius_mm < 0.0) return refuse("a length, such as 1.5 mm");
     known.ball_radius_mm = radius_mm;
+  } else if (key == "sensor_angles") {
+    const std::string wrong = csv_take_sensor_angles(value, known.sensor_angles_rad);
+    if (!wrong.empty()) return diagnostics_.add(line, column, key + ": " + wrong);
+    known.sensor_angles_place = {line, column};
   } else {
     const auto rpm = csv_number_with_unit(value);
     if (!rpm || !(rpm->unit.empty() || rpm->unit == "rpm")) {

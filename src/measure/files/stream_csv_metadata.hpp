@@ -25,6 +25,8 @@ struct CsvKnownMetadata {
   struct Place {
     std::size_t line = 0, column = 0;
   };
+  std::vector<double> sensor_angles_rad;
+  Place sensor_angles_place;
   std::map<int, Place> set_up_places;  ///< where each is first spoken of
 };
 

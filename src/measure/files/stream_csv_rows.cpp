@@ -38,12 +38,16 @@ CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& d
       time_at_(header.columns.size()),
       last_time_(-std::numeric_limits<double>::infinity()),
       all_known_(true) {
+  if (header.sensors() > 1) stream.more_reading_mm.resize(header.sensors() - 1);
   for (const CsvColumn& column : header.columns) {
     Target target;
     target.column = &column;
     switch (column.role) {
       case CsvRole::reading:
         target.numbers = &stream.reading_mm;
+        break;
+      case CsvRole::more_reading:
+        target.numbers = &stream.more_reading_mm[column.sensor - 2];
         break;
       case CsvRole::angle:
         target.numbers = &stream.c_rad;

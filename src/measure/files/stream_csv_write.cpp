@@ -7,6 +7,7 @@
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_sensors.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -43,6 +44,11 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
   set("sensor_noise", stream.sensor_noise_mm, said.known.sensor_noise_mm, length);
   set("ball_radius", stream.ball_radius_mm, said.known.ball_radius_mm, length);
   set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, csv_text);
+  if (stream.sensor_angles_rad != said.known.sensor_angles_rad) {
+    out.erase("sensor_angles");
+    if (!stream.sensor_angles_rad.empty())
+      out["sensor_angles"] = csv_sensor_angles_text(stream.sensor_angles_rad);
+  }
   if (stream.indication != said.known.indication.value_or(Indication::absolute)) {
     out["reading"] = stream.indication == Indication::relative ? "relative" : "absolute";
   }
@@ -62,6 +68,12 @@ void expect_columns(const ProbeStream& stream) {
   expects(stream.c_rad.size() == stream.size() && fits(stream.position_mm) && fits(stream.time_s) &&
               fits(stream.pass) && fits(stream.setup),
           "columns of one length");
+  expects(stream.sensor_angles_rad.empty()
+              ? stream.more_reading_mm.empty()
+              : stream.sensor_angles_rad.size() == stream.more_reading_mm.size() + 1,
+          "an angle for every sensor");
+  for (const auto& column : stream.more_reading_mm)
+    expects(column.size() == stream.size() && all_finite(column), "finite readings of one length");
   expects(all_finite(stream.reading_mm) && all_finite(stream.c_rad) &&
               all_finite(stream.position_mm) && all_finite(stream.time_s),
           "finite readings");
@@ -82,7 +94,10 @@ void write_stream_csv(const ProbeStream& stream, OutputFile& sink) {
   const double reading_factor = diameter && !face ? 2.0 : 1.0;
   const double position_factor = diameter && face ? 2.0 : 1.0;
   const std::string x_unit = diameter ? "[mm dia]" : "[mm]";
-  text += face ? "Z_M[mm]" : "X_M" + x_unit;
+  const bool numbered = !stream.sensor_angles_rad.empty();
+  text += face ? "Z_M[mm]" : (numbered ? "X_M1" : "X_M") + x_unit;
+  for (std::size_t k = 0; k < stream.more_reading_mm.size(); ++k)
+    text += ",X_M" + std::to_string(k + 2) + x_unit;
   text += csv_is_wrapped(stream.c_rad, two_pi) ? ",C[rad running]" : ",C[rad]";
   if (stream.has_position()) text += face ? ",X" + x_unit : ",Z[mm]";
   if (!stream.time_s.empty()) text += ",t[s]";
@@ -97,6 +112,7 @@ void write_stream_csv(const ProbeStream& stream, OutputFile& sink) {
   };
   for (std::size_t i = 0; i < stream.size(); ++i) {
     csv_append(text, reading_factor * stream.reading_mm[i]);
+    for (const auto& column : stream.more_reading_mm) add(reading_factor * column[i]);
     add(stream.c_rad[i]);
     if (stream.has_position()) add(position_factor * stream.position_mm[i]);
     if (!stream.time_s.empty()) add(stream.time_s[i]);

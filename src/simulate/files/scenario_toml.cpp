@@ -62,6 +62,7 @@ Probe read_probe(TomlTable table) {
   probe.relative_zero_mm = table.maybe_number("relative_zero_mm");
   probe.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
   probe.states_noise = table.flag("states_noise", true);
+  probe.sensor_angles_rad = table.numbers("sensor_angles_rad");
   return probe;
 }
 

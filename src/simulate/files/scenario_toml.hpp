@@ -18,6 +18,7 @@ namespace trueaxis {
 ///                  x0_mm y0_mm l m   k_mm + half_angle_deg | radius_mm (+ radius_at_mm,
 ///                  half_angle_deg with its sign)   d_mm   u_start_mm u_end_mm
 ///     [probe]      ball_radius_mm relative_zero_mm nominal_radius_mm states_noise
+///                  sensor_angles_deg = [0, 99, 202] (several sensors, from +X towards +Y)
 ///     [noise]      sigma_mm uniform_mm rho student_dof incidence outlier_fraction outlier_size_mm
 ///                  outliers_one_sided quantisation_mm   autoregression = [φ₁, φ₂ …] (not rho)
 ///     [[pass]]     z_start_mm z_end_mm | z_mm (face: x_…)   feed_mm_per_rev speed_rpm

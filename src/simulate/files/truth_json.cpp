@@ -93,6 +93,10 @@ std::string truth_json(const Truth& truth) {
   if (scenario.probe.relative_zero_mm) {
     json["probe"]["relative_zero"] = length(*scenario.probe.relative_zero_mm);
   }
+  if (!scenario.probe.sensor_angles_rad.empty()) {
+    Json& angles = json["probe"]["sensor_angles"] = Json::array();
+    for (const double rad : scenario.probe.sensor_angles_rad) angles.push_back(angle(rad));
+  }
   json["seed"] = scenario.seed;
   json["points"] = truth.clean_mm.size();
   json["outlier_rows"] = truth.outlier_rows;

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spindle/motion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "spindle/joint_estimate.hpp"
+#include "spindle/sensors_agree.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t polar_points = 720, cloud_points = 4000;
+
+SpindleHarmonic harmonic_of(const JointEstimate& all, const OrderSolution& one, Index unknown) {
+  if (unknown < 0 || !one.determined[static_cast<std::size_t>(unknown)]) return {nan, nan, nan};
+  const double noise = all.widening() * one.u_mm[unknown];
+  const double moved = one.moved_mm.row(unknown).norm();
+  return {one.unknowns[unknown].real(), -one.unknowns[unknown].imag(), std::hypot(noise, moved)};
+}
+
+std::string why_suppressed(const OrderSolution& one) {
+  if (std::ranges::find(one.determined, false) == one.determined.end()) return "";
+  if (!std::isfinite(one.condition))
+    return "the layout reads form and motion of this order as one (singular)";
+  return fmt::format(
+      "condition number {:.0f} above {:.0f}: noise and angles would be enlarged beyond use",
+      one.condition, one.largest_condition);
+}
+
+std::vector<SeparatedOrder> orders_of(const JointEstimate& all) {
+  std::vector<SeparatedOrder> out;
+  const Layout& layout = all.layout();
+  for (std::size_t k = 0; k < all.orders().size(); ++k) {
+    const OrderSolution& one = all.orders()[k];
+    out.push_back({all.order_min() + static_cast<int>(k), one.condition, why_suppressed(one),
+                   harmonic_of(all, one, layout.form()), harmonic_of(all, one, layout.along()),
+                   harmonic_of(all, one, layout.across())});
+  }
+  return out;
+}
+
+std::vector<SpindleRun> runs_of(const JointEstimate& all) {
+  std::vector<SpindleRun> out;
+  for (std::size_t r = 0; r < all.runs().size(); ++r) {
+    const RunReadings& run = all.runs()[r];
+    const SynchronousPart& part = all.parts()[r];
+    SpindleRun one;
+    one.stream = run.stream;
+    one.setup = run.set_up.number;
+    one.sensors = run.angles_rad.size();
+    one.readings = run.c_rad.size();
+    one.left_out = run.left_out;
+    one.turns = all.fits()[r].turns();
+    one.readings_per_turn = static_cast<double>(one.readings) / one.turns;
+    one.asynchronous_rms_mm = std::sqrt(part.asynchronous_mm.squaredNorm() /
+                                        static_cast<double>(part.asynchronous_mm.size()));
+    const Complex e = all.eccentricity(r);
+    const double sensors = static_cast<double>(one.sensors);
+    one.eccentricity = {std::abs(e),
+                        std::sqrt(0.5 * part.covariance[1].diagonal().real().sum()) / sensors, "mm",
+                        ""};
+    one.eccentricity_angle_rad = -std::arg(e);
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+double least_per_turn(const JointEstimate& all) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t r = 0; r < all.runs().size(); ++r)
+    least =
+        std::min(least, static_cast<double>(all.runs()[r].c_rad.size()) / all.fits()[r].turns());
+  return least;
+}
+
+MotionValues values_of(const JointEstimate& all, const UncertainSeries& series, bool across) {
+  const auto moving = all.asynchronous(across);
+  MotionValues out{range_estimate(series), {}, {}};
+  if (moving.empty()) {
+    out.asynchronous = out.total = {nan, nan, "mm", "no set-up sees this direction alone"};
+    return out;
+  }
+  std::tie(out.asynchronous, out.total) =
+      asynchronous_and_total(series, moving, least_per_turn(all));
+  return out;
+}
+
+PolarCurves polar_of(const JointEstimate& all, const UncertainSeries& motion,
+                     const UncertainSeries& form) {
+  PolarCurves out;
+  for (std::size_t i = 0; i < polar_points; ++i) {
+    out.angle_rad.push_back(two_pi * static_cast<double>(i) / static_cast<double>(polar_points));
+    out.motion_mm.push_back(value_at(motion.harmonics, out.angle_rad.back()));
+    if (all.layout().has_form())
+      out.form_mm.push_back(value_at(form.harmonics, out.angle_rad.back()));
+  }
+  out.u_motion_mm = u_of_curve(motion, out.angle_rad);
+  if (all.layout().has_form()) out.u_form_mm = u_of_curve(form, out.angle_rad);
+  for (const AsynchronousMotion& run : all.asynchronous(false)) {
+    const std::size_t shown = std::min(run.c_rad.size(), cloud_points - out.total_mm.size());
+    for (std::size_t i = 0; i < shown; ++i) {
+      out.total_angle_rad.push_back(run.c_rad[i]);
+      out.total_mm.push_back(value_at(motion.harmonics, run.c_rad[i]) + run.motion_mm[i]);
+    }
+  }
+  return out;
+}
+
+/// Once per turn, and the whole orders above it.
+void split_axial(const UncertainSeries& series, ErrorMotion& motion) {
+  const double u_mm = std::hypot(series.u_mm[1], series.moved_mm.row(1).norm());
+  motion.fundamental = {2.0 * std::abs(series.harmonics[1]), 2.0 * u_mm, "mm", ""};
+  UncertainSeries rest = series;
+  rest.harmonics[1] = 0.0;
+  rest.u_mm[1] = 0.0;
+  rest.moved_mm.row(1).setZero();
+  motion.residual = range_estimate(rest);
+}
+
+void add_notes(const JointEstimate& all, const SpindleOptions& options,
+               std::vector<std::string>& notes) {
+  const std::string which = all.axial() ? "axial: " : "";
+  if (all.order_max() < options.order_max)
+    notes.push_back(
+        fmt::format("{}the readings of a turn carry orders up to {}: above it nothing is said",
+                    which, all.order_max()));
+  if (!all.axial())
+    notes.push_back(
+        "order 1 is the part's eccentricity and the spindle's fundamental motion as one; ISO 230-7 "
+        "has no radial error motion of order 1");
+  if (!all.axial() && !all.layout().has_across())
+    notes.push_back(fmt::format("the motion is known along {:g}° only, the line of the sensors",
+                                all.sensitive_rad() / rad_per_deg));
+  if (!all.axial() && !all.has_radius())
+    notes.push_back(
+        "no radius is known, so that what eccentricity adds to order 2 (e²/4R) stays in the form: "
+        "state nominal_radius");
+  if (all.axial() && !all.runs().front().on_axis)
+    notes.push_back(all.layout().has_form()
+                        ? "axial: order 1 is the squareness of the face and the fundamental motion "
+                          "as one: for the latter read at X = 0"
+                        : "axial: off the axis one sensor in one set-up reads the face's form with "
+                          "the motion, which holds both: read at X = 0 or re-index the part");
+  if (options.u_angle_rad == 0.0 && !all.axial() && all.layout().has_across())
+    notes.push_back("the sensors' angles are taken as exact: state their u (--u-angle-deg)");
+  if (all.widening() > 1.0)
+    notes.push_back(fmt::format(
+        "{}sensors and set-ups contradict each other, χ²/ν = {:.1f}: every u is widened by {:.2f}; "
+        "look at the angles, the sensors' gains and whether the part kept its form",
+        which, all.disagreement(), all.widening()));
+  for (const RunReadings& run : all.runs())
+    if (run.left_out > 0)
+      notes.push_back(
+          fmt::format("{}: {} readings of set-up {} lie far from all others and are "
+                      "left out",
+                      run.stream, run.left_out, run.set_up.number));
+}
+
+}  // namespace
+
+ErrorMotion error_motion(std::vector<RunReadings> runs, const SpindleOptions& options,
+                         std::vector<std::string>& notes) {
+  const JointEstimate all(std::move(runs), options);
+  if (!all.axial()) check_sensors_agree(all.runs(), all.parts(), notes);
+  const Layout& layout = all.layout();
+  ErrorMotion out;
+  out.sensitive_rad = all.sensitive_rad();
+  out.across_seen = layout.has_across();
+  out.orders = orders_of(all);
+  const UncertainSeries motion = all.series(layout.along()), form = all.series(layout.form());
+  out.sensitive = values_of(all, motion, false);
+  if (layout.has_across()) out.across = values_of(all, all.series(layout.across()), true);
+  out.form =
+      layout.has_form() ? range_estimate(form) : Estimate{nan, nan, "mm", "no form is separated"};
+  if (all.axial() && all.order_min() == 1) split_axial(motion, out);
+  out.runs = runs_of(all);
+  out.disagreement = all.disagreement();
+  out.polar = polar_of(all, motion, form);
+  add_notes(all, options, notes);
+  return out;
+}
+
+}  // namespace trueaxis

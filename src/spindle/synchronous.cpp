@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spindle/synchronous.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/fourier_sums.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr int most_orders = 360;          // beyond it what repeats counts as asynchronous
+constexpr std::size_t lines_wanted = 32;  // of a covariance: u to 9 %
+constexpr double standing_out = 16.0;     // of the median power: noise does so in 1 of 65 000
+constexpr double least_away = 3.0;        // nearer lines may be the order's own skirts
+
+/// Legendre P1 … P3 over the order of the readings, −1 … 1.
+std::vector<std::vector<double>> drift_columns(std::size_t readings, std::size_t degrees) {
+  std::vector<std::vector<double>> columns(degrees, std::vector<double>(readings));
+  for (std::size_t i = 0; i < readings; ++i) {
+    const double u = 2.0 * static_cast<double>(i) / static_cast<double>(readings - 1) - 1.0;
+    double before = 1.0, now = u;
+    for (std::size_t l = 1; l <= degrees; ++l) {
+      columns[l - 1][i] = now;
+      const double k = static_cast<double>(l);
+      const double next = ((2.0 * k + 1.0) * u * now - k * before) / (k + 1.0);
+      before = now, now = next;
+    }
+  }
+  return columns;
+}
+
+/// A line of the spectrum beside an order, `away` in lines.
+struct NearLine {
+  Eigen::VectorXcd at;
+  double away;
+};
+
+/// Mean of the lines. One that stands far out of the others is a motion of its own, which reaches
+/// the order by its leakage only: |sin(πj)/(πj)|², ½/(πj)² in the mean over where it really lies.
+Eigen::MatrixXcd covariance_of(const std::vector<NearLine>& near) {
+  std::vector<double> powers;
+  for (const NearLine& line : near) powers.push_back(line.at.squaredNorm());
+  const double usual = median(powers);
+  const Index sensors = near.front().at.size();
+  Eigen::MatrixXcd mean = Eigen::MatrixXcd::Zero(sensors, sensors);
+  Eigen::MatrixXcd leakage = mean;
+  double taken = 0.0;
+  for (const NearLine& line : near) {
+    const double phase = 0.5 * two_pi * line.away;
+    if (line.away >= least_away && line.at.squaredNorm() > standing_out * usual) {
+      leakage += 0.5 / (phase * phase) * line.at * line.at.adjoint();
+    } else {
+      mean += line.at * line.at.adjoint();
+      taken += 1.0;
+    }
+  }
+  return mean / taken + leakage;
+}
+
+}  // namespace
+
+SynchronousFit::SynchronousFit(std::span<const double> c_rad, int wanted)
+    : c_rad_(c_rad.begin(), c_rad.end()),
+      drift_(drift_columns(c_rad.size(), drift)),
+      wanted_(wanted) {
+  const double readings = static_cast<double>(c_rad.size());
+  const auto [low, high] = std::ranges::minmax(c_rad);
+  turns_ = (high - low) / two_pi * readings / (readings - 1.0);
+  const int nyquist = static_cast<int>(std::floor(0.5 * (readings / turns_ - 1.0) + 1e-3));
+  // Turns that do not repeat the same angles carry more orders than one turn does.
+  const bool interleaved =
+      nyquist < wanted && readings > 3.0 * (2.0 * wanted + 1.0 + drift) && prepare(wanted);
+  int orders = std::min(nyquist, std::max(most_orders, wanted));
+  while (!interleaved && orders > 0 && !prepare(orders)) orders = 3 * orders / 4;
+  carried_ = interleaved ? wanted_ : std::clamp(orders, 0, wanted_);
+}
+
+/// The normal matrix of 1, drift, cos nC, sin nC from sums of cos kC and sin kC, k ≤ 2N. False
+/// where the angles do not tell the orders apart.
+bool SynchronousFit::prepare(int orders) {
+  fitted_ = orders;
+  const auto N = static_cast<std::size_t>(orders);
+  std::vector<double> ones(c_rad_.size(), 1.0);
+  const auto sums = FourierSums(c_rad_, 0.0, 1.0, 2 * N + 1).of(ones);
+  const FourierSums half(c_rad_, 0.0, 1.0, N + 1);
+  const Index size = 2 * orders + 1 + drift;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+  const auto cosine = [&](int k) { return sums[static_cast<std::size_t>(std::abs(k))].real(); };
+  const auto sine = [&](int k) {
+    return (k < 0 ? 1.0 : -1.0) * sums[static_cast<std::size_t>(std::abs(k))].imag();
+  };
+  const auto at_cos = [](int n) { return Index{n == 0 ? 0 : drift + 2 * n - 1}; };
+  for (int n = 0; n <= orders; ++n) {
+    for (int m = 0; m <= n; ++m) {
+      normal(at_cos(n), at_cos(m)) = 0.5 * (cosine(n - m) + cosine(n + m));
+      if (n > 0) normal(at_cos(n) + 1, at_cos(m)) = 0.5 * (sine(n + m) + sine(n - m));
+      if (m > 0) normal(at_cos(n), at_cos(m) + 1) = 0.5 * (sine(n + m) - sine(n - m));
+      if (m > 0) normal(at_cos(n) + 1, at_cos(m) + 1) = 0.5 * (cosine(n - m) - cosine(n + m));
+    }
+  }
+  for (int l = 0; l < drift; ++l) {
+    const auto& column = drift_[static_cast<std::size_t>(l)];
+    const auto moved = half.of(column);
+    normal(1 + l, 0) = moved[0].real();
+    for (int n = 1; n <= orders; ++n) {
+      normal(at_cos(n), 1 + l) = moved[static_cast<std::size_t>(n)].real();
+      normal(at_cos(n) + 1, 1 + l) = -moved[static_cast<std::size_t>(n)].imag();
+    }
+    for (int m = 0; m <= l; ++m) {
+      const auto& other = drift_[static_cast<std::size_t>(m)];
+      double sum = 0.0;
+      for (std::size_t i = 0; i < column.size(); ++i) sum += column[i] * other[i];
+      normal(1 + l, 1 + m) = sum;
+    }
+  }
+  normal_.compute(normal.selfadjointView<Eigen::Lower>());
+  if (normal_.info() != Eigen::Success || normal_.rcond() < 1e-2) return false;
+  const int top = std::min(wanted_, orders);
+  const double even = 2.0 / static_cast<double>(c_rad_.size());
+  inflation_.assign(static_cast<std::size_t>(top) + 1, 1.0);
+  for (int n = 1; n <= top; ++n) {
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(size, 2);
+    unit(at_cos(n), 0) = unit(at_cos(n) + 1, 1) = 1.0;
+    const Eigen::MatrixXd inverse = normal_.solve(unit);
+    inflation_[static_cast<std::size_t>(n)] =
+        0.5 * (inverse(at_cos(n), 0) + inverse(at_cos(n) + 1, 1)) / even;
+  }
+  return true;
+}
+
+Eigen::VectorXd SynchronousFit::right_side(std::span<const double> column,
+                                           const std::vector<Complex>& sums) const {
+  Eigen::VectorXd right(2 * fitted_ + 1 + drift);
+  right[0] = sums[0].real();
+  for (int l = 0; l < drift; ++l) {
+    double sum = 0.0;
+    const auto& moved = drift_[static_cast<std::size_t>(l)];
+    for (std::size_t i = 0; i < column.size(); ++i) sum += moved[i] * column[i];
+    right[1 + l] = sum;
+  }
+  for (int n = 1; n <= fitted_; ++n) {
+    right[drift + 2 * n - 1] = sums[static_cast<std::size_t>(n)].real();
+    right[drift + 2 * n] = -sums[static_cast<std::size_t>(n)].imag();
+  }
+  return right;
+}
+
+std::vector<double> SynchronousFit::residuals(const std::vector<double>& column,
+                                              const Eigen::VectorXd& solution) const {
+  std::vector<double> left(column.size());
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    double model = solution[0];
+    for (int l = 0; l < drift; ++l)
+      model += solution[1 + l] * drift_[static_cast<std::size_t>(l)][i];
+    const Complex step = std::polar(1.0, c_rad_[i]);
+    Complex sum = 0.0;  // Horner in exp(iC)
+    for (int n = fitted_; n >= 1; --n)
+      sum = (sum + Complex(solution[drift + 2 * n - 1], -solution[drift + 2 * n])) * step;
+    left[i] = column[i] - model - sum.real();
+  }
+  return left;
+}
+
+void SynchronousFit::add_covariance(SynchronousPart& part) const {
+  const auto L = static_cast<std::size_t>(std::max(2.0, std::round(turns_)));  // lines an order
+  const std::size_t top = static_cast<std::size_t>(carried_);
+  const std::size_t reach = (std::max<std::size_t>(1, lines_wanted / L) + 1) * L;
+  const std::size_t count = top * L + reach + 1;
+  const FourierSums lines(c_rad_, 0.0, 1.0 / static_cast<double>(L), count);
+  const Index sensors = part.asynchronous_mm.cols();
+  std::vector<std::span<const double>> columns;
+  for (Index s = 0; s < sensors; ++s)
+    columns.emplace_back(part.asynchronous_mm.col(s).data(), c_rad_.size());
+  const auto sums = lines.of(columns);
+  const double scale = 2.0 / static_cast<double>(c_rad_.size());
+  part.freedom = static_cast<double>(lines_wanted);
+  for (std::size_t n = 0; n <= top; ++n) {
+    std::vector<NearLine> near;
+    const auto take = [&](std::size_t line, std::size_t away) {
+      Eigen::VectorXcd at(sensors);
+      for (Index s = 0; s < sensors; ++s) at[s] = scale * sums[static_cast<std::size_t>(s)][line];
+      near.push_back({std::move(at), static_cast<double>(away)});
+    };
+    // The nearest lines on both sides that are no order; below half an order is the drift.
+    for (std::size_t j = 1; near.size() < lines_wanted && j <= reach; ++j) {
+      if (j % L == 0) continue;
+      if (n * L > j + L / 2) take(n * L - j, j);
+      if (n * L + j > L / 2 && n * L + j < count) take(n * L + j, j);
+    }
+    part.freedom = std::min(part.freedom, static_cast<double>(near.size()));
+    part.covariance.push_back(inflation_[n] * covariance_of(near));
+  }
+}
+
+SynchronousPart SynchronousFit::operator()(std::span<const std::vector<double>> columns) const {
+  const FourierSums fourier(c_rad_, 0.0, 1.0, static_cast<std::size_t>(fitted_) + 1);
+  const std::vector<std::span<const double>> views(columns.begin(), columns.end());
+  const auto sums = fourier.of(views);
+  SynchronousPart part;
+  const auto sensors = static_cast<Index>(columns.size());
+  part.harmonics = Eigen::MatrixXcd::Zero(sensors, carried_ + 1);
+  part.asynchronous_mm.resize(static_cast<Index>(c_rad_.size()), sensors);
+  for (Index s = 0; s < sensors; ++s) {
+    const auto& column = columns[static_cast<std::size_t>(s)];
+    const Eigen::VectorXd solution =
+        normal_.solve(right_side(column, sums[static_cast<std::size_t>(s)]));
+    part.harmonics(s, 0) = solution[0];
+    for (int n = 1; n <= carried_; ++n)
+      part.harmonics(s, n) = Complex(solution[drift + 2 * n - 1], -solution[drift + 2 * n]);
+    const std::vector<double> left = residuals(column, solution);
+    part.asynchronous_mm.col(s) =
+        Eigen::Map<const Eigen::VectorXd>(left.data(), static_cast<Index>(left.size()));
+  }
+  add_covariance(part);
+  return part;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace trueaxis {
+
+/// What repeats with C in the readings of some sensors that read at once, and the covariance of it
+/// from what does not.
+struct SynchronousPart {
+  /// z_n of order n = 0 … for every sensor (rows): the reading holds Re(z_n exp(inC)).
+  Eigen::MatrixXcd harmonics;
+  /// E[z zᴴ] of order n, sensors by sensors (Eq. 143): from the lines beside it.
+  std::vector<Eigen::MatrixXcd> covariance;
+  double freedom = 0.0;             ///< complex lines that a covariance is the mean of
+  Eigen::MatrixXd asynchronous_mm;  ///< readings by sensors: less what repeats and the drift
+};
+
+/// Least squares of a Fourier series in C and a drift of third degree (Eq. 142). Sums over readings
+/// are non-uniform fast transforms, the normal matrix follows from twice as many of them.
+class SynchronousFit {
+ public:
+  /// @param c_rad running, at least 4 turns. @param wanted highest order asked for.
+  SynchronousFit(std::span<const double> c_rad, int wanted);
+
+  /// Highest order that these angles carry: `wanted`, or fewer.
+  int order_max() const { return carried_; }
+  double turns() const { return turns_; }
+
+  /// @param columns one for every sensor.
+  SynchronousPart operator()(std::span<const std::vector<double>> columns) const;
+
+ private:
+  static constexpr int drift = 3;
+  bool prepare(int orders);
+  Eigen::VectorXd right_side(std::span<const double> column,
+                             const std::vector<std::complex<double>>& sums) const;
+  std::vector<double> residuals(const std::vector<double>& column,
+                                const Eigen::VectorXd& solution) const;
+  void add_covariance(SynchronousPart& part) const;
+
+  std::vector<double> c_rad_;
+  std::vector<std::vector<double>> drift_;  ///< columns P1 … P3 over the order of the readings
+  double turns_ = 0.0;
+  int wanted_, fitted_ = 0, carried_ = 0;
+  Eigen::LLT<Eigen::MatrixXd> normal_;
+  std::vector<double> inflation_;  ///< variance of order n over that of even spacing
+};
+
+}  // namespace trueaxis

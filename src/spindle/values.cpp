@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "spindle/values.hpp"
+
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <boost/random/uniform_01.hpp>
+#include <cmath>
+#include <limits>
+
+#include "math/fast_fourier.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr std::size_t curve_points = 2048;   // a peak of order 100 to 1.2 % of its own
+constexpr std::size_t harmonic_draws = 500;  // u to 3 %
+// u to 7 % (long recordings: 14 %)
+constexpr std::size_t most_surrogates = 100, least_surrogates = 25;
+constexpr std::size_t most_surrogate_readings = 4'000'000;
+constexpr std::size_t seed = 230'7;
+
+double spread_of(double value, const std::vector<double>& drawn) {
+  double sum = 0.0;
+  for (const double one : drawn) sum += (one - value) * (one - value);
+  return std::sqrt(sum / static_cast<double>(drawn.size()));
+}
+
+double deviation_of(const std::vector<double>& drawn) {
+  double mean = 0.0;
+  for (const double one : drawn) mean += one / static_cast<double>(drawn.size());
+  return spread_of(mean, drawn);
+}
+
+/// Curves of harmonics over one turn, as they are and drawn from what is known of them.
+class CurveSource {
+ public:
+  explicit CurveSource(const UncertainSeries& series)
+      : series_(series), fourier_(curve_points), workspace_(fourier_.workspace()) {}
+
+  std::vector<double> curve(const Series& harmonics) {
+    std::vector<double> real(curve_points), imaginary(curve_points);
+    for (std::size_t n = 0; n < harmonics.size(); ++n) {
+      real[n] = harmonics[n].real();
+      imaginary[n] = -harmonics[n].imag();
+    }
+    std::vector<double> out;
+    for (const Complex& at : fourier_(real, imaginary, workspace_)) out.push_back(at.real());
+    return out;
+  }
+  std::vector<double> best() { return curve(series_.harmonics); }
+  std::vector<double> draw() {
+    Series drawn = series_.harmonics;
+    std::vector<double> turned(static_cast<std::size_t>(series_.moved_mm.cols()));
+    for (double& one : turned) one = normal_(engine_);
+    for (std::size_t n = 0; n < drawn.size(); ++n) {
+      const double real = normal_(engine_), imaginary = normal_(engine_);
+      drawn[n] += series_.u_mm[n] * Complex(real, imaginary);
+      for (std::size_t k = 0; k < turned.size(); ++k)
+        drawn[n] += turned[k] *
+                    series_.moved_mm(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k));
+    }
+    return curve(drawn);
+  }
+
+ private:
+  const UncertainSeries& series_;
+  FastFourier fourier_;
+  FastFourier::Workspace workspace_;
+  boost::random::mt19937_64 engine_{seed};
+  boost::random::normal_distribution<double> normal_;
+};
+
+/// Series of one spectrum with other phases. What is beyond the last smooth length is left off.
+class Surrogates {
+ public:
+  explicit Surrogates(const std::vector<double>& series)
+      : fourier_(smooth_length(series.size())), workspace_(fourier_.workspace()) {
+    const std::size_t n = fourier_.size();
+    const std::vector<double> none(n, 0.0);
+    for (const Complex& one : fourier_(std::span(series).first(n), none, workspace_))
+      size_.push_back(std::abs(one) / static_cast<double>(n));
+  }
+
+  std::vector<double> draw(boost::random::mt19937_64& engine) {
+    const std::size_t n = fourier_.size();
+    std::vector<double> real(n, 0.0), imaginary(n, 0.0), out(n);
+    boost::random::uniform_01<double> uniform;
+    for (std::size_t k = 1; k < n / 2; ++k) {
+      const Complex one = 2.0 * size_[k] * std::polar(1.0, two_pi * uniform(engine));
+      real[k] = one.real();
+      imaginary[k] = one.imag();
+    }
+    const auto result = fourier_(real, imaginary, workspace_);
+    std::ranges::transform(result, out.begin(), [](const Complex& one) { return one.real(); });
+    return out;
+  }
+
+ private:
+  static std::size_t smooth_length(std::size_t most) {
+    std::size_t length = most - most % 2;
+    while (smooth_even_size(length) != length) length -= 2;
+    return length;
+  }
+  FastFourier fourier_;
+  FastFourier::Workspace workspace_;
+  std::vector<double> size_;
+};
+
+/// The readings' extents in each of some places of the turn.
+class Bands {
+ public:
+  explicit Bands(std::size_t places)
+      : low_(places, std::numeric_limits<double>::infinity()),
+        high_(places, -std::numeric_limits<double>::infinity()) {}
+  void add(double c_rad, double value) {
+    const std::size_t at = place_in_turn(c_rad, low_.size());
+    low_[at] = std::min(low_[at], value);
+    high_[at] = std::max(high_[at], value);
+  }
+  double widest() const {
+    double out = 0.0;
+    for (std::size_t i = 0; i < low_.size(); ++i) out = std::max(out, high_[i] - low_[i]);
+    return out;
+  }
+
+ private:
+  std::vector<double> low_, high_;
+};
+
+double band_of(std::span<const AsynchronousMotion> runs,
+               const std::vector<std::vector<double>>& motions, std::size_t places) {
+  Bands bands(places);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (std::size_t i = 0; i < motions[r].size(); ++i) bands.add(runs[r].c_rad[i], motions[r][i]);
+  return bands.widest();
+}
+
+double total_of(const std::vector<double>& curve, std::span<const AsynchronousMotion> runs,
+                const std::vector<std::vector<double>>& motions) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (std::size_t i = 0; i < motions[r].size(); ++i) {
+      const double value = curve[place_in_turn(runs[r].c_rad[i], curve.size())] + motions[r][i];
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  }
+  return high - low;
+}
+
+}  // namespace
+
+std::size_t place_in_turn(double c_rad, std::size_t places) {
+  const double turns = c_rad / two_pi;
+  return static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(places) + 0.5) %
+         places;
+}
+
+Estimate range_estimate(const UncertainSeries& series) {
+  CurveSource source(series);
+  const double value = range_of(source.best()).length();
+  std::vector<double> drawn;
+  for (std::size_t k = 0; k < harmonic_draws; ++k)
+    drawn.push_back(range_of(source.draw()).length());
+  return {value, spread_of(value, drawn), "mm", ""};
+}
+
+std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+                                                     std::span<const AsynchronousMotion> runs,
+                                                     double per_turn) {
+  CurveSource source(series);
+  const auto places = static_cast<std::size_t>(std::max(8.0, std::round(per_turn)));
+  std::vector<std::vector<double>> motions;
+  std::vector<Surrogates> surrogates;
+  std::size_t readings = 0;
+  for (const AsynchronousMotion& run : runs) {
+    motions.push_back(run.motion_mm);
+    surrogates.emplace_back(run.motion_mm);
+    readings += run.motion_mm.size();
+  }
+  const double band = band_of(runs, motions, places);
+  const double total = total_of(source.best(), runs, motions);
+  boost::random::mt19937_64 engine(seed);
+  std::vector<double> bands, totals;
+  const std::size_t draws =
+      std::clamp(most_surrogate_readings / readings, least_surrogates, most_surrogates);
+  for (std::size_t k = 0; k < draws; ++k) {
+    for (std::size_t r = 0; r < runs.size(); ++r) motions[r] = surrogates[r].draw(engine);
+    bands.push_back(band_of(runs, motions, places));
+    totals.push_back(total_of(source.draw(), runs, motions));
+  }
+  return {{band, deviation_of(bands), "mm", ""}, {total, deviation_of(totals), "mm", ""}};
+}
+
+std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad) {
+  double noise = 0.0;  // the same at every angle
+  for (const double u : series.u_mm) noise += u * u;
+  std::vector<double> out;
+  for (const double angle : angle_rad) {
+    double sum = noise;
+    for (Eigen::Index k = 0; k < series.moved_mm.cols(); ++k) {
+      const Eigen::VectorXcd column = series.moved_mm.col(k);
+      const double moved = value_at({column.begin(), column.end()}, angle);
+      sum += moved * moved;
+    }
+    out.push_back(std::sqrt(sum));
+  }
+  return out;
+}
+
+}  // namespace trueaxis

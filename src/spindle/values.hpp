@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Dense>
+#include <complex>
+#include <cstddef>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "spindle/second_order.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+/// A form or a motion with what is known of its harmonics.
+struct UncertainSeries {
+  Series harmonics;           ///< of order 0 …
+  std::vector<double> u_mm;   ///< of either component, from noise; independent between orders
+  Eigen::MatrixXcd moved_mm;  ///< orders by influences: what one u of each moves
+};
+
+/// What does not repeat, along one direction, of one run.
+struct AsynchronousMotion {
+  std::vector<double> c_rad, motion_mm;
+};
+
+/// Largest − smallest over a turn, u by Monte Carlo (JCGM 101) from the harmonics' covariance: RMS
+/// distance of what is drawn from the value, so that the noise's bias of a range is in u.
+Estimate range_estimate(const UncertainSeries& series);
+
+/// The widest band at one angle over all turns, and largest − smallest of what repeats and what
+/// does not together. u is how much they differ between recordings as long, from series of the same
+/// spectrum with phases drawn anew (Theiler et al. 1992).
+std::pair<Estimate, Estimate> asynchronous_and_total(const UncertainSeries& series,
+                                                     std::span<const AsynchronousMotion> runs,
+                                                     double per_turn);
+
+/// Which of some places evenly around the turn is nearest.
+std::size_t place_in_turn(double c_rad, std::size_t places);
+
+/// u of the curve at every angle.
+std::vector<double> u_of_curve(const UncertainSeries& series, std::span<const double> angle_rad);
+
+}  // namespace trueaxis
