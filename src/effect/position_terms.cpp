@@ -53,6 +53,10 @@ void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermSh
       for (std::size_t i = 0; i < at.size(); ++i) factor[i] *= factor[i] * cosine;
       break;
     }
+    case Envelope::square:
+      contact::share_of_end(at, factor.data());
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] *= factor[i];
+      break;
     case Envelope::constant:
     case Envelope::growing:
       return;
@@ -117,6 +121,7 @@ void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, C
 Linear linear(const PolynomialInZ& term, const TermShape& shape) {
   if (term.plain) return {{"slope", "rad"}};
   Linear list;
+  if (term.dish) list.push_back({"dish", unit_of(term.port)});
   for (int l = term.first; l <= last_degree(term, shape); ++l) {
     list.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
   }
@@ -130,17 +135,26 @@ void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& sha
   const std::size_t size = at.size();
   if (term.plain) {
     const std::span<const double> along = contact::along_mm(term.port, at);
-    std::copy(along.begin(), along.end(), out[0]);
+    const double from_mm = at.face ? at.z_mid_mm : 0.0;  // the height of a face stays its mean
+    for (std::size_t i = 0; i < size; ++i) out[0][i] = along[i] - from_mm;
     return contact::scale_by_dx_d(term.port, at, out);
   }
   const int last = last_degree(term, shape);
+  const Columns degrees = out.subspan(term.dish ? 1 : 0);
   contact::Chunk u, before, now;
+  if (term.dish) {
+    contact::share_of_end(at, u.data());
+    const double end_mm = std::abs(at.z_mid_mm) + at.z_half_mm;
+    const double mean =
+        (at.z_mid_mm * at.z_mid_mm + at.z_half_mm * at.z_half_mm / 3.0) / end_mm / end_mm;
+    for (std::size_t i = 0; i < size; ++i) out[0][i] = u[i] * u[i] - mean;
+  }
   contact::normalised(term.port, at, u.data());
   std::fill_n(before.begin(), size, 1.0);
   std::copy_n(u.begin(), size, now.begin());
   for (int l = 1; l <= last; ++l) {
     if (l >= term.first) {
-      std::copy_n(now.begin(), size, out[static_cast<std::size_t>(l - term.first)]);
+      std::copy_n(now.begin(), size, degrees[static_cast<std::size_t>(l - term.first)]);
     }
     for (std::size_t i = 0; i < size; ++i) {
       before[i] = boost::math::legendre_next(static_cast<unsigned>(l), u[i], now[i], before[i]);

@@ -162,11 +162,9 @@ function nextBlock({next_measurement: next, plans}) {
 }
 
 function diagnosisSection(reference, index) {
-  const {diagnosis, readings} = reference;
+  const {diagnosis} = reference;
   const title = `What the model gets wrong: ${reference.name}`;
-  if (!diagnosis) {
-    return readings?.face ? section(`diagnosis-${index + 1}`, title, paragraph('A face is not diagnosed.', 'quiet')) : null;
-  }
+  if (!diagnosis) return null;
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
   if (hypotheses) {

@@ -24,11 +24,9 @@ struct Renamed {
   std::string_view id, lathe, catalogue;
 };
 constexpr Renamed renamed[] = {
-    {"", "reference", "reference_x"},
-    {"part.bow", "sagitta", "amplitude"},
-    {"part.bow", "direction", "phase"},
-    {"part.slip", "time", "onset"},
-    {"probe.pretravel", "phase", "lobing_phase"},
+    {"", "reference", "reference_x"},    {"part.bow", "sagitta", "amplitude"},
+    {"part.bow", "direction", "phase"},  {"part.slip", "time", "onset"},
+    {"part.seat_slip", "time", "onset"}, {"probe.pretravel", "phase", "lobing_phase"},
     {"probe.tilt", "angle", "tilt"},
 };
 
@@ -50,7 +48,12 @@ std::string catalogue_name(std::string_view id, std::string_view lathe_name) {
 
 /// The catalogue's parameters of a term, inside units, and what the frame gives.
 Parameters values_in(const TermValue& term, const LatheFrame& frame) {
-  Parameters values{{"length", 2.0 * frame.z_half_mm}, {"middle", frame.z_mid_mm}};
+  const double end_mm = std::abs(frame.z_mid_mm) + frame.z_half_mm;
+  const double squares = frame.z_mid_mm * frame.z_mid_mm + frame.z_half_mm * frame.z_half_mm / 3.0;
+  Parameters values{{"length", 2.0 * frame.z_half_mm},
+                    {"middle", frame.z_mid_mm},
+                    {"radius", end_mm},
+                    {"dish_mean", squares / end_mm / end_mm}};
   for (const auto& [name, unit, value] : diagnose_detail::values_of(term)) values[name] = value;
   return values;
 }
@@ -94,9 +97,11 @@ LatheEffects chuck_lobing(const TermValue& term) {
 /// A degree each.
 LatheEffects straightness(const std::string& id, const TermValue& term) {
   LatheEffects list;
+  const int first = std::get<PolynomialInZ>(term.effect->term).first;
   for (std::size_t j = 0; j < term.linear.size(); ++j) {
-    list.push_back(
-        {id, {{"degree", static_cast<double>(j + 2)}, {"amplitude_mm", term.linear[j]}}});
+    list.push_back({id,
+                    {{"degree", static_cast<double>(first) + static_cast<double>(j)},
+                     {"amplitude_mm", term.linear[j]}}});
   }
   return list;
 }
@@ -109,9 +114,10 @@ LatheEffects of_effect(TermValue term, const LatheFrame& frame) {
   if (term.linear.size() != linear_parameters(term.effect->term, term.shape).size())
     throw InputError("diagnosis", "the term of " + id + " is not fitted");
   term.free.clear();  // those that were not free are 0
-  if (id == "part.roundness") return roundness(id, values_in(term, frame));
+  if (id == "part.roundness" || id == "part.face_lobes")
+    return roundness(id, values_in(term, frame));
   if (id == "part.chuck_lobing") return chuck_lobing(term);
-  if (id == "slide.z_straightness") return straightness(id, term);
+  if (id == "slide.z_straightness" || id == "slide.x_straightness") return straightness(id, term);
   return {by_name(id, values_in(term, frame))};
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "simulate/effects_extra.hpp"
+#include "simulate/effects_face.hpp"
 #include "simulate/effects_machine.hpp"
 #include "simulate/effects_part.hpp"
 #include "simulate/effects_probe.hpp"
@@ -18,7 +19,8 @@ namespace {
 const std::vector<EffectEntry>& entries() {
   static const std::vector<EffectEntry> all = [] {
     std::vector<EffectEntry> list;
-    for (const auto part : {part_effects(), machine_effects(), probe_effects(), extra_effects()})
+    for (const auto part :
+         {part_effects(), machine_effects(), probe_effects(), face_effects(), extra_effects()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -130,8 +130,11 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     } else if (whole <= 0.0) {
       h.entry.why = "the plan has no readings in which it shows";
     } else if (share < nearly_absorbed) {
-      const std::string by(effect.absorbed_by.empty() ? "the surface's own parameters"
-                                                      : effect.absorbed_by);
+      const bool elsewhere =
+          point.base.face && !effect.needs.stream;  // its entry speaks of an axis
+      const std::string by(elsewhere                    ? "height and tilt of the face"
+                           : effect.absorbed_by.empty() ? "the surface's own parameters"
+                                                        : effect.absorbed_by);
       h.entry.why = fmt::format("absorbed by {}: {:.2g} % of it is left", by, 100.0 * share);
     } else {
       h.entry.why =

@@ -83,13 +83,16 @@ std::string finding_class(const Finding& finding) {
   return text + ": the data cannot tell";
 }
 
-std::string finding_axis_bias(const Finding& finding, double coverage_factor) {
+std::string finding_axis_bias(const Finding& finding, double coverage_factor, bool face) {
   constexpr double nothing_mm = 1e-6;
   const bool nothing =
       finding.axis_shift.value + coverage_factor * finding.axis_shift.u < nothing_mm;
   const std::string shift =
       nothing ? "less than 0.001 µm"
               : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
+  if (face)
+    return "left out it tilts the face by " + shift + " at its outer end" +
+           (finding.cosmetic ? ": cosmetic for the run-out" : "");
   return "left out it moves the axis by " + shift +
          (finding.cosmetic ? ": cosmetic for coaxiality" : "");
 }

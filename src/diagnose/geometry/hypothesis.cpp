@@ -78,8 +78,8 @@ void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::si
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
   const Term& term = hypothesis.effect->term;
   if (hypothesis.with_radial) {
-    static const Term radial =
-        Harmonic{Harmonic::Angle::spindle, Harmonic::Envelope::constant, Port::x};
+    const Port port = std::get<Harmonic>(term).port;
+    const Term radial = Harmonic{Harmonic::Angle::spindle, Harmonic::Envelope::constant, port};
     fill_columns(radial, point.context(begin, end), hypothesis.shape, columns.last(2));
     columns = columns.first(columns.size() - 2);
   }

@@ -71,11 +71,7 @@ Json resimulation_object(const Resimulation& again) {
 }
 
 Json diagnosis_of(const JobResult& result, std::size_t i) {
-  if (!result.diagnoses[i]) {
-    const bool face = result.streams[i].kind == StreamKind::face;
-    return {{"verdict", nullptr},
-            {"why", face ? "a face is not diagnosed" : "its fit did not converge"}};
-  }
+  if (!result.diagnoses[i]) return {{"verdict", nullptr}, {"why", "its fit did not converge"}};
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result.job, i);
   summary["readings"] = readings_file(result.job, i);

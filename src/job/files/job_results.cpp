@@ -19,10 +19,7 @@ namespace trueaxis {
 namespace {
 
 std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
-  if (!result.diagnoses[i]) {
-    const bool face = result.streams[i].kind == StreamKind::face;
-    return face ? "diagnosis   none: a face is not diagnosed\n" : "";
-  }
+  if (!result.diagnoses[i]) return "";
   const Diagnosis& diagnosis = *result.diagnoses[i];
   const bool again = diagnosis.verdict != DiagnosisVerdict::ideal && result.resimulations[i];
   return findings_text(diagnosis) + (again ? resimulation_line(*result.resimulations[i]) : "");
