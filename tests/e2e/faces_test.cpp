@@ -108,13 +108,14 @@ TEST_F(Faces, AtOneRadiusTheFundamentalMotionIsAbsorbed) {
 }
 
 // One Z: lobes of the part and motion of the spindle are one column, which re-indexing splits; what
-// needs a length is said to be out of sight.
+// needs a length is said to be out of sight. (In phase with the eccentricity, three lobes are a
+// cubic sensor too.)
 TEST_F(Faces, ASectionNamesBothAndTheMeasurementThatTells) {
   simulated("section",
             "seed = 8\n[part]\nkind = \"cylinder\"\nradius_mm = 30\nx0_mm = 0.05\n[noise]\n"
             "sigma_um = 1\n[[pass]]\nz_start_mm = 20\nz_end_mm = 20\nfeed_mm_per_rev = 1\n"
             "revolutions = 40\nreadings_per_revolution = 36.7\n[[effect]]\n"
-            "id = \"part.roundness\"\norder = 3\namplitude_um = 1\n");
+            "id = \"part.roundness\"\norder = 3\nphase_deg = 40\namplitude_um = 1\n");
   ASSERT_EQ(command("diagnose section.csv --surface section --json section.json").exit_code, 0);
   const json found = result("section.json");
   EXPECT_TRUE(in_class(found.at("findings"), "part.roundness"));
