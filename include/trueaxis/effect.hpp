@@ -9,10 +9,13 @@
 #include <variant>
 #include <vector>
 
+#include "trueaxis/probe_stream.hpp"
+
 namespace trueaxis {
 
 /// The geometry of every reading, one entry each, as the ideal surface predicts it; lengths mm.
-/// Pass a block of the stream at a time: nothing here depends on the other readings.
+/// Pass a block of the stream at a time: nothing here depends on the other readings. A face is
+/// probed along Z at (C, X): X below is then its Z, and Z its X.
 struct TermContext {
   std::span<const double> c_rad, z_mm, time_s;        ///< as recorded
   std::span<const double> speed_rad_per_s;            ///< of the spindle, signed like C
@@ -21,15 +24,19 @@ struct TermContext {
   std::span<const double> sensed_mm;                  ///< predicted X without the jogs of the slide
   std::span<const double> dx_dc, dx_dz;               ///< mm per rad, mm per mm
   std::span<const double> d2x_dc2;                    ///< mm per rad², for probe.lag only
+  std::span<const double> dx_dy;                      /**< across the probe, mm per mm: of a face;
+      else it follows from dx_dc */
   std::span<const double> theta_rad, theta_chuck_rad; /**< polar angle of the contact about the
       part's axis, fixed to the part and to the chuck (θ_chuck = θ + re-indexing) */
-  std::span<const double> s_mm;                       ///< of the contact, along the part's axis
+  std::span<const double> s_mm;                       /**< of the contact, along the part's axis; of
+      a face its distance from the axis */
   std::span<const double> clamp_force_ratio;          ///< against the first set-up
 
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half, −1 … 1 when probed
   double height_mm = 0.0;                  ///< of the probe line
   double tan_half_angle = 0.0;             ///< signed like the surface's
   bool bore = false, rear = false;         ///< inside a bore; at the smaller X
+  bool face = false;                       ///< probed along Z
 
   std::size_t size() const { return c_rad.size(); }
 };
@@ -48,12 +55,14 @@ struct TermShape {
   double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
 };
 
-/// What a term's value moves. The derivative of X along it is the chain rule's other factor.
+/// What a term's value moves. The derivative of the reading along it is the chain rule's other
+/// factor: of X, and of a face's Z.
 enum class Port {
-  x,       ///< machine X: 1
-  normal,  ///< the surface along its normal, away from the part's axis: ∂X/∂ρ
+  x,       ///< machine X: 1; of a face −∂Z/∂X
+  normal,  ///< the surface along its normal, away from the part's axis, of a face towards +Z: ∂X/∂ρ
   c,       ///< argument C: ∂X/∂C
-  z        ///< argument Z: ∂X/∂Z
+  z,       ///< argument Z: ∂X/∂Z; of a face −1
+  reading  ///< what the probe indicates: 1
 };
 
 /// cos, sin (n angle) × envelope along Z (Eqs. 39, 40).
@@ -64,7 +73,9 @@ struct Harmonic {
     growing,   ///< 1 and u
     lever,     ///< Z − Z_bearing, and 1: a tilt and a radial motion, each with its own phase
     jaws,      ///< exp(−|s − s_jaw|/L) × force; orders n and 2n
-    parabola  ///< (u² − 1/3) cos α: an axis bent about its nearest line, for n = 1 along the normal
+    parabola,  ///< (u² − 1/3) cos α: an axis bent about its nearest line, for n = 1 along the
+               ///< normal
+    square     ///< (s/s_end)²: a warped face
   };
   Angle angle = Angle::spindle;
   Envelope envelope = Envelope::constant;
@@ -72,11 +83,14 @@ struct Harmonic {
   double fixed_order = 0.0;  ///< 0: the shape's
 };
 
-/// P_first … P_last(u); last 0: up to the shape's degree. `plain`: Z itself instead (Eq. 42).
+/// P_first … P_last(u); last 0: up to the shape's degree. `plain`: Z itself instead (Eq. 42), of a
+/// face X from the middle of what was probed. `dish`: (s/s_end)² less its mean before them (Eq.
+/// 135).
 struct PolynomialInZ {
   int first = 1, last = 1;
   Port port = Port::x;
   bool plain = false;
+  bool dish = false;
 };
 
 /// cos, sin (2π z/period − turns θ) (Eq. 43).
@@ -91,9 +105,11 @@ struct PeriodicInTime {};
 /// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// At an instant the part moved by x, y of the spindle frame, and turned. The surface is where it
-/// stands afterwards (Eq. 46).
-struct PartStep {};
+/// At an instant the part moved by x, y of the spindle frame, and turned (Eq. 46); `seat`: moved
+/// along Z, and its axis tilted (Eq. 136). The surface is where it stands afterwards.
+struct PartStep {
+  bool seat = false;
+};
 
 /// Constant shifts of the arguments (Eqs. 47, 48).
 struct ArgumentShift {
@@ -174,11 +190,12 @@ struct EffectParameter {
 
 /// What a stream must have for an effect to be seen in it.
 struct Requirement {
-  bool time = false;        ///< t of every reading
-  bool length = false;      ///< positions along Z
-  bool cone = false;        ///< an angle to the axis, by which X changes along Z
-  bool cylinder = false;    ///< no half angle of the surface, which would be the same
-  bool both_feeds = false;  ///< passes in +Z and in −Z
+  bool time = false;                      ///< t of every reading
+  bool length = false;                    ///< positions along Z
+  bool cone = false;                      ///< an angle to the axis, by which X changes along Z
+  bool cylinder = false;                  ///< no half angle of the surface, which would be the same
+  bool both_feeds = false;                ///< passes in +Z and in −Z
+  std::optional<StreamKind> stream = {};  ///< what is probed, where another has no such effect
 };
 
 /// Values of a parameter of the shape, in what a stream has.
@@ -216,6 +233,7 @@ struct SearchRange {
   std::vector<Form> forms = std::vector<Form>(1);
   int highest_order = 0;   ///< of a harmonic of free order; 0: what the sampling tells
   int highest_degree = 0;  ///< of a polynomial of free degree
+  int lowest_degree = 0;   ///< of such a one; 0: its first
   double tests = 0.0;  ///< what the choice counts as, for an order; 0: the forms × their starts
 };
 

@@ -36,10 +36,6 @@ int advise_job(const Options& options) {
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const JobReference& reference = job.references[i];
     std::cout << (i ? "\n" : "") << reference.name << " (" << reference.stream << ")\n";
-    if (streams[i].kind == StreamKind::face) {
-      std::cout << "a face is not diagnosed\n";
-      continue;
-    }
     worst = std::max(worst, advise(streams[i], reference.fit, options.false_alarm));
   }
   return worst;

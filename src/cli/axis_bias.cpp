@@ -30,9 +30,7 @@ int execute(const Options& options) {
     const std::string content = read_file(path);
     scenario = parse_scenario_toml(content, path);
     hash = content_hash(content);
-    if (scenario.part.kind == virtual_lathe::PartKind::face || scenario.cut)
-      throw InputError(path,
-                       "needs a cone or cylinder that is probed: the effects are those of X_M");
+    if (scenario.cut) throw InputError(path, "needs a part that is probed, not one that is cut");
   }
   Outputs outputs(options.force);
   if (!path.empty()) outputs.reads(path);

@@ -19,9 +19,7 @@ namespace {
 
 Diagnosis not_diagnosable(Diagnosis out) {
   out.noise.note =
-      out.baseline.surface == SurfaceKind::plane
-          ? "faces are not diagnosed: the catalogue's terms are those of X_M"
-      : out.baseline.surface == SurfaceKind::own
+      out.baseline.surface == SurfaceKind::own
           ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
       : out.baseline.points <= out.baseline.parameters.size()
           ? "no more readings than parameters: nothing is left to diagnose"

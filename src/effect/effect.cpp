@@ -21,6 +21,7 @@ void check(const Term& term, const TermContext& at) {
   const auto* response = std::get_if<Response>(&term);
   const bool second = response != nullptr && response->of == Response::Of::lag;
   expects(!second || at.d2x_dc2.size() == at.size(), "probe.lag has d2x_dc2");
+  expects(!at.face || at.dx_dy.size() == at.size(), "a face has dx_dy");
   expects(at.z_half_mm > 0.0, "the probed length is not 0");
 }
 
@@ -29,8 +30,8 @@ TermContext part_of(const TermContext& at, std::size_t from, std::size_t count) 
   TermContext part = at;
   for (auto* column :
        {&part.c_rad, &part.z_mm, &part.time_s, &part.speed_rad_per_s, &part.velocity_mm_per_s,
-        &part.x_mm, &part.sensed_mm, &part.dx_dc, &part.dx_dz, &part.d2x_dc2, &part.theta_rad,
-        &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
+        &part.x_mm, &part.sensed_mm, &part.dx_dc, &part.dx_dz, &part.d2x_dc2, &part.dx_dy,
+        &part.theta_rad, &part.theta_chuck_rad, &part.s_mm, &part.clamp_force_ratio}) {
     if (!column->empty()) *column = column->subspan(from, count);
   }
   return part;
@@ -43,7 +44,7 @@ constexpr Separator separator_list[] = {
     {"DW", "a dwell: turns at constant Z"},
     {"ST", "a capture with the spindle standing still"},
     {"RC", "the part re-indexed against the spindle and probed again"},
-    {"RE", "probing from the rear side"},
+    {"RE", "probing from the rear side; a face on the other side of the axis, X < 0"},
     {"MS", "a master cylinder or ball of known size"},
     {"OZ", "the part shifted along Z and probed again"},
     {"RM", "re-clamped with less force and probed again"},
@@ -128,9 +129,10 @@ std::size_t TermValue::columns() const {
 std::span<const Effect> effect_catalogue() {
   static const std::vector<Effect> all = [] {
     std::vector<Effect> list;
-    for (const auto family : {entries::part_roundness, entries::part_profile, entries::spindle,
-                              entries::slide, entries::probe_geometry, entries::probe_response,
-                              entries::encoder_and_time, entries::checks}) {
+    for (const auto family :
+         {entries::part_roundness, entries::part_profile, entries::part_face, entries::spindle,
+          entries::spindle_axial, entries::slide, entries::slide_face, entries::probe_geometry,
+          entries::probe_response, entries::encoder_and_time, entries::checks}) {
       for (Effect& effect : family()) list.push_back(std::move(effect));
     }
     return list;

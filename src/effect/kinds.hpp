@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -66,6 +68,10 @@ inline void sin_cos(const TermContext& at, const double* angle_rad, double* sine
 
 /// Eq. 38.
 inline void dx_dy(const TermContext& at, double* out) {
+  if (at.face) {
+    std::copy(at.dx_dy.begin(), at.dx_dy.end(), out);
+    return;
+  }
   for (std::size_t i = 0; i < at.size(); ++i) {
     out[i] = (at.dx_dc[i] - at.height_mm) / at.x_mm[i];
   }
@@ -79,18 +85,22 @@ inline void secant(const TermContext& at, double sign, double* out) {
   }
 }
 
-/// Sign of X out of the material.
+/// Sign of X (a face: of Z) out of the material.
 inline double away(const TermContext& at) { return at.rear == at.bore ? 1.0 : -1.0; }
 
 /// Multiplies by dX/d(value of `port`). Form is positive away from the part's axis: at the rear
-/// that is towards smaller X (Eq. 37).
+/// that is towards smaller X (Eqs. 37, 134).
 inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* const> columns) {
-  if (port == Port::x) return;
-  Chunk normal;
-  if (port == Port::normal) secant(at, at.rear ? -1.0 : 1.0, normal.data());
-  const double* factor = port == Port::normal ? normal.data()
-                         : port == Port::c    ? at.dx_dc.data()
-                                              : at.dx_dz.data();
+  if (port == Port::reading || (port == Port::x && !at.face)) return;
+  Chunk made;
+  if (port == Port::normal) secant(at, at.rear ? -1.0 : 1.0, made.data());
+  if (port == Port::x)
+    std::transform(at.dx_dz.begin(), at.dx_dz.end(), made.begin(), std::negate<>());
+  const bool axial = port == Port::z && at.face;  // the face comes by as much towards −Z
+  if (axial) std::fill_n(made.begin(), at.size(), -1.0);
+  const double* factor = port == Port::c             ? at.dx_dc.data()
+                         : port == Port::z && !axial ? at.dx_dz.data()
+                                                     : made.data();
   for (double* column : columns) {
     for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
   }
@@ -99,6 +109,12 @@ inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* co
 /// Position that a term along Z is written in: s for what the part has, Z for the machine.
 inline std::span<const double> along_mm(Port port, const TermContext& at) {
   return port == Port::normal ? at.s_mm : at.z_mm;
+}
+
+/// s/s_end, s_end that of the outer end of what was probed.
+inline void share_of_end(const TermContext& at, double* out) {
+  const double end_mm = std::abs(at.z_mid_mm) + at.z_half_mm;
+  for (std::size_t i = 0; i < at.size(); ++i) out[i] = at.s_mm[i] / end_mm;
 }
 
 /// u = (along − z_mid)/z_half.

@@ -34,6 +34,17 @@ void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) 
   }
 }
 
+// A face whose axis tilts towards x falls there: Z = c − slope · (x, y).
+void fill_seat(const TermContext& at, const TermShape& shape, const contact::Chunk& sine,
+               const contact::Chunk& cosine, Columns out) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const bool before = at.time_s[i] < shape.onset_s;
+    out[0][i] = before ? -1.0 : 0.0;
+    out[1][i] = before ? at.z_mm[i] * cosine[i] : 0.0;
+    out[2][i] = before ? at.z_mm[i] * sine[i] : 0.0;
+  }
+}
+
 // d/dT of the indication at T. Turning, X is nearly one harmonic of C and H = 1/(1 + jωT) exactly
 // turns it into X + (−T Ẋ + T² Ẍ)/(1 + ω²T²); along Z the slow motion lags by T (Eqs. 52, 53).
 double lag(const TermContext& at, double T, std::size_t i) {
@@ -90,14 +101,15 @@ Parameters parameters(const ProbeLine& term, const TermShape&) {
   return {{{"height", "mm"}}};
 }
 
-// Tilt: the contact's height on the line is Z + X sin γ. Ball: its centre stands off along the
-// normal, out of the material.
+// Tilt: the contact's height on the line is Z + X sin γ; of a face its X is X − Z sin γ. Ball: its
+// centre stands off along the normal, out of the material.
 void fill(const ProbeLine& term, const TermContext& at, const TermShape&, Columns out) {
   switch (term.of) {
     case ProbeLine::Of::height:
       return contact::dx_dy(at, out[0]);
     case ProbeLine::Of::tilt:
-      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = at.x_mm[i] * at.dx_dz[i];
+      for (std::size_t i = 0; i < at.size(); ++i)
+        out[0][i] = (at.face ? -at.x_mm[i] : at.x_mm[i]) * at.dx_dz[i];
       return;
     case ProbeLine::Of::ball:
       return contact::secant(at, contact::away(at), out[0]);
@@ -150,16 +162,18 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
   }
 }
 
-Parameters parameters(const PartStep&, const TermShape&) {
+Parameters parameters(const PartStep& term, const TermShape&) {
+  if (term.seat) return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}}, {"onset_s"}};
   return {{{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}}, {"onset_s"}};
 }
 
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
 // motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. The
 // surface is where the part stands after it: before the step, all of that is missing.
-void fill(const PartStep&, const TermContext& at, const TermShape& shape, Columns out) {
+void fill(const PartStep& term, const TermContext& at, const TermShape& shape, Columns out) {
   Chunk sine, cosine, slope;
   contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
+  if (term.seat) return fill_seat(at, shape, sine, cosine, out);
   contact::dx_dy(at, slope.data());
   for (std::size_t i = 0; i < at.size(); ++i) {
     const bool before = at.time_s[i] < shape.onset_s;

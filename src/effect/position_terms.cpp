@@ -57,6 +57,10 @@ void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermSh
         factor[i] = (factor[i] * factor[i] - mean_of_u2) * cosine;
       break;
     }
+    case Envelope::square:
+      contact::share_of_end(at, factor.data());
+      for (std::size_t i = 0; i < at.size(); ++i) factor[i] *= factor[i];
+      break;
     case Envelope::constant:
     case Envelope::growing:
       return;
@@ -88,8 +92,8 @@ Parameters parameters(const Harmonic& term, const TermShape&) {
   if (term.envelope == Envelope::growing)
     out.linear.insert(out.linear.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
   if (term.envelope == Envelope::lever) {
-    const std::string at_bearing = unit_of(term.port);
-    out.linear.insert(out.linear.end(), {{"radial_cos", at_bearing}, {"radial_sin", at_bearing}});
+    const std::string motion = term.port == Port::z ? "axial" : "radial";
+    out.linear.insert(out.linear.end(), {{motion + "_cos", "mm"}, {motion + "_sin", "mm"}});
   }
   if (term.envelope == Envelope::jaws) {
     out.linear.insert(out.linear.end(), {{"second_cos", unit}, {"second_sin", unit}});
@@ -123,6 +127,7 @@ Parameters parameters(const PolynomialInZ& term, const TermShape& shape) {
     out.linear = {{"slope", "rad"}};
     return out;
   }
+  if (term.dish) out.linear.push_back({"dish", unit_of(term.port)});
   for (int l = term.first; l <= last_degree(term, shape); ++l)
     out.linear.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
   return out;
@@ -133,17 +138,26 @@ void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& sha
   const std::size_t size = at.size();
   if (term.plain) {
     const std::span<const double> along = contact::along_mm(term.port, at);
-    std::copy(along.begin(), along.end(), out[0]);
+    const double from_mm = at.face ? at.z_mid_mm : 0.0;  // the height of a face stays its mean
+    for (std::size_t i = 0; i < size; ++i) out[0][i] = along[i] - from_mm;
     return contact::scale_by_dx_d(term.port, at, out);
   }
   const int last = last_degree(term, shape);
+  const Columns degrees = out.subspan(term.dish ? 1 : 0);
   Chunk u, before, now;
+  if (term.dish) {
+    contact::share_of_end(at, u.data());
+    const double end_mm = std::abs(at.z_mid_mm) + at.z_half_mm;
+    const double mean =
+        (at.z_mid_mm * at.z_mid_mm + at.z_half_mm * at.z_half_mm / 3.0) / end_mm / end_mm;
+    for (std::size_t i = 0; i < size; ++i) out[0][i] = u[i] * u[i] - mean;
+  }
   contact::normalised(term.port, at, u.data());
   std::fill_n(before.begin(), size, 1.0);
   std::copy_n(u.begin(), size, now.begin());
   for (int l = 1; l <= last; ++l) {
     if (l >= term.first) {
-      std::copy_n(now.begin(), size, out[static_cast<std::size_t>(l - term.first)]);
+      std::copy_n(now.begin(), size, degrees[static_cast<std::size_t>(l - term.first)]);
     }
     for (std::size_t i = 0; i < size; ++i) {
       before[i] = boost::math::legendre_next(static_cast<unsigned>(l), u[i], now[i], before[i]);

@@ -181,7 +181,15 @@ std::vector<OpenAxis> open_axes(const JobResult& result) {
     const std::string open = open_causes(*result.diagnoses[i]);
     if (&used == &result.fits[i] || open.empty()) continue;
     double moved_mm = 0.0, U_mm = 0.0;
+    if (used.surface == SurfaceKind::plane) {  // what its tilt makes at the outer end
+      const Axis &now = used.axis.axis, &ideal = result.fits[i].axis.axis;
+      const double end_mm = std::max(std::abs(used.position_min_mm), used.position_max_mm);
+      moved_mm = end_mm * std::hypot(now.slope_x - ideal.slope_x, now.slope_y - ideal.slope_y);
+      const auto& covariance = used.axis.covariance;
+      U_mm = used.coverage_factor * end_mm * std::sqrt(covariance[10] + covariance[15]);
+    }
     for (const double z_mm : {result.job.target->z_start_mm, result.job.target->z_end_mm}) {
+      if (used.surface == SurfaceKind::plane) break;
       const auto [x, y] = used.axis.axis.at(z_mm);
       const auto [x_ideal, y_ideal] = result.fits[i].axis.axis.at(z_mm);
       moved_mm = std::max(moved_mm, std::hypot(x - x_ideal, y - y_ideal));

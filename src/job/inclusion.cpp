@@ -47,7 +47,9 @@ std::string objection(const JobResult& result, const Diagnosis& diagnosis, const
   if (std::abs(finding.term.shape.order - std::round(finding.term.shape.order)) > 1e-9)
     return "it does not repeat every revolution";
   if (result.job.target->kind == TargetKind::face)
-    return "it was seen along X, and a face is cut along Z";
+    return diagnosis.baseline.surface == SurfaceKind::plane
+               ? "a face is cut without the motions that were seen on it"
+               : "it was seen along X, and a face is cut along Z";
   if (side_of_tool(result.job.tool.angle_from_probe_rad) == 0)
     return "the probe saw it along its own direction; the tool's angle from the probe must be 0 or "
            "180 deg";

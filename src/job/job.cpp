@@ -14,7 +14,6 @@ void diagnose_all(JobResult& result) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     result.diagnoses.emplace_back();
     result.resimulations.emplace_back();
-    if (result.streams[i].kind == StreamKind::face) continue;
     if (result.fits[i].status != FitStatus::converged) continue;
     DiagnoseOptions options;
     options.fit = result.job.references[i].fit;

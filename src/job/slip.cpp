@@ -35,7 +35,8 @@ std::string plus_minus(double value, double U, const char* unit) {
 /// Length of the step with the U of its direction, the turn, or both.
 std::string how_far(const Finding& finding, double k) {
   const Estimate dx = parameter_of(finding, "dx"), dy = parameter_of(finding, "dy"),
-                 turn = parameter_of(finding, "turn");
+                 turn = parameter_of(finding, "turn"), dz = parameter_of(finding, "dz"),
+                 tilt_x = parameter_of(finding, "tilt_x"), tilt_y = parameter_of(finding, "tilt_y");
   std::string text;
   if (dx.determined() && dy.determined()) {
     const double step_mm = std::hypot(dx.value, dy.value);
@@ -43,8 +44,13 @@ std::string how_far(const Finding& finding, double k) {
         step_mm > 0.0 ? std::hypot(dx.value * dx.u, dy.value * dy.u) / step_mm : dx.u;
     text = plus_minus(step_mm / mm_per_um, k * u_mm / mm_per_um, " µm");
   }
-  if (turn.determined())
-    text += (text.empty() ? "" : " and ") + plus_minus(turn.value, k * turn.u, "°");
+  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : " and ") + more; };
+  if (dz.determined())
+    add(plus_minus(dz.value / mm_per_um, k * dz.u / mm_per_um, " µm") + " along Z");
+  if (tilt_x.determined() && tilt_y.determined())
+    add(plus_minus(std::hypot(tilt_x.value, tilt_y.value), k * std::max(tilt_x.u, tilt_y.u), "°") +
+        " of tilt");
+  if (turn.determined()) add(plus_minus(turn.value, k * turn.u, "°"));
   return text;
 }
 

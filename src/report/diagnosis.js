@@ -37,22 +37,22 @@ function classTable(finding, titles) {
       chance(member.probability)]));
 }
 
-function findingCard(finding, number, k, titles) {
+function findingCard(finding, number, k, titles, face) {
   const {axis_shift: shift, cosmetic} = finding.axis_bias;
   const list = named(finding.parameters).map((p) => [spoken(p.name), estimated(p, k)]);
   list.push(['Part of the readings (RMS)', micrometres(finding.rms.value)],
-    ['Axis shift when left out', estimated(shift, k)],
+    [face ? 'Tilt at the outer end when left out' : 'Axis shift when left out', estimated(shift, k)],
     ['False-alarm probability (all hypotheses counted)', isNumber(finding.p_value) ? (finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)) : '–']);
-  const parts = [element('h4', {}, `${number}. ${finding.effect}`, cosmetic ? element('span', {class: 'pill neutral'}, 'cosmetic for coaxiality') : null),
+  const parts = [element('h4', {}, `${number}. ${finding.effect}`, cosmetic ? element('span', {class: 'pill neutral'}, face ? 'cosmetic for the run-out' : 'cosmetic for coaxiality') : null),
     paragraph(titles[finding.effect], 'quiet'), facts(list), classTable(finding, titles)];
   if (finding.alias) parts.push(paragraph(`The sampling cannot tell it from ${finding.alias}.`, 'quiet'));
   if (finding.separate_with) parts.push(paragraph(`To tell apart: ${measurementWords(finding.separate_with)}`));
   return element('div', {class: 'card'}, parts);
 }
 
-function findingsBlock({findings, unexplained, titles, options: {coverage_factor: k}}) {
+function findingsBlock({findings, unexplained, titles, options: {coverage_factor: k}}, face) {
   if (!findings.length && !unexplained.length) return null;
-  const cards = findings.map((f, i) => findingCard(f, i + 1, k, titles));
+  const cards = findings.map((f, i) => findingCard(f, i + 1, k, titles, face));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
     element('h4', {}, `Unexplained: ${u.harmonic}`), paragraph(u.dependence, 'quiet'), facts([['Amplitude', estimated(u.amplitude, k)]]),
     paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
@@ -62,16 +62,17 @@ function findingsBlock({findings, unexplained, titles, options: {coverage_factor
 const spread = ({value, low, high}) => isNumber(value) && value > 0
   ? `${micrometres(value)}${isNumber(low) && high > low ? ` (95 % ${micrometres(low).replace(nbsp + 'µm', '')} to ${micrometres(high)})` : ''}` : 'not determined';
 
-function gainFacts({gain, options: {coverage_factor: k}}) {
+function gainFacts({gain, options: {coverage_factor: k}}, face) {
   const ratio = gain.held_out_ratio;
   return facts([
     ['Held-out RMS, ideal surface', spread(gain.held_out_rms_before)],
     ['Held-out RMS, extended model', spread(gain.held_out_rms_after)],
     ['Ratio (95 %)', isNumber(ratio.value) && ratio.value > 0 ? `${fixed(ratio.value, 2)} (${fixed(ratio.low ?? ratio.value, 2)} to ${fixed(ratio.high ?? ratio.value, 2)})` : 'not determined'],
     ['Noise floor', micrometres(gain.noise_floor.value)],
-    ['Shift of the axis', estimated(gain.axis_shift, k)],
-    ['Expected coaxiality over the probed length, cut about the axis of the ideal surface', estimated(gain.coaxiality_before, k)],
-    ['The same about the axis of the extended model', estimated(gain.coaxiality_after, k)],
+    [face ? 'What the tilt moved by, at the outer end' : 'Shift of the axis', estimated(gain.axis_shift, k)],
+    [face ? 'Expected axial run-out at the outer end, cut square to the axis of the ideal surface'
+      : 'Expected coaxiality over the probed length, cut about the axis of the ideal surface', estimated(gain.coaxiality_before, k)],
+    [`The same ${face ? 'square to' : 'about'} the axis of the extended model`, estimated(gain.coaxiality_after, k)],
   ]);
 }
 
@@ -94,7 +95,7 @@ function simulatedBy({by_lathe: lathe, why_not: why}) {
 }
 
 function simulationBlock(reference) {
-  const {diagnosis} = reference;
+  const {diagnosis, readings} = reference;
   const {simulation} = diagnosis;
   if (!simulation) return paragraph('There are no differences to draw: the model was not evaluated at every reading.', 'quiet');
   const extended = diagnosis.findings.length > 0 || diagnosis.unexplained.length > 0;
@@ -162,11 +163,9 @@ function nextBlock({next_measurement: next, plans}) {
 }
 
 function diagnosisSection(reference, index) {
-  const {diagnosis, readings} = reference;
+  const {diagnosis} = reference;
   const title = `What the model gets wrong: ${reference.name}`;
-  if (!diagnosis) {
-    return readings?.face ? section(`diagnosis-${index + 1}`, title, paragraph('A face is not diagnosed.', 'quiet')) : null;
-  }
+  if (!diagnosis) return null;
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
   if (hypotheses) {
@@ -175,7 +174,7 @@ function diagnosisSection(reference, index) {
   }
   const {status, message} = diagnosis.extended;
   if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
-  if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis));
-  parts.push(findingsBlock(diagnosis), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
+  if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis, readings?.face));
+  parts.push(findingsBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
   return section(`diagnosis-${index + 1}`, title, ...parts);
 }

@@ -44,6 +44,24 @@ Chucking chucking_of(const ProbeStream& stream, const SetUp& set_up, const Axis&
   return out;
 }
 
+/// A face whose axis stands where the spindle's pierces it, in every set-up at the height found
+/// there: its frame's origin is so far below it as in the first.
+void place_face(const FitResult& fit, Scenario& scenario) {
+  virtual_lathe::Part& part = scenario.part;
+  part.kind = PartKind::face;
+  const bool own = fit.set_ups.size() == scenario.plan.setups.size();
+  double level_mm = 0.0;
+  for (std::size_t i = 0; i < scenario.plan.setups.size(); ++i) {
+    Chucking& now = scenario.plan.setups[i];
+    const double n = std::sqrt(1.0 - *now.l * *now.l - *now.m * *now.m);
+    const double d_mm = find_parameter(own ? fit.set_ups[i].parameters : fit.parameters, "d").value;
+    if (i == 0) level_mm = d_mm / (n * n), part.d_mm = d_mm, part.l = *now.l, part.m = *now.m;
+    now.x0_mm = -level_mm * *now.l, now.y0_mm = -level_mm * *now.m;
+    now.z_shift_mm = d_mm / n - level_mm * n;
+    if (i == 0) part.x0_mm = *now.x0_mm, part.y0_mm = *now.y0_mm;
+  }
+}
+
 /// Part and set-ups of a fit, its radius about the axis as it stands in the last set-up.
 void place_part(const FitResult& fit, const ProbeStream& stream, Scenario& scenario) {
   if (fit.status != FitStatus::converged)
@@ -62,6 +80,7 @@ void place_part(const FitResult& fit, const ProbeStream& stream, Scenario& scena
   part.l = *now.l;
   part.m = *now.m;
   part.bore = fit.bore;
+  if (fit.surface == SurfaceKind::plane) return place_face(fit, scenario);
   part.radius_mm = fit.shape.radius_mm;
   if (fit.surface != SurfaceKind::cone) return;
   part.kind = PartKind::cone;

@@ -23,11 +23,9 @@ struct Renamed {
   std::string_view id, lathe, catalogue;
 };
 constexpr Renamed renamed[] = {
-    {"", "reference", "reference_x"},
-    {"part.bow", "sagitta", "amplitude"},
-    {"part.bow", "direction", "phase"},
-    {"part.slip", "time", "onset"},
-    {"probe.pretravel", "phase", "lobing_phase"},
+    {"", "reference", "reference_x"},    {"part.bow", "sagitta", "amplitude"},
+    {"part.bow", "direction", "phase"},  {"part.slip", "time", "onset"},
+    {"part.seat_slip", "time", "onset"}, {"probe.pretravel", "phase", "lobing_phase"},
     {"probe.tilt", "angle", "tilt"},
 };
 
@@ -50,10 +48,14 @@ std::string catalogue_name(std::string_view id, std::string_view lathe_name) {
 /// The catalogue's parameters of a term, inside units, and what the frame gives.
 Parameters values_in(const TermValue& term, const LatheFrame& frame) {
   // A bent axis about its nearest line (Eq. 40); the part as it stands after a step (Eq. 46).
+  const double end_mm = std::abs(frame.z_mid_mm) + frame.z_half_mm;
+  const double squares = frame.z_mid_mm * frame.z_mid_mm + frame.z_half_mm * frame.z_half_mm / 3.0;
   Parameters values{{"length", 2.0 * frame.z_half_mm},
                     {"middle", frame.z_mid_mm},
                     {"share", 1.0 / 3.0},
-                    {"ends", 1.0}};
+                    {"ends", 1.0},
+                    {"radius", end_mm},
+                    {"dish_mean", squares / end_mm / end_mm}};
   for (const auto& [name, unit, value] : diagnose_detail::values_of(term)) values[name] = value;
   return values;
 }
@@ -79,13 +81,14 @@ LatheEffects roundness(const std::string& id, const Parameters& values) {
   return {constant, by_name(id, growth)};
 }
 
-/// In the lathe a tilt is about a bearing; what is beside it is radial.
-LatheEffects tilt(const std::string& id, const Parameters& values) {
+/// In the lathe a tilt is about a bearing; the motion beside it is another effect.
+LatheEffects tilt(const std::string& id, const Parameters& values, const std::string& beside,
+                  const std::string& motion) {
   return {by_name(id, values),
-          {"spindle.radial_synchronous",
+          {beside,
            {{"order", values.at("order")},
-            {"amplitude_mm", values.at("radial")},
-            {"phase_rad", values.at("radial_phase")}}}};
+            {"amplitude_mm", values.at(motion)},
+            {"phase_rad", values.at(motion + "_phase")}}}};
 }
 
 /// In the lathe the ring's theory ties the second harmonic to the first.
@@ -106,9 +109,11 @@ LatheEffects chuck_lobing(const TermValue& term) {
 /// A degree each.
 LatheEffects straightness(const std::string& id, const TermValue& term) {
   LatheEffects list;
+  const int first = std::get<PolynomialInZ>(term.effect->term).first;
   for (std::size_t j = 0; j < term.linear.size(); ++j) {
-    list.push_back(
-        {id, {{"degree", static_cast<double>(j + 2)}, {"amplitude_mm", term.linear[j]}}});
+    list.push_back({id,
+                    {{"degree", static_cast<double>(first) + static_cast<double>(j)},
+                     {"amplitude_mm", term.linear[j]}}});
   }
   return list;
 }
@@ -121,10 +126,14 @@ LatheEffects of_effect(TermValue term, const LatheFrame& frame) {
   if (term.linear.size() != linear_parameters(term.effect->term, term.shape).size())
     throw InputError("diagnosis", "the term of " + id + " is not fitted");
   term.free.clear();  // those that were not free are 0
-  if (id == "part.roundness") return roundness(id, values_in(term, frame));
+  if (id == "part.roundness" || id == "part.face_lobes")
+    return roundness(id, values_in(term, frame));
   if (id == "part.chuck_lobing") return chuck_lobing(term);
-  if (id == "slide.z_straightness") return straightness(id, term);
-  if (id == "spindle.tilt_synchronous") return tilt(id, values_in(term, frame));
+  if (id == "slide.z_straightness" || id == "slide.x_straightness") return straightness(id, term);
+  if (id == "spindle.tilt_synchronous")
+    return tilt(id, values_in(term, frame), "spindle.radial_synchronous", "radial");
+  if (id == "spindle.face_tilt")
+    return tilt(id, values_in(term, frame), "spindle.axial_synchronous", "axial");
   return {by_name(id, values_in(term, frame))};
 }
 

@@ -15,7 +15,8 @@ namespace {
 const std::vector<EffectEntry>& entries() {
   static const std::vector<EffectEntry> all = [] {
     std::vector<EffectEntry> list;
-    for (const auto part : {part_effects(), machine_effects(), probe_effects(), extra_effects()})
+    for (const auto part :
+         {part_effects(), machine_effects(), probe_effects(), face_effects(), extra_effects()})
       list.insert(list.end(), part.begin(), part.end());
     return list;
   }();

@@ -45,6 +45,7 @@ struct SurfacePoint {
 /// Rigid step of the part against the spindle.
 struct PartStep {
   double dx_mm = 0.0, dy_mm = 0.0, turn_rad = 0.0;
+  double dz_mm = 0.0, tilt_x_rad = 0.0, tilt_y_rad = 0.0;  ///< of its axis towards x, y
 };
 
 struct ProbeLine {

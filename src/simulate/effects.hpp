@@ -82,5 +82,7 @@ std::span<const EffectEntry> probe_effects();
 /// What no catalogue has: forms and motions for tests that must end with "unknown", then patterns
 /// without a cause, which play back what a diagnosis leaves unexplained.
 std::span<const EffectEntry> extra_effects();
+/// What a face shows: its form, axial motion, the X slide.
+std::span<const EffectEntry> face_effects();
 
 }  // namespace trueaxis::virtual_lathe

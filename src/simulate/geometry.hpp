@@ -27,10 +27,8 @@ struct RigidFrame {
         origin, {1.0 - w * l * l, -w * l * m, -l}, {-w * l * m, 1.0 - w * m * m, -m}, {l, m, n}};
   }
 
-  Vec3 part_from_spindle(const Vec3& point) const {
-    const Vec3 p = point - origin;
-    return {dot(p, ex), dot(p, ey), dot(p, ez)};
-  }
+  Vec3 turned(const Vec3& p) const { return {dot(p, ex), dot(p, ey), dot(p, ez)}; }
+  Vec3 part_from_spindle(const Vec3& point) const { return turned(point - origin); }
 };
 
 /// Spindle angle with its sine and cosine.

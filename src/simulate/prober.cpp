@@ -64,20 +64,24 @@ TrueState Prober::state_at(const Moment& moment) const {
 
 // part ← spindle ← machine: turned by C, by what the part slipped, then the rigid placement undone.
 Prober::PartView Prober::view_at(const TrueState& state) const {
-  double turn = state.c_rad, dx = 0.0, dy = 0.0;
+  double turn = state.c_rad, dx = 0.0, dy = 0.0, dz = 0.0, tilt_x = 0.0, tilt_y = 0.0;
   for (const auto& term : chain_.step) {
     const PartStep step = term(state.at.t_s);
     turn -= step.turn_rad;
     dx += step.dx_mm;
     dy += step.dy_mm;
+    dz += step.dz_mm;
+    tilt_x += step.tilt_x_rad;
+    tilt_y += step.tilt_y_rad;
   }
   const SpindleAngle angle(turn);
+  const RigidFrame seat = RigidFrame::about({dx, dy, dz}, tilt_x, tilt_y);
   const auto vector = [&](const Vec3& machine) {
-    const Vec3 p = angle.spindle_from_machine(machine);
+    const Vec3 p = seat.turned(angle.spindle_from_machine(machine));
     return Vec3{dot(p, frame_.ex), dot(p, frame_.ey), dot(p, frame_.ez)};
   };
-  return {frame_.part_from_spindle({-dx, -dy, 0.0}), vector({1, 0, 0}), vector({0, 1, 0}),
-          vector({0, 0, 1})};
+  return {frame_.part_from_spindle(seat.part_from_spindle({})), vector({1, 0, 0}),
+          vector({0, 1, 0}), vector({0, 0, 1})};
 }
 
 template <class Gap>

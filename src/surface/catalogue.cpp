@@ -45,19 +45,22 @@ std::vector<double> reported_jacobian(SurfaceKind kind, const Revolved& shape, d
   const auto [x, y] = axis.at(z_mm);
   const double s_mm = (z_mm - axis.z_ref_mm) * std::hypot(1.0, axis.slope_x, axis.slope_y);
   const double radius_mm = shape.radius_mm + shape.tan_half_angle * s_mm;
-  const double all[6] = {x, y, axis.slope_x, axis.slope_y, radius_mm, shape.tan_half_angle};
-  constexpr std::size_t section[] = {0, 1, 4}, tilted[] = {0, 1, 2, 3, 4, 5};
+  const bool plane = kind == SurfaceKind::plane;  // its working slopes are those of Z over x, y
+  const double all[6] = {
+      x, y, axis.slope_x, axis.slope_y, plane ? axis.z_ref_mm : radius_mm, shape.tan_half_angle};
+  constexpr std::size_t section[] = {0, 1, 4}, face[] = {4, 2, 3}, tilted[] = {0, 1, 2, 3, 4, 5};
   const std::span<const std::size_t> column =
-      kind == SurfaceKind::section
-          ? std::span<const std::size_t>(section)
-          : std::span<const std::size_t>(tilted).first(surface->parameter_count());
+      kind == SurfaceKind::section ? std::span<const std::size_t>(section)
+      : plane                      ? std::span<const std::size_t>(face)
+              : std::span<const std::size_t>(tilted).first(surface->parameter_count());
+  const auto sign = [plane](std::size_t c) { return plane && c != 4 ? -1.0 : 1.0; };
   std::vector<double> working;
-  for (const std::size_t c : column) working.push_back(all[c]);
+  for (const std::size_t c : column) working.push_back(sign(c) * all[c]);
   const Surface::Reported reported = surface->report(working);
   std::vector<double> jacobian(6 * reported.value.size(), 0.0);
   for (std::size_t i = 0; i < reported.value.size(); ++i)
     for (std::size_t j = 0; j < column.size(); ++j)
-      jacobian[6 * i + column[j]] = reported.jacobian[i * column.size() + j];
+      jacobian[6 * i + column[j]] = sign(column[j]) * reported.jacobian[i * column.size() + j];
   return jacobian;
 }
 

@@ -73,7 +73,9 @@ class Plane final : public Surface {
   std::vector<double> axis_jacobian(std::span<const double>) const override {
     return {0, 0, 0, 0, 0, 0, 0, -1, 0, 0, 0, -1};
   }
-  Revolved shape(std::span<const double> w) const override { return {axis(w), 0.0, 0.0}; }
+  Revolved shape(std::span<const double> w) const override {
+    return {{0.0, 0.0, -w[1], -w[2], w[0]}, 0.0, 0.0};
+  }
 
   Influences influences(std::span<const double> w, double c_rad,
                         double position_mm) const override {

@@ -94,7 +94,8 @@ class Surface {
   /// The axis (of a plane: its normal) and its Jacobian, 4 × parameter_count(), row-major.
   virtual Axis axis(std::span<const double> working) const = 0;
   virtual std::vector<double> axis_jacobian(std::span<const double> working) const = 0;
-  /// The part's surface, the ball taken off; a plane returns its axis with radius 0.
+  /// The part's surface, the ball taken off; a plane returns, with radius 0, the axis that is
+  /// perpendicular to it where the spindle's pierces it, there as probed.
   virtual Revolved shape(std::span<const double> working) const = 0;
   /// Derivatives of the prediction with respect to influence quantities, at one reading.
   struct Influences {
@@ -114,7 +115,7 @@ const SurfaceInfo& surface_info(SurfaceKind kind);
 
 /// Derivatives of the reported parameters (edge units, catalogue's order) with respect to the axis
 /// point x, y at `z_mm`, the slopes, the radius there and the tangent of the half angle: row-major,
-/// 6 columns. Of a lateral surface of the catalogue.
+/// 6 columns. Of a plane the height stands for the radius.
 std::vector<double> reported_jacobian(SurfaceKind kind, const Revolved& shape, double z_mm);
 
 std::unique_ptr<Surface> make_surface(SurfaceKind kind, const SurfaceFrame& frame);

@@ -51,6 +51,12 @@ std::vector<virtual_lathe::Effect> played(const AxisBiasCase& of,
 Move true_ends(const Scenario& scenario, const FitResult& fit) {
   const std::vector<double> truth =
       true_values(scenario, {fit.position_min_mm, fit.position_max_mm}, fit.surface);
+  if (fit.surface == SurfaceKind::plane) {  // what its tilt makes at the outer end
+    const double end_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+    const double secant = 1.0 / std::sqrt(1.0 - truth[0] * truth[0] - truth[1] * truth[1]);
+    const double x = end_mm * truth[0] * secant, y = end_mm * truth[1] * secant;
+    return {x, y, x, y};
+  }
   const std::vector<Quantity> names = quantities(fit.surface);
   const auto from = std::ranges::find(names, "x_at_min_z", &Quantity::name) - names.begin();
   return Move(truth.data() + from);
@@ -145,6 +151,8 @@ AxisBiasRow axis_bias_of(const Scenario& scenario, const AxisBiasCase& of) {
     for (const double moved : direction.rigid)
       row.rounding = std::max(row.rounding, 2.0 * tilt2 * std::abs(moved) / of.edge);
   }
+  if (ideal.part.kind == PartKind::face)  // its columns too
+    row.rounding = std::max(row.rounding, 2.0 * tilt2 * row.predicted);
   row.agrees = row.off <= row.second_order + row.rounding;
   row.left = linearised.left;
   row.separable = linearised.separable && whole.separable && half.separable;

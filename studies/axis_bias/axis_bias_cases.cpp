@@ -125,6 +125,28 @@ std::vector<AxisBiasCase> part_cases(const Where& at) {
   return out;
 }
 
+std::vector<AxisBiasCase> face_cases(const Where& at) {
+  const double half_way = 0.5 * at.duration_s;
+  return {
+      mm("part.face_saddle", ""),
+      mm("part.face_lobes", "three lobes", {.order = 3}, {0, 1}),
+      mm("part.face_lobes", "ovality growing with u", {.order = 2}, {2, 3}),
+      mm("part.face_cone", ""),
+      mm("part.face_crown", "dish", {}, {0}),
+      mm("part.face_crown", "P2", {}, {1}),
+      mm("part.face_crown", "P3", {}, {2}),
+      mm("part.waviness", "7.3 waves", {.period_mm = at.length_mm() / 7.3}),
+      mm("part.feed_marks", "0.173 mm/rev", {.period_mm = 0.173}),
+      mm("part.face_spiral", "0.173 mm/rev", {.period_mm = 0.173}),
+      mm("part.seat_slip", "along Z, half-way", {.onset_s = half_way}, {0}),
+      angle(mm("part.seat_slip", "tilt, half-way", {.onset_s = half_way}, {1, 2}), small_slope_rad),
+      mm("spindle.axial_fundamental", ""),
+      mm("spindle.axial_asynchronous", "0.43 per turn", {.order = 0.43}),
+      angle(mm("spindle.face_tilt", "2 UPR", {.order = 2}), small_slope_rad),
+      angle(mm("slide.xz_squareness", ""), small_slope_rad),
+      mm("slide.x_straightness", "P2", {.degree = 2}, {1})};
+}
+
 std::vector<AxisBiasCase> machine_cases(const Where& at) {
   constexpr double bearing_mm = -250.0;
   AxisBiasCase rate =
@@ -194,10 +216,15 @@ std::vector<AxisBiasCase> axis_bias_cases(const virtual_lathe::Scenario& scenari
   ideal.effects.clear();
   ideal.noise = {};
   const Where at = where_of(ideal);
-  std::vector<AxisBiasCase> all = part_cases(at);
+  const bool face = scenario.part.kind == virtual_lathe::PartKind::face;
+  std::vector<AxisBiasCase> all = face ? face_cases(at) : part_cases(at);
   for (const auto& more : {machine_cases(at), probe_cases(at)})
     all.insert(all.end(), more.begin(), more.end());
-  add_stated(all);
+  const StreamKind kind = face ? StreamKind::face : StreamKind::lateral;
+  std::erase_if(all, [&](const AxisBiasCase& one) {
+    return find_effect(one.effect)->needs.stream.value_or(kind) != kind;
+  });
+  if (!face) add_stated(all);
   return all;
 }
 

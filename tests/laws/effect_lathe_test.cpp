@@ -148,7 +148,7 @@ TEST(EffectLatheCases, SlopesAlongYHoldAtAnyHeight) {
 
 TEST(EffectLatheCases, HasACaseForEveryEffect) {
   std::set<std::string_view> covered;
-  const std::vector<LatheCase> cases = lathe_cases();
+  const std::vector<LatheCase> cases = all_lathe_cases();
   for (const LatheCase& one : cases) covered.insert(one.id);
   for (const Effect& effect : effect_catalogue()) {
     EXPECT_EQ(covered.contains(effect.id), !effect.check) << effect.id;

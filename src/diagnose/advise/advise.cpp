@@ -20,6 +20,13 @@ constexpr double told_for_sure = 0.98;
 constexpr double found_for_sure = 0.9;
 constexpr double shape_step = 0.06;  // what a rival may give way in its shape
 
+/// A line that is free in its order fits a whole order as well, and chance keeps it in the class
+/// with a small probability: on faces and sections no plan is refused because it leaves that open.
+bool is_asked(const AmbiguousFinding& question, std::size_t rival, const BaseKind& base) {
+  constexpr double open_to_chance = 0.01;
+  return (base.tilts && !base.face) || question.found.rivals[rival].probability >= open_to_chance;
+}
+
 double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
 
 /// What a set of readings would tell: for every question the least Φ(d/2) over its rivals, for
@@ -88,7 +95,8 @@ class Predictor {
                   p.gram(static_cast<Eigen::Index>(places[q.term][a]),
                          static_cast<Eigen::Index>(places[q.term][b]));
         }
-        least = std::min(least, phi_half(std::sqrt(std::max(0.0, d2)) / sigma_mm_));
+        if (is_asked(q, r - 1, point.base))
+          least = std::min(least, phi_half(std::sqrt(std::max(0.0, d2)) / sigma_mm_));
       }
       out.told.push_back(least);
     }
@@ -194,7 +202,10 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
       continue;
     }
     double nearest = 1e9;
-    for (const Rival& r : questions[k].found.rivals) nearest = std::min(nearest, r.distance);
+    const std::vector<Rival>& rivals = questions[k].found.rivals;
+    for (std::size_t r = 0; r < rivals.size(); ++r)
+      if (is_asked(questions[k], r, problem.point.base))
+        nearest = std::min(nearest, rivals[r].distance);
     const double before = phi_half(nearest);
     const std::vector<double> values = column(&Outlook::told, k, before);
     out.questions.push_back(choose(plans, before, values, told_for_sure,
@@ -241,9 +252,13 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
   for (std::size_t k = 0; k < questions.size(); ++k) {
     if (questions[k].found.rivals.empty()) continue;
     if (after[order[0]].told[k] < told_for_sure) continue;
-    for (const Candidate& c : questions[k].found.members)
-      if (std::ranges::find(out.next.separates, c.hypothesis.id()) == out.next.separates.end())
-        out.next.separates.push_back(c.hypothesis.id());
+    const std::vector<Candidate>& members = questions[k].found.members;
+    for (std::size_t c = 0; c < members.size(); ++c) {
+      const std::string id = members[c].hypothesis.id();
+      if (c > 0 && !is_asked(questions[k], c - 1, problem.point.base)) continue;
+      if (std::ranges::find(out.next.separates, id) == out.next.separates.end())
+        out.next.separates.push_back(id);
+    }
   }
   if (!open) {
     for (std::size_t k = 0; k < hidden.size(); ++k)

@@ -23,6 +23,11 @@ constexpr double minutes_to_clamp = 5.0, minutes_to_turn_probe = 2.0, minutes_be
 struct Manner {
   double z_start = 0.0, z_end = 0.0, feed = 1.0, speed = two_pi, per_turn = 24.0, seconds = 60.0;
   int sign = 1;
+  double dwelt = 0.0;  ///< turns of a dwell
+
+  double turns() const {
+    return sign * (z_start != z_end ? std::abs(z_end - z_start) / feed : dwelt);
+  }
 };
 Manner manner_of(const LinearisationPoint& point) {
   const Pass* best = nullptr;
@@ -41,7 +46,8 @@ Manner manner_of(const LinearisationPoint& point) {
   }
   if (best->speed_rad_per_s != 0.0) m.speed = std::abs(best->speed_rad_per_s);
   if (best->readings_per_revolution > 1.0) m.per_turn = best->readings_per_revolution;
-  m.seconds = std::abs(m.z_end - m.z_start) / m.feed * two_pi / m.speed;
+  m.dwelt = static_cast<double>(best->end - best->begin) / m.per_turn;
+  m.seconds = std::abs(m.turns()) * two_pi / m.speed;
   return m;
 }
 
@@ -69,7 +75,7 @@ void append(ProbeStream& stream, const Motion& motion, double readings, int pass
 
 ProbeStream thinned(const ProbeStream& stream, const LinearisationPoint& point) {
   ProbeStream out;
-  out.indication = stream.indication;
+  out.kind = stream.kind, out.indication = stream.indication;
   int number = 0;
   for (const Pass& pass : point.passes) {
     ++number;
@@ -108,7 +114,7 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const Clamping& now = clampings.back();
   int setup = now.number;
   for (const Clamping& c : clampings) setup = std::max(setup, c.number);
-  const double turns = std::abs(m.z_end - m.z_start) / m.feed * m.sign;
+  const double turns = m.turns();
   const double rpm = m.speed * 60.0 / two_pi;
   std::vector<CandidateMeasurement> list;
 
@@ -134,10 +140,12 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const std::vector<Motion> same{{m.z_start, m.z_end, turns, m.seconds}};
   const double pass_minutes = m.seconds / 60.0;
   const bool timed = point.has_time;
-  const bool along = point.has_position && m.z_start != m.z_end;
+  const bool along = point.has_position && m.z_start != m.z_end, face = point.base.face;
+  const char* feed = face ? "X" : "Z";
   if (along) {
     add("RZ",
-        fmt::format("probe back from Z {:.4g} to {:.4g} mm at {:.4g} rpm", m.z_end, m.z_start, rpm),
+        fmt::format("probe back from {} {:.4g} to {:.4g} mm at {:.4g} rpm", feed, m.z_end,
+                    m.z_start, rpm),
         pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
   }
   if (timed) {
@@ -149,13 +157,13 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   }
   const double middle = 0.5 * (m.z_start + m.z_end),
                dwell = std::max(10.0, std::min(60.0, m.seconds));
-  add("DW", fmt::format("dwell {:.3g} s at Z {:.4g} mm, {:.4g} rpm", dwell, middle, rpm),
+  add("DW", fmt::format("dwell {:.3g} s at {} {:.4g} mm, {:.4g} rpm", dwell, feed, middle, rpm),
       dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}}, nullptr);
   if (timed) {
     add("ST",
         fmt::format(
-            "10 s at Z {:.4g} mm with the spindle standing still, and 10 s a quarter turn on",
-            middle),
+            "10 s at {} {:.4g} mm with the spindle standing still, and 10 s a quarter turn on",
+            feed, middle),
         20.0 / 60.0, {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}},
         nullptr);
   }
@@ -164,12 +172,23 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
         c.reindex_rad += reindex_rad, c.axis += 1;
         // Clamped again the part runs out otherwise: what goes with the eccentricity shows.
         c.shape.axis.x_mm = -c.shape.axis.x_mm + 0.05;
+        if (!face) return;
+        Axis& axis = c.shape.axis;
+        axis = {0.0, 0.0, -axis.slope_x + 5e-4, -axis.slope_y, axis.z_ref_mm};
       });
   const bool behind = now.root == Root::rear;
-  add("RE", behind ? "probe again from the front side" : "probe again from the rear side",
-      pass_minutes + minutes_to_turn_probe, same,
-      [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
-  if (along) {
+  if (face && !point.two_sided) {
+    add("RE",
+        fmt::format("probe the other side of the axis, from X {:.4g} to {:.4g} mm", -m.z_end,
+                    -m.z_start),
+        pass_minutes, {{-m.z_end, -m.z_start, turns, m.seconds}}, nullptr);
+  }
+  if (!face) {
+    add("RE", behind ? "probe again from the front side" : "probe again from the rear side",
+        pass_minutes + minutes_to_turn_probe, same,
+        [&](Clamping& c) { c.root = c.root == Root::front ? Root::rear : Root::front; });
+  }
+  if (along && !face) {
     double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
     // The other way where a cone's apex would come near the probed length.
     const auto [least_x, most_x] = range_of(point.x);
@@ -186,8 +205,10 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   add("RM", "clamp the part again with half the force and probe it again",
       pass_minutes + minutes_to_clamp, same,
       [&](Clamping& c) { c.clamp_force_ratio *= less_force, c.axis += 1; });
-  add("XJ", "jog X by a known 100 µm and probe again", pass_minutes + minutes_between, same,
-      [&](Clamping& c) { c.x_jog_mm += jog_mm; });
+  if (!face) {
+    add("XJ", "jog X by a known 100 µm and probe again", pass_minutes + minutes_between, same,
+        [&](Clamping& c) { c.x_jog_mm += jog_mm; });
+  }
   std::erase_if(
       list, [](const CandidateMeasurement& m) { return !every_line_meets(m.stream, m.clampings); });
   return list;

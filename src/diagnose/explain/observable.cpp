@@ -162,7 +162,10 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
       h.entry.why = "the plan has no readings in which it shows";
     } else if (share < nearly_absorbed) {
       const std::optional<std::size_t> finding = absorbing_term(joint, own);
-      const std::string by(finding ? "the finding " + model.terms[*finding].id()
+      const bool elsewhere =
+          point.base.face && !effect.needs.stream;  // its entry speaks of an axis
+      const std::string by(finding     ? "the finding " + model.terms[*finding].id()
+                           : elsewhere ? "height and tilt of the face"
                            : effect.absorbed_by.empty() ? "the surface's own parameters"
                                                         : effect.absorbed_by);
       h.entry.why = fmt::format("absorbed by {}: {:.2g} % of it is left", by, 100.0 * share);

@@ -269,7 +269,7 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
   double sum_t = 0.0, sum_v = 0.0, sum_tt = 0.0, sum_tv = 0.0, n = 0.0;
   for (std::size_t i = 0; i < point.size(); ++i) {
     if (!mask.used[i]) continue;
-    const double dx_dy = point.dx_dc[i] / point.x[i];
+    const double dx_dy = point.dx_dy[i];
     const double t = dx_dy * dx_dy + point.dx_dz[i] * point.dx_dz[i],
                  v = residual_mm[i] * residual_mm[i];
     sum_t += t, sum_v += v, sum_tt += t * t, sum_tv += t * v, n += 1.0;
@@ -293,6 +293,7 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
 
 std::vector<std::string> off_centre_remark(const Problem& problem, const Model& model) {
   const LinearisationPoint& point = problem.point;
+  if (point.base.face) return {};
   double e2 = 0.0, radius = 0.0;
   for (std::size_t i = 0; i < point.size(); ++i) {
     e2 += 2.0 * point.d2x_dc2[i] * point.d2x_dc2[i];

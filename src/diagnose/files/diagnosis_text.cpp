@@ -73,12 +73,14 @@ std::string axis_note(const Finding& finding) {
   return is_step(finding.term.effect->term) ? "that of the part as it stands after the slip" : "";
 }
 
-std::string finding_block(const Finding& finding, std::size_t number, double k) {
+bool is_face(const Diagnosis& d) { return d.baseline.surface == SurfaceKind::plane; }
+
+std::string finding_block(const Finding& finding, std::size_t number, double k, bool face) {
   std::string text = "\n";
   text += wrapped(fmt::format("{:2}  ", number),
                   finding.effect() + "  " + finding_parameters(finding, k));
   if (!finding.rivals.empty()) text += wrapped("    cause    ", finding_class(finding));
-  text += wrapped("    bias     ", finding_axis_bias(finding, k) +
+  text += wrapped("    bias     ", finding_axis_bias(finding, k, face) +
                                        "; RMS of its part of the readings " + um(finding.rms_mm));
   const std::string axis = axis_note(finding);
   if (!axis.empty()) text += wrapped("    axis     ", axis);
@@ -101,14 +103,17 @@ std::string gain_block(const Diagnosis& d) {
   const double k = d.baseline.coverage_factor, um_per_mm = 1.0 / mm_per_um;
   if (d.findings.empty() && d.unexplained.empty()) return "";
   std::string text = "\nGain\n";
-  text +=
-      wrapped("  axis        ", "shifted by " + plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
+  const bool face = is_face(d);
+  text += wrapped("  axis        ", (face ? "tilted, at the outer end by " : "shifted by ") +
+                                        plus_minus(gain.axis_shift, k, um_per_mm, "µm"));
   const std::string after = plus_minus(gain.coaxiality_after, k, um_per_mm, "µm");
-  text += wrapped("  coaxiality  ",
-                  gain.coaxiality_after.determined()
-                      ? "expected over the probed length, cut about this axis alone: " +
-                            plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " + after
-                      : after);
+  const char* expected = face ? "expected at the outer end, cut square to this axis alone: "
+                              : "expected over the probed length, cut about this axis alone: ";
+  text += wrapped(
+      face ? "  run-out     " : "  coaxiality  ",
+      gain.coaxiality_after.determined()
+          ? expected + plus_minus(gain.coaxiality_before, k, um_per_mm, "µm") + " → " + after
+          : after);
   if (!gain.blocks.empty()) text += wrapped("  held out    ", gain.blocks);
   return text;
 }
@@ -160,13 +165,16 @@ std::string finding_class(const Finding& finding) {
   return text + ": the data cannot tell";
 }
 
-std::string finding_axis_bias(const Finding& finding, double coverage_factor) {
+std::string finding_axis_bias(const Finding& finding, double coverage_factor, bool face) {
   constexpr double nothing_mm = 1e-6;
   const bool nothing =
       finding.axis_shift.value + coverage_factor * finding.axis_shift.u < nothing_mm;
   const std::string shift =
       nothing ? "less than 0.001 µm"
               : plus_minus(finding.axis_shift, coverage_factor, 1.0 / mm_per_um, "µm");
+  if (face)
+    return "left out it tilts the face by " + shift + " at its outer end" +
+           (finding.cosmetic ? ": cosmetic for the run-out" : "");
   return "left out it moves the axis by " + shift +
          (finding.cosmetic ? ": cosmetic for coaxiality" : "");
 }
@@ -218,8 +226,8 @@ std::string findings_text(const Diagnosis& d) {
   const double k = d.baseline.coverage_factor;
   std::string text = wrapped("diagnosis   ", diagnosis_line(d));
   for (const Finding& f : d.findings) {
-    text += wrapped("  ",
-                    f.effect() + "  " + finding_parameters(f, k) + "; " + finding_axis_bias(f, k));
+    text += wrapped("  ", f.effect() + "  " + finding_parameters(f, k) + "; " +
+                              finding_axis_bias(f, k, is_face(d)));
     if (!f.rivals.empty()) text += wrapped("    ", finding_class(f));
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
@@ -245,7 +253,7 @@ std::string diagnosis_text(const Diagnosis& d) {
   if (!d.findings.empty()) {
     text += fmt::format("\nFindings, the most harmful first; ± U (k = {:.3g})\n", k);
     for (std::size_t i = 0; i < d.findings.size(); ++i)
-      text += finding_block(d.findings[i], i + 1, k);
+      text += finding_block(d.findings[i], i + 1, k, is_face(d));
   }
   if (!d.unexplained.empty()) text += "\nUnexplained\n";
   for (const Unexplained& u : d.unexplained) text += unexplained_block(u, k);

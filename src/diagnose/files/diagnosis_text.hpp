@@ -43,7 +43,7 @@ std::string finding_parameters(const Finding& finding, double coverage_factor);
 std::string finding_class(const Finding& finding);
 
 /// "moves the axis by 1.2 ± 0.3 µm", and whether it is cosmetic
-std::string finding_axis_bias(const Finding& finding, double coverage_factor);
+std::string finding_axis_bias(const Finding& finding, double coverage_factor, bool face = false);
 
 /// "RC, re-index by 70 deg: power 0.50 → 0.99, 12 min"
 std::string separating_text(const Separating& separating);

@@ -15,11 +15,11 @@ constexpr double means_per_turn = 40.0;
 using Column = std::vector<double>;
 
 constexpr Column LinearisationPoint::*straight[] = {
-    &LinearisationPoint::c,         &LinearisationPoint::z,        &LinearisationPoint::time,
-    &LinearisationPoint::speed,     &LinearisationPoint::velocity, &LinearisationPoint::x,
-    &LinearisationPoint::sensed,    &LinearisationPoint::dx_dc,    &LinearisationPoint::dx_dz,
-    &LinearisationPoint::d2x_dc2,   &LinearisationPoint::s,        &LinearisationPoint::clamp,
-    &LinearisationPoint::dx_dnormal};
+    &LinearisationPoint::c,          &LinearisationPoint::z,        &LinearisationPoint::time,
+    &LinearisationPoint::speed,      &LinearisationPoint::velocity, &LinearisationPoint::x,
+    &LinearisationPoint::sensed,     &LinearisationPoint::dx_dc,    &LinearisationPoint::dx_dz,
+    &LinearisationPoint::d2x_dc2,    &LinearisationPoint::s,        &LinearisationPoint::clamp,
+    &LinearisationPoint::dx_dnormal, &LinearisationPoint::dx_dy};
 constexpr Column LinearisationPoint::*turning[] = {&LinearisationPoint::theta,
                                                    &LinearisationPoint::chuck};
 

@@ -59,9 +59,8 @@ void fill_motion(LinearisationPoint& point) {
 
 /// Coordinates of a point of the spindle frame in the frame of an axis, whose origin is the axis'
 /// point at z = 0: turned back by Rodrigues' rotation about the common normal of axis and spindle.
-struct PartFrame {
-  double x0, y0, kx, ky, n, sine;
-
+class PartFrame {
+ public:
   explicit PartFrame(const Axis& axis) {
     const double secant =
         std::sqrt(1.0 + axis.slope_x * axis.slope_x + axis.slope_y * axis.slope_y);
@@ -71,43 +70,67 @@ struct PartFrame {
     kx = sine > 0.0 ? m / sine : 0.0, ky = sine > 0.0 ? -l / sine : 0.0;
   }
   struct Polar {
-    double theta, s;
+    double theta, s, rho;  ///< about the axis, along it, from it
   };
   Polar at(double px, double py, double pz) const {
     const double qx = px - x0, qy = py - y0, along = (kx * qx + ky * qy) * (1.0 - n);
     const double l = -ky * sine, m = kx * sine;
-    return {std::atan2(qy * n - sine * kx * pz + ky * along, qx * n + sine * ky * pz + kx * along),
-            l * qx + m * qy + n * pz};
+    const double y = qy * n - sine * kx * pz + ky * along, x = qx * n + sine * ky * pz + kx * along;
+    return {std::atan2(y, x), l * qx + m * qy + n * pz, std::hypot(x, y)};
   }
+
+ private:
+  double x0, y0, kx, ky, n, sine;
 };
+
+/// What is met there; of a face the plane through the axis' point at z_ref (Eqs. 131, 132).
+Intersection contact_of(const Clamping& now, const BaseKind& base, double c, double position) {
+  if (!base.face) return intersect(now.shape, c, position, 0.0, now.root);
+  const Axis& axis = now.shape.axis;
+  const double sine = std::sin(c), cosine = std::cos(c);
+  const double along = -axis.slope_x * cosine - axis.slope_y * sine,
+               across = axis.slope_x * sine - axis.slope_y * cosine;
+  Intersection at;
+  at.hit = true;
+  at.x_mm = axis.z_ref_mm + position * along;
+  at.dx_dc = position * across;
+  at.dx_dz = along;
+  return at;
+}
 
 void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                    LinearisationPoint& point) {
-  for (auto* column : {&point.x, &point.sensed, &point.dx_dc, &point.dx_dz, &point.d2x_dc2,
-                       &point.chuck, &point.theta, &point.s, &point.clamp, &point.dx_dnormal})
+  for (auto* column :
+       {&point.x, &point.sensed, &point.dx_dc, &point.dx_dz, &point.d2x_dc2, &point.chuck,
+        &point.theta, &point.s, &point.clamp, &point.dx_dnormal, &point.dx_dy})
     column->reserve(point.size());
   const Clamping* last = nullptr;
   PartFrame frame(clampings.front().shape.axis);
   for (std::size_t i = 0; i < point.size(); ++i) {
     const Clamping& now = clamping_of(stream, clampings, i);
     if (&now != last) frame = PartFrame((last = &now)->shape.axis);
-    const Intersection at = intersect(now.shape, point.c[i], point.z[i], 0.0, now.root);
+    const Intersection at = contact_of(now, point.base, point.c[i], point.z[i]);
     expects(at.hit, "every probe line meets the fitted surface");
     point.x.push_back(at.x_mm);
     point.sensed.push_back(at.x_mm - now.x_jog_mm);
     point.dx_dc.push_back(at.dx_dc);
     point.dx_dz.push_back(at.dx_dz);
     const double cosine = std::cos(point.c[i]), sine = std::sin(point.c[i]);
+    const bool face = point.base.face;
     const auto centre = now.shape.axis.at(point.z[i]);
-    point.d2x_dc2.push_back(-(centre[0] * cosine + centre[1] * sine));
-    const auto polar = frame.at(at.x_mm * cosine, at.x_mm * sine, point.z[i]);
+    point.d2x_dc2.push_back(face ? -point.z[i] * at.dx_dz
+                                 : -(centre[0] * cosine + centre[1] * sine));
+    const double x = face ? point.z[i] : at.x_mm, z = face ? at.x_mm : point.z[i];
+    const auto polar = frame.at(x * cosine, x * sine, z);
     point.chuck.push_back(polar.theta);
     point.theta.push_back(polar.theta + now.reindex_rad);
-    point.s.push_back(polar.s - now.z_shift_mm);
+    point.s.push_back(face ? polar.rho : polar.s - now.z_shift_mm);
     point.clamp.push_back(now.clamp_force_ratio);
     point.axis.push_back(now.axis);
     point.rear.push_back(now.root == Root::rear);
-    const double dx_dy = at.dx_dc / at.x_mm;
+    const Axis& axis = now.shape.axis;
+    const double dx_dy = face ? axis.slope_x * sine - axis.slope_y * cosine : at.dx_dc / at.x_mm;
+    point.dx_dy.push_back(dx_dy);
     const double secant = std::sqrt(1.0 + dx_dy * dx_dy + at.dx_dz * at.dx_dz);
     point.dx_dnormal.push_back(point.rear.back() ? -secant : secant);
   }
@@ -116,7 +139,7 @@ void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clamp
 }  // namespace
 
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings) {
-  for (std::size_t i = 0; i < stream.size(); ++i) {
+  for (std::size_t i = 0; i < stream.size() && stream.kind == StreamKind::lateral; ++i) {
     const Clamping& now = clamping_of(stream, clampings, i);
     const double z_mm = stream.has_position() ? stream.position_mm[i] : 0.0;
     if (!intersect(now.shape, stream.c_rad[i], z_mm, 0.0, now.root).hit) return false;
@@ -126,19 +149,20 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore) {
-  expects(stream.kind == StreamKind::lateral && !stream.c_rad.empty(), "a lateral stream");
+  expects((stream.kind == StreamKind::face) == base.face && !stream.c_rad.empty(),
+          "a stream of the surface");
   LinearisationPoint point;
   point.base = base;
   point.bore = bore;
   point.c = stream.c_rad;
-  point.has_position = stream.has_position();
+  point.has_position = stream.has_position() && (base.tilts || base.face);  // a section has none
   point.z = point.has_position ? stream.position_mm : std::vector<double>(stream.size(), 0.0);
   point.passes = find_passes(stream);
   point.tan_half_angle = clampings.front().shape.tan_half_angle;
   fill_time(stream, point);
   fill_motion(point);
   fill_contacts(stream, clampings, point);
-  const auto [low, high] = range_of(point.s);
+  const auto [low, high] = range_of(base.face ? point.z : point.s);
   point.z_mid_mm = 0.5 * (low + high);
   point.z_half_mm = std::max(0.5 * (high - low), 1e-9);
   if (!point.has_position || point.z_half_mm < 1e-3) point.z_half_mm = 1.0;
@@ -160,6 +184,7 @@ LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Cla
     point.two_sided |= c.root != clampings.front().root;
     point.reclamped |= c.clamp_force_ratio != clampings.front().clamp_force_ratio;
   }
+  if (base.face) point.two_sided = low < 0.0 && high > 0.0;
   return point;
 }
 
@@ -174,6 +199,7 @@ TermContext LinearisationPoint::context(std::size_t begin, std::size_t end) cons
   at.dx_dc = part(dx_dc), at.dx_dz = part(dx_dz), at.d2x_dc2 = part(d2x_dc2);
   at.theta_rad = part(theta), at.theta_chuck_rad = part(chuck), at.s_mm = part(s);
   at.clamp_force_ratio = part(clamp);
+  if (base.face) at.face = true, at.dx_dy = part(dx_dy);
   at.z_mid_mm = z_mid_mm, at.z_half_mm = z_half_mm;
   at.tan_half_angle = tan_half_angle;
   at.bore = bore, at.rear = rear[begin] != 0;
@@ -188,6 +214,13 @@ void LinearisationPoint::fill_base(std::size_t begin, std::size_t end,
   std::vector<double> turn[2] = {std::vector<double>(end - begin),
                                  std::vector<double>(end - begin)};
   sincos(std::span(c).subspan(begin, end - begin), turn[0], turn[1]);
+  for (std::size_t i = begin; i < end && base.face; ++i) {
+    const std::size_t k = i - begin, own = axis[i] * per_axis;
+    columns[own][k] = -z[i] * turn[1][k];
+    columns[own + 1][k] = -z[i] * turn[0][k];
+    columns[own + 2][k] = 1.0;
+  }
+  if (base.face) return;
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t k = i - begin, own = axis[i] * per_axis;
     const double cosine = turn[1][k], sine = turn[0][k], dx_dy = dx_dc[i] / x[i];
@@ -207,7 +240,7 @@ void LinearisationPoint::fill_base(std::size_t begin, std::size_t end,
 
 bool is_diagnosable(const FitResult& fit) {
   const bool has_terms = fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder ||
-                         fit.surface == SurfaceKind::section;
+                         fit.surface == SurfaceKind::section || fit.surface == SurfaceKind::plane;
   return has_terms && !fit.set_ups.empty() && fit.points > fit.parameters.size() &&
          (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
@@ -237,9 +270,10 @@ std::vector<Clamping> clampings_of(const FitResult& fit, double ball_mm) {
 BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
                  const std::vector<Clamping>& clampings) {
   BaseKind base;
+  base.face = fit.surface == SurfaceKind::plane;
   base.tilts = fit.surface != SurfaceKind::section;
   base.tapers = fit.surface == SurfaceKind::cone;
-  base.offset = stream.indication == Indication::relative;
+  base.offset = !base.face && stream.indication == Indication::relative;
   base.axes = clampings.back().axis + 1;
   return base;
 }

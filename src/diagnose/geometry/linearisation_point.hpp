@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -23,16 +24,20 @@ struct Clamping {
 
 /// What the base of the model is: rigid motions of every axis, and the shape all share.
 struct BaseKind {
+  bool face = false;    ///< tilt and height of every clamping, nothing shared
   bool tilts = true;    ///< l, m are free (not of a section)
   bool tapers = false;  ///< the half angle is free
   bool offset = false;  ///< the zero of a gauge instead of the radius
   std::size_t axes = 1;
 
-  std::size_t per_axis() const { return tilts ? 4 : 2; }
-  std::size_t columns() const { return axes * per_axis() + 1 + (tapers ? 1 : 0); }
+  StreamKind stream() const { return face ? StreamKind::face : StreamKind::lateral; }
+  std::size_t per_axis() const { return face ? 3 : tilts ? 4 : 2; }
+  std::size_t shared() const { return face ? 0 : tapers ? 2 : 1; }
+  std::size_t columns() const { return axes * per_axis() + shared(); }
 };
 
-/// What a point is as a whole; mm.
+/// What a point is as a whole; mm. Of a face X below is the Z that is read, and Z the X it is read
+/// at.
 struct LinearisationFacts {
   BaseKind base;
   double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
@@ -41,6 +46,8 @@ struct LinearisationFacts {
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
+
+  double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
 
 /// The geometry of every reading about the fitted surface: what terms and base columns are made of.
@@ -49,6 +56,7 @@ struct LinearisationPoint : LinearisationFacts {
   std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
       s, clamp;
   std::vector<double> dx_dnormal;  ///< of form along the normal
+  std::vector<double> dx_dy;       ///< across the probe
   std::vector<std::size_t> axis;   ///< of every reading
   std::vector<char> rear;          ///< of every reading
   std::vector<Pass> passes;
@@ -57,19 +65,20 @@ struct LinearisationPoint : LinearisationFacts {
   /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
   TermContext context(std::size_t begin, std::size_t end) const;
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
-  /// half angle. Rigid motions of the part: exact to first order (Eqs. 55–57).
+  /// half angle. Rigid motions of the part: exact to first order (Eqs. 55–57). Of a face slopes of
+  /// the axis and height (Eq. 133).
   void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
 };
 
 /// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
-/// apex, or beside a thin part, none does.
+/// apex, or beside a thin part, none does. A face is met everywhere.
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings);
 
 /// @param stream columns C, Z, t, set-up; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore);
 
-/// A fit that ended short of a minimum, or a face, has no point to diagnose.
+/// A fit that ended short of a minimum, or a profile of one's own, has no point to diagnose.
 bool is_diagnosable(const FitResult& fit);
 
 /// How the part stands in every set-up of a fit, the ball's centre on its surface.

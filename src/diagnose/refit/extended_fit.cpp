@@ -71,8 +71,10 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
   const auto shared = static_cast<Eigen::Index>(point.base.axes * point.base.per_axis());
   std::vector<Eigen::Index> place(6, -1);
-  for (Eigen::Index j = 0; j < per; ++j) place[static_cast<std::size_t>(j)] = from + j;
-  place[4] = shared;
+  const bool face = point.base.face;  // slopes and height
+  for (Eigen::Index j = 0; j < per; ++j)
+    place[static_cast<std::size_t>(face ? j + 2 : j)] = from + j;
+  if (!face) place[4] = shared;
   if (point.base.tapers) place[5] = shared + 1;
   const auto of_last = [&](const Eigen::MatrixXd& base) {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6, 6);
@@ -114,7 +116,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   }
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(4, 6);
   at.leftCols(4).setIdentity();
-  at(0, 2) = at(1, 3) = result.axis.axis.z_ref_mm - z_mid;
+  at(0, 2) = at(1, 3) = face ? 0.0 : result.axis.axis.z_ref_mm - z_mid;
   const Eigen::MatrixXd axis = at * covariance * at.transpose();
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j)

@@ -47,6 +47,10 @@ AxisEnds ends_from(const LinearisationPoint& point, const FitResult& fit,
                    const Eigen::VectorXd& base) {
   const auto from = static_cast<Eigen::Index>((point.base.axes - 1) * point.base.per_axis());
   AxisEnds out{base(from), base(from + 1), base(from), base(from + 1)};
+  if (point.base.face) {
+    for (double& moved : out) moved *= point.end_mm();
+    return out;
+  }
   if (!point.base.tilts) return out;
   const Axis& axis = fit.axis.axis;
   const auto middle = axis.at(point.z_mid_mm);
@@ -93,6 +97,11 @@ double apart(const AxisEnds& a, const AxisEnds& b) {
 }  // namespace
 
 AxisEnds ends_of(const FitResult& fit) {
+  if (fit.surface == SurfaceKind::plane) {
+    const double end_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+    const double x = end_mm * fit.axis.axis.slope_x, y = end_mm * fit.axis.axis.slope_y;
+    return {x, y, x, y};
+  }
   const auto low = fit.axis.axis.at(fit.position_min_mm),
              high = fit.axis.axis.at(fit.position_max_mm);
   return {low[0], low[1], high[0], high[1]};
@@ -102,7 +111,6 @@ EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options
                             const KnownEffect& known) {
   const Effect* effect = find_effect(known.effect);
   expects(effect != nullptr && !effect->check, "an effect of the catalogue");
-  expects(options.surface != SurfaceKind::plane, "a lateral surface");
   EffectOnAxis out;
   out.alone = out.extended = fit(stream, options);
   if (out.alone.status != FitStatus::converged) return out;

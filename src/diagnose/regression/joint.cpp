@@ -7,10 +7,15 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-/// x and y of the last axis at height u of mid length, from its base coefficients.
+/// x and y of the last axis at height u of mid length, from its base coefficients. Of a face what
+/// its tilt makes at the outer end.
 Eigen::MatrixXd position_at(const LinearisationPoint& point, double u) {
   const auto per = static_cast<Eigen::Index>(point.base.per_axis());
   Eigen::MatrixXd at = Eigen::MatrixXd::Zero(2, per);
+  if (point.base.face) {
+    at(0, 0) = at(1, 1) = point.end_mm();
+    return at;
+  }
   at(0, 0) = at(1, 1) = 1.0;
   if (point.base.tilts) at(0, 2) = at(1, 3) = u * point.z_half_mm;
   return at;

@@ -10,12 +10,20 @@
 #include "diagnose/geometry/observation_mask.hpp"
 
 namespace trueaxis::diagnose_detail {
-/// The effects that may be causes: those of the catalogue, then a user's own; no checks.
-inline std::vector<const Effect*> possible_causes(std::span<const Effect> own = {}) {
+/// Whether streams of a kind have an effect.
+inline bool is_of(const Effect& effect, const BaseKind& base) {
+  return effect.needs.stream.value_or(base.stream()) == base.stream();
+}
+
+/// The effects that may be causes: those of the catalogue, then a user's own; no checks, and none
+/// that such a stream has not.
+inline std::vector<const Effect*> possible_causes(const BaseKind& base,
+                                                  std::span<const Effect> own = {}) {
   std::vector<const Effect*> list;
   for (const std::span<const Effect> some : {effect_catalogue(), own})
     for (const Effect& effect : some)
-      if (!std::holds_alternative<std::monostate>(effect.term)) list.push_back(&effect);
+      if (!std::holds_alternative<std::monostate>(effect.term) && is_of(effect, base))
+        list.push_back(&effect);
   return list;
 }
 
@@ -28,7 +36,7 @@ struct Problem {
   double false_alarm = 0.01;
   int threads = 1;
   std::size_t most_terms = 8;
-  std::vector<const Effect*> effects = possible_causes();
+  std::vector<const Effect*> effects = possible_causes(point.base);
 
   /// The same readings about another point.
   Problem about(const LinearisationPoint& other, std::span<const double> deviation) const {

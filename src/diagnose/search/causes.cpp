@@ -22,7 +22,7 @@ bool both_ways(const LinearisationPoint& point) {
 bool can_show(const Requirement& needs, const Problem& problem) {
   const LinearisationPoint& point = problem.point;
   return (!needs.time || point.has_time) && (!needs.length || problem.resolution.degrees > 0) &&
-         (!needs.cone || std::abs(point.tan_half_angle) > least_tangent) &&
+         (!needs.cone || point.base.face || std::abs(point.tan_half_angle) > least_tangent) &&
          (!needs.cylinder || !point.base.tapers) && (!needs.both_feeds || both_ways(point));
 }
 
@@ -59,11 +59,13 @@ void add_form(const Effect& effect, const Form& form, TermShape shape, bool alon
 }
 
 /// All degrees up to each, and each alone.
-void add_degrees(const Effect& effect, int first, TermShape shape, const Problem& problem,
+void add_degrees(const Effect& effect, TermShape shape, const Problem& problem,
                  std::vector<Hypothesis>& list) {
+  const int first = std::get<PolynomialInZ>(effect.term).first;
   const double tests = tests_of(effect.search, false);
   const int highest = std::min(effect.search.highest_degree, problem.resolution.degrees + 1);
-  for (shape.degree = first; shape.degree <= highest; ++shape.degree) {
+  for (shape.degree = std::max(first, effect.search.lowest_degree); shape.degree <= highest;
+       ++shape.degree) {
     list.push_back(of_effect(effect, shape, {}, tests));
     const auto last = static_cast<std::size_t>(shape.degree - first);
     if (last > 0) list.push_back(of_effect(effect, shape, {last}, tests));
@@ -127,7 +129,7 @@ std::vector<Hypothesis> preset_causes(const Problem& problem) {
       continue;
     TermShape shape = typical_shape(*effect, problem.point);
     if (range.highest_degree > 0) {
-      add_degrees(*effect, std::get<PolynomialInZ>(effect->term).first, shape, problem, list);
+      add_degrees(*effect, shape, problem, list);
     } else if (!has_free_order(*effect)) {
       for (const Form& form : range.forms)
         add_form(*effect, form, shape, false, tests_of(range, false), problem, list);

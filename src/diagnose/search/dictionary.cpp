@@ -53,7 +53,7 @@ std::vector<std::pair<double, int>> functions_of(const Hypothesis& h) {
       around->envelope == Harmonic::Envelope::growing && around->port == Port::normal) {
     out.emplace_back(h.shape.order, 0);
     if (h.free.empty()) out.emplace_back(h.shape.order, 1);
-  } else if (along && along->port == Port::normal && !along->plain) {
+  } else if (along && along->port == Port::normal && !along->plain && !along->dish) {
     for (std::size_t k = 0; k < h.columns(); ++k) {
       const std::size_t place = h.free.empty() ? k : h.free[k];
       out.emplace_back(0.0, along->first + static_cast<int>(place));
@@ -141,8 +141,8 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
   if (resolution.one_variable || resolution.sections) return basis;
   std::vector<const Effect*> shown;
   for (const Effect& effect : effect_catalogue()) {
-    if (effect.between_passes > 0 && (!effect.needs.length || resolution.degrees > 0) &&
-        (!effect.needs.time || point.has_time))
+    if (effect.between_passes > 0 && is_of(effect, point.base) &&
+        (!effect.needs.length || resolution.degrees > 0) && (!effect.needs.time || point.has_time))
       shown.push_back(&effect);
   }
   std::ranges::sort(shown, {}, &Effect::between_passes);

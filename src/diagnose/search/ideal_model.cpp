@@ -40,6 +40,6 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               options.false_alarm,
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
-              possible_causes(options.own_effects)} {}
+              possible_causes(point.base, options.own_effects)} {}
 
 }  // namespace trueaxis::diagnose_detail

@@ -119,13 +119,17 @@ std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
 void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypothesis>& list) {
   const auto* lobes = std::get_if<Harmonic>(&named.effect->term);
   if (problem.point.reindexed || !lobes || !named.free.empty() ||
-      lobes->angle != Harmonic::Angle::part || lobes->envelope != Harmonic::Envelope::growing)
+      lobes->angle != Harmonic::Angle::part ||
+      (lobes->envelope != Harmonic::Envelope::growing &&
+       lobes->envelope != Harmonic::Envelope::square))
     return;
   for (const Effect* effect : problem.effects) {
     const auto* tilt = std::get_if<Harmonic>(&effect->term);
     if (!tilt || tilt->envelope != Harmonic::Envelope::lever) continue;
     TermShape shape = named.shape;
-    shape.lever_from_mm = problem.point.z_mid_mm;
+    if (lobes->fixed_order > 0.0) shape.order = lobes->fixed_order;
+    shape.lever_from_mm = effect->refinement ? problem.point.z_mid_mm
+                                             : typical_shape(*effect, problem.point).lever_from_mm;
     list.push_back(of_effect(*effect, shape, {}, problem.resolution.harmonics));
   }
 }

@@ -163,7 +163,9 @@ std::vector<Scan> scans_of(const Problem& problem) {
     const Sampled of = sampled(in, point, resolution);
     for (const Effect* effect : problem.effects) {
       if (!of.seen || !effect->line || effect->line->in != in) continue;
-      if (effect->needs.cone && !(std::abs(point.tan_half_angle) > least_tangent)) continue;
+      if (effect->needs.cone && !point.base.face &&
+          !(std::abs(point.tan_half_angle) > least_tangent))
+        continue;
       list.push_back(scan_of(*effect, of, point));
     }
     // Of one variable, the lines of C are these too.

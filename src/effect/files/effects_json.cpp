@@ -58,6 +58,8 @@ Json effect_object(const Effect& effect) {
                                   {"unit", effect.axis_bias->unit},
                                   {"text", effect.axis_bias->text}};
   }
+  if (effect.needs.stream)
+    json["seen_on"] = *effect.needs.stream == StreamKind::face ? "face" : "lateral";
   json["source"] = effect.source;
   return json;
 }

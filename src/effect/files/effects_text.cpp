@@ -128,12 +128,20 @@ void row(std::string& out, std::string_view name, const std::string& value) {
   if (!value.empty()) out += fmt::format("| {} | {} |\n", name, value);
 }
 
+/// What is probed where it is seen; empty: faces and lateral surfaces alike.
+std::string_view seen_on(const Effect& effect) {
+  if (!effect.needs.stream) return "";
+  return *effect.needs.stream == StreamKind::face ? "faces, probed along Z"
+                                                  : "lateral surfaces, probed along X";
+}
+
 void section(std::string& out, const Effect& e) {
   out += fmt::format("\n## {}\n\n{}{}.\n\n| | |\n|---|---|\n", e.id, e.title,
                      e.check ? "; a check of the data, never a name for a form" : "");
   row(out, "term", e.formula.empty() ? "" : fmt::format("`{}`", cell(e.formula)));
   row(out, "slot, frame",
       fmt::format("{}; fixed to the {}", to_string(e.slot), to_string(e.frame)));
+  row(out, "seen on", std::string(seen_on(e)));
   for (const EffectParameter& p : e.parameters) {
     const std::string sizes = typical_size(p);
     row(out, fmt::format("`{}`", p.name),
@@ -174,6 +182,7 @@ std::string effect_text(const Effect& effect) {
   out += line("term", effect.formula);
   out += line("slot", format("{}, {}", to_string(effect.slot), slot_text(effect.slot)));
   out += line("fixed to", to_string(effect.frame));
+  out += line("seen on", seen_on(effect));
   for (const EffectParameter& parameter : effect.parameters) {
     out +=
         line(&parameter == effect.parameters.data() ? "parameters" : " ",

@@ -135,9 +135,10 @@ FitStatus status_from(const std::string& text) {
   throw InputError("fit", "no fit ends `" + text + "`");
 }
 
-/// Of the parameters x0, y0, l, m; a section has no l, m.
+/// Of the parameters x0, y0, l, m; a section has no l, m, a plane no x0, y0.
 Axis axis_from_parameters(const Json& parameters) {
-  Axis axis{value(parameters, "x0"), value(parameters, "y0")};
+  Axis axis;
+  if (parameters.contains("x0")) axis = {value(parameters, "x0"), value(parameters, "y0")};
   if (!parameters.contains("l")) return axis;
   const double l = value(parameters, "l"), m = value(parameters, "m");
   const double n = std::sqrt(1.0 - l * l - m * m);
@@ -204,10 +205,15 @@ FitResult fit_from_object(const Json& json) {
     fit.axis.covariance[i] = number_from(covariance.at(i / 4).at(i % 4));
   fit.shape = {fit.axis.axis, value(json.at("shape"), "radius"),
                value(json.at("shape"), "tan_half_angle")};
-  for (const Json& set_up : json.value("set_ups", Json::array()))
+  const auto read = [](const Json& parameters, std::vector<FitParameter>& to) {
+    for (const auto& [name, estimate] : parameters.items())
+      to.push_back({name, estimate_from(estimate)});
+  };
+  for (const Json& set_up : json.value("set_ups", Json::array())) {
     fit.set_ups.emplace_back().axis.axis = axis_from_parameters(set_up.at("parameters"));
-  for (const auto& [name, estimate] : json.at("parameters").items())
-    fit.parameters.push_back({name, estimate_from(estimate)});
+    read(set_up.at("parameters"), fit.set_ups.back().parameters);
+  }
+  read(json.at("parameters"), fit.parameters);
   fit.notes = json.at("notes").get<std::vector<std::string>>();
   fit.rms_mm = value(json, "rms");
   const Json& noise = json.at("noise");

@@ -79,11 +79,7 @@ Json resimulation_object(const Resimulation& again) {
 }
 
 Json diagnosis_of(const JobResult& result, std::size_t i) {
-  if (!result.diagnoses[i]) {
-    const bool face = result.streams[i].kind == StreamKind::face;
-    return {{"verdict", nullptr},
-            {"why", face ? "a face is not diagnosed" : "its fit did not converge"}};
-  }
+  if (!result.diagnoses[i]) return {{"verdict", nullptr}, {"why", "its fit did not converge"}};
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result.job, i);
   summary["readings"] = readings_file(result.job, i);
@@ -117,10 +113,7 @@ std::string file_stem(const Job& job, std::size_t reference) {
 }
 
 std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
-  if (!result.diagnoses[i]) {
-    const bool face = result.streams[i].kind == StreamKind::face;
-    return face ? "diagnosis   none: a face is not diagnosed\n" : "";
-  }
+  if (!result.diagnoses[i]) return "";
   const Diagnosis& diagnosis = *result.diagnoses[i];
   const bool again = diagnosis.verdict != DiagnosisVerdict::ideal && result.resimulations[i];
   return findings_text(diagnosis) + (again ? resimulation_line(*result.resimulations[i]) : "");

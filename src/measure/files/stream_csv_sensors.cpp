@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
