@@ -119,7 +119,8 @@ std::vector<Effect> part_roundness() {
        .confounders = {"part.bow", "encoder.offset"},
        .separations = {{"RZ", "probed again, the first part of the length shows the new axis"},
                        {"DW", "a dwell after the slip shows the new vector at one Z"}},
-       .axis_bias = AxisBias{0.90, "mm/mm", "radial: 0.90 of the step"},
+       .axis_bias =
+           AxisBias{1.42, "mm/mm", "radial: 1.42 of the step, after two thirds of the pass"},
        .source = "kinematics of a step; a radial and a rotational slip part by a feature with an "
                  "angle mark",
        .needs = {.stream = StreamKind::lateral},

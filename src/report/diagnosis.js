@@ -76,6 +76,25 @@ function gainFacts({gain, options: {coverage_factor: k}}, face) {
   ]);
 }
 
+const axisNames = {stated: 'stated: the average over what may have caused the readings', named: 'were all causes those that are named', ideal: 'were there no cause'};
+
+function shareWords({effect, instead_of: instead, probability, axis_shift: shift}, k) {
+  const what = !effect ? `no ${instead} at all` : instead ? `${effect} instead of ${instead}` : `${effect}, too small to be found,`;
+  return `${what} (probability ${significant(probability, 2)}) would move it by ${estimated(shift, k)}`;
+}
+
+/** The axis that is stated, beside those of the named model and of the ideal fit, and what moved it. */
+function axesBlock({axes, shares, options: {coverage_factor: k}}, face) {
+  if (face || !axes.stated.length) return null;
+  const place = ({x, y, u}) => `(${(x * 1000).toFixed(2)}, ${(y * 1000).toFixed(2)}) ± ${micrometres(k * u)}`;
+  const rows = Object.entries(axisNames).filter(([key]) => axes[key].length)
+    .map(([key, words]) => [words, ...axes[key].map(place)]);
+  const telling = shares.filter((s) => isNumber(s.axis_shift.value) && s.probability * s.axis_shift.value > 0.1 * axes.stated[0].u).slice(0, 5);
+  return block('The axis', table(`x, y in µm; ± is U = k u, k = ${tick(k)}`,
+    ['Axis', ...axes.stated.map(({z}) => `at Z ${significant(z, 4)} mm`)], rows),
+    telling.length ? element('ul', {}, telling.map((s) => element('li', {}, shareWords(s, k)))) : null);
+}
+
 /** How far the simulation is from the measurement, before and after, in words. */
 function discrepancyWords({simulation}, extended) {
   const {rms_before_mm: before, rms_after_mm: after, noise_mm: noise, left_share: left, noise_share: noiseShare} = simulation;
@@ -175,6 +194,6 @@ function diagnosisSection(reference, index) {
   const {status, message} = diagnosis.extended;
   if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
   if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis, readings?.face));
-  parts.push(findingsBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
+  parts.push(findingsBlock(diagnosis, readings?.face), axesBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
   return section(`diagnosis-${index + 1}`, title, ...parts);
 }

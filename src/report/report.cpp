@@ -53,11 +53,25 @@ Json titles_of(const Diagnosis& diagnosis) {
   return titles;
 }
 
+/// x, y and u of an axis at both ends of what was probed, mm.
+Json axis_ends(const FitResult& fit) {
+  Json ends = Json::array();
+  if (fit.status != FitStatus::converged) return ends;
+  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
+    const auto [x, y] = fit.axis.axis.at(z);
+    ends.push_back({{"z", z}, {"x", x}, {"y", y}, {"u", fit.axis.u_at(z)}});
+  }
+  return ends;
+}
+
 /// A diagnosis as in its file, without what the page has elsewhere or only counts.
 Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
                     const Resimulation* again) {
   Json data = diagnosis_object(diagnosis);
-  for (const char* key : {"baseline", "spectrum", "u_frame"}) data.erase(key);
+  for (const char* key : {"baseline", "named", "spectrum", "u_frame"}) data.erase(key);
+  data["axes"] = {{"stated", axis_ends(diagnosis.extended)},
+                  {"named", axis_ends(diagnosis.named)},
+                  {"ideal", axis_ends(diagnosis.baseline)}};
   data["extended"] = {{"status", to_string(diagnosis.extended.status)},
                       {"message", diagnosis.extended.message}};
   data["noise"]["masked"] = diagnosis.noise.masked.size();

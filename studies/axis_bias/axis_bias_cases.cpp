@@ -142,7 +142,7 @@ std::vector<AxisBiasCase> face_cases(const Where& at) {
       angle(mm("part.seat_slip", "tilt, half-way", {.onset_s = half_way}, {1, 2}), small_slope_rad),
       mm("spindle.axial_fundamental", ""),
       mm("spindle.axial_asynchronous", "0.43 per turn", {.order = 0.43}),
-      angle(mm("spindle.face_tilt", "2 UPR", {.order = 2}), small_slope_rad),
+      angle(mm("spindle.face_tilt", "2 UPR", {.order = 2}, {0, 1}), small_slope_rad),
       angle(mm("slide.xz_squareness", ""), small_slope_rad),
       mm("slide.x_straightness", "P2", {.degree = 2}, {1})};
 }

@@ -48,6 +48,10 @@ Answer read_answer(const Json& json) {
   Answer answer;
   for (const Json& finding : json.at("findings")) {
     answer.classes.push_back(finding.at("class").get<std::vector<std::string>>());
+    std::vector<double>& probabilities = answer.probabilities.emplace_back();
+    probabilities.push_back(finding.value("probability", 1.0));
+    for (const Json& rival : finding.value("rivals", Json::array()))
+      probabilities.push_back(rival.value("probability", 0.0));
     const Json with = finding.value("separate_with", Json());
     answer.separators.push_back(with.is_object() ? with.value("plan", "") : "");
     const std::string named = finding.at("effect");

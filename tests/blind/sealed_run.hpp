@@ -14,8 +14,9 @@ namespace trueaxis::blind {
 /// What the command said of a stream, as far as it is judged.
 struct Answer {
   int exit_code = -1;
-  std::string text;                               ///< of a crash
-  std::vector<std::vector<std::string>> classes;  ///< of the findings, the named one first
+  std::string text;                                ///< of a crash
+  std::vector<std::vector<std::string>> classes;   ///< of the findings, the named one first
+  std::vector<std::vector<double>> probabilities;  ///< of the members of the classes
   std::vector<std::string> separators;   ///< of each class: its separate_with.plan, or empty
   std::vector<std::string> unexplained;  ///< "3 UPR, constant along Z"
   std::map<std::string, std::string> not_observable;  ///< id → measurement that would show it

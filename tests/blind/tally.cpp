@@ -49,9 +49,28 @@ Json json_of(const std::string& name, const Cell& cell) {
 
 }  // namespace
 
+/// Whether causes that are given the probability p are true in p of all.
+void add_reliability(const Result& result, Tally& all) {
+  const auto is_true = [&](const std::string& id) {
+    return std::ranges::find(result.made.scenario.effects, id, &Effect::id) !=
+           result.made.scenario.effects.end();
+  };
+  for (std::size_t c = 0; c < result.answer.probabilities.size(); ++c) {
+    const auto& members = result.answer.classes[c];
+    if (members.size() < 2 || std::ranges::count_if(members, is_true) != 1) continue;
+    for (std::size_t m = 0; m < members.size(); ++m) {
+      const double p = result.answer.probabilities[c][m];
+      Tally::Stated& bin =
+          all.reliability[std::min<std::size_t>(9, static_cast<std::size_t>(10.0 * p))];
+      ++bin.members, bin.sum += p, bin.true_ones += is_true(members[m]);
+    }
+  }
+}
+
 Tally tally(const std::vector<Result>& results) {
   Tally all;
   for (const Result& result : results) {
+    add_reliability(result, all);
     const Wanted& wanted = result.made.wanted;
     const Outcome outcome = result.score.outcome;
     Cell& cell = all.cells[{wanted.kind, wanted.plan}];
@@ -121,7 +140,17 @@ Json json_of(const Tally& all) {
   Json advice = Json::object();
   for (const auto& [plan, counts] : all.advice) advice[plan] = {counts.first, counts.second};
   const Share resolved = share(all.advice_resolved, all.advice_taken);
+  Json reliability = Json::array();
+  for (const Tally::Stated& bin : all.reliability) {
+    const Share at = share(bin.true_ones, bin.members);
+    reliability.push_back({{"members", bin.members},
+                           {"true", bin.true_ones},
+                           {"mean", bin.members ? bin.sum / static_cast<double>(bin.members) : 0.0},
+                           {"low", at.low},
+                           {"high", at.high}});
+  }
   return {{"cases", all.cases},
+          {"reliability", reliability},
           {"cells", cells},
           {"kinds", kinds},
           {"noises", noises},

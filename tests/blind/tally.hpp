@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -31,6 +32,13 @@ struct Tally {
   std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth → named → count
   std::size_t members = 0, members_strict = 0;  ///< listed rivals; those with d < 3.29
   std::size_t members_excluded = 0;             ///< those with d ≥ 6.6
+  /// Of members of classes that hold a truth, by their stated probability in tenths: their number,
+  /// the sum of the probabilities, and how many are the truth.
+  struct Stated {
+    std::size_t members = 0, true_ones = 0;
+    double sum = 0.0;
+  };
+  std::array<Stated, 10> reliability{};
   std::size_t advice_wanted = 0, advice_taken = 0, advice_resolved = 0;
   std::map<std::string, std::pair<std::size_t, std::size_t>> advice;  ///< plan → taken, resolved
   double seconds = 0.0;                                               ///< of the command, all cases

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_read.hpp"
+#include "diagnose/files/diagnosis_json.hpp"
 #include "laws/face_bench.hpp"
 #include "trueaxis/resimulation.hpp"
 

@@ -81,7 +81,7 @@ inline NoiseReport noise_report() {
 inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   Diagnosis d;
   d.verdict = DiagnosisVerdict::unexplained;
-  d.extended = fit;
+  d.named = d.extended = fit;
   for (std::size_t i = 0; i < stream.size(); ++i) {
     const double c = stream.c_rad[i];
     const double effect = lobes_mm * std::cos(3.0 * c - lobes_phase_deg * rad_per_deg) +

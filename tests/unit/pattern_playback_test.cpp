@@ -40,7 +40,7 @@ Diagnosis diagnosed(const Unexplained& pattern) {
   fit.surface = SurfaceKind::cylinder;
   fit.status = FitStatus::converged;
   fit.shape.radius_mm = radius_mm;
-  d.extended = fit;
+  d.named = d.extended = fit;
   d.noise.sigma_mm = 0.001;
   d.z_mid_mm = d.z_half_mm = 0.5 * length_mm;
   d.unexplained = {pattern};
