@@ -306,13 +306,14 @@ TEST(SimulateEffects, ZeroEffectsChangeNothingAndOthersSomething) {
     Scenario scenario = helix(PartKind::cone);
     scenario.part.x0_mm = 0.2;
     Effect effect{std::string(kind.id), {}};
-    const auto is_size = [](std::string_view name) {
-      return name == "gain" || name.starts_with("amplitude") || name.starts_with("growth") ||
+    const auto is_size = [&](std::string_view name) {
+      if (name == "radius_mm") return kind.id == "probe.ball_radius";  // else where a size holds
+      return name == "gain" || name == "dish_mm" || name == "dz_mm" || name.starts_with("tilt") ||
+             name.starts_with("amplitude") || name.starts_with("growth") ||
              name.starts_with("dx") || name.starts_with("slope") || name.starts_with("along") ||
              name.starts_with("depth") || name.starts_with("height") || name.starts_with("rate") ||
              name.starts_with("quadratic") || name.starts_with("sagitta") || name == "angle_rad" ||
-             name == "radius_mm" || name == "delay_s" || name == "time_constant_s" ||
-             name == "step_mm";
+             name == "delay_s" || name == "time_constant_s" || name == "step_mm";
     };
     const bool limits = kind.id == "probe.saturation";
     for (const LatheParameter& parameter : kind.parameters) {

@@ -93,7 +93,8 @@ What real probing of a turned part shows and the ideal surface misses. An effect
 and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides what becomes of it when the part is
 clamped again, the spindle reversed, the speed changed or the probe sent back, and so which measurement tells two effects apart.
 Typical sizes are what machines show; they are no limits. u is Z (of the part: s, along its axis) from −1 to 1 over the probed length,
-θ the polar angle about the part's own axis.
+θ the polar angle about the part's own axis. A face is read along Z at (C, X): X_M is then its Z, u runs over the X probed, and s is the
+distance from the axis.
 
 )";
 
