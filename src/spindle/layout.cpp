@@ -10,8 +10,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr double aligned = 1e-6;   // of the share across: on one line
-constexpr double singular = 1e-7;  // of σ_min over σ_max
+constexpr double aligned = 1e-6;  // of the share across: on one line
 
 }  // namespace
 

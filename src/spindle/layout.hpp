@@ -41,6 +41,9 @@ class Layout {
   Eigen::Index form_ = -1, along_ = -1, across_ = -1, unknowns_ = 0;
 };
 
+/// Of σ_min over σ_max: below it a matrix is singular.
+inline constexpr double singular = 1e-7;
+
 /// σ_max/σ_min of A_n (Eq. 145), infinite where it is singular to 1e-7 or has fewer rows than
 /// columns.
 double condition_of(const Eigen::MatrixXcd& matrix);

@@ -82,7 +82,7 @@ class OrderSolver {
       : layout_(layout),
         order_(order),
         matrix_(layout.matrix(order)),
-        svd_(matrix_, Eigen::ComputeFullV) {}
+        svd_(matrix_, Eigen::ComputeThinU | Eigen::ComputeFullV) {}
 
   OrderSolution solve(const OrderReadings& read, double limit, double lines,
                       std::span<const AngleInfluence> influences) const {
@@ -90,27 +90,27 @@ class OrderSolver {
     out.condition = condition_of(matrix_);
     out.largest_condition = limit;
     const Index p = matrix_.cols(), m = matrix_.rows();
-    const Eigen::VectorXd values = svd_.singularValues();
-    Index kept = 0;
-    while (kept < values.size() && values[kept] * limit >= values[0]) ++kept;
-    const MatrixXcd seen = svd_.matrixV().leftCols(kept),
-                    unseen = svd_.matrixV().rightCols(p - kept);
+    const Index rank = directions(1.0 / singular), kept = directions(limit);
+    const MatrixXcd unseen = svd_.matrixV().rightCols(p - kept);
     const MatrixXcd whitener = read.covariance.llt().matrixL().solve(MatrixXcd::Identity(m, m));
-    const Eigen::HouseholderQR<MatrixXcd> qr(whitener * matrix_ * seen);
-    const VectorXcd y = whitener * read.z;
-    // Gain G: unknowns = G z.
-    const MatrixXcd thin = qr.householderQ() * MatrixXcd::Identity(m, kept);
+    // All directions that the readings hold are solved, whatever their condition: one that is left
+    // out would bias the others.
+    const MatrixXcd basis = svd_.matrixV().leftCols(rank);
+    const Eigen::HouseholderQR<MatrixXcd> qr(whitener * matrix_ * basis);
+    const MatrixXcd thin = qr.householderQ() * MatrixXcd::Identity(m, rank);
     const MatrixXcd inverse =
-        qr.matrixQR().topRows(kept).template triangularView<Eigen::Upper>().solve(
-            MatrixXcd::Identity(kept, kept));
-    const MatrixXcd gain = seen * inverse * thin.adjoint() * whitener;
-    out.unknowns = out.guessed = gain * read.z;
-    out.freedom = 2.0 * static_cast<double>(m - kept);
+        qr.matrixQR().topRows(rank).template triangularView<Eigen::Upper>().solve(
+            MatrixXcd::Identity(rank, rank));
+    const MatrixXcd gain = basis * inverse * thin.adjoint() * whitener;  // unknowns = gain z
+    out.unknowns = gain * read.z;
+    out.guessed = shortest(read.z, kept);
+    const VectorXcd y = whitener * read.z;
+    out.freedom = 2.0 * static_cast<double>(m - rank);
     // Both components of a circular complex number have half of its variance.
     out.chi_squared = 2.0 * (y - thin * (thin.adjoint() * y)).squaredNorm();
     const MatrixXcd covariance = gain * read.covariance * gain.adjoint();
     out.u_mm = (0.5 * covariance.diagonal().real()).cwiseMax(0.0).cwiseSqrt() *
-               std::sqrt(widening(lines, m - kept));
+               std::sqrt(widening(lines, m - rank));
     out.moved_mm.resize(p, static_cast<Index>(influences.size()));
     for (std::size_t k = 0; k < influences.size(); ++k)
       out.moved_mm.col(static_cast<Index>(k)) =
@@ -124,6 +124,21 @@ class OrderSolver {
   }
 
  private:
+  /// Directions of the unknowns whose singular value is the largest over `condition` or more.
+  Index directions(double condition) const {
+    const Eigen::VectorXd values = svd_.singularValues();
+    Index count = 0;
+    while (count < values.size() && values[count] * condition >= values[0]) ++count;
+    return count;
+  }
+
+  /// The shortest unknowns that explain readings by so many directions.
+  VectorXcd shortest(const VectorXcd& z, Index count) const {
+    const VectorXcd seen = svd_.matrixU().leftCols(count).adjoint() * z;
+    return svd_.matrixV().leftCols(count) *
+           seen.cwiseQuotient(svd_.singularValues().head(count).cast<Complex>());
+  }
+
   /// A covariance that is the mean of `lines` complex ones: variance of t, and what weights that
   /// are estimated lose where channels are to spare.
   double widening(double lines, Index spare) const {

@@ -297,6 +297,26 @@ TEST(SpindleLaw, AReIndexingThatIsOffByItsUncertaintyIsCovered) {
   }
 }
 
+TEST(SpindleLaw, AnOrderSuppressedForItsNoiseIsNoContradiction) {
+  SpindleBench bench(47, 40);
+  bench.sensors_deg({0, 55, 113.2});
+  bench.passes({1}, 5.0, 128.3);
+  bench.scenario.noise.sigma_mm = 100.0 * nm;
+  SpindleOptions options;
+  options.order_max = 40;
+  const SpindleResult result = bench.separate(options);
+  int suppressed = 0;
+  for (const SeparatedOrder& one : result.radial->orders) {
+    if (one.suppressed.empty()) continue;
+    ++suppressed;
+    EXPECT_GT(one.condition, 10.0);
+    EXPECT_TRUE(std::isfinite(one.condition));
+    EXPECT_FALSE(one.form.determined());
+  }
+  EXPECT_GT(suppressed, 0);
+  EXPECT_TRUE(std::isnan(result.radial->disagreement)) << "three equations, three unknowns";
+}
+
 TEST(SpindleLaw, ExchangedSensorsAreTheSameSpindle) {
   SpindleBench bench(37, 60);
   bench.sensors_deg({0, 99, 202});
