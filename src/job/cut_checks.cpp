@@ -110,7 +110,10 @@ void require_stock(const JobResult& result) {
 }
 
 double u_beyond_probed(const JobResult& result, std::size_t i) {
-  const FitResult& fit = fit_used(result, i);
+  // What causes that the data cannot tell would add is no line's.
+  const bool named = i < result.diagnoses.size() && result.diagnoses[i] &&
+                     result.diagnoses[i]->named.status == FitStatus::converged;
+  const FitResult& fit = named ? result.diagnoses[i]->named : fit_used(result, i);
   if (!result.job.target || result.job.target->kind == TargetKind::face ||
       fit.surface == SurfaceKind::plane)
     return 1.0;

@@ -24,6 +24,7 @@ JobResult found(const std::vector<Finding>& findings) {
   JobResult result = example::diagnosed_job(100);
   result.job.references.front().name = "seat";
   result.diagnoses.front()->findings = findings;
+  result.diagnoses.front()->unexplained.clear();
   result.diagnoses.front()->baseline.coverage_factor = 2.0;
   return result;
 }
