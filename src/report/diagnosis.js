@@ -114,7 +114,7 @@ function simulatedBy({by_lathe: lathe, why_not: why}) {
 }
 
 function simulationBlock(reference) {
-  const {diagnosis, readings} = reference;
+  const {diagnosis} = reference;
   const {simulation} = diagnosis;
   if (!simulation) return paragraph('There are no differences to draw: the model was not evaluated at every reading.', 'quiet');
   const extended = diagnosis.findings.length > 0 || diagnosis.unexplained.length > 0;
@@ -182,7 +182,7 @@ function nextBlock({next_measurement: next, plans}) {
 }
 
 function diagnosisSection(reference, index) {
-  const {diagnosis} = reference;
+  const {diagnosis, readings} = reference;
   const title = `What the model gets wrong: ${reference.name}`;
   if (!diagnosis) return null;
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;

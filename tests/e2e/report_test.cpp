@@ -67,6 +67,8 @@ TEST_F(ReportPage, DiagnosisOfOneSectionAndAFaceWithout) {
   JobResult faced = example::shaft_and_face_job();
   faced.diagnoses = {example::diagnosed(faced.streams.front(), faced.fits.front()), std::nullopt};
   expect_sound(faced, "diagnosis_face");
+  faced.diagnoses[1] = example::diagnosed(faced.streams.back(), faced.fits.back());
+  expect_sound(faced, "diagnosis_of_face");
 }
 
 TEST_F(ReportPage, HostileNamesOfADiagnosisStayText) {
