@@ -73,8 +73,7 @@ struct Harmonic {
     growing,   ///< 1 and u
     lever,     ///< Z − Z_bearing, and 1: a tilt and a radial motion, each with its own phase
     jaws,      ///< exp(−|s − s_jaw|/L) × force; orders n and 2n
-    parabola,  ///< (u² − 1/3) cos α: an axis bent about its nearest line, for n = 1 along the
-               ///< normal
+    parabola,  ///< u² cos α; of n = 1 u² − 1/3: an axis bent about its nearest line
     square     ///< (s/s_end)²: a warped face
   };
   Angle angle = Angle::spindle;
@@ -319,7 +318,9 @@ struct Effect {
   int between_passes = 0;  ///< place among those that show from pass to pass, beside which the
                            ///< noise is judged, as many as it can bear; 0: none of them
   bool repeats_at_tool = false;  ///< a motion that the tool meets as the probe did
-  double wear = 1.0;  ///< by how much the sizes of what wears spread wider than their range
+  /// How much wider than their range its sizes spread: above 1 what wears, below what is set by
+  /// hand and would be seen.
+  double size_spread = 1.0;
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of

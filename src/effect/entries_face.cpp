@@ -194,7 +194,7 @@ std::vector<Effect> spindle_axial() {
        .source = "ISO 230-7 (face error motion: axial motion and tilt times the radius)",
        .needs = {.length = true, .stream = face},
        .search = {.when = When::told_apart, .forms = {{{0, 1}}, {.degrees = 1}}},
-       .wear = 1.5},
+       .size_spread = 1.5},
   };
 }
 

@@ -29,7 +29,7 @@ std::vector<Effect> spindle() {
        .needs = {.stream = StreamKind::lateral},
        .search = {.when = When::told_apart},
        .repeats_at_tool = true,
-       .wear = 1.5},
+       .size_spread = 1.5},
       {.id = "spindle.tilt_synchronous",
        .title = "synchronous tilt error motion of the spindle",
        .slot = Slot::machine,
@@ -63,7 +63,7 @@ std::vector<Effect> spindle() {
                        .degrees = 1}}},
        .refinement = Refinement{&TermShape::lever_from_mm, By::lever, 1.0, 0.01, 1.2, 0},
        .repeats_at_tool = true,
-       .wear = 1.5},
+       .size_spread = 1.5},
       {.id = "spindle.axial_synchronous",
        .title = "synchronous axial error motion of the spindle",
        .slot = Slot::arguments,
@@ -84,7 +84,7 @@ std::vector<Effect> spindle() {
        .needs = {.cone = true},
        .search = {.when = When::told_apart},
        .repeats_at_tool = true,
-       .wear = 1.5},
+       .size_spread = 1.5},
       {.id = "spindle.asynchronous",
        .title = "asynchronous error motion, as of a bearing's cage",
        .slot = Slot::machine,
@@ -104,7 +104,7 @@ std::vector<Effect> spindle() {
        .typical = {{&TermShape::order, {0.43}}},
        .search = {When::scanned},
        .line = Line{Line::In::angle, 0.3, 15.5},
-       .wear = 1.5},
+       .size_spread = 1.5},
   };
 }
 
@@ -159,7 +159,7 @@ std::vector<Effect> slide() {
        .typical = {{&TermShape::period_mm, {7.3}, ShapeValues::In::per_length}},
        .search = {When::scanned},
        .line = Line{Line::In::slide, 1.0 / 30.0, 1.0, 1.5},
-       .wear = 1.5},
+       .size_spread = 1.5},
       {.id = "slide.backlash",
        .title = "reversal error of the Z slide",
        .slot = Slot::arguments,
@@ -179,7 +179,7 @@ std::vector<Effect> slide() {
        .needs = {.length = true, .both_feeds = true},
        .search = {.forms = {{{0}}, {{1}}, {}}},
        .between_passes = 1,
-       .wear = 1.5},
+       .size_spread = 1.5},
   };
 }
 

@@ -30,8 +30,11 @@ std::span<const double> angle_of(Angle angle, const TermContext& at) {
   return at.c_rad;
 }
 
-// Of u² over the probed length: less it, a bent axis is about the straight line nearest to it.
-constexpr double mean_of_u2 = 1.0 / 3.0;
+// Of u² over the probed length: less it, a bent axis (n = 1) is about the straight line nearest to
+// it.
+double mean_of_u2(const Harmonic& term, const TermShape& shape) {
+  return order_of(term, shape) == 1.0 ? 1.0 / 3.0 : 0.0;
+}
 
 // The factor along Z; 1 is left out. A shift of the axis by δ towards θ = 0 is the form
 // δ cos α cos θ along the normal.
@@ -53,8 +56,9 @@ void scale_by_envelope(const Harmonic& term, const TermContext& at, const TermSh
     case Envelope::parabola: {
       contact::normalised(term.port, at, factor.data());
       const double cosine = 1.0 / std::hypot(1.0, at.tan_half_angle);
+      const double mean = mean_of_u2(term, shape);
       for (std::size_t i = 0; i < at.size(); ++i)
-        factor[i] = (factor[i] * factor[i] - mean_of_u2) * cosine;
+        factor[i] = (factor[i] * factor[i] - mean) * cosine;
       break;
     }
     case Envelope::square:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `trueaxis run` gives no go where the diagnosis says that the axis is not the part's: after slips
-// in the chuck that are not sure, and where the virtual lathe refutes what was found.
+// in the chuck that are not sure.
 #include <cmath>
 
 #include "support/command_fixture.hpp"
@@ -74,11 +74,9 @@ TEST_F(RunRefusals, ARadialSlipIsSaid) {
 }
 
 TEST_F(RunRefusals, TwoSlipsAreNotSure) {
-  expect_refusal(
-      run_with(std::string(radial_slip) +
-                   "[[effect]]\nid = \"part.slip\"\ntime_s = 6\ndx_um = 0\ndy_um = -40\n",
-               "2", 50.0, seed),
-      "the part slipped in the chuck at ");
+  std::string both = radial_slip;
+  both += "[[effect]]\nid = \"part.slip\"\ntime_s = 6\ndx_um = 0\ndy_um = -40\n";
+  expect_refusal(run_with(both, "2", 50.0, seed), "the part slipped in the chuck at ");
 }
 
 TEST_F(RunRefusals, ARotationalSlipIsSaid) {
@@ -98,20 +96,19 @@ TEST_F(RunRefusals, ASlipWithoutATargetIsSaidToo) {
 }
 
 /// An encoder that is 1 deg off its centre under a part 1 mm off the spindle's: of the catalogue's
-/// linearised terms that of a probe off the centre's height comes nearest to it, and the height
-/// that it takes moves the lathe's readings quite otherwise.
-TEST_F(RunRefusals, FindingsThatTheLatheRefutes) {
+/// linearised terms that of a probe millimetres off the centre's height comes near to it, by which
+/// the axis would be hundreds of µm elsewhere. Nobody is that far off; the axis stays.
+TEST_F(RunRefusals, AHeightThatIsImplausibleMovesNoAxis) {
   const CommandStreams done =
       run_with("id = \"encoder.eccentricity\"\namplitude_deg = 1\n", "2", 1000.0, 1);
-  const json again = simulated_again();
-  const double share = again.at("after").at("share_of_variance").get<double>();
-  ASSERT_GT(share, 1.0) << "another stream is needed: " << done.out;
-  const json& back = again.at("j_test_lambda");
-  ASSERT_GT(back.at("value").get<double>(), 2.33 * back.at("u").get<double>());
-  expect_refusal(done, "what was found does not reproduce the readings: ");
-  char figures[64];
-  std::snprintf(figures, sizeof figures, "(%.0f %% of the variance)", 100.0 * share);
-  EXPECT_TRUE(contains(first_line(done.out), figures)) << done.out;
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_FALSE(contains(done.out, "probe.height")) << done.out;
+  EXPECT_LT(simulated_again().at("after").at("share_of_variance").get<double>(), 0.5);
+  const json axis = result("out/diagnosis_1_seat.json").at("extended").at("axis");
+  // An angle that errs by ε cos C shifts the axis by ε² and less of e; U of x is some 0.5 µm.
+  EXPECT_NEAR(
+      axis.at("x").at("value").get<double>() - 0.0002 * axis.at("z_ref").at("value").get<double>(),
+      1.0, 3e-3);
 }
 
 /// Three lobes, half of the noise, are named as such: the go stays.

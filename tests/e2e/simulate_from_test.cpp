@@ -157,7 +157,7 @@ TEST_F(SimulateFrom, RefusesWhatDoesNotBelongTogether) {
   ASSERT_EQ(command("fit part.csv --surface cylinder --json fit.json").exit_code, 0);
   expect_input_error("simulate --from fit.json --compare", "is no trueaxis.diagnosis/2");
   json open = result("d.json");
-  open.at("extended").at("status") = "rank_deficient";
+  open.at("named").at("status") = "rank_deficient";
   file("open.json", open.dump());
   expect_input_error("simulate --from open.json --compare", "not converged (rank_deficient)");
   json unknown = result("d.json");

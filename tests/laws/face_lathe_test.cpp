@@ -116,7 +116,7 @@ TEST_P(FaceLathe, EveryEffectComesBack) {
   FitOptions options;
   options.surface = SurfaceKind::plane;
   Diagnosis diagnosis;
-  diagnosis.baseline = diagnosis.extended = fit(ideal, options);
+  diagnosis.baseline = diagnosis.named = diagnosis.extended = fit(ideal, options);
   ASSERT_EQ(diagnosis.baseline.status, FitStatus::converged);
   diagnosis.z_mid_mm = bench().middle_mm();
   diagnosis.z_half_mm = bench().half_mm();

@@ -72,7 +72,7 @@ TEST(OwnEffect, IsFoundByItsEntry) {
     return amplitude_mm * u * u * std::cos(5.0 * angle - phase_rad);
   });
   const Diagnosis known = diagnosed(stream, {&five_at_the_ends, 1});
-  ASSERT_EQ(known.findings.size(), 1u);
+  ASSERT_EQ(known.findings.size(), 1u) << known.findings.back().effect();
   EXPECT_EQ(known.verdict, DiagnosisVerdict::effects);
   const Finding& found = known.findings[0];
   EXPECT_EQ(found.effect(), five_at_the_ends.id);

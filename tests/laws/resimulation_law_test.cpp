@@ -30,7 +30,7 @@ class ResimulationLaw : public ::testing::TestWithParam<LatheBench> {
     FitOptions options;
     options.surface = GetParam().tangent == 0.0 ? SurfaceKind::cylinder : SurfaceKind::cone;
     options.bore = GetParam().bore;
-    diagnosis_.baseline = diagnosis_.extended = fit(ideal_, options);
+    diagnosis_.baseline = diagnosis_.named = diagnosis_.extended = fit(ideal_, options);
     ASSERT_EQ(diagnosis_.baseline.status, FitStatus::converged);
     diagnosis_.z_mid_mm = 0.5 * (LatheBench::start_mm + LatheBench::end_mm);
     diagnosis_.z_half_mm = 0.5 * (LatheBench::end_mm - LatheBench::start_mm);

@@ -187,6 +187,9 @@ class Averaging {
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings,
                           const std::vector<Unobservable>& hidden) {
+  const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
+  if (joint.terms.empty())
+    return {Eigen::VectorXd::Zero(n), joint.base_covariance(), Eigen::MatrixXd::Zero(n, n), {}};
   return Averaging(problem, joint, findings, hidden).average();
 }
 

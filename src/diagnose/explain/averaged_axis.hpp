@@ -20,6 +20,7 @@ struct AveragedAxis {
   std::vector<AxisShare> shares;  ///< the models that move it, the largest first
 };
 
+/// Where nothing was found it is the ideal fit.
 /// @param findings the ambiguous terms of the joint fit
 /// @param hidden effects that the plan would not show at their largest: they are listed apart
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,

@@ -11,10 +11,10 @@ namespace {
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
 
-constexpr double ninety_percent = 3.29;  // widths of a normal law that hold 90 % of it
-constexpr double least_spread = 1.0;     // of ln: no range of a handbook is sharper than that
-constexpr double open_end = 0.05;        // share of the upper end where a range begins at 0
-constexpr double absorbed = 1e-9;        // share of a column below which nothing is left
+constexpr double ends_of_range = 3.92;  // widths of a normal law that hold 95 % of it
+constexpr double least_spread = 0.7;    // of ln: no range of a handbook is sharper than that
+constexpr double open_end = 0.05;       // share of the upper end where a range begins at 0
+constexpr double absorbed = 1e-9;       // share of a column below which nothing is left
 
 /// Scales in spreads about the median, and their weights: log-normal, with a tail that lets an
 /// extraordinary part be what it is.
@@ -27,9 +27,9 @@ constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
                                      {1.0, 0.242},
                                      {2.0, 0.054},
                                      {3.0, 0.0044},
-                                     {4.5, 0.001},
-                                     {6.0, 0.0003},
-                                     {8.0, 0.0001}}};
+                                     {4.5, 1e-4},
+                                     {6.0, 1e-5},
+                                     {8.0, 1e-6}}};
 
 struct Range {
   double median = 0.0, spread = least_spread;
@@ -42,7 +42,7 @@ Range range_of_size(const Effect& effect, const TermShape& shape, std::string_vi
   const double low = (p->low > 0.0 ? p->low / p->high : open_end) * high;
   const double ratio = low / high;
   if (p->share_of_range > 0.0) high = std::min(high, p->share_of_range * shape.range_mm);
-  return {high * std::sqrt(ratio), std::max(least_spread, -std::log(ratio) / ninety_percent)};
+  return {high * std::sqrt(ratio), std::max(least_spread, -std::log(ratio) / ends_of_range)};
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ SizePrior size_prior(const Hypothesis& h) {
     out.median(j) = range.median / (pair ? std::sqrt(2.0) : 1.0);
     out.spread = std::max(out.spread, range.spread);
   }
-  out.spread *= h.effect->wear;
+  out.spread *= h.effect->size_spread;
   return out;
 }
 

@@ -72,6 +72,12 @@ void add_degrees(const Effect& effect, TermShape shape, const Problem& problem,
   }
 }
 
+/// A tilt with a radial motion of its own phase.
+bool is_any_motion(const Term& term, const Form& form) {
+  const auto* harmonic = std::get_if<Harmonic>(&term);
+  return harmonic && harmonic->envelope == Harmonic::Envelope::lever && form.free.empty();
+}
+
 /// How many orders a harmonic of free order is tried at.
 double orders_of(const Effect& effect, const Resolution& resolution) {
   return effect.search.highest_order > 0 ? effect.search.highest_order - 1 : resolution.harmonics;
@@ -162,6 +168,7 @@ std::vector<Hypothesis> causes_of_order(const Problem& problem, int order) {
         continue;
       shape.order = own;
       for (const Form& form : range.forms) {
+        if (is_any_motion(effect->term, form)) continue;  // roundness that grows stands for it
         const bool second = two && form.free.empty();
         if (second ? 2 * own > problem.resolution.harmonics : half) continue;
         add_form(*effect, form, shape, false, tests, problem, list);

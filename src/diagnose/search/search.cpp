@@ -95,6 +95,11 @@ class StepwiseSearch {
     return autoregression(problem_.point, problem_.mask, problem_.deviation_mm, all);
   }
 
+  /// Whether the other terms leave all its columns: else their sizes would share one between them.
+  static bool is_whole(const Candidate& c) {
+    return c.rank > 0 && c.rank == c.hypothesis.columns();
+  }
+
   double family_p(const Family& family, const Candidate& c) const {
     return family.p_value(std::exp(c.log_p));
   }
@@ -104,7 +109,7 @@ class StepwiseSearch {
       Proposal p = proposer_.beside(model.terms, model.phi);
       model.family = p.family;
       const auto passes = [&](const Candidate& c) {
-        return c.rank > 0 && family_p(p.family, c) < problem_.false_alarm;
+        return is_whole(c) && family_p(p.family, c) < problem_.false_alarm;
       };
       std::erase_if(p.causes, [&](const Candidate& c) { return !passes(c); });
       std::erase_if(p.patterns, [&](const Candidate& c) { return !passes(c); });
@@ -258,7 +263,7 @@ class StepwiseSearch {
     if (!p.patterns.empty() && (patterns || best == nullptr) &&
         (best == nullptr || p.patterns.front().criterion + catalogue_first < best->criterion))
       best = &p.patterns.front();
-    if (best == nullptr || best->rank == 0) return false;
+    if (best == nullptr || !is_whole(*best)) return false;
     reduced.terms.push_back(best->hypothesis);
     if (criterion(reduced) > criterion(model) - 0.5) return false;
     model.terms = std::move(reduced.terms);
