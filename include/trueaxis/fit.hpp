@@ -114,7 +114,7 @@ struct FitResult {
   double sigma_mm = 0.0;         ///< standard deviation of one reading, as used in u
   std::string sigma_source;      ///< "residuals", "robust residuals" or "sensor"
   double autocorrelation = 0.0;  ///< of neighbouring residuals (lag 1)
-  double u_factor = 1.0;  ///< by which correlated residuals widen every u (1: not correlated)
+  double u_factor = 1.0;  ///< largest u of a parameter over that of white noise (1: uncorrelated)
   std::size_t points = 0;
   std::vector<Rejected> rejected;
   int iterations = 0;

@@ -2,6 +2,7 @@
 #include "fit/describe.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -219,7 +220,12 @@ void note_radius(FitResult& result) {
 constexpr double suspect_sds = 6.0;  // a Gaussian reading lies beyond with probability 2e-9
 
 void add_notes(const ReadingNoise& noise, FitResult& result) {
-  if (noise.u_factor > 1.0) {
+  if (noise.correlated) {
+    result.notes.push_back(fmt::format(
+        "neighbouring residuals correlate ({:.2f}): slow noise, or form; every u is that of noise "
+        "with the autoregression {:.2f}, up to {:.1f}-fold that of white noise",
+        noise.autocorrelation, fmt::join(noise.correlated->phi, " and "), noise.u_factor));
+  } else if (noise.u_factor > 1.0) {
     result.notes.push_back(fmt::format(
         "neighbouring residuals correlate ({:.2f}): form or slow noise; every u is widened "
         "{:.1f}-fold",
@@ -259,7 +265,7 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
 }  // namespace
 
 void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
-              Association& association, const ReadingNoise& noise, const FitOptions& options,
+              Association& association, ReadingNoise noise, const FitOptions& options,
               FitResult& result) {
   const std::vector<double>& joint = association.minimum.working;
   const std::vector<double> scale = model.scale_mm(joint);
@@ -271,7 +277,8 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   const double size = std::max(last_part.surface->shape(model.working(joint, last_part)).radius_mm,
                                *std::ranges::max_element(scale));
   const Determination determination =
-      determine(normal, scale, size, noise.sigma_mm * noise.u_factor, options.coverage_factor);
+      determine(normal, scale, size, noise, options.coverage_factor);
+  take_in(determination, noise);
   for (Eigen::Index j = 0; j < determination.free_directions.cols(); ++j) {
     result.not_determined.push_back(
         name_direction(determination.free_directions.col(j), model.names(), scale));

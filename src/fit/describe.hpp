@@ -13,7 +13,7 @@ namespace trueaxis {
 /// Turns a minimum into the result: what is determined, parameters with uncertainties and budget,
 /// the axis of every set-up, what was rejected. Residuals move into the result.
 void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
-              Association& association, const ReadingNoise& noise, const FitOptions& options,
+              Association& association, ReadingNoise noise, const FitOptions& options,
               FitResult& result);
 
 /// What a fit takes of a stream although nothing says it, what of the stream it does not use, and

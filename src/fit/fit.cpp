@@ -124,7 +124,7 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
                      std::string(model.info().id) + "?";
     return result;
   }
-  const ReadingNoise noise = estimate_noise(association, model.parameter_count(), known);
+  const ReadingNoise noise = estimate_noise(model, association, known);
   result.status = association.minimum.converged ? FitStatus::converged : FitStatus::max_iterations;
   if (!association.minimum.converged) {
     result.message = "not converged after " + std::to_string(result.iterations) +

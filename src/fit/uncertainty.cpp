@@ -66,12 +66,13 @@ bool noise_disagrees(double stated_mm, double shown_mm, double redundancy) {
   return shown_mm > factor * stated_mm || factor * shown_mm < stated_mm;
 }
 
-ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
+ReadingNoise estimate_noise(const JointModel& model, const Association& association,
                             const FitOptions& options) {
   ReadingNoise noise;
   const std::vector<double>& residual = association.residual_mm;
   const auto n = static_cast<double>(residual.size());
-  const double redundancy = n - static_cast<double>(parameters);
+  const auto parameters = static_cast<double>(model.parameter_count());
+  const double redundancy = n - parameters;
   const bool robust = association.scale_mm > 0.0;
   noise.source = robust ? "robust residuals" : "residuals";
   noise.sigma_mm = robust           ? association.scale_mm
@@ -93,7 +94,7 @@ ReadingNoise estimate_noise(const Association& association, std::size_t paramete
       slope2 += derivative * derivative;
     }
     const double mean = slope / n, spread = slope2 / n - mean * mean;
-    const double k = 1.0 + static_cast<double>(parameters) / n * spread / (mean * mean);
+    const double k = 1.0 + parameters / n * spread / (mean * mean);
     noise.loss_factor =
         k * k * psi2 / redundancy / (mean * mean) / (association.scale_mm * association.scale_mm);
   }
@@ -103,12 +104,13 @@ ReadingNoise estimate_noise(const Association& association, std::size_t paramete
   if (noise.autocorrelation * std::sqrt(n) > correlation_sds) {
     const double rho = std::min(noise.autocorrelation, 0.99);
     noise.u_factor = std::sqrt((1.0 + rho) / (1.0 - rho));
+    noise.correlated = find_correlated_noise(model, association, clip);
   }
   return noise;
 }
 
 Determination determine(const NormalMatrix& normal, const std::vector<double>& scale_mm,
-                        double size_mm, double sigma_mm, double coverage) {
+                        double size_mm, const ReadingNoise& noise, double coverage) {
   const auto p = static_cast<Eigen::Index>(normal.parameters);
   const Eigen::Map<const Eigen::VectorXd> scale(scale_mm.data(), p);
   const Eigen::VectorXd unscale = scale.cwiseInverse();
@@ -117,6 +119,8 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
                             unscale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(h);
   const double largest = eigen.eigenvalues().maxCoeff();
+  const double factor = noise.correlated ? 1.0 : noise.u_factor;
+  const double sigma_mm = noise.sigma_mm * factor;
   const double sigma = std::max(std::isfinite(sigma_mm) ? sigma_mm : 0.0, rounding * size_mm);
 
   Determination out;
@@ -125,9 +129,13 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
   for (Eigen::Index i = 0; i < p; ++i) {
     const double value = eigen.eigenvalues()(i);
     const Eigen::VectorXd direction = unscale.asDiagonal() * eigen.eigenvectors().col(i);
+    const double widened =
+        noise.correlated ? std::sqrt(direction.dot(noise.correlated->jtcj * direction) / value)
+                         : 1.0;
     // Each entry of JᵀJ carries the square of the prediction's rounding, so that a singular
     // direction shows as 1e-14.
-    if (value <= 1e-14 * largest || coverage * sigma / std::sqrt(value) > size_share * size_mm) {
+    if (value <= 1e-14 * largest ||
+        coverage * sigma * widened / std::sqrt(value) > size_share * size_mm) {
       out.free_directions.conservativeResize(Eigen::NoChange, out.free_directions.cols() + 1);
       out.free_directions.rightCols(1) = direction;
     } else {
@@ -135,6 +143,26 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
     }
   }
   return out;
+}
+
+void take_in(const Determination& determination, ReadingNoise& noise) {
+  if (!noise.correlated) return;
+  constexpr double least_share = 0.1;  // of N − p: nearly all freedom taken says nothing of σ
+  const Eigen::MatrixXd& inverse = determination.inverse;
+  const Eigen::MatrixXd moved = inverse * noise.correlated->jtcj;
+  if (noise.source != "sensor" && noise.redundancy > 0.0) {
+    const auto parameters = static_cast<double>(inverse.rows());
+    const double left =
+        std::max(noise.redundancy + parameters - moved.trace(), least_share * noise.redundancy);
+    noise.sigma_mm *= std::sqrt(noise.redundancy / left);
+    noise.shown_mm = noise.sigma_mm;
+  }
+  const Eigen::VectorXd correlated = (moved * inverse).diagonal(), white = inverse.diagonal();
+  noise.u_factor = 1.0;
+  for (Eigen::Index i = 0; i < white.size(); ++i) {
+    if (white(i) > 0.0)
+      noise.u_factor = std::max(noise.u_factor, std::sqrt(correlated(i) / white(i)));
+  }
 }
 
 std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,
@@ -160,9 +188,12 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
                                    const Determination& determination, const ReadingNoise& noise,
                                    const FitOptions& options) {
   const std::vector<double>& joint = association.minimum.working;
-  const double sigma = noise.sigma_mm * noise.u_factor;
+  const double sigma = noise.sigma_mm * (noise.correlated ? 1.0 : noise.u_factor);
+  const Eigen::MatrixXd& inverse = determination.inverse;
   std::vector<Source> sources{
-      {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * determination.inverse}};
+      {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * inverse}};
+  if (noise.correlated)
+    sources.front().covariance = sources.front().covariance * noise.correlated->jtcj * inverse;
   if (options.influences.empty()) return sources;
   for (const Influence& influence : options.influences) {
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(determination.inverse.rows());

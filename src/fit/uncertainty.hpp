@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/associate.hpp"
+#include "fit/correlated_noise.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {
@@ -19,7 +19,10 @@ struct ReadingNoise {
   double shown_mm = 0.0;            ///< what the residuals alone show; NaN: no redundancy
   double redundancy = 0.0;          ///< readings beyond the parameters
   double autocorrelation = 0.0;
-  double u_factor = 1.0;     ///< √((1 + ρ)/(1 − ρ)) where neighbours correlate, else 1
+  std::optional<CorrelatedNoise> correlated{};  ///< where neighbours correlate, and not as form
+  /// By which correlation widens every u, √((1 + ρ)/(1 − ρ)); with `correlated` the most that it
+  /// widens the u of a parameter by (see take_in). 1: uncorrelated.
+  double u_factor = 1.0;
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
 
@@ -27,8 +30,8 @@ struct ReadingNoise {
 /// readings show it.
 bool noise_disagrees(double stated_mm, double shown_mm, double redundancy);
 
-/// Eqs. 32–34.
-ReadingNoise estimate_noise(const Association& association, std::size_t parameters,
+/// Eqs. 32–34a.
+ReadingNoise estimate_noise(const JointModel& model, const Association& association,
                             const FitOptions& options);
 
 /// Which combinations of the working parameters the data determine.
@@ -41,7 +44,11 @@ struct Determination {
 /// uncertainties exceed a tenth of the surface's own size, beyond which the linearisation means
 /// nothing (Eq. 31).
 Determination determine(const NormalMatrix& normal, const std::vector<double>& scale_mm,
-                        double size_mm, double sigma_mm, double coverage);
+                        double size_mm, const ReadingNoise& noise, double coverage);
+
+/// What correlated noise makes of the readings' freedom, which σ follows from, and of the u of the
+/// parameters (Eq. 34b).
+void take_in(const Determination& determination, ReadingNoise& noise);
 
 /// "0.71 x + 0.70 radius" for a direction, in mm on the surface.
 std::string name_direction(const Eigen::VectorXd& direction, const std::vector<std::string>& names,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "math/autoregression.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -20,12 +21,6 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const Hypothesis> basis,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
-
-/// φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white.
-struct Autoregression {
-  std::vector<double> phi;
-  double deviance = 0.0;  ///< −2 ln of the likelihood, up to a constant of the stream; 0: none
-};
 
 /// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
 /// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "math/autoregression.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/statistics.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+
+constexpr double five_percent = 3.84;
+
+/// The likelihoods of autoregressions beside the columns of a Gram matrix.
+struct Likelihood {
+  const LaggedGram& gram;
+
+  /// Of the regression by the columns behind the first.
+  struct Regression {
+    double rss, logdet;
+    Eigen::Index columns;
+  };
+  std::optional<Regression> regression(double phi1, double phi2) const {
+    const Matrix all = gram.whitened(phi1, phi2);
+    const Eigen::Index m = all.rows() - 1;
+    const Matrix normal = all.bottomRightCorner(m, m);
+    const Eigen::LLT<Matrix> factor(normal);
+    if (factor.info() != Eigen::Success) return {};
+    const Eigen::VectorXd half = factor.matrixL().solve(all.col(0).tail(m));
+    return Regression{all(0, 0) - half.squaredNorm(),
+                      2.0 * factor.matrixLLT().diagonal().array().log().sum(), m};
+  }
+
+  /// Twice the restricted log likelihood, up to a constant (Eq. 65).
+  double restricted2(double phi1, double phi2) const {
+    const auto r = regression(phi1, phi2);
+    if (!r) return -1e300;
+    return -(gram.rows() - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet;
+  }
+
+  /// The noise with −2 ln of its likelihood, not the restricted one: models with other columns are
+  /// compared by it.
+  Autoregression with_deviance(std::vector<double> phi) const {
+    const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
+    return {std::move(phi), r ? gram.rows() * std::log(r->rss) : 1e300};
+  }
+};
+
+/// Where a likelihood is largest, by the golden section. (Brent's parabolas step over to another
+/// maximum: a slip of 100 µm was then again a noise that rings.)
+template <typename Function>
+double maximise(Function f, double low, double high) {
+  constexpr double golden = 0.6180339887498949;
+  double a = high - golden * (high - low), b = low + golden * (high - low);
+  double fa = f(a), fb = f(b);
+  for (int i = 0; i < 16; ++i) {
+    if (fa > fb) {
+      high = b, b = a, fb = fa, a = high - golden * (high - low), fa = f(a);
+    } else {
+      low = a, a = b, fa = fb, b = low + golden * (high - low), fb = f(b);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// The columns that are independent beside those before them, by a Cholesky decomposition of the
+/// Gram matrix without pivoting that leaves out where its pivot vanishes: a singular normal matrix
+/// has no likelihood.
+std::vector<Eigen::Index> independent(const Matrix& gram) {
+  std::vector<Eigen::Index> kept;
+  Matrix left = gram;
+  for (Eigen::Index j = 1; j < gram.rows(); ++j) {
+    if (!(left(j, j) > 1e-6 * gram(j, j))) continue;
+    kept.push_back(j);
+    const Eigen::VectorXd column = left.col(j) / std::sqrt(left(j, j));
+    left.noalias() -= column * column.transpose();
+  }
+  return kept;
+}
+
+}  // namespace
+
+LaggedGram::LaggedGram(Eigen::Index columns) {
+  for (auto& line : gram_) line.fill(Matrix::Zero(columns, columns));
+}
+
+void LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Matrix at[3];
+  for (Eigen::Index lag = 0; lag < 3; ++lag) {
+    at[lag].resize(n, x.cols());
+    for (Eigen::Index i = 0; i < n; ++i)
+      at[lag].row(i) = x.row(rows[static_cast<std::size_t>(i)] - lag);
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) gram_[a][b].noalias() += at[a].transpose() * at[b];
+  }
+  rows_ += static_cast<double>(n);
+}
+
+void LaggedGram::add_transformed(const LaggedGram& other, const Matrix& t) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) gram_[a][b] += t.transpose() * other.gram_[a][b] * t;
+  }
+  rows_ += other.rows_;
+}
+
+LaggedGram LaggedGram::of_independent_columns() const {
+  std::vector<Eigen::Index> kept = independent(gram_[0][0]);
+  kept.insert(kept.begin(), 0);
+  LaggedGram out = *this;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t b = a; b < 3; ++b) out.gram_[a][b] = Matrix(gram_[a][b](kept, kept));
+  }
+  return out;
+}
+
+Matrix LaggedGram::whitened(double phi1, double phi2) const {
+  const double c[3] = {1.0, -phi1, -phi2};
+  Matrix sum = Matrix::Zero(gram_[0][0].rows(), gram_[0][0].cols());
+  for (std::size_t a = 0; a < 3; ++a) {
+    sum += c[a] * c[a] * gram_[a][a];
+    for (std::size_t b = a + 1; b < 3; ++b) {
+      if (c[a] * c[b] == 0.0) continue;
+      sum += c[a] * c[b] * (gram_[a][b] + gram_[a][b].transpose());
+    }
+  }
+  return sum;
+}
+
+Autoregression find_autoregression(const LaggedGram& of_all_columns,
+                                   const std::function<bool(double, double)>& is_form) {
+  const LaggedGram gram = of_all_columns.of_independent_columns();
+  const Likelihood of{gram};
+  const double white = of.restricted2(0.0, 0.0);
+  const double first = maximise([&](double p) { return of.restricted2(p, 0.0); }, -0.99, 0.995);
+  const double one = of.restricted2(first, 0.0);
+  // Partial correlations free the process stationary: φ₁ = a₁(1 − a₂), φ₂ = a₂.
+  double a1 = first, a2 = 0.0;
+  for (int round = 0; round < 2; ++round) {
+    a2 = maximise([&](double p) { return of.restricted2(a1 * (1.0 - p), p); }, -0.99, 0.99);
+    a1 = maximise([&](double p) { return of.restricted2(p * (1.0 - a2), a2); }, -0.99, 0.995);
+  }
+  const double two = of.restricted2(a1 * (1.0 - a2), a2);
+  if (two - one > five_percent && two - white > 2.0 * five_percent && !is_form(a1 * (1.0 - a2), a2))
+    return of.with_deviance({a1 * (1.0 - a2), a2});
+  if (one - white > five_percent) return of.with_deviance({first});
+  return of.with_deviance({});
+}
+
+bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad) {
+  constexpr double lasting = 0.8, off_order = 0.1;  // radius of the poles; of an order
+  if (phi1 * phi1 + 4.0 * phi2 >= 0.0 || std::sqrt(-phi2) < lasting) return false;
+  std::vector<double> step_rad;
+  for (std::size_t i = 1; i < c_rad.size(); ++i) {
+    const double step = std::abs(c_rad[i] - c_rad[i - 1]);
+    if (step > 0.0 && step < std::numbers::pi) step_rad.push_back(step);
+  }
+  if (step_rad.empty()) return false;
+  const double order = std::acos(0.5 * phi1 / std::sqrt(-phi2)) / median(step_rad);
+  return std::round(order) >= 1.0 && std::abs(order - std::round(order)) < off_order;
+}
+
+double variance_over_innovation(const std::vector<double>& phi) {
+  const double phi1 = phi.empty() ? 0.0 : phi[0], phi2 = phi.size() < 2 ? 0.0 : phi[1];
+  return (1.0 - phi2) / ((1.0 + phi2) * ((1.0 - phi2) * (1.0 - phi2) - phi1 * phi1));
+}
+
+}  // namespace trueaxis
