@@ -82,7 +82,7 @@ std::vector<Effect> spindle() {
                        {"MS", "a master cylinder does not show it, a face shows it in full"}},
        .source = "ISO 230-7 (axial error motion)",
        .needs = {.cone = true},
-       .search = {.when = When::told_apart},
+       .search = {.when = When::told_apart, .tests = 4},  // the rarest of a spindle's motions
        .repeats_at_tool = true,
        .size_spread = 1.5},
       {.id = "spindle.asynchronous",

@@ -50,7 +50,7 @@ std::vector<Effect> part_roundness() {
        .term = Harmonic{Angle::part, Envelope::growing, Port::normal},
        .formula = "rho = (A + B u) cos(n theta - phi), n >= 2; one phase for A and one for B when "
                   "fitted",
-       .parameters = {{"amplitude", "mm", 1e-3, 0.02, "A at mid length (a thin tube: 0.2)"},
+       .parameters = {{"amplitude", "mm", 1e-4, 0.02, "A at mid length (a thin tube: 0.2)"},
                       {"growth", "mm", 0, 0.02, "B: change from mid length to the end"},
                       {"order", "1", 2, 12, "n, undulations per revolution"},
                       {"phase", "rad", 0, 0, "phi"}},
@@ -63,7 +63,7 @@ std::vector<Effect> part_roundness() {
        .source = "ISO 12181-1 (roundness, UPR)",
        .needs = {.stream = StreamKind::lateral},
        .search = {.forms = {{{0, 1}}, {.degrees = 1}}, .tests = 1},
-       .size_spread = 2.0},
+       .size_spread = 1.5},
       {.id = "part.feed_marks",
        .title = "the spiral left by turning",
        .slot = Slot::part,

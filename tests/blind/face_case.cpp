@@ -61,6 +61,7 @@ std::map<std::string, double> shape_of(const std::string& id, Random& random) {
       {"frequency_hz", [&] { return between(random, 2.0, 9.0); }},
       {"degree", [&] { return static_cast<double>(2 + random() % 2); }},
       {"time_s", [&] { return between(random, 8.0, 42.0); }},
+      {"ends", [] { return 1.0; }},  // the part is that after the slip
       {"order", [&] {
          return id == "spindle.axial_asynchronous" ? between(random, 1.2, 9.8)
                                                    : static_cast<double>(2 + random() % 7);

@@ -43,9 +43,10 @@ TEST(AveragedAxis, FollowsNoCauseThatIsImplausiblyLarge) {
     options.fit.surface = SurfaceKind::cylinder;
     const Diagnosis d = diagnose(simulate(s), options);
     for (const Finding& finding : d.findings) EXPECT_NE(finding.effect(), "probe.height");
-    // The ideal axis is off by thousandths of the ovality and by its noise.
+    // The ideal axis is off by thousandths of the ovality and by its noise. A height with a chance
+    // of some thousandths keeps its share of U.
     EXPECT_LT(apart_mm(d.extended, d.baseline), 5e-4) << "seed " << seed;
-    EXPECT_LT(d.extended.axis.u_at(0.0), 5e-4) << "seed " << seed;
+    EXPECT_LT(d.extended.axis.u_at(0.0), 3e-3) << "seed " << seed;
   }
 }
 

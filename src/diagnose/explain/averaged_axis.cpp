@@ -73,6 +73,11 @@ class Averaging {
     out.shift = named_.coefficients.head(n_) - wide_.base();
     std::size_t next = terms_;
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
+    if (problem_.point.base.face) {  // of a face the named model stands, with what rivals would do
+      out.within = wide_.base_covariance();
+      out.shift.setZero(), out.shares.clear();
+      return out;
+    }
     of_not_found(next, out);
     const double u = axis_uncertainty(problem_.point, out.within + out.between).u_mm;
     if (axis_shift(problem_.point, out.shift, out.within).value_mm < nothing * u)
