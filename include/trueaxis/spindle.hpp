@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/units.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/units.hpp"
 
 /// Form of the part and error motion of the spindle, separated by several sensors at known angles,
 /// by reversal (Donaldson 1972), by re-indexed set-ups, or by all of these in one estimate

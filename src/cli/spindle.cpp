@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/commands.hpp"
+#include "trueaxis/spindle.hpp"
 
 #include <charconv>
 #include <iostream>
@@ -7,8 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "cli/options.hpp"
+#include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
@@ -17,7 +18,6 @@
 #include "spindle/files/spindle_text.hpp"
 #include "spindle/files/spindle_toml.hpp"
 #include "trueaxis/error.hpp"
-#include "trueaxis/spindle.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "diagnose/files/diagnosis_json.hpp"
 #include "laws/face_bench.hpp"
 #include "trueaxis/resimulation.hpp"
 
