@@ -27,7 +27,7 @@ std::vector<Effect> spindle() {
        .separations = {{"RC", "re-indexed, the motion stays with C and roundness turns"}},
        .source = "ISO 230-7 (synchronous radial error motion)",
        .needs = {.stream = StreamKind::lateral},
-       .search = {.when = When::told_apart},
+       .search = {.when = When::told_apart, .tests = 3},  // rarer than a form of the part
        .repeats_at_tool = true,
        .size_spread = 1.5},
       {.id = "spindle.tilt_synchronous",
@@ -60,7 +60,8 @@ std::vector<Effect> spindle() {
                                   ShapeValues::In::itself,
                                   2}},
                       {.starts = {&TermShape::lever_from_mm, {0.0}, ShapeValues::In::half_lengths},
-                       .degrees = 1}}},
+                       .degrees = 1}},
+            .tests = 6},
        .refinement = Refinement{&TermShape::lever_from_mm, By::lever, 1.0, 0.01, 1.2, 0},
        .repeats_at_tool = true,
        .size_spread = 1.5},
@@ -82,7 +83,7 @@ std::vector<Effect> spindle() {
                        {"MS", "a master cylinder does not show it, a face shows it in full"}},
        .source = "ISO 230-7 (axial error motion)",
        .needs = {.cone = true},
-       .search = {.when = When::told_apart, .tests = 4},  // the rarest of a spindle's motions
+       .search = {.when = When::told_apart, .tests = 6},  // the rarest of a spindle's motions
        .repeats_at_tool = true,
        .size_spread = 1.5},
       {.id = "spindle.asynchronous",
