@@ -41,7 +41,7 @@ std::vector<Effect> part_roundness() {
        .search = {.when = When::at_orders,
                   .forms = {{{0, 1}, jaw_decays}, {{}, jaw_decays}},
                   .highest_order = 6,
-                  .tests = 5},
+                  .tests = 20},
        .refinement = Refinement{&TermShape::decay_length_mm, By::factor, 3.0, 10.0, 200.0}},
       {.id = "part.roundness",
        .title = "roundness of the part: ovality, lobes, and their growth along it",
