@@ -321,6 +321,9 @@ struct Effect {
   /// How much wider than their range its sizes spread: above 1 what wears, below what is set by
   /// hand and would be seen.
   double size_spread = 1.0;
+  /// Line of the budget (an Influence) by which a user states its u; empty: none.
+  std::string_view stated_as = {};
+  bool same_in_cut = false;  ///< the cut meets it as the probe did: the axis it cuts is the same
 };
 
 /// A pattern of no cause, along the normal of the part or along X: cos, sin of

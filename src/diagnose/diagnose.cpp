@@ -88,7 +88,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
   AveragedAxis average =
-      average_axis(refit->problem(), refit->joint(), explanation.ambiguous, hidden);
+      average_axis(refit->problem(), refit->joint(), explanation.ambiguous, out.baseline);
   out.named = refit->named();
   out.extended = refit->shifted(average.shift, average.within, average.between);
   out.shares = std::move(average.shares);

@@ -74,6 +74,31 @@ double rounded_up(double value) {
   return std::ceil(value / unit) * unit;
 }
 
+/// The cause that was not found and leaves most of U, and the measurement that would show it;
+/// empty: none leaves as much as the readings' noise.
+std::string most_open(const Diagnosis& diagnosis, const Covariance& noise) {
+  const AxisShare* most = nullptr;
+  double largest = std::max(noise[0], noise[5]);  // variances of x, y
+  for (const AxisShare& share : diagnosis.shares) {
+    const double variance = share.probability * (share.axis_shift.value * share.axis_shift.value +
+                                                 share.axis_shift.u * share.axis_shift.u);
+    if (share.instead_of.empty() && variance > largest) most = &share, largest = variance;
+  }
+  if (!most) return "";
+  const auto hidden =
+      std::ranges::find(diagnosis.not_observable, most->effect, &NotObservable::effect);
+  const bool told = hidden != diagnosis.not_observable.end() && hidden->separate_with &&
+                    !hidden->separate_with->plan.empty();
+  const Effect* effect = find_effect(most->effect);
+  const std::string_view key = effect ? effect->stated_as : "";
+  return fmt::format(
+      "no number of readings proves it: {}, which these passes do not show, leaves {:.2g} µm of "
+      "the axis open{}{}",
+      most->effect, std::sqrt(largest) / mm_per_um,
+      told ? ". " + hidden->separate_with->what : std::string(),
+      key.empty() ? "" : fmt::format(". Or state the uncertainty of the {} in the job", key));
+}
+
 }  // namespace
 
 std::string what_would_prove(const JobResult& result, double allowed_mm) {
@@ -118,6 +143,8 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
                        most_times);
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!result.diagnoses[i]) continue;
+    if (const std::string open = most_open(*result.diagnoses[i], noise[i]); !open.empty())
+      return open;
     const NextMeasurement& next = result.diagnoses[i]->next;
     if (!next.plan.empty()) return "readings alone do not prove it: " + next.what;
   }

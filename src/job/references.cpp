@@ -35,9 +35,8 @@ const FitResult& fit_used(const JobResult& result, std::size_t reference) {
   const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
   if (!diagnosed) return result.fits[reference];
   const Diagnosis& diagnosis = *result.diagnoses[reference];
-  const bool extended = diagnosis.verdict != DiagnosisVerdict::ideal &&
-                        diagnosis.extended.status == FitStatus::converged;
-  return extended ? diagnosis.extended : result.fits[reference];
+  return diagnosis.extended.status == FitStatus::converged ? diagnosis.extended
+                                                           : result.fits[reference];
 }
 
 std::vector<Reference> references_of(const JobResult& result) {

@@ -76,10 +76,14 @@ std::string possible(const Finding& finding) {
   return "";
 }
 
-/// One slip, no rival of it, no finding that may be another, and nothing unexplained.
+/// One slip, its sizes shown by what was read after it, no rival of it, no finding that may be
+/// another, and nothing unexplained.
 bool is_sure(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();
   if (!slip || !slip->rivals.empty() || !diagnosis.unexplained.empty()) return false;
+  if (std::ranges::any_of(slip->parameters,
+                          [](const FitParameter& p) { return !p.estimate.determined(); }))
+    return false;
   return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
     return &finding != slip && std::ranges::any_of(finding.members(), is_slip);
   });

@@ -92,7 +92,8 @@ Json reference_data(const JobResult& result, std::size_t i) {
       data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i],
                                          again ? &*result.resimulations[i] : nullptr);
     }
-    data["extended"] = &fit_used(result, i) != &result.fits[i];
+    data["extended"] = &fit_used(result, i) != &result.fits[i] &&
+                       result.diagnoses[i]->verdict != DiagnosisVerdict::ideal;
     data["relative"] = result.streams[i].indication == Indication::relative;
   }
   return data;

@@ -242,6 +242,7 @@ std::array<double, 4> true_ends(const Case& of) {
       const double away = p.at("sagitta_mm") / 3.0, at = p.at("direction_rad") - reindex;
       x += away * std::cos(at), y += away * std::sin(at);
     }
+    if (effect.id == "encoder.offset") turn -= p.at("angle_rad");
     if (effect.id == "part.slip") x += p.at("dx_mm"), y += p.at("dy_mm"), turn += p.at("turn_rad");
   }
   std::array<double, 4> out{};

@@ -89,7 +89,10 @@ TEST_F(SweepPlans, ASecondSpeedTellsItBest) {
   EXPECT_LT(u_back, std::hypot(1.1 * expected, std::sqrt(0.5) * apart));
   EXPECT_EQ(speeds["named"]["value"], 1.0);
   expect_bias(speeds, "y_at_max_z", 0.0);
-  EXPECT_LT(row(speeds, "y_at_max_z")["mean_u"].get<double>(), 0.7 * expected);
+  // What neither plan shows, such as the height of the probe, is in both: of the delay's share at
+  // most 0.7 is left.
+  const double u_speeds = row(speeds, "y_at_max_z")["mean_u"];
+  EXPECT_GT(u_back * u_back - u_speeds * u_speeds, (1.0 - 0.49) * expected * expected);
 }
 
 }  // namespace

@@ -50,6 +50,69 @@ TEST(AveragedAxis, FollowsNoCauseThatIsImplausiblyLarge) {
   }
 }
 
+// One pass tells the height and the gain of the probe by nothing: what the catalogue calls typical
+// of them widens U, unless the job states its own. A height h turns the eccentricity by h/R; it is
+// there in a fifth of all streams, and its mean square is at least the square of the middle of its
+// range, 0.05-1 mm: 0.2 · 0.05 mm² (e/R)².
+TEST(AveragedAxis, HoldsWhatThePassDoesNotShowUnlessItIsStated) {
+  Scenario s = probed_part(PartKind::cylinder);
+  s.part.radius_mm = 17.0;
+  s.part.x0_mm = 0.15, s.part.y0_mm = -0.1;
+  s.noise.sigma_mm = 0.001;
+  s.plan.passes[0].end_mm = 40.0;
+  const ProbeStream stream = simulate(s);
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::cylinder;
+  const Diagnosis open = diagnose(stream, options);
+  options.fit.influences = {{Influence::Kind::probe_height, 0.0},
+                            {Influence::Kind::probe_gain, 0.0}};
+  const Diagnosis stated = diagnose(stream, options);
+  ASSERT_EQ(open.verdict, DiagnosisVerdict::ideal);
+  EXPECT_LT(apart_mm(open.extended, open.baseline), 1e-9);  // the ideal fit stands
+  const double u2 = std::pow(open.extended.axis.u_at(20.0), 2),
+               u2_stated = std::pow(stated.extended.axis.u_at(20.0), 2);
+  EXPECT_GT(u2 - u2_stated, 0.2 * 0.05 * std::pow(std::hypot(0.15, 0.1) / 17.0, 2));
+  EXPECT_TRUE(std::ranges::any_of(
+      open.shares, [](const AxisShare& share) { return share.effect == "probe.height"; }));
+  EXPECT_TRUE(std::ranges::none_of(
+      stated.shares, [](const AxisShare& share) { return share.effect == "probe.height"; }));
+}
+
+// After the last turn the part slips while the spindle stands: what is read then shows where it
+// went along the probe line, not across. U is of the size of a slip there, not of the noise.
+TEST(AveragedAxis, OfAPartThatSlippedUnderAStandingSpindleIsOpenAcrossTheProbeLine) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    Scenario s = probed_part(PartKind::cylinder);
+    s.noise.sigma_mm = 0.001;
+    s.plan.passes[0].end_mm = 20.0;
+    s.plan.passes[0].feed_mm_per_rev = 1.0;
+    PlannedPass standing;
+    standing.start_mm = standing.end_mm = 10.0;
+    standing.speed_rpm = 0.0, standing.duration_s = 3.0, standing.rate_hz = 40.0;
+    standing.c_start_rad = 0.7 * static_cast<double>(seed);
+    s.plan.passes.push_back(standing);
+    s.seed = seed;
+    const double end_s = simulate(s).time_s.back();
+    const double angle = 1.9 * static_cast<double>(seed), size_mm = 0.06;
+    s.effects = {{"part.slip",
+                  {{"time_s", end_s - 1.5},
+                   {"dx_mm", size_mm * std::cos(angle)},
+                   {"dy_mm", size_mm * std::sin(angle)},
+                   {"turn_rad", 0.0}}}};
+    DiagnoseOptions options;
+    options.fit.surface = SurfaceKind::cylinder;
+    const Diagnosis d = diagnose(simulate(s), options);
+    ASSERT_NE(d.slip(), nullptr) << "seed " << seed;
+    EXPECT_FALSE(d.slip()->parameter("dx").determined());
+    const auto at = d.extended.axis.axis.at(10.0);
+    const double true_x = s.part.x0_mm + 10.0 * s.part.l + size_mm * std::cos(angle),
+                 true_y = s.part.y0_mm + 10.0 * s.part.m + size_mm * std::sin(angle);
+    // Three u of an axis whose u is that of a slip: a normal law holds 99.7 %.
+    EXPECT_LT(std::hypot(at[0] - true_x, at[1] - true_y), 3.0 * d.extended.axis.u_at(10.0));
+    EXPECT_GT(d.extended.axis.u_at(10.0), 0.01) << "the least slip that is typical";
+  }
+}
+
 // What the named model and the average have in common: one base, moved by what the shares say.
 TEST(AveragedAxis, IsBetweenTheModelsItIsTheAverageOf) {
   Scenario s = probed_part(PartKind::cone);

@@ -128,7 +128,9 @@ TEST(ReportData, AxisShownIsThatOfTheCorrection) {
   EXPECT_EQ(&fit_used(result, 0), &result.fits[0]);
   result.diagnoses.front()->extended.status = FitStatus::converged;
   result.diagnoses.front()->verdict = DiagnosisVerdict::ideal;
-  EXPECT_EQ(&fit_used(result, 0), &result.fits[0]);
+  // Nothing was found: that axis, with the u of what the passes do not show.
+  EXPECT_EQ(&fit_used(result, 0), &result.diagnoses.front()->extended);
+  EXPECT_EQ(report_data(result)["references"][0]["extended"], false);
 }
 
 TEST(ReportData, SameResultSameBytes) {

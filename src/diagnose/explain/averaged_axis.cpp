@@ -11,7 +11,7 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double present = 0.1;   // how often a stream has an effect, before it is looked at
+constexpr double present = 0.2;   // how often a stream has an effect, before it is looked at
 constexpr double told = 1e-3;     // probability below which a model is not listed
 constexpr double nothing = 1e-2;  // of u: a shift below is none
 
@@ -22,24 +22,23 @@ struct Alternative {
   Eigen::MatrixXd covariance;  ///< what its term's own uncertainty adds to the base
 };
 
-/// Effects that might be there and were not found, though the plan would show them at their
-/// largest. Harmonics of free order are left out: they are no neighbours of the axis, which is of
-/// order one.
+/// Effects that might be there and were not found, seen or not, but for those whose uncertainty is
+/// stated and those that the cut meets as the probe did. Harmonics of free order are left out: they
+/// are no neighbours of the axis, which is of order one.
 std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypothesis>& terms,
                                   const std::vector<AmbiguousFinding>& findings,
-                                  const std::vector<Unobservable>& hidden) {
+                                  const FitResult& ideal) {
   std::vector<Hypothesis> list = preset_causes(problem);
   std::erase_if(list, [&](const Hypothesis& h) {
-    const Effect* effect = h.effect;
-    const auto is_it = [&](const Hypothesis& other) { return other.effect == effect; };
-    if (has_free_order(*effect) || std::ranges::any_of(terms, is_it) ||
-        std::ranges::any_of(hidden,
-                            [&](const auto& u) { return u.typical.hypothesis.effect == effect; }))
-      return true;
-    return std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
-      return std::ranges::any_of(f.found.members,
-                                 [&](const Candidate& c) { return is_it(c.hypothesis); });
-    });
+    const Effect& effect = *h.effect;
+    const auto is_it = [&](const Hypothesis& other) { return other.effect == &effect; };
+    const auto stated = [&](const BudgetLine& line) { return line.source == effect.stated_as; };
+    return has_free_order(effect) || effect.same_in_cut ||
+           std::ranges::any_of(ideal.budget, stated) || std::ranges::any_of(terms, is_it) ||
+           std::ranges::any_of(findings, [&](const AmbiguousFinding& f) {
+             return std::ranges::any_of(f.found.members,
+                                        [&](const Candidate& c) { return is_it(c.hypothesis); });
+           });
   });
   return list;
 }
@@ -47,11 +46,11 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
 class Averaging {
  public:
   Averaging(const Problem& problem, const Joint& joint,
-            const std::vector<AmbiguousFinding>& findings, const std::vector<Unobservable>& hidden)
+            const std::vector<AmbiguousFinding>& findings, const FitResult& ideal)
       : problem_(problem),
         terms_(joint.terms.size()),
         findings_(findings),
-        beside_(not_found(problem, joint.terms, findings, hidden)),
+        beside_(not_found(problem, joint.terms, findings, ideal)),
         wide_(problem, joint.equations.autoregression(), all_of(joint), terms_),
         gram_(wide_.equations.total()),
         n_(static_cast<Eigen::Index>(wide_.equations.base().size())) {
@@ -79,6 +78,10 @@ class Averaging {
       return out;
     }
     of_not_found(next, out);
+    if (terms_ == 0) {  // nothing was found: the ideal fit stands
+      out.between += out.shift * out.shift.transpose();
+      out.shift.setZero();
+    }
     const double u = axis_uncertainty(problem_.point, out.within + out.between).u_mm;
     if (axis_shift(problem_.point, out.shift, out.within).value_mm < nothing * u)
       out.shift.setZero();
@@ -164,17 +167,56 @@ class Averaging {
     add(list, out);
   }
 
-  void of_not_found(std::size_t next, AveragedAxis& out) const {
-    const Projection beside = project(gram_, named_.columns);
-    for (std::size_t k = 0; k < beside_.size(); ++k, ++next) {
+  /// One effect that was not found, its shapes being alternatives.
+  struct Missed {
+    std::vector<Alternative> shapes;  ///< the probability of each once it is there
+    double odds = 0.0;                ///< against the effect being absent
+    std::string id;
+  };
+
+  Missed missed_from(std::size_t& k, std::size_t next, const Projection& beside) const {
+    Missed out;
+    const Effect* effect = beside_[k].effect;
+    out.id = beside_[k].id();
+    double sum = 0.0;
+    std::size_t shapes = 0;
+    for (; k < beside_.size() && beside_[k].effect == effect; ++k, ++next) {
       if (score(beside, wide_.places[next]).rank == 0) continue;
       const Weighed weighed = weigh_term(next, beside);
-      Alternative alternative = with(next, named_, weighed);
-      alternative.probability =
-          1.0 / (1.0 + std::exp(0.5 * std::clamp(odds_of(next, weighed), -1400.0, 1400.0)));
-      tell(beside_[k].id(), "", alternative, out);
-      add({alternative}, out);
+      out.shapes.push_back(with(next, named_, weighed));
+      out.shapes.back().probability =
+          std::exp(-0.5 * std::clamp(odds_of(next, weighed), -1400.0, 1400.0));
+      sum += out.shapes.back().probability, ++shapes;
     }
+    for (Alternative& a : out.shapes) a.probability /= sum;
+    if (shapes > 0) out.odds = sum / static_cast<double>(shapes);
+    return out;
+  }
+
+  /// Effects that are there more likely than not are taken as alternatives to each other, for they
+  /// may explain the same; the others as independent.
+  void of_not_found(std::size_t next, AveragedAxis& out) const {
+    const Projection beside = project(gram_, named_.columns);
+    std::vector<Missed> missed;
+    for (std::size_t k = 0, first = 0; k < beside_.size(); first = k)
+      missed.push_back(missed_from(k, next + first, beside));
+    double likely = 0.0;
+    for (const Missed& m : missed)
+      if (m.odds > 1.0) likely += m.odds;
+    std::vector<Alternative> rivals;
+    for (Missed& m : missed) {
+      if (m.shapes.empty()) continue;
+      const double p = m.odds / (1.0 + (m.odds > 1.0 ? likely : m.odds));
+      for (Alternative& a : m.shapes) a.probability *= p;
+      Alternative most = *std::ranges::max_element(m.shapes, {}, &Alternative::probability);
+      if (m.odds > 1.0)
+        rivals.insert(rivals.end(), m.shapes.begin(), m.shapes.end());
+      else
+        add(m.shapes, out);
+      most.probability = p;
+      tell(m.id, "", most, out);
+    }
+    add(rivals, out);
   }
 
   const Problem& problem_;
@@ -190,12 +232,8 @@ class Averaging {
 }  // namespace
 
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
-                          const std::vector<AmbiguousFinding>& findings,
-                          const std::vector<Unobservable>& hidden) {
-  const auto n = static_cast<Eigen::Index>(joint.equations.base().size());
-  if (joint.terms.empty())
-    return {Eigen::VectorXd::Zero(n), joint.base_covariance(), Eigen::MatrixXd::Zero(n, n), {}};
-  return Averaging(problem, joint, findings, hidden).average();
+                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal) {
+  return Averaging(problem, joint, findings, ideal).average();
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "diagnose/explain/confounder_set.hpp"
-#include "diagnose/explain/observable.hpp"
 #include "diagnose/regression/joint.hpp"
 #include "trueaxis/diagnosis.hpp"
 
@@ -20,11 +19,9 @@ struct AveragedAxis {
   std::vector<AxisShare> shares;  ///< the models that move it, the largest first
 };
 
-/// Where nothing was found it is the ideal fit.
 /// @param findings the ambiguous terms of the joint fit
-/// @param hidden effects that the plan would not show at their largest: they are listed apart
+/// @param ideal the fit of the surface alone: what its budget states is not averaged over
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
-                          const std::vector<AmbiguousFinding>& findings,
-                          const std::vector<Unobservable>& hidden);
+                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal);
 
 }  // namespace trueaxis::diagnose_detail

@@ -40,6 +40,15 @@ Eigen::MatrixXd inverse_of(const Joint& joint, std::size_t term) {
   return joint.solution.inverse.block(at, at, count, count);
 }
 
+/// Whether base and other terms leave all columns of a term: else its sizes share what is left.
+bool is_determined(const Joint& joint, std::size_t term) {
+  Columns others = joint.equations.base();
+  for (std::size_t t = 0; t < joint.fitted; ++t)
+    if (t != term) others.insert(others.end(), joint.places[t].begin(), joint.places[t].end());
+  return score(project(joint.equations.total(), others), joint.places[term]).rank ==
+         joint.places[term].size();
+}
+
 }  // namespace
 
 TermValue fitted(const Hypothesis& h, const Eigen::VectorXd& coefficients,
@@ -119,12 +128,16 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
     }
   }
   std::vector<FitParameter> out;
+  const bool determined = is_determined(joint, term);
   for (std::size_t v = 0; v < values.size(); ++v) {
     const bool angle = values[v].unit == "rad";
     const double factor = angle ? 1.0 / rad_per_deg : 1.0;
     FitParameter p{values[v].name,
                    {values[v].value * factor, std::sqrt(variance[v]) * factor,
                     angle ? "deg" : values[v].unit, ""}};
+    if (!determined && p.name != "onset")
+      p.estimate = {.unit = p.estimate.unit,
+                    .why_not = "the readings after it do not show all that moved"};
     if (p.name == "onset") {
       if (!problem.point.has_time) p.estimate.unit = "reading";
       p.estimate.u = 1.0 / std::sqrt(12.0) *

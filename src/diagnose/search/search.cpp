@@ -96,8 +96,10 @@ class StepwiseSearch {
   }
 
   /// Whether the other terms leave all its columns: else their sizes would share one between them.
+  /// A step is one whatever is read after it; how far it went, its plausible size bounds.
   static bool is_whole(const Candidate& c) {
-    return c.rank > 0 && c.rank == c.hypothesis.columns();
+    const bool step = c.hypothesis.effect && is_step(c.hypothesis.effect->term);
+    return c.rank > 0 && (step || c.rank == c.hypothesis.columns());
   }
 
   double family_p(const Family& family, const Candidate& c) const {

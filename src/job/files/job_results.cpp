@@ -86,7 +86,7 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   if (result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] =
-      &fit_used(result, i) == &result.fits[i] ? "ideal surface" : "extended model";
+      result.diagnoses[i]->verdict == DiagnosisVerdict::ideal ? "ideal surface" : "extended model";
   return summary;
 }
 
