@@ -73,11 +73,13 @@ std::string open_causes(const Diagnosis& diagnosis) {
   return text;
 }
 
-constexpr std::size_t least_end = 8;  // readings: fewer may be a splash at the end of a stream
-constexpr double mostly = 0.5, gathered = 3.0;
+constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
+constexpr double mostly = 0.5, gathered = 3.0, hardly = 1e-4;
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
-/// the share of all others; 0: outliers lie anywhere. `left_out(k)`: of the k-th from that end.
+/// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
+/// out, which the share of all others makes of it once in 10 000 streams. `left_out(k)`: of the
+/// k-th from that end.
 template <typename LeftOut>
 std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   double total = 0.0, here = 0.0;
@@ -86,9 +88,11 @@ std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   for (std::size_t i = 0; i < count / 2; ++i) {
     here += left_out(i) ? 1.0 : 0.0;
     const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
-    if (i + 1 >= least_end && here >= mostly * run &&
-        here / run >= gathered * (total - here + 1.0) / rest)
-      longest = i + 1;
+    const double elsewhere = (total - here + 1.0) / rest;
+    const bool is_run = i + 1 >= least_end
+                            ? here >= mostly * run && here / run >= gathered * elsewhere
+                            : here == run && std::pow(elsewhere, run) < hardly;
+    if (is_run) longest = i + 1;
   }
   return longest;
 }
