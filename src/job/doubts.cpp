@@ -207,6 +207,31 @@ std::vector<OpenAxis> open_axes(const JobResult& result) {
   return list;
 }
 
+std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
+  constexpr double listed = 1e-3;  // what is less probable is in no class
+  constexpr double far_out = 3.0;  // times the tolerance, which is a diameter
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    for (const AxisShare& share : result.diagnoses[i]->shares) {
+      const double out_mm = 2.0 * share.axis_shift.value;
+      if (share.probability >= listed || share.effect.empty() || share.instead_of.empty() ||
+          out_mm <= far_out * tolerance_mm)
+        continue;
+      const Effect* effect = find_effect(share.effect);
+      if (!effect || effect->separations.empty()) continue;
+      const Separation& tells = effect->separations.front();
+      const auto plan =
+          std::ranges::find(result.diagnoses[i]->plans, tells.code, &Separating::plan);
+      return fmt::format(
+          "{}{} may be {} too, improbable as its size is, and the axis were then {:.0f} µm "
+          "elsewhere: measure it, or {}",
+          where(result, i), share.instead_of, share.effect, share.axis_shift.value / mm_per_um,
+          plan == result.diagnoses[i]->plans.end() ? std::string(tells.how) : plan->what);
+    }
+  }
+  return "";
+}
+
 std::string moves_with_axis(const JobResult& result) {
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
