@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/spindle.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <memory>
@@ -70,10 +71,27 @@ int propose(const Options& options, const OrderRange& orders) {
   return done;
 }
 
+bool is_job(const std::string& path) { return path.ends_with(".toml"); }
+
+/// A job says all of it: beside it neither streams nor what tells of them.
+void expect_job_alone(const CLI::App& command, const Options& options) {
+  const auto job = std::ranges::find_if(options.streams, is_job);
+  if (job == options.streams.end()) return;
+  if (options.streams.size() > 1)
+    throw CLI::ValidationError("stream", *job + " is a job and names its streams: give it alone");
+  constexpr const char* beside[] = {"--json", "--svg", "--verbose", "--force", "--help"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || !name.starts_with("--") ||
+        std::ranges::find(beside, name) != std::end(beside))
+      continue;
+    throw CLI::ValidationError(name, *job + " is a job: say it there or in the stream");
+  }
+}
+
 /// What the command line says, or the job that it names.
 SpindleJob job_of(const Options& options, const OrderRange& orders) {
-  const std::string& first = options.streams.front();
-  if (options.streams.size() == 1 && first.ends_with(".toml")) return read_spindle_toml(first);
+  if (is_job(options.streams.front())) return read_spindle_toml(options.streams.front());
   SpindleJob job;
   job.streams = options.streams;
   job.read = options.meaning.said();
@@ -175,9 +193,10 @@ void add_spindle(CLI::App& app, int& exit_code) {
   command->add_option("--min-separation-deg", options->apart_deg, "between two sensors (20)")
       ->check(number_in(0.0, false, 120.0, "an angle of 0 to 120 deg"))
       ->needs(advise);
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     if (!options->json.empty() && options->json == options->svg)
       throw CLI::ValidationError("--svg", "cannot go where --json goes");
+    expect_job_alone(*command, *options);
     exit_code = execute(*options);
   });
 }

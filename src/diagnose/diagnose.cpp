@@ -92,6 +92,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   out.named = refit->named();
   out.extended = refit->shifted(average.shift, average.within, average.between);
   out.shares = std::move(average.shares);
+  out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
   out.effect_mm = refit->effect_mm();
   out.residual_before_mm = out.baseline.residual_mm;
   out.residual_after_mm = refit->residual_mm();

@@ -73,11 +73,13 @@ std::string open_causes(const Diagnosis& diagnosis) {
   return text;
 }
 
-constexpr std::size_t least_end = 8;  // readings: fewer may be a splash at the end of a stream
-constexpr double mostly = 0.5, gathered = 3.0;
+constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
+constexpr double mostly = 0.5, gathered = 3.0, hardly = 1e-4;
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
-/// the share of all others; 0: outliers lie anywhere. `left_out(k)`: of the k-th from that end.
+/// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
+/// out, which the share of all others makes of it once in 10 000 streams. `left_out(k)`: of the
+/// k-th from that end.
 template <typename LeftOut>
 std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   double total = 0.0, here = 0.0;
@@ -86,9 +88,11 @@ std::size_t left_out_end(std::size_t count, LeftOut left_out) {
   for (std::size_t i = 0; i < count / 2; ++i) {
     here += left_out(i) ? 1.0 : 0.0;
     const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
-    if (i + 1 >= least_end && here >= mostly * run &&
-        here / run >= gathered * (total - here + 1.0) / rest)
-      longest = i + 1;
+    const double elsewhere = (total - here + 1.0) / rest;
+    const bool is_run = i + 1 >= least_end
+                            ? here >= mostly * run && here / run >= gathered * elsewhere
+                            : here == run && std::pow(elsewhere, run) < hardly;
+    if (is_run) longest = i + 1;
   }
   return longest;
 }
@@ -201,6 +205,31 @@ std::vector<OpenAxis> open_axes(const JobResult& result) {
                         where(result, i), moved_mm / mm_per_um, U_mm / mm_per_um, open)});
   }
   return list;
+}
+
+std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
+  constexpr double listed = 1e-3;  // what is less probable is in no class
+  constexpr double far_out = 3.0;  // times the tolerance, which is a diameter
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    for (const AxisShare& share : result.diagnoses[i]->shares) {
+      const double out_mm = 2.0 * share.axis_shift.value;
+      if (share.probability >= listed || share.effect.empty() || share.instead_of.empty() ||
+          out_mm <= far_out * tolerance_mm)
+        continue;
+      const Effect* effect = find_effect(share.effect);
+      if (!effect || effect->separations.empty()) continue;
+      const Separation& tells = effect->separations.front();
+      const auto plan =
+          std::ranges::find(result.diagnoses[i]->plans, tells.code, &Separating::plan);
+      return fmt::format(
+          "{}{} may be {} too, improbable as its size is, and the axis were then {:.0f} µm "
+          "elsewhere: measure it, or {}",
+          where(result, i), share.instead_of, share.effect, share.axis_shift.value / mm_per_um,
+          plan == result.diagnoses[i]->plans.end() ? std::string(tells.how) : plan->what);
+    }
+  }
+  return "";
 }
 
 std::string moves_with_axis(const JobResult& result) {

@@ -24,6 +24,12 @@ std::vector<OpenAxis> open_axes(const JobResult& result);
 /// cycles. Empty: there is none.
 std::string moves_with_axis(const JobResult& result);
 
+/// Of the first reference where a cause that is improbable by its size alone explains a finding as
+/// well as the named one and would put the axis elsewhere by so much that the cut were far out of
+/// the tolerance: how improbable it is nobody knows so well. With the measurement that tells the
+/// two apart. Empty: there is none.
+std::string improbable_and_far(const JobResult& result, double tolerance_mm);
+
 /// Of the first reference where outliers gather at an end of a pass: a slip there leaves too few
 /// readings behind it to be a finding, and the part stands elsewhere now. Empty: there is none.
 std::string left_out_at_an_end(const JobResult& result);

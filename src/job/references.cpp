@@ -28,6 +28,29 @@ double freedom_of(const FitResult& fit) {
   return std::max(1.0, free / (fit.u_factor * fit.u_factor));
 }
 
+/// A slip may have turned the part as well, unseen: its axis then leans elsewhere by the turn. Of
+/// turns log-uniform over the sizes of the catalogue the root mean square is taken.
+AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagnosis) {
+  AxisEstimate out = fit.axis;
+  const Finding* slip = diagnosis ? diagnosis->slip() : nullptr;
+  if (!slip) return out;
+  const Effect& effect = *slip->term.effect;
+  const auto turn = std::ranges::find(effect.parameters, "turn", &EffectParameter::name);
+  const auto found = std::ranges::find(slip->parameters, "turn", &FitParameter::name);
+  if (turn == effect.parameters.end() ||
+      (found != slip->parameters.end() && found->estimate.determined()))
+    return out;
+  const double variance =
+      (turn->high * turn->high - turn->low * turn->low) / (2.0 * std::log(turn->high / turn->low));
+  const double x = out.axis.slope_x, y = out.axis.slope_y;
+  constexpr std::size_t slope_x = 2, slope_y = 3, columns = 4;
+  out.covariance[columns * slope_x + slope_x] += variance * y * y;
+  out.covariance[columns * slope_y + slope_y] += variance * x * x;
+  out.covariance[columns * slope_x + slope_y] -= variance * x * y;
+  out.covariance[columns * slope_y + slope_x] -= variance * x * y;
+  return out;
+}
+
 }  // namespace
 
 const FitResult& fit_used(const JobResult& result, std::size_t reference) {
@@ -44,7 +67,9 @@ std::vector<Reference> references_of(const JobResult& result) {
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
     const FitResult& fit = fit_used(result, i);
-    references.push_back({named.name, fit.axis, named.weight,
+    const AxisEstimate axis =
+        i < result.diagnoses.size() ? axis_of(fit, result.diagnoses[i]) : fit.axis;
+    references.push_back({named.name, axis, named.weight,
                           face_radius(named, fit, *result.job.target), freedom_of(fit)});
   }
   return references;

@@ -32,25 +32,26 @@ std::string plus_minus(double value, double U, const char* unit) {
   return fmt::format("{:.{}f} ± {:.{}f}{}", value, decimals, U, decimals, unit);
 }
 
-/// Length of the step with the U of its direction, the turn, or both.
+/// Length of the vector of two parameters, its u along its own direction; none without both.
+Estimate length_of(const Estimate& x, const Estimate& y) {
+  if (!x.determined() || !y.determined()) return {};
+  const double length = std::hypot(x.value, y.value);
+  return {length, length > 0.0 ? std::hypot(x.value * x.u, y.value * y.u) / length : x.u, x.unit,
+          ""};
+}
+
+/// Step across and along the axis, tilt and turn, as far as the readings show each.
 std::string how_far(const Finding& finding, double k) {
-  const Estimate dx = parameter_of(finding, "dx"), dy = parameter_of(finding, "dy"),
-                 turn = parameter_of(finding, "turn"), dz = parameter_of(finding, "dz"),
-                 tilt_x = parameter_of(finding, "tilt_x"), tilt_y = parameter_of(finding, "tilt_y");
   std::string text;
-  if (dx.determined() && dy.determined()) {
-    const double step_mm = std::hypot(dx.value, dy.value);
-    const double u_mm =
-        step_mm > 0.0 ? std::hypot(dx.value * dx.u, dy.value * dy.u) / step_mm : dx.u;
-    text = plus_minus(step_mm / mm_per_um, k * u_mm / mm_per_um, " µm");
-  }
-  const auto add = [&](const std::string& more) { text += (text.empty() ? "" : " and ") + more; };
-  if (dz.determined())
-    add(plus_minus(dz.value / mm_per_um, k * dz.u / mm_per_um, " µm") + " along Z");
-  if (tilt_x.determined() && tilt_y.determined())
-    add(plus_minus(std::hypot(tilt_x.value, tilt_y.value), k * std::max(tilt_x.u, tilt_y.u), "°") +
-        " of tilt");
-  if (turn.determined()) add(plus_minus(turn.value, k * turn.u, "°"));
+  const auto add = [&](const Estimate& e, double edge, const char* unit, const char* what) {
+    if (!e.determined()) return;
+    text += (text.empty() ? "" : " and ") + plus_minus(e.value / edge, k * e.u / edge, unit) + what;
+  };
+  const auto of = [&](std::string_view name) { return parameter_of(finding, name); };
+  add(length_of(of("dx"), of("dy")), mm_per_um, " µm", "");
+  add(of("dz"), mm_per_um, " µm", " along Z");
+  add(length_of(of("tilt_x"), of("tilt_y")), 1.0, "°", " of tilt");
+  add(of("turn"), 1.0, "°", "");
   return text;
 }
 

@@ -180,6 +180,10 @@ Verdict decide(const JobResult& result) {
   if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
     verdict.line += moved;
+    if (verdict.decision == Decision::go) {
+      const std::string why = improbable_and_far(result, *tolerance_mm);
+      if (!why.empty()) return not_proven(std::move(verdict), why);
+    }
     if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
     const double if_ideal_mm = open.empty() ? 0.0 : upper_if_ideal_mm(result, open);
     if (if_ideal_mm > *tolerance_mm) {

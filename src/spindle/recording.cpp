@@ -108,6 +108,35 @@ class StreamChecks {
                       "what does not repeat");
   }
 
+  /// A recording that is given twice would count as two.
+  void different(const std::vector<RunReadings>& runs) {
+    struct Column {
+      const RunReadings* run;
+      std::size_t sensor;
+    };
+    std::vector<Column> seen;
+    const auto name_of = [](const Column& one) {
+      return "sensor " + std::to_string(one.sensor + 1) + " of set-up " +
+             std::to_string(one.run->set_up.number) + " of " + one.run->stream;
+    };
+    for (const RunReadings& run : runs) {
+      for (std::size_t s = 0; s < run.columns_mm.size(); ++s) {
+        const Column one{&run, s};
+        const auto same = std::ranges::find_if(seen, [&](const Column& other) {
+          return other.run->columns_mm[other.sensor] == run.columns_mm[s] &&
+                 other.run->c_rad == run.c_rad;
+        });
+        if (same != seen.end()) {
+          wrong_.push_back({run.stream, 0, 0,
+                            name_of(one) + " has the very readings of " + name_of(*same) +
+                                ": give each recording once"});
+          return;
+        }
+        seen.push_back(one);
+      }
+    }
+  }
+
   void throw_if_any() {
     if (!wrong_.empty()) throw InputError(std::move(wrong_));
   }
@@ -175,6 +204,7 @@ std::vector<RunReadings> take_runs(std::span<const ProbeStream> streams) {
       checks.enough(stream, runs.back());
     }
   }
+  checks.different(runs);
   checks.throw_if_any();
   return runs;
 }

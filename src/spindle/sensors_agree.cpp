@@ -28,6 +28,11 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
                                     static_cast<double>(run.angles_rad.size()));
     const std::complex<double> first = z(0, 1);
     const double blurred = times_motion * others / std::abs(first);
+    if (run.angles_rad.size() > 1 && blurred > noted_rad)
+      notes.push_back(fmt::format(
+          "{}: beside the other orders the eccentricity shows the sensors' angles to {:.0f}° only: "
+          "a smaller error of them is not seen",
+          run.stream, std::max(2.0 * blurred, refused_rad) / rad_per_deg));
     for (std::size_t s = 1; s < run.angles_rad.size(); ++s) {
       const std::complex<double> seen = z(static_cast<Eigen::Index>(s), 1) / first;
       const double stated_rad = run.angles_rad[s] - run.angles_rad[0];

@@ -32,6 +32,14 @@ SpindleResult separate_spindle(std::span<const ProbeStream> streams,
   }
   if (!radial.empty()) result.radial = error_motion(std::move(radial), options, result.notes);
   if (!axial.empty()) result.axial = error_motion(std::move(axial), options, result.notes);
+  const auto leaves_out = [](const std::optional<ErrorMotion>& motion) {
+    return motion && std::ranges::any_of(motion->orders, [](const SeparatedOrder& one) {
+             return !one.suppressed.empty();
+           });
+  };
+  if (leaves_out(result.radial) || leaves_out(result.axial))
+    result.notes.push_back(
+        "the suppressed orders are in none of the values, which may be larger for them");
   return result;
 }
 

@@ -127,8 +127,7 @@ TEST(BlindSections, RoundnessAndRadialMotionAreOneClass) {
   print_share("with the measurement that tells", told, tellable);
   EXPECT_GE(quiet, sections - 4);  // more has a probability of 0.04 % at 1 %
   EXPECT_GE(good, (9 * sections + 9) / 10);
-  // Of 90 %, one in a thousand times by chance.
-  EXPECT_GE(told, boost::math::quantile(boost::math::binomial(tellable, 0.9), 1e-3));
+  EXPECT_GE(told, (9 * tellable + 9) / 10);
 }
 
 }  // namespace

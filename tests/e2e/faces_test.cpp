@@ -33,6 +33,13 @@ const char* const seat =
 const char* const saddle =
     "[[effect]]\nid = \"part.face_saddle\"\namplitude_um = 3\nradius_mm = 40\n";
 
+const char* const seat_and_face =
+    "[[reference]]\nname = \"seat\"\nstream = \"seat.csv\"\nsurface = \"cylinder\"\n"
+    "[[reference]]\nname = \"face\"\nstream = \"face.csv\"\nsurface = \"plane\"\n"
+    "[target]\nsurface = \"cylinder\"\nradius_mm = 29\nz_start_mm = 60\nz_end_mm = 20\n"
+    "stock_um = 2000\ncoaxiality_tolerance_um = 50\n[cut]\nspeed_rpm = 300\nsense = \"+c\"\n"
+    "feed_mm_per_rev = 0.5\n";
+
 bool in_class(const json& findings, const std::string& id) {
   for (const json& finding : findings)
     if (finding.dump().find('"' + id + '"') != std::string::npos) return true;
@@ -42,12 +49,7 @@ bool in_class(const json& findings, const std::string& id) {
 TEST_F(Faces, AreDiagnosedBesideACylinder) {
   simulated("face", face_with(saddle));
   simulated("seat", seat);
-  file("job.toml",
-       "[[reference]]\nname = \"seat\"\nstream = \"seat.csv\"\nsurface = \"cylinder\"\n"
-       "[[reference]]\nname = \"face\"\nstream = \"face.csv\"\nsurface = \"plane\"\n"
-       "[target]\nsurface = \"cylinder\"\nradius_mm = 29\nz_start_mm = 60\nz_end_mm = 20\n"
-       "stock_um = 2000\ncoaxiality_tolerance_um = 50\n[cut]\nspeed_rpm = 300\nsense = \"+c\"\n"
-       "feed_mm_per_rev = 0.5\n");
+  file("job.toml", seat_and_face);
   const CommandStreams done = command("run job.toml -o out");
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
   EXPECT_FALSE(contains(done.out, "not diagnosed")) << done.out;
@@ -65,12 +67,7 @@ TEST_F(Faces, AreDiagnosedBesideACylinder) {
 TEST_F(Faces, ThatAreSilentAndWhiteHaveNoReservation) {
   simulated("face", face_with(""));
   simulated("seat", seat);
-  file("job.toml",
-       "[[reference]]\nname = \"seat\"\nstream = \"seat.csv\"\nsurface = \"cylinder\"\n"
-       "[[reference]]\nname = \"face\"\nstream = \"face.csv\"\nsurface = \"plane\"\n"
-       "[target]\nsurface = \"cylinder\"\nradius_mm = 29\nz_start_mm = 60\nz_end_mm = 20\n"
-       "stock_um = 2000\ncoaxiality_tolerance_um = 50\n[cut]\nspeed_rpm = 300\nsense = \"+c\"\n"
-       "feed_mm_per_rev = 0.5\n");
+  file("job.toml", seat_and_face);
   const CommandStreams done = command("run job.toml -o out");
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
   EXPECT_TRUE(contains(done.out, "GO: ")) << done.out;

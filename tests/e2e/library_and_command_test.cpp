@@ -42,13 +42,21 @@ TEST_F(LibraryAndCommand, DecideTheShippedJobsAlike) {
   EXPECT_GE(count, 3u);
 }
 
+/// The stream of RunRefusals.FindingsThatTheLatheRefutes: the tolerance alone would let it go.
+TEST_F(LibraryAndCommand, RefuseAlikeWhatTheLatheRefutes) {
+  file("part.toml", refuted_shaft());
+  ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
+  file("job.toml",
+       simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
+  const Verdict verdict = expect_same(folder_ / "job.toml");
+  EXPECT_FALSE(verdict.go());
+  EXPECT_TRUE(contains(verdict.line, "what was found does not reproduce the readings"));
+}
+
 /// The stream of RunRefusals.AHeightThatIsImplausibleMovesNoAxis.
 TEST_F(LibraryAndCommand, DecideAlikeAboutAnImplausibleCause) {
   file("part.toml",
-       "seed = 1\n[part]\nkind = \"cylinder\"\nx0_um = 1000\ny0_um = -20\nl = 0.0002\nm = 0.0004\n"
-       "radius_mm = 25\n[noise]\nsigma_um = 2\n[[pass]]\nz_start_mm = 0\nz_end_mm = 20\n"
-       "feed_mm_per_rev = 1\nreadings_per_revolution = 24.3\nspeed_rpm = 60\n"
-       "[[effect]]\nid = \"encoder.eccentricity\"\namplitude_deg = 1\n");
+       shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 1\n", "2", 1000.0, 25.0, 1));
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
   file("job.toml",
        simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");

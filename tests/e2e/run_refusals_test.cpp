@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `trueaxis run` gives no go where the diagnosis says that the axis is not the part's: after slips
-// in the chuck that are not sure.
+// in the chuck that are not sure, and where the virtual lathe refutes what was found.
 #include <cmath>
 
 #include "support/command_fixture.hpp"
@@ -12,17 +12,14 @@ using nlohmann::json;
 
 class RunRefusals : public CommandTest {
  protected:
-  /// A shaft probed in 21 turns, one each second; the job's tolerance and stroke are wide.
+  /// The job's tolerance and stroke are wide.
   CommandStreams run_with(const std::string& effect, const std::string& sigma_um, double x0_um,
                           int seed, bool target = true) {
-    file("part.toml", "seed = " + std::to_string(seed) +
-                          "\n[part]\nkind = \"cylinder\"\nx0_um = " + std::to_string(x0_um) +
-                          "\ny0_um = -20\nl = 0.0002\nm = 0.0004\nradius_mm = 25\n[noise]\n"
-                          "sigma_um = " +
-                          sigma_um +
-                          "\n[[pass]]\nz_start_mm = 0\nz_end_mm = 20\nfeed_mm_per_rev = 1\n"
-                          "readings_per_revolution = 24.3\nspeed_rpm = 60\n[[effect]]\n" +
-                          effect);
+    return run_part(shaft_with(effect, sigma_um, x0_um, 25.0, seed), target);
+  }
+
+  CommandStreams run_part(const std::string& part, bool target = true) {
+    file("part.toml", part);
     EXPECT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
     const std::string reference = "name = \"seat\"\n" + std::string(cylinder_reference);
     file("job.toml", target
@@ -93,6 +90,19 @@ TEST_F(RunRefusals, ASlipWithoutATargetIsSaidToo) {
                                        0),
             0u)
       << done.out;
+}
+
+TEST_F(RunRefusals, FindingsThatTheLatheRefutes) {
+  const CommandStreams done = run_part(refuted_shaft());
+  const json again = simulated_again();
+  const double share = again.at("after").at("share_of_variance").get<double>();
+  ASSERT_GT(share, 1.0) << "another stream is needed: " << done.out;
+  const json& back = again.at("j_test_lambda");
+  ASSERT_GT(back.at("value").get<double>(), 2.33 * back.at("u").get<double>());
+  expect_refusal(done, "what was found does not reproduce the readings: ");
+  char figures[64];
+  std::snprintf(figures, sizeof figures, "(%.0f %% of the variance)", 100.0 * share);
+  EXPECT_TRUE(contains(first_line(done.out), figures)) << done.out;
 }
 
 /// An encoder that is 1 deg off its centre under a part 1 mm off the spindle's: of the catalogue's

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "job/verdict.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::risk {
@@ -101,7 +102,7 @@ virtual_lathe::Effect draw_effect(Draw& draw, double length_mm, double feed_mm_p
 struct Drawn {
   std::vector<Scenario> scenarios;
   Job job;
-  double slip_x_mm = 0.0, slip_y_mm = 0.0;
+  double slip_x_mm = 0.0, slip_y_mm = 0.0, turned_rad = 0.0;
 };
 
 /// A seat from Z `from` on; the second of a part is out of coaxial with the first.
@@ -124,12 +125,15 @@ Scenario draw_seat(Group group, Draw& draw, double from_mm, const Scenario* firs
   }
   s.noise.sigma_mm = draw.between(0.5, 2.0) * 1e-3;
   if (group == Group::correlated) s.noise.rho = draw.between(0.2, 0.7);
+  if (group == Group::slip_in_correlated_noise) s.noise.rho = 0.8;
+  s.part.bore = group == Group::slip_in_a_bore;
   virtual_lathe::PlannedPass pass;
   pass.start_mm = from_mm, pass.end_mm = from_mm + length;
   pass.feed_mm_per_rev = draw.between(0.8, 2.0);
   pass.speed_rpm = speed_rpm;
   pass.readings_per_revolution = draw.between(18.0, 40.0);
   pass.jitter = 0.2;
+  s.plan.setups.emplace_back().rear = group == Group::slip_probed_behind;
   s.plan.passes.push_back(pass);
   s.seed = static_cast<std::uint64_t>(draw.between(1.0, 1e15));
   const int effects = group == Group::form              ? 1
@@ -141,6 +145,43 @@ Scenario draw_seat(Group group, Draw& draw, double from_mm, const Scenario* firs
   return s;
 }
 
+/// Slips of the part at instants of the only stream, as its group has them.
+void add_slips(Group group, Draw& draw, Drawn& out) {
+  if (group < Group::slip) return;
+  Scenario& s = out.scenarios.front();
+  const virtual_lathe::PlannedPass& pass = s.plan.passes.front();
+  const double lasted_s =
+      (pass.end_mm - pass.start_mm) / pass.feed_mm_per_rev * 60.0 / pass.speed_rpm;
+  const auto add = [&](double size_mm, double towards, double turn_rad, double share) {
+    const double dx = size_mm * std::cos(towards), dy = size_mm * std::sin(towards);
+    out.slip_x_mm += dx, out.slip_y_mm += dy, out.turned_rad += turn_rad;
+    s.effects.push_back(
+        {"part.slip",
+         {{"dx_mm", dx}, {"dy_mm", dy}, {"turn_rad", turn_rad}, {"time_s", share * lasted_s}}});
+  };
+  if (group == Group::creeping_slip) {
+    constexpr int steps = 40;
+    const double size = draw.log_between(0.02, 0.1), at = draw.phase();
+    const double from = draw.between(0.05, 0.75);
+    for (int i = 0; i < steps; ++i) add(size / steps, at, 0.0, from + 0.2 * (i + 0.5) / steps);
+    return;
+  }
+  const double size = draw.between(0.01, 0.05), at = draw.phase();
+  double share = draw.between(0.2, 0.8);
+  if (group == Group::slip_at_an_end) {
+    // A quarter of a turn at least is probed after it: what comes later nobody sees.
+    share = draw.unit() < 0.5 ? draw.between(0.0, 0.03) : draw.between(0.97, 1.0 - 0.25 / lasted_s);
+  }
+  add(size, at, group == Group::slip_with_turn ? draw.between(-0.1, 0.1) : 0.0, share);
+  if (group == Group::two_slips)
+    add(draw.between(0.005, 0.05), draw.phase(), 0.0, draw.between(0.05, 0.95));
+  if (group == Group::slip_beside_drift)
+    s.effects.push_back({"thermal.drift",
+                         {{"rate_mm_per_s", draw.log_between(0.02e-3, 0.3e-3)},
+                          {"amplitude_mm", draw.between(0.0, 10.0e-3)},
+                          {"time_constant_s", draw.log_between(10.0, 300.0)}}});
+}
+
 Drawn draw_job(Group group, std::uint64_t seed) {
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(group));
   Drawn out;
@@ -149,25 +190,18 @@ Drawn draw_job(Group group, std::uint64_t seed) {
     out.scenarios.push_back(
         draw_seat(group, draw, out.scenarios[0].plan.passes[0].end_mm + 10.0, &out.scenarios[0]));
   const virtual_lathe::PlannedPass& last = out.scenarios.back().plan.passes[0];
-  if (group == Group::slip || group == Group::slip_without_t) {
-    const double size = draw.between(0.01, 0.05), at = draw.phase();
-    out.slip_x_mm = size * std::cos(at), out.slip_y_mm = size * std::sin(at);
-    const double lasted_s = last.end_mm / last.feed_mm_per_rev * 60.0 / speed_rpm;
-    out.scenarios[0].effects.push_back({"part.slip",
-                                        {{"dx_mm", out.slip_x_mm},
-                                         {"dy_mm", out.slip_y_mm},
-                                         {"turn_rad", 0.0},
-                                         {"time_s", draw.between(0.2, 0.8) * lasted_s}}});
-  }
+  add_slips(group, draw, out);
   for (const Scenario& s : out.scenarios) {
     JobReference reference;
     reference.name = "seat " + std::to_string(out.job.references.size() + 1);
     reference.fit.surface =
         s.part.kind == virtual_lathe::PartKind::cone ? SurfaceKind::cone : SurfaceKind::cylinder;
+    reference.fit.bore = s.part.bore;
     out.job.references.push_back(reference);
   }
   TargetSurface target;  // beside the last seat
   target.radius_mm = 0.5 * out.scenarios[0].part.radius_mm;
+  target.bore = out.scenarios[0].part.bore;
   target.z_end_mm = last.end_mm + draw.between(2.0, 10.0);
   target.z_start_mm = target.z_end_mm + draw.between(5.0, 15.0);
   out.job.target = target;
@@ -189,8 +223,10 @@ double true_coaxiality(const Drawn& drawn, const Axis& cut) {
     }
     for (const double z : {drawn.job.target->z_start_mm, drawn.job.target->z_end_mm}) {
       const auto [cut_x, cut_y] = cut.at(z);
-      worst =
-          std::max(worst, std::hypot(x + s.part.l / n * z - cut_x, y + s.part.m / n * z - cut_y));
+      const double stood_x = x + s.part.l / n * z, stood_y = y + s.part.m / n * z;
+      const double cosine = std::cos(drawn.turned_rad), sine = std::sin(drawn.turned_rad);
+      worst = std::max(worst, std::hypot(stood_x * cosine - stood_y * sine - cut_x,
+                                         stood_x * sine + stood_y * cosine - cut_y));
     }
   }
   return 2.0 * worst;
@@ -206,7 +242,15 @@ std::string_view name_of(Group group) {
                                         "two to four of them",
                                         "one or two without t",
                                         "slip",
-                                        "slip without t"};
+                                        "slip without t",
+                                        "two slips",
+                                        "creeping slip",
+                                        "slip beside drift",
+                                        "slip at an end",
+                                        "slip with a turn",
+                                        "slip in noise of 0.8",
+                                        "slip in a bore",
+                                        "slip probed behind"};
   return names[static_cast<std::size_t>(group)];
 }
 
@@ -233,6 +277,11 @@ Outcome judge(Group group, std::uint64_t seed) {
     for (std::size_t i = 0; i < diagnosis->unexplained.size(); ++i) add(out.found, "unexplained");
   }
   out.decision = result.verdict.decision;
+  if (out.decision == Decision::untoleranced) {  // what a tolerance at the edge adds
+    JobResult at_edge = result;
+    at_edge.job.coaxiality_tolerance_mm = result.verdict.upper_mm;
+    if (decide(at_edge).decision == Decision::not_proven) out.decision = Decision::not_proven;
+  }
   out.reserved = !result.verdict.reservations.empty();
   out.upper_mm = result.verdict.upper_mm;
   if (result.target_axis) out.coaxiality_mm = true_coaxiality(drawn, result.target_axis->axis.axis);

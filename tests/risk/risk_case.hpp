@@ -21,11 +21,32 @@ enum class Group {
   ambiguous_forms,  ///< two to four at once
   without_t,        ///< one or two effects, no clock
   slip,             ///< the part slips by 10 to 50 µm
-  slip_without_t
+  slip_without_t,
+  two_slips,
+  creeping_slip,  ///< by 20 to 100 µm over a fifth of the stream
+  slip_beside_drift,
+  slip_at_an_end,  ///< in the first or last 3 % of the stream
+  slip_with_turn,
+  slip_in_correlated_noise,  ///< an autoregression of 0.8
+  slip_in_a_bore,
+  slip_probed_behind
 };
-inline constexpr Group groups[] = {Group::one_reference, Group::two_references,  Group::correlated,
-                                   Group::form,          Group::ambiguous_forms, Group::without_t,
-                                   Group::slip,          Group::slip_without_t};
+inline constexpr Group groups[] = {Group::one_reference,
+                                   Group::two_references,
+                                   Group::correlated,
+                                   Group::form,
+                                   Group::ambiguous_forms,
+                                   Group::without_t,
+                                   Group::slip,
+                                   Group::slip_without_t,
+                                   Group::two_slips,
+                                   Group::creeping_slip,
+                                   Group::slip_beside_drift,
+                                   Group::slip_at_an_end,
+                                   Group::slip_with_turn,
+                                   Group::slip_in_correlated_noise,
+                                   Group::slip_in_a_bore,
+                                   Group::slip_probed_behind};
 std::string_view name_of(Group group);
 
 /// What came of one job.

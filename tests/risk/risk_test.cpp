@@ -13,6 +13,12 @@ namespace {
 
 using Binomial = boost::math::binomial_distribution<double>;
 
+/// Where the part stands is not known: a GO needs none of these streams.
+bool is_to_be_withheld(Group group) {
+  return group == Group::two_slips || group == Group::creeping_slip ||
+         group == Group::slip_at_an_end;
+}
+
 class RiskOfAGo : public testing::TestWithParam<Group> {};
 
 TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
@@ -29,7 +35,10 @@ TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
   RecordProperty("seed", std::to_string(first_seed));
   RecordProperty("out", std::to_string(out) + " of " + std::to_string(go));
   EXPECT_EQ(far_out, 0);
-  EXPECT_GE(go, jobs / 2) << "a verdict that always refuses is none";
+  if (!is_to_be_withheld(GetParam())) {
+    EXPECT_GE(go, jobs / 2) << "a verdict that always refuses is none";
+  }
+  if (go == 0) return;
   // 1 in 10 000 streams of tests fails by chance.
   const double most = boost::math::quantile(Binomial(go, nonconformity_risk), 1.0 - 1e-4);
   EXPECT_LE(out, most) << "of " << go << " GOs, seeds from " << first_seed;

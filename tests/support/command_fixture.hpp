@@ -58,4 +58,24 @@ inline const char* const earlier_table = "# schema: trueaxis.correction/1\nof an
 
 inline const char* const cylinder_reference = "stream = \"part.csv\"\nsurface = \"cylinder\"\n";
 
+/// A shaft probed in 21 turns, one each second, with an effect; the axis stands 20 µm below.
+inline std::string shaft_with(const std::string& effect, const std::string& sigma_um, double x0_um,
+                              double radius_mm, int seed) {
+  char part[400];
+  std::snprintf(part, sizeof part,
+                "seed = %d\n[part]\nkind = \"cylinder\"\nx0_um = %g\ny0_um = -20\nl = 0.0002\n"
+                "m = 0.0004\nradius_mm = %g\n[noise]\nsigma_um = %s\n[[pass]]\nz_start_mm = 0\n"
+                "z_end_mm = 20\nfeed_mm_per_rev = 1\nreadings_per_revolution = 24.3\n"
+                "speed_rpm = 60\n[[effect]]\n",
+                seed, x0_um, radius_mm, sigma_um.c_str());
+  return part + effect;
+}
+
+/// An encoder that is 1.8 deg off its centre under a part 1.2 mm off the spindle's. Of the
+/// catalogue's linearised terms that of a probe millimetres off the centre's height comes nearest
+/// to it, and that height moves the lathe's readings quite otherwise.
+inline std::string refuted_shaft() {
+  return shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 1.8\n", "2", 1200.0, 15.0, 1);
+}
+
 }  // namespace trueaxis::testing

@@ -69,6 +69,24 @@ TEST(Slip, ATurnIsGivenInDegrees) {
             "again");
 }
 
+TEST(Slip, AFaceSlipsAlongZAndTilts) {
+  Finding seat = slipped({example::parameter("dz", -0.00801, 6e-5, "mm")});
+  seat.term.effect = find_effect("part.seat_slip");
+  const auto said = [&] { return moved_part(found({seat})); };
+  EXPECT_EQ(said(),
+            "seat: the part slipped in the chuck at 12.0 s by -8.01 ± 0.12 µm along Z: the axis is "
+            "that of the part as it now stands");
+  // 3-4-5 of tilt: u along it is √(0.6² 4² + 0.8² 1²) = 2.53 of the last digits.
+  const FitParameter tilt_x = example::parameter("tilt_x", 0.003, 4e-4, "deg"),
+                     tilt_y = example::parameter("tilt_y", 0.004, 1e-4, "deg");
+  seat.parameters.insert(seat.parameters.end(), {tilt_x, tilt_y});
+  EXPECT_NE(said().find("by -8.01 ± 0.12 µm along Z and 0.00500 ± 0.00051° of tilt: "),
+            std::string::npos)
+      << said();
+  seat.parameters.erase(seat.parameters.begin());
+  EXPECT_NE(said().find("at 12.0 s by 0.00500 ± 0.00051° of tilt: "), std::string::npos) << said();
+}
+
 TEST(Slip, AMemberOfTheClassMayHaveBeenOne) {
   Finding bow = example::tilt_motion();
   bow.term.effect = find_effect("part.bow");

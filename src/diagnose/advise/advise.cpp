@@ -20,18 +20,23 @@ constexpr double told_for_sure = 0.98;
 constexpr double found_for_sure = 0.9;
 constexpr double shape_step = 0.06;  // what a rival may give way in its shape
 
-/// A line that is free in its order fits a whole order as well, and chance keeps it in the class
-/// with a small probability: on faces and sections no plan is refused because it leaves that open.
-bool is_asked(const AmbiguousFinding& question, std::size_t rival, const BaseKind& base) {
-  constexpr double open_to_chance = 0.01;
-  return (base.tilts && !base.face) || question.found.rivals[rival].probability >= open_to_chance;
-}
-
 double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
 
-/// What a set of readings would tell: for every question the least Φ(d/2) over its rivals, for
-/// every hidden effect the power of finding it.
+/// Probability of the right name against the rivals at these distances, each as often as it is the
+/// cause (Eq. 99).
+double right_name(const std::vector<Rival>& rivals, const std::vector<double>& distances) {
+  double right = 0.0, all = 0.0;
+  for (std::size_t r = 0; r < rivals.size(); ++r) {
+    right += rivals[r].probability * phi_half(distances[r]);
+    all += rivals[r].probability;
+  }
+  return all > 0.0 ? right / all : 1.0;
+}
+
+/// What a set of readings would tell: for every question the distances of its rivals and the
+/// probability of the right name, for every hidden effect the power of finding it.
 struct Outlook {
+  std::vector<std::vector<double>> distances;
   std::vector<double> told;
   std::vector<double> found;
 };
@@ -81,7 +86,7 @@ class Predictor {
       Columns others = equations.base();
       for (std::size_t t = 0; t < model_.terms.size(); ++t)
         if (t != q.term) others.insert(others.end(), places[t].begin(), places[t].end());
-      double least = 1.0;
+      std::vector<double> distances;
       for (std::size_t r = 1; r < q.found.members.size(); ++r, ++rival) {
         Columns taken = others;
         for (std::size_t way = 0; way < ways_[rival]; ++way, ++next)
@@ -95,10 +100,12 @@ class Predictor {
                   p.gram(static_cast<Eigen::Index>(places[q.term][a]),
                          static_cast<Eigen::Index>(places[q.term][b]));
         }
-        if (is_asked(q, r - 1, point.base))
-          least = std::min(least, phi_half(std::sqrt(std::max(0.0, d2)) / sigma_mm_));
+        // More readings never tell less, also where a rival was given no way to bend before.
+        distances.push_back(
+            std::max(q.found.rivals[r - 1].distance, std::sqrt(std::max(0.0, d2)) / sigma_mm_));
       }
-      out.told.push_back(least);
+      out.told.push_back(right_name(q.found.rivals, distances));
+      out.distances.push_back(std::move(distances));
     }
     Columns taken = equations.base();
     for (std::size_t t = 0; t < model_.terms.size(); ++t)
@@ -181,7 +188,6 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
 
   std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
   double weight_sum = 0.0, before_sum = 0.0;
-  // More readings never tell less, also where a rival was given no way to bend before.
   const auto column = [&](auto member, std::size_t k, double before) {
     std::vector<double> values;
     for (const Outlook& o : after) values.push_back(std::max(before, (o.*member)[k]));
@@ -201,12 +207,10 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
       out.questions.emplace_back();
       continue;
     }
-    double nearest = 1e9;
     const std::vector<Rival>& rivals = questions[k].found.rivals;
-    for (std::size_t r = 0; r < rivals.size(); ++r)
-      if (is_asked(questions[k], r, problem.point.base))
-        nearest = std::min(nearest, rivals[r].distance);
-    const double before = phi_half(nearest);
+    std::vector<double> distances;
+    for (const Rival& rival : rivals) distances.push_back(rival.distance);
+    const double before = right_name(rivals, distances);
     const std::vector<double> values = column(&Outlook::told, k, before);
     out.questions.push_back(choose(plans, before, values, told_for_sure,
                                    "no single measurement of this part tells them apart"));
@@ -255,7 +259,7 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     const std::vector<Candidate>& members = questions[k].found.members;
     for (std::size_t c = 0; c < members.size(); ++c) {
       const std::string id = members[c].hypothesis.id();
-      if (c > 0 && !is_asked(questions[k], c - 1, problem.point.base)) continue;
+      if (c > 0 && phi_half(after[order[0]].distances[k][c - 1]) < told_for_sure) continue;
       if (std::ranges::find(out.next.separates, id) == out.next.separates.end())
         out.next.separates.push_back(id);
     }

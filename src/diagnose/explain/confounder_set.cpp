@@ -15,6 +15,7 @@ constexpr double told_apart = 3.2897;  // d with Φ(d/2) = 0.95
 // d² = t: of 7, 0.4 %.
 constexpr double likelihood_tells = 7.0;
 constexpr double structural = 0.999;
+constexpr double unlike = 0.2;  // share of the named prediction that is left: what columns bend
 constexpr double implausible = 1e-3;  // of the class: by its size, or a chance among many shapes
 
 /// ‖(I − P_rival) μ‖² and ‖μ‖² beside base and the other terms; μ: columns × coefficients.
@@ -86,7 +87,10 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
     });
     if (listed != out.members.end()) continue;  // another variant of it, which is the better one
     rival.structural = d.all2 > 0.0 && 1.0 - d.left2 / d.all2 > structural * structural;
-    if (rival.distance >= told_apart && rival.likelihood_ratio >= likelihood_tells) continue;
+    if (rival.distance >= told_apart && rival.likelihood_ratio >= likelihood_tells) {
+      if (d.left2 < unlike * d.all2) out.dropped.push_back({c, 0.0, true});
+      continue;
+    }
     out.members.push_back(c);
     out.rivals.push_back(rival);
   }
@@ -106,9 +110,12 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return out.rivals[a].probability > out.rivals[b].probability;
   });
-  ConfounderSet sorted{{out.members.front()}, {}, out.probability};
+  ConfounderSet sorted{{out.members.front()}, {}, out.probability, out.dropped};
   for (const std::size_t r : order) {
-    if (out.rivals[r].probability < implausible) continue;
+    if (out.rivals[r].probability < implausible) {
+      sorted.dropped.push_back({out.members[r + 1], out.rivals[r].probability, false});
+      continue;
+    }
     sorted.members.push_back(out.members[r + 1]);
     sorted.rivals.push_back(out.rivals[r]);
   }

@@ -13,6 +13,13 @@ struct ConfounderSet {
   std::vector<Candidate> members;
   std::vector<Rival> rivals;  ///< one per member but the first
   double probability = 1.0;   ///< of the first
+  /// What is dropped: as too improbable, or told apart only as far as it is linear in its size.
+  struct Dropped {
+    Candidate cause;
+    double probability = 0.0;
+    bool told = false;
+  };
+  std::vector<Dropped> dropped;
 };
 
 /// A term of the model with the class it was found to be one of.

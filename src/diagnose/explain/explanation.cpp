@@ -5,6 +5,7 @@
 
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
+#include "diagnose/regression/size_prior.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -43,6 +44,33 @@ Finding finding_of(const Problem& problem, const Model& model, const Joint& join
   return out;
 }
 
+constexpr double ordinary = 3.0, possible = 8.0;  // spreads of the logarithm of a size
+
+/// What no ordinary size would do: where its columns hold, the data tell such a cause, and beyond
+/// they bend by its size over the radius, so that a good part of the finding is enough.
+/// A cause that has a line or a shape to bend is improbable as a chance among many, not by its
+/// size.
+void add_improbable(const Problem& problem, const Joint& joint, const ConfounderSet& found,
+                    std::size_t term, std::vector<AxisShare>& list) {
+  for (const auto& [cause, probability, told] : found.dropped) {
+    const Hypothesis& hypothesis = cause.hypothesis;
+    if (hypothesis.effect->line || hypothesis.effect->refinement) continue;
+    std::vector<Hypothesis> terms = joint.terms;
+    terms[term] = hypothesis;
+    const Joint instead(problem, joint.equations.autoregression(), terms, terms.size());
+    const SizePrior prior = size_prior(hypothesis);
+    const Eigen::ArrayXd size = instead.of(term).cwiseAbs().array();
+    if ((size > prior.scale(possible).array()).any()) continue;
+    if (told && (size < prior.scale(ordinary).array()).all()) continue;
+    const AxisShift moved =
+        axis_shift(problem.point, instead.base() - joint.base(), instead.base_covariance());
+    list.push_back({hypothesis.id(),
+                    joint.terms[term].id(),
+                    probability,
+                    {moved.value_mm, moved.u_mm, "mm", ""}});
+  }
+}
+
 }  // namespace
 
 Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
@@ -60,6 +88,8 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
     ConfounderSet found = distinguish(search.proposer(), searched, t);
     if (timing && timing->term == t) narrow(found, timing->likelihood_ratio);
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
+    if (!fit.problem().point.base.face)
+      add_improbable(fit.problem(), joint, found, t, out.improbable);
     out.ambiguous.push_back({t, std::move(found)});
   }
   return out;

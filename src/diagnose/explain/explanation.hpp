@@ -15,6 +15,9 @@ struct Explanation {
   std::vector<Finding> findings;            ///< in the order of the model
   std::vector<AmbiguousFinding> ambiguous;  ///< one a finding
   std::vector<Unexplained> unexplained;     ///< terms that no catalogued cause explains
+  /// What causes would do to the axis that explain a finding nearly as well and are dropped, at a
+  /// size that is improbable and possible all the same.
+  std::vector<AxisShare> improbable;
 };
 
 /// @param fit of the search's model

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cmath>
 
 #include "diagnose/regression/normal_equations.hpp"
 
@@ -12,6 +13,9 @@ namespace trueaxis::diagnose_detail {
 struct SizePrior {
   Eigen::VectorXd median;  ///< of the scale of every column, mm, rad, s; 0: no size is known
   double spread = 1.0;     ///< standard deviation of the logarithm of the scale
+
+  /// The scale that many spreads above the median; 0: no size is known.
+  Eigen::VectorXd scale(double spreads) const { return std::exp(spreads * spread) * median; }
 };
 SizePrior size_prior(const Hypothesis& hypothesis);
 

@@ -56,6 +56,21 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
+/// Of an angle that was understood: whether it looks like one in another unit; empty: it does not.
+std::string unit_trouble(std::string_view value) {
+  constexpr double most_turns = 3.0;  // of steps that add up
+  constexpr double rounded = 4e-3;    // 1.57, 3.14, 4.71 and 6.28 are quarters of a turn
+  const auto said = csv_number_with_unit(value);
+  const auto unit = csv_find_unit(CsvQuantity::angle, said->unit);
+  const double size = std::abs(said->value);
+  if (unit->turn != 360.0 && size > most_turns * unit->turn)
+    return " is more than three turns, which looks like degrees: write deg";
+  if (unit->turn == 360.0 && size > rounded && size < two_pi + rounded &&
+      std::abs(std::remainder(size, 0.25 * two_pi)) < rounded)
+    return " is quarters of a turn in radians: write rad. If degrees are meant, write them in rev";
+  return "";
+}
+
 bool is_known(std::string_view key) {
   constexpr std::string_view keys[] = {"x_convention", "reading",     "nominal_radius",
                                        "sensor_noise", "spindle_rpm", "ball_radius",
@@ -92,6 +107,10 @@ std::string csv_take_setup(std::string_view key, std::string_view value,
     const auto number = csv_quantity(value, quantity.quantity);
     if (!number || (quantity.quantity == CsvQuantity::count && *number < 0.0))
       return not_understood(quantity.wanted);
+    if (quantity.quantity == CsvQuantity::angle) {
+      const std::string trouble = unit_trouble(value);
+      if (!trouble.empty()) return std::string(key) + ": " + csv_quoted(value) + trouble;
+    }
     SetUp& set_up = set_ups[parsed->number];
     set_up.number = parsed->number;
     set_up.*quantity.member = *number;

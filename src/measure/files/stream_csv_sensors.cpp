@@ -21,6 +21,8 @@ double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, two
 std::string csv_sensor_angles_trouble(std::span<const double> angles_deg) {
   double largest_deg = 0.0;
   for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+    if (!std::isfinite(angles_deg[i]))
+      return fmt::format("the angle of sensor {} is no number", i + 1);
     largest_deg = std::max(largest_deg, std::abs(angles_deg[i]));
     for (std::size_t j = 0; j < i; ++j) {
       if (apart_rad(angles_deg[i] * rad_per_deg, angles_deg[j] * rad_per_deg) < 0.1 * rad_per_deg)
