@@ -102,6 +102,22 @@ TEST(Rounding, IsTakenOffAndNoFinding) {
   }
 }
 
+// In one pass feed marks of nearly the probe's lead show as few cycles along the part, like a
+// waviness, or on a cone a period of the scale: beside what is named they are in the class.
+TEST(FeedMarks, OfNearlyTheProbesLeadStayInTheClass) {
+  for (const double cycles : {2.7, 4.3, 7.5, 11.2}) {
+    Case of = stream_of(blind::PlanId::p1, blind::SurfaceId::cone, 1500.0, seed + 2);
+    const double lead = of.scenario.plan.passes[0].feed_mm_per_rev;
+    of.scenario.effects = {{"part.feed_marks",
+                            {{"feed_mm_per_rev", 1.0 / (1.0 / lead + cycles / of.high_mm)},
+                             {"amplitude_mm", 4.0 * sigma_mm},
+                             {"phase_rad", 0.4}}}};
+    const Diagnosis d = diagnosed(of);
+    ASSERT_EQ(d.findings.size(), 1U) << cycles;
+    EXPECT_TRUE(d.findings[0].may_be("part.feed_marks")) << cycles << d.findings[0].effect();
+  }
+}
+
 // Of few readings a dent has few: it is a local form and none of the catalogue's. The blind study's
 // goal for what no catalogue has is 95 %; lobes, slips and feed marks were named in 40 %.
 TEST(Dent, OfAShortStreamHasNoOtherName) {

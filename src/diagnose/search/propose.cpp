@@ -15,7 +15,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
-constexpr std::size_t most_peaks = 8, most_rivals = 16;
+constexpr std::size_t most_peaks = 8, most_rivals = 20;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
 constexpr double step_shrink = 0.4;
@@ -123,14 +123,17 @@ void average_over_noise(const Problem& problem, const std::vector<double>& phi, 
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
 }
 
-/// The best of each effect and rank among those that explain nearly as much as any.
+/// The best of each effect and rank among those that explain nearly as much as any; of lines all:
+/// at its first shape a line looks like its mirror, such as that of a spiral probed with nearly its
+/// own lead.
 std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
   double most = 0.0;
   for (const Candidate& c : list) most = std::max(most, c.gain);
   std::vector<Candidate> out;
   for (const Candidate& c : list) {
     const auto same = [&](const Candidate& e) {
-      return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
+      return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank &&
+             !is_line(c.hypothesis);
     };
     if (c.gain > far_behind * most && std::ranges::none_of(out, same)) out.push_back(c);
   }
