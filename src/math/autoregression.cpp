@@ -41,11 +41,11 @@ struct Likelihood {
     return -(gram.rows() - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet;
   }
 
-  /// The noise with −2 ln of its likelihood, not the restricted one: models with other columns are
-  /// compared by it.
-  Autoregression with_deviance(std::vector<double> phi) const {
+  /// The noise with what it leaves.
+  Autoregression with_remainder(std::vector<double> phi) const {
     const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
-    return {std::move(phi), r ? gram.rows() * std::log(r->rss) : 1e300};
+    if (!r) return {std::move(phi)};
+    return {std::move(phi), r->rss, gram.rows() - static_cast<double>(r->columns)};
   }
 };
 
@@ -146,9 +146,9 @@ Autoregression find_autoregression(const LaggedGram& of_all_columns,
   }
   const double two = of.restricted2(a1 * (1.0 - a2), a2);
   if (two - one > five_percent && two - white > 2.0 * five_percent && !is_form(a1 * (1.0 - a2), a2))
-    return of.with_deviance({a1 * (1.0 - a2), a2});
-  if (one - white > five_percent) return of.with_deviance({first});
-  return of.with_deviance({});
+    return of.with_remainder({a1 * (1.0 - a2), a2});
+  if (one - white > five_percent) return of.with_remainder({first});
+  return of.with_remainder({});
 }
 
 bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad) {

@@ -13,7 +13,8 @@ namespace trueaxis {
 /// φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white.
 struct Autoregression {
   std::vector<double> phi;
-  double deviance = 0.0;  ///< −2 ln of the likelihood, up to a constant of the stream; 0: none
+  double rss = 0.0;      ///< of what is left, whitened; 0: there were too few readings to tell
+  double freedom = 0.0;  ///< of it: readings beyond the columns
 };
 
 /// Products of columns with those one and two readings earlier, all over the same readings. The

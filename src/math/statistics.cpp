@@ -27,6 +27,20 @@ double neighbour_correlation(std::span<const double> residuals, double clip) {
   return square > 0.0 ? (clipped.head(n - 1) * clipped.tail(n - 1)).sum() / square : 0.0;
 }
 
+double step_of(std::vector<double> values) {
+  constexpr double same = 1e-9, off = 0.02;  // below rounding of the values; of a step
+  std::ranges::sort(values);
+  double step = 0.0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double d = values[i] - values[i - 1];
+    if (d > same && (step == 0.0 || d < step)) step = d;
+  }
+  if (step == 0.0) return 0.0;
+  const auto on = std::ranges::count_if(
+      values, [&](double v) { return std::abs(std::remainder(v - values[0], step)) < off * step; });
+  return static_cast<std::size_t>(on) * 100 > 95 * values.size() ? step : 0.0;
+}
+
 Extent range_of(std::span<const double> values) {
   const Eigen::Map<const Eigen::ArrayXd> all(values.data(),
                                              static_cast<Eigen::Index>(values.size()));

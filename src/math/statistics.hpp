@@ -17,6 +17,10 @@ double neighbour_correlation(std::span<const double> residuals, double clip);
 /// The upper of the two middle values of a column that is not empty.
 double median(std::vector<double> values);
 
+/// The smallest difference of two values where 95 % of all are multiples of it off the least, as of
+/// what was rounded; 0: there is none.
+double step_of(std::vector<double> values);
+
 /// Smallest and largest of a column that is not empty.
 struct Extent {
   double low, high;

@@ -6,6 +6,7 @@
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
 #include "diagnose/regression/size_prior.hpp"
+#include "diagnose/search/causes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -85,6 +86,7 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
       out.unexplained.back().p_value = model.p_values[t];
       continue;
     }
+    if (is_rounding(model.terms[t], fit.problem().point, fit.problem().rounding_mm)) continue;
     ConfounderSet found = distinguish(search.proposer(), searched, t);
     if (timing && timing->term == t) narrow(found, timing->likelihood_ratio);
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -160,23 +161,16 @@ QualityCheck saturation(const ProbeStream& stream) {
                 fmt::format("{} readings at the largest value, {} at the smallest", top, bottom));
 }
 
-/// The step of a rounded indication: the smallest distance of values, when nearly all are
-/// multiples.
-QualityCheck quantisation(const ProbeStream& stream, double sigma) {
-  std::vector<double> sorted(stream.reading_mm);
-  std::ranges::sort(sorted);
-  double step = 0.0;
-  for (std::size_t i = 1; i < sorted.size(); ++i) {
-    const double d = sorted[i] - sorted[i - 1];
-    if (d > 1e-9 && (step == 0.0 || d < step)) step = d;
-  }
-  std::size_t on = 0;
-  for (const double v : sorted)
-    on += step > 0.0 && std::abs(std::remainder(v - sorted[0], step)) < 0.02 * step;
-  const bool found = step > 0.5 * sigma && on * 100 > 95 * sorted.size();
-  return result(
-      Check::quantisation, found,
-      fmt::format("smallest step {:.3g} µm, σ {:.3g} µm", step / mm_per_um, sigma / mm_per_um));
+/// The step of a rounded indication, and whether its error was found as a period of the reading.
+QualityCheck quantisation(const ProbeStream& stream, const Joint& joint, double sigma) {
+  const double step = step_of(stream.reading_mm);
+  std::string text =
+      fmt::format("smallest step {:.3g} µm, σ {:.3g} µm", step / mm_per_um, sigma / mm_per_um);
+  const bool taken = std::ranges::any_of(joint.terms, [&](const Hypothesis& h) {
+    return is_rounding(h, joint.equations.point(), step);
+  });
+  if (taken) text += ": its error, of that period in X, is taken off";
+  return result(Check::quantisation, step > 0.5 * sigma, std::move(text));
 }
 
 /// The stated σ against that which the data show; what it means for u.
@@ -256,7 +250,7 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
                                         const NoiseReport& noise) {
   const LinearisationPoint& point = joint.equations.point();
   const ObservationMask& mask = joint.equations.mask();
-  std::vector<QualityCheck> list{saturation(stream), quantisation(stream, noise.sigma_mm)};
+  std::vector<QualityCheck> list{saturation(stream), quantisation(stream, joint, noise.sigma_mm)};
   list.push_back(result(
       Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
       fmt::format(

@@ -20,6 +20,7 @@ constexpr double clings = 3.0;   // beside a reading far out
 constexpr std::size_t chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
+constexpr double least_freedom = 20.0;  // readings beyond the columns: u(φ) is 0.2 of white noise
 
 /// Columns [deviation | base | terms] of some readings, scaled to unit size and made independent.
 Matrix columns_of_rows(const LinearisationPoint& point, std::span<const double> deviation,
@@ -114,13 +115,15 @@ Autoregression autoregression(const LinearisationPoint& point, const Observation
     // A block of a long stream is cut: whole blocks would be more than enough.
     const std::size_t begin = mask.fold_begin[f];
     const std::size_t end = std::min(mask.fold_begin[f + 1], begin + enough_rows / 4);
+    const std::size_t from = begin - std::min<std::size_t>(begin, 2);  // the two before its first
     std::vector<Eigen::Index> good;
-    for (std::size_t i = begin + 2; i < end; ++i) {
-      if (mask.used[i] && mask.run[i] >= 2) good.push_back(static_cast<Eigen::Index>(i - begin));
+    for (std::size_t i = begin; i < end; ++i) {
+      if (mask.used[i] && mask.run[i] >= 2) good.push_back(static_cast<Eigen::Index>(i - from));
     }
-    lagged.add(columns_of_rows(point, deviation_mm, terms, begin, end), good);
+    lagged.add(columns_of_rows(point, deviation_mm, terms, from, end), good);
   }
-  if (lagged.rows() < static_cast<double>(least_rows)) return {};
+  const auto columns = static_cast<double>(point.base.columns() + columns_of(terms));
+  if (lagged.rows() < columns + least_freedom) return {};
   return find_autoregression(
       lagged, [&](double phi1, double phi2) { return rings_with_spindle(phi1, phi2, point.c); });
 }

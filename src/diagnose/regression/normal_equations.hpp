@@ -37,10 +37,12 @@ struct Problem {
   int threads = 1;
   std::size_t most_terms = 8;
   std::vector<const Effect*> effects = possible_causes(point.base);
+  double rounding_mm = 0.0;  ///< step of the readings where it may show; 0: it does not
 
   /// The same readings about another point.
   Problem about(const LinearisationPoint& other, std::span<const double> deviation) const {
-    return {other, mask, resolution, deviation, false_alarm, threads, most_terms, effects};
+    return {other,   mask,       resolution, deviation,  false_alarm,
+            threads, most_terms, effects,    rounding_mm};
   }
 };
 

@@ -13,6 +13,7 @@ using When = SearchRange::When;
 
 constexpr double no_motion = 1e-9;
 constexpr std::size_t readings_per_instant = 8;
+constexpr int rounding_harmonics = 3;  // the next is 1/4 of the first, and σ takes it away
 
 bool both_ways(const LinearisationPoint& point) {
   const Extent v = range_of(point.velocity);
@@ -72,6 +73,19 @@ void add_degrees(const Effect& effect, TermShape shape, const Problem& problem,
   }
 }
 
+bool is_of_scale(const Effect* effect) {
+  return effect && effect->line && effect->line->in == Line::In::sensed;
+}
+
+/// The error of rounding has a known period: it is tried where a scan does not reach.
+void add_rounding(const Effect& effect, TermShape shape, double step_mm,
+                  std::vector<Hypothesis>& list) {
+  for (int k = 1; k <= rounding_harmonics; ++k) {
+    shape.period_mm = step_mm / k;
+    list.push_back(of_effect(effect, shape, {}, rounding_harmonics));
+  }
+}
+
 /// A tilt with a radial motion of its own phase.
 bool is_any_motion(const Term& term, const Form& form) {
   const auto* harmonic = std::get_if<Harmonic>(&term);
@@ -125,6 +139,13 @@ TermShape typical_shape(const Effect& effect, const LinearisationPoint& point) {
   return shape;
 }
 
+bool is_rounding(const Hypothesis& h, const LinearisationPoint& point, double step_mm) {
+  if (!(step_mm > 0.0) || !is_of_scale(h.effect)) return false;
+  const double harmonic = step_mm / h.shape.period_mm;
+  return harmonic > 0.5 &&
+         std::abs(harmonic - std::round(harmonic)) * sensed_swing(point) < step_mm;
+}
+
 std::vector<Hypothesis> preset_causes(const Problem& problem) {
   std::vector<Hypothesis> list;
   const bool frames_told = problem.point.reindexed || problem.point.two_sided;
@@ -134,6 +155,8 @@ std::vector<Hypothesis> preset_causes(const Problem& problem) {
         (range.when == When::told_apart && !frames_told) || !can_show(effect->needs, problem))
       continue;
     TermShape shape = typical_shape(*effect, problem.point);
+    if (problem.rounding_mm > 0.0 && is_of_scale(effect))
+      add_rounding(*effect, shape, problem.rounding_mm, list);
     if (range.highest_degree > 0) {
       add_degrees(*effect, shape, problem, list);
     } else if (!has_free_order(*effect)) {
@@ -191,10 +214,10 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
   if (!h.effect) {
     if (h.pattern.kind != Pattern::Kind::bump) return list;
     vary([](Hypothesis& o, double d) { o.pattern.angle_rad += d * o.pattern.width_rad * 8.0; });
-    vary([](Hypothesis& o, double d) { o.pattern.width_rad *= std::exp(4.0 * d); });
+    vary([](Hypothesis& o, double d) { o.pattern.width_rad *= std::exp(8.0 * d); });
     if (h.pattern.length_mm > 0.0) {
       vary([](Hypothesis& o, double d) { o.pattern.position_mm += d * o.pattern.length_mm * 8.0; });
-      vary([](Hypothesis& o, double d) { o.pattern.length_mm *= std::exp(4.0 * d); });
+      vary([](Hypothesis& o, double d) { o.pattern.length_mm *= std::exp(8.0 * d); });
     }
     return list;
   }

@@ -12,6 +12,11 @@ namespace trueaxis::diagnose_detail {
 /// of their order until causes_of_order tells them apart, unless re-chucking does.
 std::vector<Hypothesis> preset_causes(const Problem& problem);
 
+/// Whether it is the error that readings rounded to a step make: of the step's period over what is
+/// sensed, or of a harmonic of it, as far as the swing tells periods apart. It is taken off, but no
+/// error of the scale. 0: nothing was rounded.
+bool is_rounding(const Hypothesis& hypothesis, const LinearisationPoint& point, double step_mm);
+
 /// Causes beside the presets that show as the harmonic of an order.
 std::vector<Hypothesis> causes_of_order(const Problem& problem, int order);
 

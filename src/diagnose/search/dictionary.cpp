@@ -166,7 +166,8 @@ std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
       fourier_legendre_basis(problem.point, problem.resolution),
       {},
       {},
-      0});
+      0,
+      0.0});
   for (Hypothesis& h : out->basis) h.tests = static_cast<double>(out->basis.size());
   std::vector<Hypothesis> list = out->basis;
   std::vector<std::size_t> carrier(out->presets.size(), 0);
@@ -197,6 +198,10 @@ std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
                                            : subset(places[carrier[i]], out->presets[i]));
   }
   out->columns = static_cast<std::size_t>(out->equations.total().rows());
+  out->noise_freedom =
+      static_cast<double>(out->equations.count()) -
+      static_cast<double>(out->equations.base().size() + columns_of(small_fourier_legendre_basis(
+                                                             problem.point, problem.resolution)));
   return out;
 }
 

@@ -6,6 +6,7 @@
 #include "base/threads.hpp"
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/search/dictionary.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -17,6 +18,13 @@ LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double
 
 int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
   return static_cast<int>(threads_for(options.threads, stream.size()));
+}
+
+/// A step below the σ of the noise is drowned: its first harmonic keeps exp(−2π²) = 3e-9 of its
+/// size.
+double rounding_that_shows(const ProbeStream& stream, std::span<const double> deviation_mm) {
+  const double step = step_of(stream.reading_mm);
+  return step > mad_sigma(deviation_mm) ? step : 0.0;
 }
 
 }  // namespace
@@ -40,6 +48,7 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               options.false_alarm,
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
-              possible_causes(point.base, options.own_effects)} {}
+              possible_causes(point.base, options.own_effects),
+              rounding_that_shows(measured, deviation_mm)} {}
 
 }  // namespace trueaxis::diagnose_detail

@@ -15,7 +15,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t best_presets = 12, best_patterns = 3, best_orders = 2, best_refined = 6;
-constexpr std::size_t most_peaks = 8, most_rivals = 16;
+constexpr std::size_t most_peaks = 8, most_rivals = 20;
 constexpr double far_behind = 0.3;  // share of the best gain below which nothing is a rival
 constexpr double line_tests = 3.6;  // Rice's √(S/2) near the threshold: what a scan's choice costs
 constexpr double step_shrink = 0.4;
@@ -100,14 +100,40 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<Candidate>& list, std::s
   return out;
 }
 
-/// The best of each effect and rank among those that explain nearly as much as any.
+/// p-values averaged over what the noise may be as well: of ν readings beyond the columns the first
+/// partial correlation a is known to u = 1/√ν of artanh a (Fisher), and where it is underestimated
+/// all that is slow looks significant. Three nodes of a Gauss-Hermite rule.
+void average_over_noise(const Problem& problem, const std::vector<double>& phi, double freedom,
+                        const std::vector<Hypothesis>& terms, std::vector<Candidate>& list) {
+  if (phi.empty() || list.empty()) return;
+  const double second = phi.size() < 2 ? 0.0 : phi[1], first = phi[0] / (1.0 - second);
+  const double away = std::sqrt(3.0 / std::max(freedom, 1.0));
+  std::vector<double> p;
+  for (const Candidate& c : list) p.push_back(std::exp(c.log_p) * 2.0 / 3.0);
+  for (const double d : {-away, away}) {
+    std::vector<double> other = phi;
+    other[0] = std::tanh(std::atanh(first) + d) * (1.0 - second);
+    NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, other,
+                              problem.threads);
+    const std::vector<Hypothesis> all = hypotheses_of(list, list.size());
+    const auto places = equations.append(joined(terms, all));
+    const std::vector<Candidate> judged = judge(equations, places, all, terms.size());
+    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(judged[i].log_p) / 6.0;
+  }
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
+}
+
+/// The best of each effect and rank among those that explain nearly as much as any; of lines all:
+/// at its first shape a line looks like its mirror, such as that of a spiral probed with nearly its
+/// own lead.
 std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
   double most = 0.0;
   for (const Candidate& c : list) most = std::max(most, c.gain);
   std::vector<Candidate> out;
   for (const Candidate& c : list) {
     const auto same = [&](const Candidate& e) {
-      return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank;
+      return e.hypothesis.effect == c.hypothesis.effect && e.rank == c.rank &&
+             !is_line(c.hypothesis);
     };
     if (c.gain > far_behind * most && std::ranges::none_of(out, same)) out.push_back(c);
   }
@@ -256,6 +282,9 @@ Proposal Proposer::beside(const std::vector<Hypothesis>& terms, const std::vecto
   Proposal out;
   out.causes = refined(causes);
   out.patterns = refined(patterns);
+  const double freedom = dictionary_->noise_freedom;
+  average_over_noise(problem_, phi, freedom, terms, out.causes);
+  average_over_noise(problem_, phi, freedom, terms, out.patterns);
   out.family = now.family;
   return out;
 }

@@ -142,9 +142,23 @@ Scan scan_of(const Effect& effect, const Sampled& of, const LinearisationPoint& 
   return scan;
 }
 
-/// Of an order n either way round.
-void add_patterns(const Column& x, bool in_time, double low, double high, bool counts,
+/// Half a cycle in a turn: what turns faster along x is, pass by pass, nearer to another order.
+double half_a_cycle(const LinearisationPoint& point, const Column& x) {
+  double most = 0.0;
+  for (const Pass& pass : point.passes) {
+    const double turns = std::abs(point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
+    const double along = std::abs(x[pass.end - 1] - x[pass.begin]);
+    if (turns > fewest_turns && along > 0.0) most = std::max(most, 0.5 * turns / along);
+  }
+  return most;
+}
+
+/// Of an order n either way round, of few cycles and more up to half a cycle in a turn.
+void add_patterns(const LinearisationPoint& point, const Sampled& of, bool in_time, bool counts,
                   int harmonics, std::vector<Scan>& list) {
+  const Column& x = in_time ? point.time : point.s;
+  const double low = 0.75 / of.extent;
+  const double high = std::max((in_time ? 30.0 : 20.0) / of.extent, half_a_cycle(point, x));
   for (int n = 1; n <= harmonics; ++n) {
     for (const double sign : {1.0, -1.0}) {
       list.push_back({&x, sign * n, in_time, low, high,
@@ -171,12 +185,10 @@ std::vector<Scan> scans_of(const Problem& problem) {
     // Of one variable, the lines of C are these too.
     const bool same = resolution.one_variable && !list.empty() && list[0].x == &point.c;
     if (in == spiral && of.seen && !same)
-      add_patterns(point.s, false, 0.75 / of.extent, 20.0 / of.extent, of.another,
-                   resolution.harmonics, list);
+      add_patterns(point, of, false, of.another, resolution.harmonics, list);
   }
   if (const Sampled of = sampled(time, point, resolution); of.seen && of.another)
-    add_patterns(point.time, true, 0.75 / of.extent, 30.0 / of.extent, true, resolution.harmonics,
-                 list);
+    add_patterns(point, of, true, true, resolution.harmonics, list);
   std::erase_if(list, [](const Scan& s) { return !(s.high > s.low); });
   return list;
 }

@@ -18,8 +18,8 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
   tests = 0.0;
   constexpr std::size_t least_readings = 8;
   constexpr double not_one_reading = 0.7;
-  for (const std::size_t sectors : {12U, 24U, 48U}) {
-    for (const std::size_t lengths : {1U, 6U, 12U, 24U}) {
+  for (const std::size_t sectors : {6U, 12U, 24U, 48U}) {
+    for (const std::size_t lengths : {1U, 3U, 6U, 12U, 24U}) {
       if (lengths > 1 && !point.has_position) continue;
       if (mask.folds() < 12 && lengths > 6) continue;
       std::vector<double> sum(sectors * lengths, 0.0);

@@ -62,8 +62,7 @@ class StepwiseSearch {
  private:
   /// Noise before any term. A line that is no whole order, such as an asynchronous motion, or a
   /// large step of the part looks like a noise that rings, and whitening then takes it away: where
-  /// the likelihood of terms beside a noise of their own is better than chance makes it, that noise
-  /// is taken.
+  /// terms beside a noise of their own leave less than chance makes them, that noise is taken.
   std::vector<double> first_noise() {
     Autoregression best = noise({});
     std::vector<Hypothesis> terms;
@@ -78,8 +77,9 @@ class StepwiseSearch {
       if (!term) break;
       terms.push_back(term->hypothesis);
       Autoregression with = noise(terms);
-      const double gain = best.deviance - with.deviance;
-      if (!(p.family.p_value(std::exp(-0.5 * gain)) < problem_.false_alarm)) break;
+      const double log_p =
+          log_p_value(best.rss - with.rss, best.freedom - with.freedom, best.rss, best.freedom);
+      if (!(p.family.p_value(std::exp(log_p)) < problem_.false_alarm)) break;
       best = std::move(with);
     }
     return best.phi;

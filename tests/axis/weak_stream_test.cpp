@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Streams in which the statistics of a diagnosis are hard put to it: few readings with correlated
+// noise, a pattern that beats fast, readings rounded in steps of many σ, a dent in a short stream.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/math/distributions/binomial.hpp>
+#include <cmath>
+#include <iostream>
+#include <numbers>
+#include <random>
+
+#include "axis/axis_case.hpp"
+
+namespace trueaxis::axis {
+namespace {
+
+constexpr std::uint64_t seed = 7700;
+constexpr double sigma_mm = 1e-3;
+
+/// A plan of the blind study stretched to so many readings, with 20 µm of eccentricity.
+Case stream_of(blind::PlanId plan, blind::SurfaceId surface, double readings, std::uint64_t own) {
+  std::mt19937_64 random(own);
+  const double per_turn = std::uniform_real_distribution(9.3, 36.7)(random);
+  Case out;
+  out.surface = blind::to_string(surface);
+  out.low_mm = blind::start_mm, out.high_mm = blind::end_mm;
+  virtual_lathe::Scenario& s = out.scenario;
+  s = blind::plain_scenario(plan, surface, static_cast<int>(own % 4));
+  for (double* v : {&s.part.x0_mm, &s.part.y0_mm, &s.part.l, &s.part.m}) *v *= 0.1;
+  double now = 0.0;
+  for (const virtual_lathe::PlannedPass& pass : s.plan.passes)
+    now += std::abs(pass.end_mm - pass.start_mm) / pass.feed_mm_per_rev * per_turn;
+  for (virtual_lathe::PlannedPass& pass : s.plan.passes) {
+    pass.feed_mm_per_rev *= now / readings;
+    pass.readings_per_revolution = per_turn;
+    pass.jitter = 0.2;
+  }
+  s.noise.sigma_mm = sigma_mm, s.probe.states_noise = false, s.seed = own;
+  return out;
+}
+
+Diagnosis diagnosed(const Case& of) {
+  DiagnoseOptions options;
+  options.threads = 1;
+  options.fit.surface = of.surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
+  return diagnose(virtual_lathe::simulate(of.scenario), options);
+}
+
+bool is_silent(const Diagnosis& d) { return d.findings.empty() && d.unexplained.empty(); }
+
+// At 1 % a stream. Without the autoregression of streams this short half of them had findings.
+TEST(ShortStream, OfCorrelatedNoiseIsSilent) {
+  constexpr int streams = 80;
+  std::cout << "seed " << seed << '\n';
+  int loud = 0;
+  for (std::uint64_t i = 0; i < streams; ++i) {
+    const auto plan = i % 2 == 0 ? blind::PlanId::p1 : blind::PlanId::p3;
+    const auto surface = i % 4 < 2 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
+    Case of = stream_of(plan, surface, 100.0 + 3.0 * static_cast<double>(i), seed + i);
+    of.scenario.noise.rho = 0.8;
+    loud += !is_silent(diagnosed(of));
+  }
+  std::cout << loud << " of " << streams << " streams with findings\n";
+  EXPECT_LE(loud, quantile(complement(boost::math::binomial(streams, 0.01), 1e-3)));
+}
+
+// 3 lobes that beat 50 times: 0.4 of a cycle in a turn of the slow pass. A product of two cosines
+// is two lines, and the axis, of order 1, is where it was.
+TEST(FastBeat, IsTwoLinesOfItsOrder) {
+  Case of = stream_of(blind::PlanId::p3, blind::SurfaceId::cylinder, 3000.0, seed);
+  const double lasts = blind::duration_s(of.scenario.plan);
+  of.scenario.effects = {{"extra.beat",
+                          {{"order", 3.0},
+                           {"amplitude_mm", 4.0 * sigma_mm},
+                           {"beat_hz", 50.0 / lasts},
+                           {"phase_rad", 0.4}}}};
+  const Diagnosis d = diagnosed(of);
+  EXPECT_TRUE(d.findings.empty());
+  ASSERT_EQ(d.unexplained.size(), 2U);
+  for (const Unexplained& u : d.unexplained) {
+    EXPECT_EQ(u.term.pattern.order, 3.0);
+    // Half a resolution cell of a frequency is half a cycle over the stream.
+    EXPECT_NEAR(std::abs(u.term.pattern.frequency) * lasts, 50.0, 0.5);
+    EXPECT_NEAR(u.amplitude.value, 2.0 * sigma_mm, 4.0 * u.amplitude.u);
+  }
+}
+
+// Rounded to 4 µm, readings of σ = 0.3 µm err by a period of X; it is no error of the scale.
+TEST(Rounding, IsTakenOffAndNoFinding) {
+  for (const auto surface : {blind::SurfaceId::cone, blind::SurfaceId::cylinder}) {
+    Case of = stream_of(blind::PlanId::p3, surface, 1500.0, seed + 1);
+    of.scenario.noise.sigma_mm = 3e-4;
+    of.scenario.noise.quantisation_mm = 4e-3;
+    const Diagnosis d = diagnosed(of);
+    EXPECT_TRUE(is_silent(d)) << of.surface;
+    const auto check = std::ranges::find(d.checks, "probe.quantisation", &QualityCheck::effect);
+    ASSERT_NE(check, d.checks.end());
+    EXPECT_TRUE(check->found);
+    EXPECT_NE(check->text.find("taken off"), std::string::npos) << check->text;
+    EXPECT_LE(judge(of, d.extended.axis).rms_mm(), judge(of, d.baseline.axis).rms_mm());
+  }
+}
+
+// In one pass feed marks of nearly the probe's lead show as few cycles along the part, like a
+// waviness, or on a cone a period of the scale: beside what is named they are in the class.
+// (The mirror of the line, at the same distance on the other side of the lead, fitted better at its
+// first shape.)
+TEST(FeedMarks, OfNearlyTheProbesLeadStayInTheClass) {
+  struct Marks {
+    double lead_mm, per_turn, feed_mm, phase_rad;
+    double x0_mm, y0_mm, l, m, amplitude_mm, sigma_mm;
+    std::uint64_t seed;
+  };
+  constexpr Marks cases[] = {
+      {0.4012471875055193, 10.031179687637984, 0.38204552788081997, 2.911733135112251,
+       -0.10522673895595223, 0.11777120171469821, 5.3985362580990154e-05, 5.416603651977779e-06,
+       0.004753885736530362, 0.0018227863935139285, 15565646650211514275U},
+      {0.8583720038357174, 21.459300095892935, 0.8264214768650421, 2.0901734073024576,
+       -0.003665711256758348, 0.004102714045222314, 9.864255402480276e-05, 9.897268311749888e-06,
+       0.0045025162511680055, 0.0014489863911791186, 14450580687455728348U}};
+  for (const Marks& marks : cases) {
+    Case of = stream_of(blind::PlanId::p1, blind::SurfaceId::cone, 1500.0, seed);
+    virtual_lathe::Scenario& s = of.scenario;
+    s.part.x0_mm = marks.x0_mm, s.part.y0_mm = marks.y0_mm, s.part.l = marks.l, s.part.m = marks.m;
+    s.plan.passes[0].feed_mm_per_rev = marks.lead_mm;
+    s.plan.passes[0].readings_per_revolution = marks.per_turn;
+    s.noise.sigma_mm = marks.sigma_mm, s.seed = marks.seed;
+    s.effects = {{"part.feed_marks",
+                  {{"feed_mm_per_rev", marks.feed_mm},
+                   {"amplitude_mm", marks.amplitude_mm},
+                   {"phase_rad", marks.phase_rad}}}};
+    const Diagnosis d = diagnosed(of);
+    ASSERT_EQ(d.findings.size(), 1U) << marks.seed;
+    EXPECT_TRUE(d.findings[0].may_be("part.feed_marks")) << d.findings[0].effect();
+  }
+}
+
+// Of few readings a dent has few: it is a local form and none of the catalogue's. The blind study's
+// goal for what no catalogue has is 95 %; lobes, slips and feed marks were named in 40 %.
+TEST(Dent, OfAShortStreamHasNoOtherName) {
+  constexpr int streams = 30;
+  std::cout << "seed " << seed << '\n';
+  int named = 0;
+  double ideal = 0.0, stated = 0.0;
+  for (std::uint64_t i = 0; i < streams; ++i) {
+    const blind::PlanId plans[] = {blind::PlanId::p1, blind::PlanId::p2, blind::PlanId::p3};
+    const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
+    std::mt19937_64 random(seed + i);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    Case of = stream_of(plans[i % 3], surface, between(300.0, 700.0), seed + i);
+    of.scenario.effects = {{"extra.dent",
+                            {{"angle_rad", between(-std::numbers::pi, std::numbers::pi)},
+                             {"position_mm", between(0.15, 0.85) * of.high_mm},
+                             {"depth_mm", between(8.0, 40.0) * sigma_mm},
+                             {"width_rad", between(0.1, 0.4)},
+                             {"length_mm", between(0.05, 0.2) * of.high_mm}}}};
+    const Diagnosis d = diagnosed(of);
+    named += !d.findings.empty();
+    ideal += std::pow(judge(of, d.baseline.axis).rms_mm(), 2);
+    stated += std::pow(judge(of, d.extended.axis).rms_mm(), 2);
+  }
+  std::cout << named << " of " << streams << " named, axis " << 1e3 * std::sqrt(ideal / streams)
+            << " and " << 1e3 * std::sqrt(stated / streams) << " µm\n";
+  EXPECT_LE(named, quantile(complement(boost::math::binomial(streams, 0.05), 1e-3)));
+  EXPECT_LT(stated, 0.25 * ideal);
+}
+
+}  // namespace
+}  // namespace trueaxis::axis
