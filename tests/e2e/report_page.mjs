@@ -26,6 +26,12 @@ function inspectCharts() {
     for (let i = 0; i < data.length; i += 4) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
     return seen.size;
   };
+  /** Every text that is drawn, and where. */
+  const texts = (chart) => chart.getZr().storage.getDisplayList(true).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text).map((e) => {
+    const box = e.getBoundingRect().clone();
+    if (e.transform) box.applyTransform(e.transform);
+    return {text: e.style.text, box};
+  });
   const {charts} = window.trueaxisReport;
   charts.forEach((chart, i) => {
     const box = chart.getDom();
@@ -45,6 +51,12 @@ function inspectCharts() {
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
+    const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
+    if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
+    const plot = chart.getModel().getComponent('grid')?.coordinateSystem?.getRect();
+    const names = new Set(series.map((s) => s.name));
+    const over = !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
+    if (over.length) problems.push(`${name}: the legend lies on the plot: ${over.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
   });
   return {count: charts.length, problems};
 }
@@ -90,6 +102,9 @@ async function look(browser, {name, width, height}) {
     console.log(`${name}: ${charts.count} charts at ${width} px`);
     const cut = await page.evaluate(() => [...document.querySelectorAll('.wide .scroll')].filter((box) => box.scrollWidth > box.clientWidth).length);
     console.log(`${name}: ${cut} wide tables scroll`);
+    const curves = await page.evaluate(() => window.trueaxisReport.charts.filter((c) => c.getDom().closest('#error'))
+      .flatMap((c) => c.getOption().series).filter((s) => s.type === 'scatter').length);
+    if (curves) console.log(`${name}: ${curves} curves of errors`);
     console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
