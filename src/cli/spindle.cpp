@@ -16,6 +16,7 @@
 #include "measure/files/stream_csv_sensors.hpp"
 #include "spindle/files/polar_svg.hpp"
 #include "spindle/files/spindle_json.hpp"
+#include "spindle/files/spindle_page.hpp"
 #include "spindle/files/spindle_text.hpp"
 #include "spindle/files/spindle_toml.hpp"
 #include "trueaxis/error.hpp"
@@ -31,7 +32,7 @@ struct Options {
   std::vector<std::string> streams;
   StreamOptions meaning;
   std::vector<double> angles_deg;
-  std::string orders = "2-100", json, svg;
+  std::string orders = "2-100", json, svg, report;
   std::optional<double> sensitive_deg;
   double u_angle_deg = 0.0, u_reindex_deg = 0.0, coverage_factor = 2.0;
   double largest_condition = SpindleOptions{}.largest_condition, apart_deg = 20.0;
@@ -124,12 +125,15 @@ int separate(const Options& options, const OrderRange& orders) {
   for (const std::string& path : job.streams) outputs.reads(path);
   outputs.may_write(options.json, "trueaxis.spindle");
   outputs.may_write(options.svg, "trueaxis.spindle_plot");
+  outputs.may_write(options.report, "trueaxis.spindle_report");
   outputs.check();
   const SpindleResult result = separate_spindle(streams, job.options);
   if (!options.json.empty()) outputs.write(options.json, spindle_json(result, job.options));
   if (!options.svg.empty()) outputs.write(options.svg, polar_svg(result));
+  if (!options.report.empty()) outputs.write(options.report, spindle_page(result));
   outputs.commit();
-  if (options.json != "-" && options.svg != "-") std::cout << spindle_text(result, options.verbose);
+  if (options.json != "-" && options.svg != "-" && options.report != "-")
+    std::cout << spindle_text(result, options.verbose);
   return done;
 }
 
@@ -160,6 +164,10 @@ void add_estimate(CLI::App& command, Options& options) {
   command.add_option("--json", options.json, "write the result here (JSON), '-' prints it")
       ->check(a_place());
   command.add_option("--svg", options.svg, "write polar plots here (SVG), '-' prints them")
+      ->check(a_place());
+  command
+      .add_option("--report", options.report,
+                  "write a page here (HTML): values, polar plots, orders; '-' prints it")
       ->check(a_place());
   command.add_flag("--verbose", options.verbose, "a table of the orders too");
   add_force(command, options.force);
@@ -197,6 +205,9 @@ void add_spindle(CLI::App& app, int& exit_code) {
     if (!options->json.empty() && options->json == options->svg)
       throw CLI::ValidationError("--svg", "cannot go where --json goes");
     expect_job_alone(*command, *options);
+    if (!options->report.empty() &&
+        (options->report == options->json || options->report == options->svg))
+      throw CLI::ValidationError("--report", "cannot go where --json or --svg goes");
     exit_code = execute(*options);
   });
 }

@@ -8,11 +8,14 @@ const diverging = ['#14477f', '#4393c3', '#b5d5e8', '#f4f4f2', '#f6c3a5', '#d660
 const charts = [];
 const fontFamily = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
 
-/** A chart with its caption. `build(width)` returns the ECharts option for a width in px. */
-function figure({caption, description, size = 'normal', renderer = 'canvas', build}) {
+/** A chart with its caption. `build(width)` returns the ECharts option for a width in px; `height(width)`, in px, is
+ * what a chart asks for whose size does not say it. */
+function figure({caption, description, size = 'normal', renderer = 'canvas', build, height}) {
   const box = element('div', {class: `chart ${size}`});
   const made = element('figure', {}, box, element('figcaption', {}, caption));
+  const fit = () => { if (height) box.style.height = `${height(box.clientWidth)}px`; };
   made.start = () => {
+    fit();
     const chart = echarts.init(box, null, {renderer});
     const draw = () => chart.setOption({...common(description), ...build(box.clientWidth)}, true);
     draw();
@@ -21,6 +24,7 @@ function figure({caption, description, size = 'normal', renderer = 'canvas', bui
     made.redraw = () => {
       if (box.clientWidth === width) return;
       width = box.clientWidth;
+      fit();
       chart.resize({animation: {duration: 0}});
       draw();
     };

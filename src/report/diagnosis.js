@@ -83,9 +83,18 @@ function shareWords({effect, instead_of: instead, probability, axis_shift: shift
   return `${what} (probability ${significant(probability, 2)}) would move it by ${estimated(shift, k)}`;
 }
 
+/** Of a face the named model stands; what the others would make of its tilt is in its U. */
+function faceAxisBlock({shares, options: {coverage_factor: k}}) {
+  const telling = shares.filter((s) => isNumber(s.axis_shift.value) && s.axis_shift.value > 0 && s.probability >= 0.01).slice(0, 5);
+  if (!telling.length) return null;
+  return block('The axis', paragraph('That of the named model, at the outer end of what was probed. What else may have caused the readings is in its U:', 'quiet'),
+    element('ul', {}, telling.map((s) => element('li', {}, shareWords(s, k)))));
+}
+
 /** The axis that is stated, beside those of the named model and of the ideal fit, and what moved it. */
 function axesBlock({axes, shares, options: {coverage_factor: k}}, face) {
-  if (face || !axes.stated.length) return null;
+  if (face) return faceAxisBlock({shares, options: {coverage_factor: k}});
+  if (!axes.stated.length) return null;
   const place = ({x, y, u}) => `(${(x * 1000).toFixed(2)}, ${(y * 1000).toFixed(2)}) ± ${micrometres(k * u)}`;
   const rows = Object.entries(axisNames).filter(([key]) => axes[key].length)
     .map(([key, words]) => [words, ...axes[key].map(place)]);

@@ -48,11 +48,6 @@ std::string page_of(std::string_view title, std::string_view verdict, const Json
                         {"script", script}});
 }
 
-std::string escape_html(std::string_view text) {
-  return substituted(
-      text, {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}});
-}
-
 std::string json_for_script(const Json& data) {
   return substituted(data.dump(-1, ' ', true, Json::error_handler_t::replace),
                      {{'<', "\\u003c"}, {'>', "\\u003e"}, {'&', "\\u0026"}});

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "format/html.hpp"
 #include "format/json.hpp"
 
 namespace trueaxis {
@@ -17,9 +18,6 @@ std::string_view sweep_script();
 /// One HTML page that opens offline: the template with its style, Apache ECharts, data and script.
 std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
                     std::string_view script);
-
-/// `text` with & < > " ' as HTML entities.
-std::string escape_html(std::string_view text);
 
 /// `data` as ASCII JSON in which no character can end or open an HTML element: < > & are written as
 /// \u003c \u003e \u0026. Bytes that are not UTF-8 become U+FFFD; NaN becomes null.

@@ -18,33 +18,51 @@ function section(id, title, ...children) {
   return element('section', {id}, element('h2', {}, title), ...children);
 }
 
-const block = (title, ...children) => element('div', {class: 'block'}, element('h3', {}, title), ...children);
+const block = (title, ...children) =>
+    element('div', {class: 'block'}, element('h3', {}, title), ...children);
 
 let tables = 0;
 
-/** A table that scrolls inside its own box, its title above. `head` and `rows` hold texts or elements; numeric columns
- * are aligned right. A row that is {cells, note, lost} has a remark over its whole width below. */
+/**
+ * A table that scrolls inside its own box, its title above. `head` and `rows` hold texts or
+ * elements; numeric columns are aligned right. A row that is {cells, note, lost} has a remark over
+ * its whole width below.
+ */
 function table(caption, head, rows, textColumns = 1) {
   const kind = (i) => i < textColumns ? 'text' : 'number';
-  const cell = (text, i) => element(i === 0 ? 'th' : 'td', {class: kind(i), scope: i === 0 ? 'row' : null}, text);
+  const cell = (text, i) =>
+      element(i === 0 ? 'th' : 'td', {class: kind(i), scope: i === 0 ? 'row' : null}, text);
   const body = [];
   for (const row of rows) {
     body.push(element('tr', {class: row.note ? 'noted' : null}, (row.cells ?? row).map(cell)));
-    if (row.note) body.push(element('tr', {class: row.lost ? 'note lost' : 'note'}, element('td', {colspan: head.length}, row.note)));
+    if (row.note)
+      body.push(element(
+          'tr', {class: row.lost ? 'note lost' : 'note'},
+          element('td', {colspan: head.length}, row.note)));
   }
   tables += 1;
   const id = `table-${tables}`;
-  return element('div', {class: 'table'}, element('p', {class: 'title', id}, caption),
-    element('div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': id},
-      element('table', {'aria-labelledby': id},
-        element('thead', {}, element('tr', {}, head.map((text, i) => element('th', {class: kind(i), scope: 'col'}, text)))),
-        element('tbody', {}, body))));
+  return element(
+      'div', {class: 'table'}, element('p', {class: 'title', id}, caption),
+      element(
+          'div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': id},
+          element(
+              'table', {'aria-labelledby': id},
+              element(
+                  'thead', {},
+                  element(
+                      'tr', {},
+                      head.map((text, i) => element('th', {class: kind(i), scope: 'col'}, text)))),
+              element('tbody', {}, body))));
 }
 
 /** Label and value pairs. */
 function facts(pairs, kind = 'facts') {
-  return element('dl', {class: kind}, pairs.map(([label, value]) =>
-    element('div', {}, element('dt', {}, label), element('dd', {}, value))));
+  return element(
+      'dl', {class: kind},
+      pairs.map(
+          ([label, value]) =>
+              element('div', {}, element('dt', {}, label), element('dd', {}, value))));
 }
 
 const pill = (text, good) => element('span', {class: `pill ${good ? 'good' : 'bad'}`}, text);

@@ -58,6 +58,7 @@ function statusBlock(reference) {
       ['Iterations', String(reference.iterations)]);
   }
   const parts = [facts(list)];
+  if (reference.notes?.length) parts.push(element('ul', {class: 'quiet'}, reference.notes.map((text) => element('li', {}, text))));
   if (reference.message) parts.push(paragraph(reference.message, 'alert'));
   if (reference.not_determined.length) {
     parts.push(paragraph('These combinations are left open by the readings:'),

@@ -56,18 +56,21 @@ function summary() {
 const drawnText = () => data.drawn.length ? data.drawn.map(axisWords).join(', ') : 'nothing but the noise';
 
 function chartSections(view) {
-  const note = view.all.length > view.curves.length ? paragraph(`${view.curves.length} of ${view.all.length} curves are drawn; the table and sweep.csv have all.`, 'quiet') : null;
-  const each = (make) => element('div', {class: 'triple'}, data.quantities.map((quantity, q) => make(data, view, quantity, q)).filter(Boolean));
-  const shares = (options) => view.curves.map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
+  const drawn = view.panels.flatMap((panel) => panel.curves);
+  const note = view.all.length > drawn.length ? paragraph(`${drawn.length} of ${view.all.length} curves are drawn; the table and sweep.csv have all.`, 'quiet') : null;
+  const row = (charts) => element('div', {class: 'triple'}, charts.filter(Boolean));
+  const each = (make) => view.panels.length === 1 ? row(data.quantities.map((quantity, q) => make(data, view.panels[0], quantity, q)))
+    : data.quantities.map((quantity, q) => row(view.panels.map((panel) => make(data, panel, quantity, q)))).filter((r) => r.childElementCount);
+  const shares = (options) => view.all.slice(0, drawn.length).map((curve) => shareChart(data, view, curve, options)).filter(Boolean);
   const efficiency = shares({keys: ['ratio_low', 'ratio', 'ratio_high'], factor: 1, reference: 1, name: 'RMSE / bound', words: 'RMSE over the bound with its 95 % interval.'});
   const coverage = shares({keys: ['coverage_low', 'coverage', 'coverage_high'], factor: 100, reference: 95.45, name: '%', words: 'Share of the repeats with |error| ≤ U (k = 2), 95 % interval; dashed: 95.45 %.'});
-  const detection = [detectionChart(data, view, 'found', 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.'),
-    detectionChart(data, view, 'named', 'Named: every hidden effect is in the class of a finding.')].filter(Boolean);
-  return [detection.length ? section('detection', 'What the diagnosis finds', element('div', {class: 'triple'}, detection)) : null,
-    section('error', 'Error and bound', note, each(errorChart)),
+  const said = {found: 'Found: the diagnosis reports anything at all. Where nothing is hidden, these are false alarms.', named: 'Named: every hidden effect is in the class of a finding.'};
+  const detection = view.panels.flatMap((panel) => Object.keys(said).map((key) => detectionChart(data, panel, key, said[key]))).filter(Boolean);
+  return [detection.length ? section('detection', 'What the diagnosis finds', row(detection)) : null,
+    section('error', 'Error and bound', note, ...[each(errorChart)].flat()),
     efficiency.length ? section('efficiency', 'Efficiency', ...efficiency) : null,
     coverage.length ? section('coverage', 'Does U cover?', ...coverage) : null,
-    section('spread', 'Spread', paragraph('Dashed where there is a bound: where 5 % and 95 % of a normal distribution at the bound lie.', 'quiet'), each(spreadChart))];
+    section('spread', 'Spread', paragraph('Dashed where there is a bound: where 5 % and 95 % of a normal distribution at the bound lie.', 'quiet'), ...[each(spreadChart)].flat())];
 }
 
 function tableSection() {

@@ -16,6 +16,30 @@ const shown = (unit) => ({mm: [1000, 'µm'], 1: [1000, 'µm/mm'], deg: [1000, '1
 const placeWords = (name) => name.split(', ').map((part) => part.includes(' = ')
   ? `${axisWords(part.slice(0, part.indexOf(' = ')))}: ${part.slice(part.indexOf(' = ') + 3)}` : part).join(', ');
 
+const curvesAPanel = 6;  // as many as there are colours
+const mostPanels = 12;   // of one quantity; the table has what is beyond
+
+/** Curves in panels of so many at most: by the leading words of their names where that is enough, else in turn. */
+function panelsOf(curves) {
+  if (curves.length <= curvesAPanel) return [{title: '', curves}];
+  const grouped = (words) => {
+    const groups = new Map();
+    for (const c of curves) {
+      const title = c.words.slice(0, words).join(', ');
+      groups.set(title, [...groups.get(title) ?? [], c]);
+    }
+    return [...groups];
+  };
+  const depth = curves[0].words.length;
+  let words = 0;
+  while (words + 1 < depth && grouped(words).some(([, group]) => group.length > curvesAPanel)) words += 1;
+  return grouped(words).flatMap(([title, group]) => {
+    const panels = Math.ceil(group.length / curvesAPanel), size = Math.ceil(group.length / panels);
+    return Array.from({length: panels}, (_, i) => ({title, curves: group.slice(i * size, (i + 1) * size)
+      .map((c) => ({...c, name: c.words.slice(words).join(', ')}))}));
+  });
+}
+
 /** The grid as the charts see it: the longest axis lies across, what is left makes curves. */
 function gridView(sweep) {
   const longest = sweep.axes.reduce((most, a, i) => a.labels.length > (sweep.axes[most]?.labels.length ?? 1) ? i : most, -1);
@@ -25,15 +49,22 @@ function gridView(sweep) {
     const words = sweep.axes.flatMap((a, i) => i === longest || a.labels.length < 2 ? [] : [`${axisWords(a.name)}: ${a.labels[cell.at[i]]}`]);
     if (sweep.methods.length > 1) words.push(cell.method);
     const key = words.join(', ') || cell.method;
-    if (!curves.has(key)) curves.set(key, {name: key, cells: []});
+    if (!curves.has(key)) curves.set(key, {name: key, words, cells: []});
     curves.get(key).cells.push({point: longest < 0 ? 0 : cell.at[longest], index, ...cell});
   });
   const values = across.values;
   const numeric = values.every(isNumber);
   const log = numeric && Math.min(...values) > 0 && Math.max(...values) >= 4 * Math.min(...values);
   const place = (point) => !numeric ? point : log ? Math.log10(values[point]) : values[point];
-  return {name: axisWords(across.name), labels: across.labels, values, log, place, all: [...curves.values()], curves: [...curves.values()].slice(0, 6)};
+  const all = [...curves.values()];
+  const view = {name: axisWords(across.name), labels: across.labels, values, log, place, all};
+  view.panels = panelsOf(all).slice(0, mostPanels).map((panel) => ({...view, ...panel}));
+  for (const panel of view.panels) panel.panels = view.panels;  // they share their scales
+  return view;
 }
+
+/** What stands behind a caption to say which panel it is of. */
+const panelWords = (view) => view.title ? ` ${view.title[0].toUpperCase()}${view.title.slice(1)}.` : '';
 
 /** The axis across, labelled at the points of the grid. */
 function acrossAxis(view, width) {
@@ -43,7 +74,7 @@ function acrossAxis(view, width) {
   const words = !view.values.every(isNumber);
   const margin = words ? 0.5 : 0.07 * span;
   return axis(view.log ? `${view.name} (log)` : view.name, {
-    nameGap: words ? 44 : 30, min: Math.min(...places) - margin, max: Math.max(...places) + margin,
+    nameGap: words ? 44 : 30, nameTruncate: {maxWidth: width - 60, ellipsis: '…'}, min: Math.min(...places) - margin, max: Math.max(...places) + margin,
     axisTick: {show: true, customValues: places}, axisLabel: {color: colours.ink, hideOverlap: true, customValues: places, formatter: label,
       ...(words ? {width: (width - 60) / view.labels.length, overflow: 'break', lineHeight: 14} : {})},
     splitLine: {show: false},
@@ -55,15 +86,37 @@ const colourOf = (i) => colours.series[i % colours.series.length];
 /** The same without that of what studies add. */
 const curveColour = (i) => colours.series[[0, 2, 3, 4, 5, 1][i % 6]];
 
-/** Height that a legend of these names takes: about 7 px a letter. */
-function legendHeight(names, width) {
-  let rows = 1, used = 0;
-  for (const name of names) {
-    const needs = 36 + 7 * name.length;
-    if (used > 0 && used + needs > width) { rows += 1; used = 0; }
+/** A legend above a chart of this width, and the height it takes; a name that needs more than a line is broken. */
+function legendAbove(series, width) {
+  const most = width - 40;
+  let height = 20, used = 0, broken = false;
+  for (const {name} of series) {
+    const letters = textWidth(name), lines = Math.ceil(1.1 * letters / most);
+    const needs = 36 + Math.min(letters, most);
+    broken ||= lines > 1;
+    if (used > 0 && (used + needs > width || broken)) { height += 20; used = 0; }
+    height += 15 * (lines - 1);
     used += needs;
   }
-  return 18 * rows;
+  const text = {color: colours.ink, lineHeight: 15, ...(broken ? {width: most, overflow: 'break'} : {})};
+  return {height, legend: legendOf(series, {left: 0, right: 0, itemGap: 8, textStyle: text})};
+}
+
+/** What a name takes in a legend, px. */
+function textWidth(words) {
+  textWidth.canvas ??= document.createElement('canvas').getContext('2d');
+  textWidth.canvas.font = `12px ${fontFamily}`;
+  return textWidth.canvas.measureText(words).width;
+}
+
+/** Ends of a logarithmic scale that small multiples share: in steps of 1, 2, 5. */
+function logEnds(values) {
+  const step = (value, up) => {
+    const power = 10 ** Math.floor(Math.log10(value));
+    const steps = [1, 2, 5, 10].map((s) => Number((s * power).toPrecision(3)));
+    return up ? steps.find((s) => s >= value * (1 - 1e-9)) : steps.filter((s) => s <= value * (1 + 1e-9)).at(-1);
+  };
+  return {min: step(Math.min(...values), false), max: step(Math.max(...values), true)};
 }
 
 /** RMSE of one quantity over the grid, its bound, and what studies add. */
@@ -77,10 +130,20 @@ function errorChart(sweep, view, quantity, q) {
   series.push(...studies.flatMap((study) => study.errorSeries(sweep, view, quantity)));
   if (!series.length) return null;
   const names = [...new Set(series.map((s) => s.name))].map((name) => series.find((s) => s.name === name));
-  return figure({caption: `${quantity.name}: root mean square error and the least that is possible.`, description: `RMSE of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',
-    build: (width) => ({grid: grid({top: 38 + legendHeight(names.map((s) => s.name), width)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view, width),
-      yAxis: uprightAxis(unit, {type: 'log', nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
+  const shared = view.panels.length > 1 ? logEnds(view.panels.flatMap((p) => p.curves.flatMap((c) => ['rmse', 'bound'].flatMap((key) => positive(c.cells, key).map(([, v]) => v))))) : {};
+  return figure({caption: `${quantity.name}: root mean square error and the least that is possible.${panelWords(view)}`, description: `RMSE of ${quantity.name} over ${view.name}${panelWords(view)}`, height: heightFor(names, view.curves.length > 2 ? 360 : 290),
+    build: (width) => ({...roomFor(names, width), xAxis: acrossAxis(view, width),
+      yAxis: uprightAxis(unit, {type: 'log', ...shared, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
 }
+
+/** A chart's grid below its legend. */
+function roomFor(series, width) {
+  const above = legendAbove(series, width);
+  return {grid: grid({top: 30 + above.height}), legend: above.legend};
+}
+
+/** What a chart with such a legend needs, so that the plot stays as it is. */
+const heightFor = (series, least) => (width) => Math.max(least, 250 + legendAbove(series, width).height);
 
 /** Bars from low to high with a mark between, `data` of [x, low, mark, high]; side by side by `shift` px. */
 const spans = (name, data, {colour, half, shift = 0}) => ({
@@ -98,7 +161,7 @@ const guide = (values) => ({silent: true, symbol: 'none', animation: false, labe
 
 /** 5 % to 95 % of the errors in standard deviations of the bound, with what was published. */
 function spreadChart(sweep, view, quantity, q) {
-  const all = view.curves.flatMap((c) => c.cells);
+  const all = view.all.flatMap((c) => c.cells);
   const known = all.every((c) => c.rows[q].bound > 0);
   const [factor, unit] = shown(quantity.unit);
   const scale = (c) => known ? 1 / c.rows[q].bound : factor;
@@ -109,10 +172,11 @@ function spreadChart(sweep, view, quantity, q) {
   if (!series.length) return null;
   if (known) series[0].markLine = guide([-1.645, 0, 1.645]);
   if (known) series.push(...studies.flatMap((study) => study.spreadSeries(sweep, view, quantity)));
-  const limit = roundUp(1.05 * largest(series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))));
-  return figure({caption: `${quantity.name}: ${known ? 'errors over the bound’s standard deviation' : 'errors'}, the line is the median.`,
-    description: `Spread of the errors of ${quantity.name} over ${view.name}`, size: view.curves.length > 2 ? 'map' : 'normal',
-    build: (width) => ({grid: grid({top: 38 + legendHeight(series.map((s) => s.name), width)}), legend: legend({left: 0, right: 0}), xAxis: acrossAxis(view, width),
+  const beyond = view.panels.flatMap((p) => p.curves.flatMap((c) => c.cells.flatMap((cell) => ['q05', 'q50', 'q95'].map((key) => cell.rows[q][key] * scale(cell)))));
+  const limit = roundUp(1.05 * largest([...beyond, ...series.flatMap((s) => s.data.flatMap((d) => d.slice(1)))]));
+  return figure({caption: `${quantity.name}: ${known ? 'errors over the bound’s standard deviation' : 'errors'}, the line is the median.${panelWords(view)}`,
+    description: `Spread of the errors of ${quantity.name} over ${view.name}${panelWords(view)}`, height: heightFor(series, view.curves.length > 2 ? 360 : 290),
+    build: (width) => ({...roomFor(series, width), xAxis: acrossAxis(view, width),
       yAxis: uprightAxis(known ? 'standard deviations' : unit, {min: -limit, max: limit, interval: limit / 2, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
 }
 
@@ -140,17 +204,18 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
   const many = series.length > 6;
   const of = view.all.length > 1 ? ` ${curve.name}.` : '';
   return figure({caption: `${words}${of} From left to right: ${view.name} ${view.labels.join(', ')}.`, description: words, size: 'map',
-    build: (width) => ({grid: grid({top: many ? 44 : 62, bottom: width < 700 ? 8 : 20}), ...(many ? {} : {legend: legend({left: 0, right: 0})}),
+    height: many ? undefined : heightFor(series, 360),
+    build: (width) => ({...(many ? {} : roomFor(series, width)), grid: grid({top: many ? 44 : 30 + legendAbove(series, width).height, bottom: width < 700 ? 8 : 20}),
       xAxis: axis('', {min: -0.5, max: names.length - 0.5, axisTick: {show: false}, splitLine: {show: false},
         axisLabel: {color: colours.ink, rotate: width < 900 ? 60 : 0, customValues: names.map((_, i) => i), formatter: (v) => names[Math.round(v)], hideOverlap: false}}),
       yAxis: uprightAxis(name, {min: Math.max(0, step * Math.floor((Math.min(...values) - margin) / step)), max: step * Math.ceil((Math.max(...values) + margin) / step), interval: step,
-        nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -30]}}), series})});
+        nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -14]}}), series})});
 }
 
 /** How often a diagnosis finds, over the grid, with its interval; `key` is "found" or "named". */
 function detectionChart(sweep, view, key, caption) {
-  const curves = view.all.map((curve, i) => ({...curve, colour: curveColour(i), cells: curve.cells.filter((c) => c.method === 'diagnosis' && c[key])
-    .sort((a, b) => view.place(a.point) - view.place(b.point))})).filter((curve) => curve.cells.length).slice(0, 6);
+  const curves = view.curves.map((curve, i) => ({...curve, colour: curveColour(i), cells: curve.cells.filter((c) => c.method === 'diagnosis' && c[key])
+    .sort((a, b) => view.place(a.point) - view.place(b.point))})).filter((curve) => curve.cells.length);
   if (!curves.length) return null;
   const name = (curve) => curves.length > 1 ? curve.name : key;
   const series = curves.flatMap((curve) => [
@@ -158,7 +223,7 @@ function detectionChart(sweep, view, key, caption) {
       itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, width: view.values.every(isNumber) ? 1.6 : 0}},
     {...spans(name(curve), curve.cells.map((c) => [view.place(c.point), ...c[key].map((share) => 100 * share)]), {colour: curve.colour, half: 4}), tooltip: {show: false}}]);
   const names = series.filter((s) => s.type === 'line');
-  return figure({caption, description: caption, size: curves.length > 2 ? 'map' : 'normal',
-    build: (width) => ({grid: grid({top: 38 + legendHeight(names.map((s) => s.name), width)}), legend: legendOf(names, {left: 0, right: 0}), xAxis: acrossAxis(view, width),
+  return figure({caption: caption + panelWords(view), description: caption + panelWords(view), height: heightFor(names, curves.length > 2 ? 360 : 290),
+    build: (width) => ({...roomFor(names, width), xAxis: acrossAxis(view, width),
       yAxis: uprightAxis('% of the repeats', {min: 0, max: 100, interval: 25, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14}), series})});
 }

@@ -102,7 +102,7 @@ std::string sweep_title(const Sweep& sweep) { return sweep.name.empty() ? "Sweep
 /// one entry a cell; a number that does not exist is NaN, which JSON writes as null.
 json sweep_data(const Sweep& sweep, const Summary& summary) {
   json quantity_list = json::array(), methods = json::array();
-  for (const Quantity& quantity : quantities(fitted_surface(sweep)))
+  for (const Quantity& quantity : compared_quantities(sweep))
     quantity_list.push_back({{"name", quantity.name}, {"unit", quantity.unit}});
   for (const Method method : sweep.methods) methods.push_back(to_string(method));
   return {{"schema", "trueaxis.sweep_report/1"},

@@ -4,12 +4,15 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <variant>
 
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis::study {
 namespace {
@@ -34,10 +37,30 @@ double worst(const Moves& moves) {
   return std::max(largest(moves.topRows<2>()), largest(moves.bottomRows<2>()));
 }
 
+/// How far the lathe's X stands above that of the surface as it was fitted, outwards: of a gauge by
+/// what its nominal radius is off, else nothing.
+double beyond_model_mm(const Scenario& scenario, const EffectOnAxis& found) {
+  const double mm = found.indication_mm + scenario.probe.relative_zero_mm.value_or(0.0);
+  const auto& setups = scenario.plan.setups;
+  return !setups.empty() && setups.front().rear ? -mm : mm;
+}
+
+/// A response to X, for an X that is counted from a place so much lower.
+void count_from_below(TermValue& term, double mm) {
+  const auto* response = std::get_if<Response>(&term.effect->term);
+  if (response == nullptr) return;
+  term.shape.reference_x_mm += mm;
+  if (response->of != Response::Of::cyclic) return;
+  const std::complex<double> turned = std::complex(term.linear[0], term.linear[1]) *
+                                      std::polar(1.0, two_pi * mm / term.shape.period_mm);
+  term.linear = {turned.real(), turned.imag()};
+}
+
 /// The term at a size, as a diagnosis would have found it.
+/// @param beyond_mm of the lathe's X, above that of the surface fitted
 std::vector<virtual_lathe::Effect> played(const AxisBiasCase& of,
                                           const AxisBiasDirection& direction, double size,
-                                          const LatheFrame& frame) {
+                                          const LatheFrame& frame, double beyond_mm) {
   if (direction.lathe) return {direction.lathe(size)};
   TermValue term;
   term.effect = find_effect(of.effect);
@@ -45,6 +68,7 @@ std::vector<virtual_lathe::Effect> played(const AxisBiasCase& of,
   term.linear.resize(linear_parameters(term.effect->term, term.shape).size());
   for (std::size_t j = 0; j < direction.linear.size(); ++j)
     term.linear[of.known.free.empty() ? j : of.known.free[j]] = size * direction.linear[j];
+  count_from_below(term, beyond_mm);
   return lathe_effects(term, frame);
 }
 
@@ -81,7 +105,7 @@ struct AtSize {
 /// @param without error of the same fits of the same readings without the effect: 0 of an absolute
 /// probe, while a relative gauge's nominal radius is never quite that of the part
 AtSize at_size(const Scenario& ideal, const FitOptions& options, const AxisBiasCase& of,
-               const AxisError& without, double size) {
+               const AxisError& without, double beyond_mm, double size) {
   const auto count = static_cast<Eigen::Index>(of.directions.size());
   AtSize out{Moves(4, count), Moves(4, count)};
   const LatheFrame frame{0.5 * (*ideal.u_start_mm + *ideal.u_end_mm),
@@ -89,7 +113,7 @@ AtSize at_size(const Scenario& ideal, const FitOptions& options, const AxisBiasC
   Scenario scenario = ideal;
   Eigen::Index column = 0;
   for (const AxisBiasDirection& direction : of.directions) {
-    scenario.effects = played(of, direction, size, frame);
+    scenario.effects = played(of, direction, size, frame, beyond_mm);
     const EffectOnAxis found = effect_on_axis(simulate_clean(scenario).stream, options, of.known);
     if (found.alone.status != FitStatus::converged)
       throw InputError(of.effect, "the surface cannot be fitted: " + found.alone.message);
@@ -134,8 +158,9 @@ AxisBiasRow axis_bias_of(const Scenario& scenario, const AxisBiasCase& of) {
   ideal.u_end_mm = linearised.z_mid_mm + linearised.z_half_mm;
   const AxisError without =
       ideal.probe.relative_zero_mm ? axis_error(ideal, linearised) : AxisError{};
-  const AtSize whole = at_size(ideal, options, of, without, of.size),
-               half = at_size(ideal, options, of, without, 0.5 * of.size);
+  const double beyond_mm = beyond_model_mm(ideal, linearised);
+  const AtSize whole = at_size(ideal, options, of, without, beyond_mm, of.size),
+               half = at_size(ideal, options, of, without, beyond_mm, 0.5 * of.size);
   const Moves predicted = predicted_moves(linearised, of), limit = 2.0 * half.alone - whole.alone;
   const auto apart = [&](const Moves& a, const Moves& b) { return worst(a - b) / of.edge; };
   AxisBiasRow row;

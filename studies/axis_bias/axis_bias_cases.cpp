@@ -43,7 +43,7 @@ Where where_of(const virtual_lathe::Scenario& scenario) {
           about.z_mid_mm + about.z_half_mm,
           about.alone.position_min_mm,
           about.alone.position_max_mm,
-          0.5 * (least + most),
+          about.sensed_mid_mm,
           std::max(0.5, 0.5 * (most - least)),
           stream.time_s.back() - stream.time_s.front(),
           shape.radius_mm + shape.tan_half_angle * (about.z_mid_mm - shape.axis.z_ref_mm),

@@ -26,6 +26,12 @@ function inspectCharts() {
     for (let i = 0; i < data.length; i += 4) seen.add((data[i] << 16) | (data[i + 1] << 8) | data[i + 2]);
     return seen.size;
   };
+  /** Every text that is drawn, and where. */
+  const texts = (chart) => chart.getZr().storage.getDisplayList(true).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text).map((e) => {
+    const box = e.getBoundingRect().clone();
+    if (e.transform) box.applyTransform(e.transform);
+    return {text: e.style.text, box};
+  });
   const {charts} = window.trueaxisReport;
   charts.forEach((chart, i) => {
     const box = chart.getDom();
@@ -45,6 +51,13 @@ function inspectCharts() {
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
+    const whole = document.title.startsWith('TrueAxis sweep');  // of a job's page names at the edge are still cut
+    const cut = !whole ? [] : texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
+    if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
+    const plot = chart.getModel().getComponent('grid')?.coordinateSystem?.getRect();
+    const names = new Set(series.map((s) => s.name));
+    const over = !whole || !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
+    if (over.length) problems.push(`${name}: the legend lies on the plot: ${over.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
   });
   return {count: charts.length, problems};
 }
@@ -57,6 +70,14 @@ function inspectWidth() {
     e.getBoundingClientRect().right > page.clientWidth + 1 && !e.closest('.scroll table, svg'));
   return [`the page is ${page.scrollWidth} px wide on a screen of ${page.clientWidth} px: ` +
     wide.slice(0, 5).map((e) => `${e.tagName.toLowerCase()}.${e.className}`).join(', ')];
+}
+
+/** Notes of a fit that are not shown, and on a phone tables of value, u and U that do not fit. */
+function inspectFits() {
+  const data = JSON.parse(document.getElementById('data').textContent);
+  const hidden = (data.references ?? []).flatMap((r) => r.notes ?? []).filter((note) => !document.body.textContent.includes(note));
+  const wide = [...document.querySelectorAll('.scroll')].filter((box) => box.querySelector('th')?.textContent === 'Quantity' && box.scrollWidth > box.clientWidth + 1);
+  return [...hidden.map((note) => `a note of a fit is not shown: ${note}`), ...wide.map((box) => `a table of values is ${box.scrollWidth} px wide where there are ${box.clientWidth}`)];
 }
 
 function inspectText() {
@@ -86,10 +107,13 @@ async function look(browser, {name, width, height}) {
     await Promise.race([ready, broken]);
     const charts = await page.evaluate(inspectCharts);
     if (charts.count === 0) problems.push('there is no chart');
-    problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText));
+    problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText), ...await page.evaluate(inspectFits));
     console.log(`${name}: ${charts.count} charts at ${width} px`);
     const cut = await page.evaluate(() => [...document.querySelectorAll('.wide .scroll')].filter((box) => box.scrollWidth > box.clientWidth).length);
     console.log(`${name}: ${cut} wide tables scroll`);
+    const curves = await page.evaluate(() => window.trueaxisReport.charts.filter((c) => c.getDom().closest('#error'))
+      .flatMap((c) => c.getOption().series).filter((s) => s.type === 'scatter').length);
+    if (curves) console.log(`${name}: ${curves} curves of errors`);
     console.log(await page.evaluate(() => document.querySelector('.banner')?.innerText ?? ''));
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);

@@ -58,6 +58,25 @@ TEST_F(SpindleCommand, ThreeSensorsGiveValuesOrdersAndPlots) {
   EXPECT_EQ(read_text(folder_ / "s.svg"), svg);
 }
 
+// The page has every value that the result has, a plot of the motion and one of the form, and needs
+// nothing from elsewhere.
+TEST_F(SpindleCommand, APageHasValuesAndPolarPlots) {
+  simulate(of_data("spindle_three_sensors.toml"), "s.csv");
+  const CommandStreams done = command("spindle s.csv --report s.html");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_FALSE(done.out.empty());
+  const std::string page = read_text(folder_ / "s.html");
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  for (const char* row : {"synchronous", "asynchronous", "total", "roundness of the part"})
+    EXPECT_TRUE(contains(page, "<tr><th>" + std::string(row) + "</th><td>")) << row;
+  for (const char* plot : {"Radial error motion along 0°</text>", "Form of the part</text>"})
+    EXPECT_TRUE(contains(page, plot)) << plot;
+  for (const char* wrong : {"nan", "inf ", "src=", "href="})
+    EXPECT_FALSE(contains(page, wrong)) << wrong;
+  EXPECT_EQ(command("spindle s.csv --report s.html").exit_code, 0) << "over its own page";
+  EXPECT_NE(command("spindle s.csv --report s.html --svg s.html").exit_code, 0);
+}
+
 TEST_F(SpindleCommand, AReversalIsKnownInTheSensitiveDirectionOnly) {
   simulate(of_data("spindle_reversal.toml"), "r.csv");
   const CommandStreams done = command("spindle r.csv --json r.json --verbose");

@@ -5,6 +5,7 @@
 
 #include "studies/published/published_page.hpp"
 #include "studies/published/published_toml.hpp"
+#include "study/bound/quantities.hpp"
 #include "support/open_page.hpp"
 #include "support/sweep_examples.hpp"
 
@@ -51,6 +52,38 @@ TEST_F(SweepReport, PlaneHasNoAxis) { expect_sound(shipped("table1_plane", 50), 
 TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "noise"); }
 
 TEST_F(SweepReport, CasesOfListsAreWords) { expect_sound(shipped("plans", 2), "plans"); }
+
+/// Eight curves, of noises and losses, over five lengths.
+study::PublishedSweep many_curves() {
+  study::Sweep sweep;
+  sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
+  sweep.repeats = 4;
+  sweep.methods = {study::Method::fit, study::Method::huber};
+  sweep.axes = {testing::over("pass.length_mm", {20.0, 30.0, 40.0, 50.0, 60.0}),
+                testing::over("noise.sigma_mm", {1e-3, 2e-3, 5e-3, 0.01})};
+  return {sweep, {}};
+}
+
+// Eight curves of every parameter, in panels of six at most, are all drawn.
+TEST_F(SweepReport, MoreThanSixCurvesAreAllDrawn) {
+  const study::PublishedSweep file = many_curves();
+  const std::size_t curves = 4 * 2;
+  const std::size_t quantities = study::quantities(SurfaceKind::cylinder).size();
+  const Opinion opinion = open_page(page_of(file), "sweep_many_curves");
+  EXPECT_TRUE(opinion.sound) << opinion.log;
+  for (const char* screen : {"wide", "phone"}) {
+    const std::string said =
+        screen + (": " + std::to_string(curves * quantities)) + " curves of errors";
+    EXPECT_NE(opinion.log.find(said), std::string::npos) << opinion.log;
+  }
+}
+
+// A name that a phone's width does not hold is broken, not cut.
+TEST_F(SweepReport, LongNamesWrap) {
+  study::PublishedSweep file = many_curves();
+  file.sweep.axes[1].name = "the noise of the probe with a name that says a great deal of it";
+  expect_sound(file, "long_names");
+}
 
 TEST_F(SweepReport, OneCellWithoutAxes) {
   study::Sweep sweep;

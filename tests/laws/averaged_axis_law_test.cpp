@@ -134,5 +134,27 @@ TEST(AveragedAxis, IsBetweenTheModelsItIsTheAverageOf) {
             0.99 * d.named.axis.u_at(d.named.position_min_mm));
 }
 
+// Of a face the named model stands, and the rivals of what was found are listed with what each
+// would do: two undulations at one radius are the part's or the spindle's, the same column.
+TEST(AveragedAxis, OfAFaceTheNamedModelStandsAndItsRivalsAreListed) {
+  Scenario s = probed_part(PartKind::face);
+  s.noise.sigma_mm = 0.001;
+  s.effects = {
+      {"spindle.axial_synchronous", {{"order", 3.0}, {"amplitude_mm", 0.01}, {"phase_rad", 0.4}}}};
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::plane;
+  const Diagnosis d = diagnose(simulate(s), options);
+  ASSERT_FALSE(d.findings.empty());
+  ASSERT_FALSE(d.findings[0].rivals.empty());
+  EXPECT_EQ(d.extended.axis.axis.slope_x, d.named.axis.axis.slope_x);
+  EXPECT_EQ(d.extended.axis.axis.slope_y, d.named.axis.axis.slope_y);
+  for (const Rival& rival : d.findings[0].rivals) {
+    if (rival.probability < 0.01) continue;
+    EXPECT_TRUE(std::ranges::any_of(d.shares, [&](const AxisShare& share) {
+      return share.effect == rival.effect && share.instead_of == d.findings[0].effect();
+    })) << rival.effect;
+  }
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

@@ -97,6 +97,31 @@ TEST_P(AxisBiasLaw, ARelativeGaugesOwnErrorIsNoHarm) {
   }
 }
 
+// The sensor's working point is where the part is, whatever the gauge's zero: of a nonlinearity and
+// of a scale the bias is that of an absolute probe. The columns of both fits differ in that of the
+// constant alone, by (e/R)² of it at most; a part of another radius has the slopes of another.
+TEST_P(AxisBiasLaw, AGaugesSensorWorksWhereThePartIs) {
+  if (GetParam() == PartKind::face) GTEST_SKIP() << "a face has no nominal radius";
+  Scenario absolute = reference(GetParam()), gauge = absolute;
+  const double radius_mm = GetParam() == PartKind::cone ? 43.0 : 40.0, off_mm = 0.05;
+  gauge.probe.relative_zero_mm = radius_mm;
+  gauge.probe.nominal_radius_mm = radius_mm + off_mm;
+  const auto plain = axis_bias_cases(absolute), relative = axis_bias_cases(gauge);
+  ASSERT_EQ(plain.size(), relative.size());
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    const std::string& id = plain[i].effect;
+    if (id != "probe.nonlinearity" && id != "probe.cyclic") continue;
+    SCOPED_TRACE(id + " " + plain[i].form);
+    const AxisBiasRow as_read = axis_bias_of(absolute, plain[i]),
+                      by_gauge = axis_bias_of(gauge, relative[i]);
+    const double close = 10.0 * off_mm / radius_mm * std::max(as_read.predicted, 1e-3);
+    EXPECT_NEAR(by_gauge.limit, as_read.limit, close);
+    EXPECT_NEAR(by_gauge.predicted, as_read.predicted, close);
+    EXPECT_LE(by_gauge.off, by_gauge.second_order + by_gauge.rounding + close);
+    EXPECT_EQ(by_gauge.separable, as_read.separable);
+  }
+}
+
 TEST_P(AxisBiasLaw, EveryEffectOfTheCatalogueHasACase) {
   std::set<std::string_view> covered;
   const std::vector<AxisBiasCase> cases = axis_bias_cases(reference(GetParam()));

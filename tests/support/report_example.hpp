@@ -78,6 +78,7 @@ inline void read_surface(ProbeStream& stream, FitResult& fit, const Revolved& su
   fit.rms_mm = fit.sigma_mm = noise_mm;
   fit.sigma_source = "robust residuals";
   fit.autocorrelation = 0.02;
+  fit.notes = {"neighbouring residuals correlate (0.02): form or slow noise"};
   fit.points = stream.size();
   fit.iterations = 4;
   const auto [low, high] =

@@ -113,9 +113,13 @@ TEST(SweepToml, RefusesWhatIsNoSweep) {
   expect_complaint(
       part + "[[axis]]\nname = \"n\"\n[[axis.case]]\nlabel = \"a\"\nset = { \"noise.x\" = 1 }\n",
       "noise.x");
+  const std::string cut =
+      "[cut.target]\nkind = \"cylinder\"\nz_start_mm = 0\nz_end_mm = 1\nradius_mm = 2\n";
+  expect_complaint(part + "[cut]\ntable = \"t.csv\"\n" + cut, "take `table` out");
+  expect_complaint("surface = \"section\"\n" + part + cut, "an axis with a direction");
   expect_complaint(
-      part + "[cut.target]\nkind = \"cylinder\"\nz_start_mm = 0\nz_end_mm = 1\nradius_mm = 2\n",
-      "a [cut] is a study of its own");
+      part + "[cut.target]\nkind = \"face\"\nx_start_mm = 1\nx_end_mm = 9\nz_face_mm = 0\n",
+      "a sweep cuts a cylinder or a cone");
 }
 
 std::string axis(const std::string& key, const std::string& values) {

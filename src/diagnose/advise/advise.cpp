@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <functional>
+#include <optional>
 
+#include "diagnose/refit/timing.hpp"
 #include "diagnose/search/causes.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -18,7 +21,20 @@ constexpr double worth_taking = 0.02;
 // it is above 7, which tells (confounder_set.cpp), in Φ((d² − 7)/(2 d)) = 89 %.
 constexpr double told_for_sure = 0.98;
 constexpr double found_for_sure = 0.9;
-constexpr double shape_step = 0.06;  // what a rival may give way in its shape
+constexpr double most_off_centre_mm = 2.0;  // that a part is clamped for a question
+constexpr double shape_step = 0.06;         // what a rival may give way in its shape
+
+/// Whether a member of the class is one with the named cause to the first order: delay and lag.
+bool are_twins(const AmbiguousFinding& question, std::size_t member) {
+  const Hypothesis& named = question.found.members.front().hypothesis;
+  return named.effect->second_order_twin == question.found.members[member].hypothesis.id();
+}
+
+std::optional<std::size_t> twin_of(const AmbiguousFinding& question) {
+  for (std::size_t r = 1; r < question.found.members.size(); ++r)
+    if (are_twins(question, r)) return r;
+  return std::nullopt;
+}
 
 double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
 
@@ -60,7 +76,8 @@ class Predictor {
       for (std::size_t r = 1; r < q.found.members.size(); ++r) {
         const Hypothesis& rival = q.found.members[r].hypothesis;
         list_.push_back(rival);
-        const std::vector<Hypothesis> giving = neighbours(rival, problem.point, shape_step);
+        std::vector<Hypothesis> giving;  // what timing gives way in is its second order
+        if (!are_twins(q, r)) giving = neighbours(rival, problem.point, shape_step);
         list_.insert(list_.end(), giving.begin(), giving.end());
         ways_.push_back(1 + giving.size());
       }
@@ -70,19 +87,40 @@ class Predictor {
     for (std::size_t t = 0; t < model.terms.size(); ++t) sizes_.push_back(joint.of(t));
   }
 
-  Outlook of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-             double weight) const {
-    BaseKind base = problem_.point.base;
-    base.axes = clampings.back().axis + 1;
-    const LinearisationPoint point = linearise_at(stream, clampings, base, problem_.point.bore);
+  /// d of delay and lag, one of them named by the question: what the base, the other terms and
+  /// another size of the rival leave of the difference of the two, second order and all.
+  double timing_distance(std::size_t question, const CandidateMeasurement& plan) const {
+    const AmbiguousFinding& q = questions_[question];
+    const LinearisationPoint point = point_of(plan);
+    const ObservationMask mask = make_observation_mask(point);
+    const Hypothesis& named = model_.terms[q.term];
+    Hypothesis rival = q.found.members[*twin_of(q)].hypothesis;
+    const double seconds = sizes_[q.term](0);
+    if (is_lag(rival)) rival.shape.time_constant_s = seconds;
+    std::vector<double> apart = timing_mm(named, seconds, point);
+    const std::vector<double> other = timing_mm(rival, seconds, point);
+    std::ranges::transform(apart, other, apart.begin(), std::minus{});
+    NormalEquations equations(point, mask, apart, {}, 1);
+    std::vector<Hypothesis> list = model_.terms;
+    list[q.term] = rival;
+    Columns taken = equations.base();
+    for (const Columns& columns : equations.append(list))
+      taken.insert(taken.end(), columns.begin(), columns.end());
+    const double left = project(equations.total(), taken).rss;
+    return std::sqrt(plan.weight * std::max(0.0, left)) / sigma_mm_;
+  }
+
+  Outlook of(const CandidateMeasurement& plan) const {
+    const LinearisationPoint point = point_of(plan);
     const ObservationMask mask = make_observation_mask(point);
     const std::vector<double> nothing(point.size(), 0.0);
     NormalEquations equations(point, mask, nothing, {}, 1);
     const std::vector<Columns> places = equations.append(list_);
-    const Eigen::MatrixXd gram = weight * equations.total();
+    const Eigen::MatrixXd gram = plan.weight * equations.total();
     Outlook out;
     std::size_t next = model_.terms.size(), rival = 0;
-    for (const AmbiguousFinding& q : questions_) {
+    for (std::size_t k = 0; k < questions_.size(); ++k) {
+      const AmbiguousFinding& q = questions_[k];
       Columns others = equations.base();
       for (std::size_t t = 0; t < model_.terms.size(); ++t)
         if (t != q.term) others.insert(others.end(), places[t].begin(), places[t].end());
@@ -101,8 +139,9 @@ class Predictor {
                          static_cast<Eigen::Index>(places[q.term][b]));
         }
         // More readings never tell less, also where a rival was given no way to bend before.
-        distances.push_back(
-            std::max(q.found.rivals[r - 1].distance, std::sqrt(std::max(0.0, d2)) / sigma_mm_));
+        const double apart =
+            are_twins(q, r) ? timing_distance(k, plan) : std::sqrt(std::max(0.0, d2)) / sigma_mm_;
+        distances.push_back(std::max(q.found.rivals[r - 1].distance, apart));
       }
       out.told.push_back(right_name(q.found.rivals, distances));
       out.distances.push_back(std::move(distances));
@@ -121,6 +160,12 @@ class Predictor {
   }
 
  private:
+  LinearisationPoint point_of(const CandidateMeasurement& plan) const {
+    BaseKind base = problem_.point.base;
+    base.axes = plan.clampings.back().axis + 1;
+    return linearise_at(plan.stream, plan.clampings, base, problem_.point.bore);
+  }
+
   const Problem& problem_;
   const Model& model_;
   const std::vector<AmbiguousFinding>& questions_;
@@ -164,6 +209,37 @@ Separating choose(const std::vector<CandidateMeasurement>& plans, double before,
   return out;
 }
 
+/// The slowest second speed at which delay and lag are told apart; where none of those that the
+/// readings a second allow does it, the least eccentricity at the fastest.
+std::optional<CandidateMeasurement> timing_measurement(const Predictor& predictor,
+                                                       std::size_t question,
+                                                       const ProbeStream& stream,
+                                                       const LinearisationPoint& point,
+                                                       const std::vector<Clamping>& clampings) {
+  if (!point.has_time || !point.base.tilts || point.base.face) return std::nullopt;
+  const auto plan = [&](double ratio, double off_centre_mm) {
+    return faster_measurement(stream, point, clampings, ratio, off_centre_mm);
+  };
+  const auto tells = [&](const CandidateMeasurement& p) {
+    return every_line_meets(p.stream, p.clampings) &&
+           phi_half(predictor.timing_distance(question, p)) >= told_for_sure;
+  };
+  const auto least = [&](double low, double high, const auto& plan_of) {
+    for (int round = 0; round < 7; ++round) {  // to 1 % of the way
+      const double middle = std::sqrt(low * high);
+      (tells(plan_of(middle)) ? high : low) = middle;
+    }
+    return plan_of(high);
+  };
+  const double fastest = fastest_ratio(point);
+  const auto at_speed = [&](double ratio) { return plan(ratio, 0.0); };
+  const auto off_centre = [&](double mm) { return plan(fastest, mm); };
+  if (tells(at_speed(fastest))) return least(1.05, fastest, at_speed);
+  const double largest = std::min(most_off_centre_mm, 0.05 * clampings.back().shape.radius_mm);
+  if (point.base.offset || !tells(off_centre(largest))) return std::nullopt;
+  return least(0.01 * largest, largest, off_centre);
+}
+
 double longest_wave(const std::vector<AmbiguousFinding>& questions) {
   for (const AmbiguousFinding& q : questions)
     for (const Candidate& c : q.found.members)
@@ -179,12 +255,16 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
               const std::vector<AmbiguousFinding>& questions,
               const std::vector<Unobservable>& hidden, double sigma_mm) {
   Advice out;
-  const std::vector<CandidateMeasurement> plans =
+  std::vector<CandidateMeasurement> plans =
       candidate_measurements(stream, problem.point, clampings, longest_wave(questions));
   const Predictor predictor(problem, model, questions, hidden, sigma_mm);
+  for (std::size_t k = 0; k < questions.size(); ++k) {
+    if (!twin_of(questions[k])) continue;
+    auto plan = timing_measurement(predictor, k, stream, problem.point, clampings);
+    if (plan) plans.push_back(std::move(*plan));
+  }
   std::vector<Outlook> after;
-  for (const CandidateMeasurement& p : plans)
-    after.push_back(predictor.of(p.stream, p.clampings, p.weight));
+  for (const CandidateMeasurement& p : plans) after.push_back(predictor.of(p));
 
   std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
   double weight_sum = 0.0, before_sum = 0.0;
@@ -209,7 +289,11 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     }
     const std::vector<Rival>& rivals = questions[k].found.rivals;
     std::vector<double> distances;
-    for (const Rival& rival : rivals) distances.push_back(rival.distance);
+    for (std::size_t r = 0; r < rivals.size(); ++r)
+      distances.push_back(
+          are_twins(questions[k], r + 1)
+              ? predictor.timing_distance(k, measurement_at_hand(stream, problem.point, clampings))
+              : rivals[r].distance);
     const double before = right_name(rivals, distances);
     const std::vector<double> values = column(&Outlook::told, k, before);
     out.questions.push_back(choose(plans, before, values, told_for_sure,

@@ -27,6 +27,19 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
                                                          const std::vector<Clamping>& clampings,
                                                          double wave_mm);
 
+CandidateMeasurement measurement_at_hand(const ProbeStream& stream, const LinearisationPoint& point,
+                                         const std::vector<Clamping>& clampings);
+
+/// How many times faster the spindle may turn while the readings a second stay as they are.
+double fastest_ratio(const LinearisationPoint& point);
+
+/// A pass back with the spindle so many times faster, in the same time.
+/// @param off_centre_mm so far off the spindle's axis the part is clamped before, and probed at the
+/// speed at hand too; 0: it stays
+CandidateMeasurement faster_measurement(const ProbeStream& stream, const LinearisationPoint& point,
+                                        const std::vector<Clamping>& clampings, double ratio,
+                                        double off_centre_mm);
+
 struct Advice {
   NextMeasurement next;
   std::vector<Separating> plans;                     ///< best first

@@ -16,6 +16,7 @@ constexpr std::size_t thinned_to = 600;   // readings of what was measured
 constexpr double most_readings = 2000.0;  // of a plan, thinned likewise
 constexpr double golden = 0.6180339887498949;
 constexpr double second_speed = 151.0 / 60.0;  // no simple ratio: no order meets a line
+constexpr double least_per_turn = 8.3;         // readings that a faster turn must still have
 constexpr double jog_mm = 0.1, reindex_rad = 70.0 * rad_per_deg, less_force = 0.5;
 constexpr double minutes_to_clamp = 5.0, minutes_to_turn_probe = 2.0, minutes_between = 0.2;
 
@@ -101,19 +102,69 @@ ProbeStream thinned(const ProbeStream& stream, const LinearisationPoint& point) 
   return out;
 }
 
+/// What was measured, before anything is added.
+CandidateMeasurement measured(const ProbeStream& stream, const LinearisationPoint& point,
+                              const std::vector<Clamping>& clampings) {
+  CandidateMeasurement out;
+  out.stream = thinned(stream, point), out.clampings = clampings;
+  out.weight = static_cast<double>(point.size()) / static_cast<double>(out.stream.size());
+  return out;
+}
+
+int last_number(const std::vector<Clamping>& clampings) {
+  return std::ranges::max_element(clampings, {}, &Clamping::number)->number;
+}
+
 }  // namespace
+
+CandidateMeasurement measurement_at_hand(const ProbeStream& stream, const LinearisationPoint& point,
+                                         const std::vector<Clamping>& clampings) {
+  return measured(stream, point, clampings);
+}
+
+double fastest_ratio(const LinearisationPoint& point) {
+  return std::max(second_speed, manner_of(point).per_turn / least_per_turn);
+}
+
+CandidateMeasurement faster_measurement(const ProbeStream& stream, const LinearisationPoint& point,
+                                        const std::vector<Clamping>& clampings, double ratio,
+                                        double off_centre_mm) {
+  const Manner m = manner_of(point);
+  CandidateMeasurement p = measured(stream, point, clampings);
+  p.code = "2W";
+  const double rpm = m.speed * 60.0 / two_pi;
+  const double readings = std::abs(m.turns()) * m.per_turn / p.weight;
+  int pass = p.stream.pass.back() + 1, number = clampings.back().number;
+  std::string first = fmt::format("probe back at {:.4g} rpm", ratio * rpm);
+  p.minutes = minutes_between + m.seconds / 60.0;
+  if (off_centre_mm > 0.0) {
+    Clamping next = clampings.back();
+    next.number = number = last_number(clampings) + 1;
+    next.axis += 1;
+    next.shape.axis.x_mm = off_centre_mm, next.shape.axis.y_mm = 0.0;
+    p.clampings.push_back(next);
+    append(p.stream, {m.z_start, m.z_end, m.turns(), m.seconds}, readings, pass++, number);
+    first = fmt::format(
+        "clamp the part {:.2g} mm off-centre, probe it at {:.4g} and back at {:.4g} rpm",
+        off_centre_mm, rpm, ratio * rpm);
+    p.minutes += minutes_to_clamp + m.seconds / 60.0 + minutes_between;
+  }
+  append(p.stream, {m.z_end, m.z_start, ratio * m.turns(), m.seconds}, readings, pass, number);
+  p.what = first + ", in the same time: the second orders of delay and lag part";
+  return p;
+}
 
 std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stream,
                                                          const LinearisationPoint& point,
                                                          const std::vector<Clamping>& clampings,
                                                          double wave_mm) {
   const Manner m = manner_of(point);
-  const ProbeStream before = thinned(stream, point);
-  const double weight = static_cast<double>(point.size()) / static_cast<double>(before.size());
+  const CandidateMeasurement hand = measured(stream, point, clampings);
+  const ProbeStream& before = hand.stream;
+  const double weight = hand.weight;
   const int pass = before.pass.back() + 1;
   const Clamping& now = clampings.back();
-  int setup = now.number;
-  for (const Clamping& c : clampings) setup = std::max(setup, c.number);
+  const int setup = last_number(clampings);
   const double turns = m.turns();
   const double rpm = m.speed * 60.0 / two_pi;
   std::vector<CandidateMeasurement> list;

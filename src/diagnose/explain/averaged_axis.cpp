@@ -74,17 +74,17 @@ class Averaging {
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
     if (problem_.point.base.face) {  // of a face the named model stands, with what rivals would do
       out.within = wide_.base_covariance();
-      out.shift.setZero(), out.shares.clear();
-      return out;
-    }
-    of_not_found(next, out);
-    if (terms_ == 0) {  // nothing was found: the ideal fit stands
-      out.between += out.shift * out.shift.transpose();
       out.shift.setZero();
+    } else {
+      of_not_found(next, out);
+      if (terms_ == 0) {  // nothing was found: the ideal fit stands
+        out.between += out.shift * out.shift.transpose();
+        out.shift.setZero();
+      }
+      const double u = axis_uncertainty(problem_.point, out.within + out.between).u_mm;
+      if (axis_shift(problem_.point, out.shift, out.within).value_mm < nothing * u)
+        out.shift.setZero();
     }
-    const double u = axis_uncertainty(problem_.point, out.within + out.between).u_mm;
-    if (axis_shift(problem_.point, out.shift, out.within).value_mm < nothing * u)
-      out.shift.setZero();
     std::ranges::stable_sort(out.shares, [](const AxisShare& a, const AxisShare& b) {
       return a.probability * a.axis_shift.value > b.probability * b.axis_shift.value;
     });

@@ -38,6 +38,7 @@ double u_of(const FitResult& fit) {
 
 std::vector<AxisShare> telling_shares(const Diagnosis& d) {
   std::vector<AxisShare> list;
+  if (d.extended.surface == SurfaceKind::plane) return list;  // the named model stands
   for (const AxisShare& share : d.shares)
     if (list.size() < most_shares &&
         share.probability * share.axis_shift.value > worth_a_line * u_of(d.extended))

@@ -167,12 +167,8 @@ LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Cla
   point.z_half_mm = std::max(0.5 * (high - low), 1e-9);
   if (!point.has_position || point.z_half_mm < 1e-3) point.z_half_mm = 1.0;
   point.s_ref_mm = point.z_mid_mm;
-  std::vector<double> outward(point.sensed);  // as the gauge sees it, which behind is turned round
-  double sum = 0.0;
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    if (point.rear[i]) outward[i] = -outward[i];
-    sum += outward[i];
-  }
+  const std::vector<double> outward = point.outward_mm();
+  const double sum = std::accumulate(outward.begin(), outward.end(), 0.0);
   point.reference_x_mm = sum / static_cast<double>(point.size());
   const auto [least, most] = range_of(outward);
   point.range_x_mm =
@@ -186,6 +182,14 @@ LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Cla
   }
   if (base.face) point.two_sided = low < 0.0 && high > 0.0;
   return point;
+}
+
+std::vector<double> LinearisationPoint::outward_mm() const {
+  std::vector<double> out(sensed);
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (rear[i]) out[i] = -out[i];
+  }
+  return out;
 }
 
 TermContext LinearisationPoint::context(std::size_t begin, std::size_t end) const {

@@ -62,6 +62,8 @@ struct LinearisationPoint : LinearisationFacts {
   std::vector<Pass> passes;
 
   std::size_t size() const { return c.size(); }
+  /// What is sensed as the gauge sees it, which behind is turned round.
+  std::vector<double> outward_mm() const;
   /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
   TermContext context(std::size_t begin, std::size_t end) const;
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the

@@ -14,18 +14,18 @@ constexpr std::size_t blocks_wanted = 30;  // Eq. 82: few blocks lose slow effec
 constexpr double few_turns = 6.0;          // fewer revolutions than this are no blocks to hold out
 constexpr unsigned char longest_run = 8;
 
-/// Where Z stands still for a section and then steps: the first reading of every section.
+/// Where Z stands still for a section and then steps: the first reading of every section. A helix
+/// moves by little from reading to reading, and by much from its start.
 std::vector<std::size_t> section_starts(const LinearisationPoint& point) {
+  const double still_mm = 1e-3 * point.z_half_mm;
   std::vector<std::size_t> starts{0};
-  std::size_t still = 0;
   for (std::size_t i = 1; i < point.size(); ++i) {
-    if (std::abs(point.z[i] - point.z[i - 1]) > 1e-3 * point.z_half_mm)
+    if (std::abs(point.z[i] - point.z[i - 1]) > still_mm)
       starts.push_back(i);
-    else
-      ++still;
+    else if (std::abs(point.z[i] - point.z[starts.back()]) > still_mm)
+      return {};
   }
-  const bool sections = starts.size() >= 3 && starts.size() * 4 <= point.size() &&
-                        still + starts.size() == point.size();
+  const bool sections = starts.size() >= 3 && starts.size() * 4 <= point.size();
   return sections ? starts : std::vector<std::size_t>{};
 }
 

@@ -65,7 +65,7 @@ AxisEnds ends_from(const LinearisationPoint& point, const FitResult& fit,
   return out;
 }
 
-void look_about(const Linearised& at, EffectOnAxis& out) {
+void look_about(const ProbeStream& stream, const Linearised& at, EffectOnAxis& out) {
   const Joint& joint = at.joint;
   const Solution without = joint.without(0);
   const Eigen::MatrixXd& gram = joint.equations.total();
@@ -85,6 +85,11 @@ void look_about(const Linearised& at, EffectOnAxis& out) {
   }
   out.left = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
   out.z_mid_mm = at.point.z_mid_mm, out.z_half_mm = at.point.z_half_mm;
+  const auto [least, most] = std::ranges::minmax(at.point.outward_mm());
+  out.sensed_mid_mm = 0.5 * (least + most);
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    out.indication_mm +=
+        (stream.reading_mm[i] - at.point.x[i]) / static_cast<double>(stream.size());
   out.separable = joint.solution.rank == joint.solution.columns.size();
   out.u_ratio = axis_uncertainty(at.point, joint.solution.inverse.topLeftCorner(n, n)).u_mm /
                 axis_uncertainty(at.point, without.inverse).u_mm;
@@ -117,7 +122,7 @@ EffectOnAxis effect_on_axis(const ProbeStream& stream, const FitOptions& options
   const Hypothesis hypothesis = of_effect(known.effect.c_str(), known.shape, known.free);
   for (int round = 0; round < rounds; ++round) {
     const Linearised at(stream, out.extended, options, hypothesis);
-    if (round == 0) look_about(at, out);
+    if (round == 0) look_about(stream, at, out);
     if (!out.separable) return out;
     const Eigen::VectorXd coefficients = at.joint.of(0);
     FitResult next =

@@ -38,6 +38,8 @@ struct EffectOnAxis {
   /// the extended model costs.
   double u_ratio = 0.0;
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< of the terms: u = (s − z_mid)/z_half, ±1 at the ends
+  double sensed_mid_mm = 0.0;  ///< middle of what the sensor meets of the surface, outwards
+  double indication_mm = 0.0;  ///< mean of reading less X of the surface: minus a gauge's zero
 };
 
 /// Eq. 128.

@@ -5,15 +5,11 @@
 #include <cmath>
 #include <variant>
 
+#include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
-
-bool is_lag(const Hypothesis& h) {
-  const auto* response = h.effect ? std::get_if<Response>(&h.effect->term) : nullptr;
-  return response != nullptr && response->of == Response::Of::lag;
-}
 
 /// Whether a term moves the spindle angle that a reading tells of. (A backlash moves Z, in which X
 /// is straight.)
@@ -36,18 +32,6 @@ void add(std::vector<double>& to, const std::vector<double>& values, double fact
 std::vector<double> contribution_of(const Hypothesis& h, const LinearisationPoint& point,
                                     const Eigen::VectorXd& linear) {
   return contribution(point, {&h, 1}, span_of(linear));
-}
-
-/// What a lag does to X: the integral of its column from 0 to T (Simpson) (Eqs. 61, 62).
-std::vector<double> response_of(const Hypothesis& lag, const LinearisationPoint& point) {
-  const double T = lag.shape.time_constant_s;
-  std::vector<double> out(point.size(), 0.0);
-  for (const auto& [share, weight] : {std::pair{0.0, 1.0}, {0.5, 4.0}, {1.0, 1.0}}) {
-    Hypothesis at = lag;
-    at.shape.time_constant_s = share * T;
-    add(out, contribution_of(at, point, Eigen::VectorXd::Constant(1, T)), weight / 6.0);
-  }
-  return out;
 }
 
 }  // namespace
@@ -140,7 +124,7 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
     at += by.size();
     if (is_lag(h)) {
       add(known_mm_, contribution_of(h, *point_, by));
-      add(known_mm_, response_of(h, recorded), -1.0);
+      add(known_mm_, timing_mm(h, h.shape.time_constant_s, recorded), -1.0);
       add(known_mm_, turned_mm_);
     } else if (turns(h)) {
       for (std::size_t i = 0; i < first.size(); ++i)

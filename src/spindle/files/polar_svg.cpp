@@ -113,7 +113,10 @@ std::string value_of(const Estimate& estimate, double k) {
   return layout::plus_minus(estimate, k, 1.0 / mm_per_um, "µm");
 }
 
-std::string plots_of(const ErrorMotion& motion, bool axial, double k, double left) {
+/// A plot of the motion and, where it is separated, one of the form; side by side from `left` on,
+/// or each at 0.
+std::vector<std::string> plots_of(const ErrorMotion& motion, bool axial, double k, double left,
+                                  double apart) {
   const PolarCurves& curves = motion.polar;
   PolarPlot plot(
       left,
@@ -123,35 +126,48 @@ std::string plots_of(const ErrorMotion& motion, bool axial, double k, double lef
   plot.cloud(curves.total_angle_rad, curves.total_mm);
   plot.band(curves.angle_rad, curves.motion_mm, times(k, curves.u_motion_mm));
   plot.line(curves.angle_rad, curves.motion_mm, "#c55a11");
-  std::string text = plot.svg("synchronous " + value_of(motion.sensitive.synchronous, k) +
-                              ", total " + value_of(motion.sensitive.total, k));
-  if (curves.form_mm.empty()) return text;
-  PolarPlot form(left + side, axial ? "Form of the face" : "Form of the part",
+  std::vector<std::string> plots{plot.svg("synchronous " +
+                                          value_of(motion.sensitive.synchronous, k) + ", total " +
+                                          value_of(motion.sensitive.total, k))};
+  if (curves.form_mm.empty()) return plots;
+  PolarPlot form(left + apart, axial ? "Form of the face" : "Form of the part",
                  largest_of(curves.form_mm));
   form.band(curves.angle_rad, curves.form_mm, times(k, curves.u_form_mm));
   form.line(curves.angle_rad, curves.form_mm, "#1f4e79");
-  return text + form.svg(value_of(motion.form, k));
+  plots.push_back(form.svg(value_of(motion.form, k)));
+  return plots;
+}
+
+std::string drawing(double width, const std::string& body) {
+  return format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+             "width=\"{0:.0f}\" height=\"{1:.0f}\" font-family=\"sans-serif\" "
+             "font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+             width, side + 50.0) +
+         body + "</svg>\n";
 }
 
 }  // namespace
+
+std::vector<std::string> polar_svgs(const ErrorMotion& motion, bool axial, double k) {
+  std::vector<std::string> out;
+  for (const std::string& plot : plots_of(motion, axial, k, 0.0, 0.0))
+    out.push_back(drawing(side, plot));
+  return out;
+}
 
 std::string polar_svg(const SpindleResult& result) {
   double width = 0.0;
   std::string body;
   const auto add = [&](const std::optional<ErrorMotion>& motion, bool axial) {
     if (!motion) return;
-    body += plots_of(*motion, axial, result.coverage_factor, width);
+    for (const std::string& plot : plots_of(*motion, axial, result.coverage_factor, width, side))
+      body += plot;
     width += motion->polar.form_mm.empty() ? side : 2.0 * side;
   };
   add(result.radial, false);
   add(result.axial, true);
-  return format(
-             "<!-- schema: trueaxis.spindle_plot/1 -->\n<svg xmlns=\"http://www.w3.org/2000/svg\" "
-             "viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\" "
-             "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
-             "fill=\"#fff\"/>\n",
-             width, side + 50.0) +
-         body + "</svg>\n";
+  return "<!-- schema: trueaxis.spindle_plot/1 -->\n" + drawing(width, body);
 }
 
 }  // namespace trueaxis

@@ -13,6 +13,7 @@
 #include "base/threads.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/sweep/cut.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -124,13 +125,15 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
   const Scenario scenario = scenario_of(sweep, cell);
   CellFacts facts;
   const std::size_t count = quantities(fitted_surface(sweep)).size();
-  facts.truth.assign(count, std::numeric_limits<double>::quiet_NaN());
-  facts.bound.sd = facts.truth;
-  facts.bound.covariance.assign(count * count, facts.truth.front());
+  const std::size_t left = compared_quantities(sweep).size() - count;  // of a cut: 0 is perfect
+  facts.truth.assign(count + left, std::numeric_limits<double>::quiet_NaN());
+  facts.bound.sd.assign(count, std::numeric_limits<double>::quiet_NaN());
+  facts.bound.covariance.assign(count * count, std::numeric_limits<double>::quiet_NaN());
   try {
     const CleanStream clean = virtual_lathe::simulate_clean(scenario);
     facts.readings = clean.value_mm.size();
     facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
+    facts.truth.resize(count + left, 0.0);
     if (cell_at(sweep, cell).method == Method::diagnosis) {
       const Scenario first = scenario_of(sweep, cell, 0);
       facts.hidden = effects_hidden_in(first, virtual_lathe::simulate_clean(first)).size();
@@ -160,7 +163,7 @@ struct CellRunner {
     virtual_lathe::draw_readings(prepared.clean, prepared.scenario.noise,
                                  seed_of(sweep, cell, repeat), reading_mm);
     if (prepared.fit) {
-      note((*prepared.fit)(reading_mm), prepared.truth, out);
+      note((*prepared.fit)(reading_mm), prepared, out);
       return;
     }
     ProbeStream stream = prepared.clean.stream;
@@ -170,10 +173,11 @@ struct CellRunner {
     options.threads = 1;
     const Diagnosis diagnosis = diagnose(stream, options);
     out.found.back() = found_by(diagnosis, prepared.hidden);
-    note(diagnosis.extended, prepared.truth, out);
+    note(diagnosis.extended, prepared, out);
   }
 
-  void note(const FitResult& fit, const std::vector<double>& truth, BlockResult& out) const {
+  void note(const FitResult& fit, const Prepared& prepared, BlockResult& out) const {
+    const std::vector<double>& truth = prepared.truth;
     if (fit.status != FitStatus::converged) {
       ++out.failures;
       if (out.why.empty()) out.why = std::string(to_string(fit.status)) + ": " + fit.message;
@@ -181,10 +185,17 @@ struct CellRunner {
     }
     const Estimated estimate = estimated(fit);
     const std::size_t row = out.error.size() - quantity_count;
-    for (std::size_t i = 0; i < std::min(quantity_count, estimate.value.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(truth.size(), estimate.value.size()); ++i) {
       out.error[row + i] = estimate.value[i] - truth[i];
       out.u[row + i] = estimate.u[i];
     }
+    if (!prepared.scenario.cut) return;
+    const double n = std::sqrt(1.0 - truth[2] * truth[2] - truth[3] * truth[3]);
+    const Axis axis{truth[0], truth[1], truth[2] / n, truth[3] / n, 0.0};
+    const CutOutcome left = cut_about(*prepared.scenario.cut, fit.axis, axis);
+    out.error[row + truth.size()] = left.coaxiality_mm;
+    out.u[row + truth.size()] = 0.5 * left.at_most_mm;  // U = 2 u is what a run states
+    out.error[row + truth.size() + 1] = left.residual_mm;
   }
 };
 
@@ -206,7 +217,7 @@ BlockResult Worker::run(const Block& block) {
     impl_->runner.emplace(CellRunner{sweep,
                                      block.cell,
                                      cell_at(sweep, block.cell).method,
-                                     quantities(fitted_surface(sweep)).size(),
+                                     compared_quantities(sweep).size(),
                                      {},
                                      {}});
   CellRunner& runner = *impl_->runner;

@@ -150,10 +150,29 @@ void visit_lists(Scenario& scenario, const Visit& visit) {
 }
 
 template <class Visit>
+void visit_cut(CutProgram& cut, const Visit& visit) {
+  visit("cut.target.z_start_mm", any, at(cut.target.start_mm));
+  visit("cut.target.z_end_mm", any, at(cut.target.end_mm));
+  visit("cut.target.radius_mm", positive, at(cut.target.radius_mm));
+  visit("cut.tool.nose_radius_mm", not_negative, at(cut.tool.nose_radius_mm));
+  visit("cut.tool.height_mm", any, at(cut.tool.height_mm));
+  visit("cut.tool.angle_from_probe_rad", any, at(cut.tool.angle_from_probe_rad));
+  visit("cut.tool.speed_rpm", positive, at(cut.tool.speed_rpm));
+  visit("cut.tool.feed_mm_per_rev", positive, at(cut.tool.feed_mm_per_rev));
+  visit("cut.tool.c_start_rad", any, at(cut.tool.c_start_rad));
+  if (cut.actuator.perfect) return;
+  visit("cut.actuator.natural_frequency_hz", positive, at(cut.actuator.natural_frequency_hz));
+  visit("cut.actuator.damping", positive, at(cut.actuator.damping));
+  visit("cut.actuator.delay_s", not_negative, at(cut.actuator.delay_s));
+  visit("cut.actuator.sampling_hz", positive, at(cut.actuator.sampling_hz));
+}
+
+template <class Visit>
 void visit_all(Scenario& scenario, const Visit& visit) {
   visit_part(scenario, visit);
   visit_probe_and_noise(scenario, visit);
   visit_lists(scenario, visit);
+  if (scenario.cut) visit_cut(*scenario.cut, visit);
 }
 
 }  // namespace

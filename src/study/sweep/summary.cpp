@@ -107,7 +107,7 @@ void fill(Row& row, Sample sample) {
   if (n > 1.0) row.sd = std::sqrt(spread / (n - 1.0));
   row.u_bias = row.sd / std::sqrt(n);
   row.mean_u = u / n;
-  row.coverage = share_of(hits, n);
+  if (std::isfinite(u)) row.coverage = share_of(hits, n);  // else nothing is stated of it
   row.q05 = quantile(sample.error, 0.05);
   row.q50 = quantile(sample.error, 0.50);
   row.q95 = quantile(sample.error, 0.95);
@@ -159,7 +159,7 @@ std::vector<std::vector<const BlockResult*>> sorted(const Sweep& sweep,
 Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
   Summary summary;
   std::vector<double> spread;  // of every row's ratio², where numbers are drawn
-  const std::vector<Quantity> names = quantities(fitted_surface(sweep));
+  const std::vector<Quantity> names = compared_quantities(sweep);
   const auto cells = sorted(sweep, results);
   for (std::size_t cell = 0; cell < cells.size(); ++cell) {
     summary.cells.push_back(cell_of(cells[cell]));
@@ -170,10 +170,10 @@ Summary summarise(const Sweep& sweep, const std::vector<BlockResult>& results) {
       row.quantity = names[i].name;
       row.unit = names[i].unit;
       row.truth = facts.truth[i];
-      row.bound = facts.bound.sd[i];
+      row.bound = i < facts.bound.sd.size() ? facts.bound.sd[i] : none;
       const Sample sample = sample_of(cells[cell], i);
       fill(row, sample);
-      spread.push_back(facts.bound_spread.empty()
+      spread.push_back(i >= facts.bound_spread.size()
                            ? none
                            : mean_square_spread(sample.error) + facts.bound_spread[i]);
       summary.rows.push_back(std::move(row));

@@ -5,6 +5,7 @@
 
 #include "simulate/variates.hpp"
 #include "study/bound/quantities.hpp"
+#include "study/sweep/cut.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
@@ -110,6 +111,13 @@ std::uint64_t seed_of(const Sweep& sweep, std::size_t cell, std::size_t repeat) 
 
 SurfaceKind fitted_surface(const Sweep& sweep) {
   return sweep.surface.empty() ? surface_of(sweep.base.part.kind) : surface_from_id(sweep.surface);
+}
+
+std::vector<Quantity> compared_quantities(const Sweep& sweep) {
+  std::vector<Quantity> out = quantities(fitted_surface(sweep));
+  if (!sweep.base.cut) return out;
+  for (Quantity& left : cut_quantities()) out.push_back(std::move(left));
+  return out;
 }
 
 const char* to_string(Method method) {

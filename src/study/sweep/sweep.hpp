@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "study/bound/quantities.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 #include "trueaxis/surface.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -65,6 +66,9 @@ struct Sweep {
 
 /// Surface that the sweep fits.
 SurfaceKind fitted_surface(const Sweep& sweep);
+
+/// What a sweep compares: the quantities of its surface and, of a scenario that cuts, what is left.
+std::vector<Quantity> compared_quantities(const Sweep& sweep);
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.
 struct Cell {

@@ -51,7 +51,7 @@ std::string value_text(double value) {
 }
 
 std::string row_text(const Row& row) {
-  std::string text = "  " + layout::padded(row.quantity, 12);
+  std::string text = "  " + layout::padded(row.quantity, 14);
   text += layout::padded(std::isfinite(row.truth) ? format("{:.6g}", row.truth) : "-", 12);
   for (const double value : {row.bias, row.sd, row.rmse, row.bound})
     text += layout::padded(value_text(value), 11);
@@ -66,7 +66,7 @@ std::string full_text(const Sweep& sweep, const Summary& summary) {
   for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
     text += '\n' + cell_title(sweep, cell) + cell_note(sweep, summary.cells[cell]);
     text +=
-        "  parameter   true        bias       SD         RMSE       bound      "
+        "  parameter     true        bias       SD         RMSE       bound      "
         "RMSE / bound      U covers\n";
     for (const Row& row : summary.rows_of(cell)) text += row_text(row);
   }

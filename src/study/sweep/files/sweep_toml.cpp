@@ -69,6 +69,18 @@ std::string read_base(TomlDocument& document, TomlTable root, study::Sweep& swee
   return {};
 }
 
+/// The table of every repeat is that of its own fit, and the cut lies beside the surface probed.
+void check_cut(TomlDocument& document, const std::string& path, const Sweep& sweep) {
+  const virtual_lathe::CutProgram& cut = *sweep.base.cut;
+  const auto complain = [&](const char* what) { document.add({path, 0, 0, what}); };
+  if (!cut.table.empty())
+    complain("[cut] table: a sweep makes the table of every repeat itself: take `table` out");
+  if (cut.target.kind == virtual_lathe::CutKind::face)
+    complain("[cut.target] kind: a sweep cuts a cylinder or a cone");
+  if (sweep.base.part.kind == virtual_lathe::PartKind::face || !sweep.surface.empty())
+    complain("[cut] needs an axis with a direction: probe a cone or cylinder, and leave `surface`");
+}
+
 }  // namespace
 
 study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
@@ -86,8 +98,7 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
   sweep.methods = read_methods(root);
   sweep.surface = read_surface(root, sweep.base);
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
-  if (sweep.base.cut)
-    document.add({path, 0, 0, "a sweep probes a part; a [cut] is a study of its own: take it out"});
+  if (sweep.base.cut) check_cut(document, path, sweep);
   const ReadSet read_set = [&](const TomlTable& set) { return axes.read_set_before_axes(set); };
   for (const SweepExtension& extension : extensions) {
     std::optional<TomlTable> table = root.maybe_table(extension.key);
