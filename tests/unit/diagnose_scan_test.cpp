@@ -91,7 +91,8 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
     y[i] +=
         size * (0.8 * columns(static_cast<Index>(i), 0) - 0.6 * columns(static_cast<Index>(i), 1));
   const NormalEquations equations(b.point, b.mask, y, phi, 1);
-  const Scans scans = scan_lines(b.problem(y), equations, y);
+  const Problem problem = b.problem(y);
+  const Scans scans = LineScanner(problem)(equations, y);
   const Peak* best = nullptr;
   for (const Peak& p : c.id ? scans.causes : scans.patterns) {
     const bool same = c.id ? p.hypothesis.id() == c.id
@@ -138,7 +139,8 @@ TEST(ScanLines, CountTheSameLinesOnce) {
   const Bench two(out_and_back), one({.readings = 1800});
   const std::vector<double> y = testing::white_noise(1800, sigma_mm, seed);
   const auto bandwidth = [&](const Bench& b) {
-    return scan_lines(b.problem(y), NormalEquations(b.point, b.mask, y, {}, 1), y).bandwidth;
+    const Problem problem = b.problem(y);
+    return LineScanner(problem).bandwidth();
   };
   // Orders 0.3 to half of 23.7 over 1800/23.7 turns, and the probe's scale over its swing.
   const double turns = 1800.0 / 23.7;

@@ -6,7 +6,7 @@
 
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/refit/relinearised_fit.hpp"
-#include "diagnose/search/search.hpp"
+#include "diagnose/search/coarse_to_fine.hpp"
 
 namespace trueaxis::diagnose_detail {
 

@@ -3,111 +3,248 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t few_readings = 60000;
-constexpr double means_per_turn = 40.0;
+constexpr std::size_t few_readings = 40000;
+constexpr double sectors_wanted = 40.0;  // order 12 keeps 86 % of its amplitude
+constexpr double turns_wanted = 500.0;
+constexpr double least_readings = 8.0;  // of a mean, so that all are nearly of one weight
+constexpr double tenth_lost = 0.25;     // cycles a mean: sinc(0.25) = 0.90
+constexpr double one_turn = 1.1;        // a mean in ten is of two
 
 using Column = std::vector<double>;
 
-constexpr Column LinearisationPoint::*straight[] = {
-    &LinearisationPoint::c,          &LinearisationPoint::z,        &LinearisationPoint::time,
-    &LinearisationPoint::speed,      &LinearisationPoint::velocity, &LinearisationPoint::x,
-    &LinearisationPoint::sensed,     &LinearisationPoint::dx_dc,    &LinearisationPoint::dx_dz,
-    &LinearisationPoint::d2x_dc2,    &LinearisationPoint::s,        &LinearisationPoint::clamp,
-    &LinearisationPoint::dx_dnormal, &LinearisationPoint::dx_dy};
-constexpr Column LinearisationPoint::*turning[] = {&LinearisationPoint::theta,
-                                                   &LinearisationPoint::chuck};
+/// Readings of one pass, and of one section where Z steps.
+struct Run {
+  std::size_t begin, end, pass;
+};
 
-/// First reading of every group, and one past the last.
-std::vector<std::size_t> groups_of(const LinearisationPoint& point, const ObservationMask& mask,
-                                   std::size_t every) {
-  std::vector<std::size_t> first;
-  for (const Pass& pass : point.passes) {
-    std::size_t begun = pass.begin;
-    for (std::size_t i = pass.begin; i < pass.end; ++i) {
-      const bool broken = i > pass.begin && mask.used[i] && mask.used[i - 1] && mask.run[i] == 0;
-      if (i == pass.begin || i - begun >= every || broken) first.push_back(begun = i);
+std::vector<Run> runs_of(const LinearisationPoint& point, const ObservationMask& mask,
+                         bool sections) {
+  std::vector<Run> runs;
+  for (std::size_t p = 0; p < point.passes.size(); ++p) {
+    runs.push_back({point.passes[p].begin, point.passes[p].end, p});
+    for (const std::size_t cut : mask.fold_begin) {
+      if (!sections || cut <= runs.back().begin || cut >= runs.back().end) continue;
+      const std::size_t end = std::exchange(runs.back().end, cut);
+      runs.push_back({cut, end, p});
     }
   }
-  first.push_back(point.size());
-  return first;
+  return runs;
 }
 
-/// Mean over the readings of a group that count, or over all where none does.
-class Mean {
+double turns_of(const LinearisationPoint& point, std::size_t begin, std::size_t end) {
+  return std::abs(point.c[end - 1] - point.c[begin]) / two_pi;
+}
+
+/// Sums over the readings of a mean.
+struct Cell {
+  double deviation = 0.0, off_centre = 0.0;
+  double least = 1e300, most = -1e300;  ///< sensed
+  std::size_t used = 0, all = 0;
+
+  void add(double value_mm, double off, double sensed_mm, bool counts) {
+    ++all;
+    if (!counts) return;
+    ++used, deviation += value_mm, off_centre += off;
+    least = std::min(least, sensed_mm), most = std::max(most, sensed_mm);
+  }
+};
+
+class Condensing {
  public:
-  Mean(const ObservationMask& mask, std::size_t begin, std::size_t end)
-      : mask_(mask), begin_(begin), end_(end) {
-    for (std::size_t i = begin; i < end; ++i) count_ += mask.used[i];
+  Condensing(const LinearisationPoint& whole, const ObservationMask& mask, const Column& left,
+             Means& out)
+      : whole_(whole), mask_(mask), left_(left), out_(out) {}
+
+  /// Turns of C: means over sectors of `slabs` groups of turns.
+  void turning(const Run& run, std::size_t slabs, std::size_t sectors) {
+    const double c0 = whole_.c[run.begin], travel = whole_.c[run.end - 1] - c0;
+    const double sign = travel < 0.0 ? -1.0 : 1.0, width = travel / static_cast<double>(slabs);
+    const auto count = static_cast<double>(sectors);
+    std::vector<Cell> cells(slabs * sectors);
+    std::vector<std::size_t> first(slabs, run.end), last(slabs, run.begin);
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+      const double along = std::clamp((whole_.c[i] - c0) / width, 0.0, count_less(slabs));
+      const auto slab = static_cast<std::size_t>(along);
+      first[slab] = std::min(first[slab], i), last[slab] = std::max(last[slab], i);
+      const double turn =
+          sign * (whole_.c[i] - (c0 + middle(slab) * width)) / two_pi - shift(slab) / count;
+      const double part = turn - std::floor(turn + 0.5) + 0.5;
+      const auto sector = std::min(sectors - 1, static_cast<std::size_t>(part * count));
+      cells[slab * sectors + sector].add(left_[i], part - middle(sector) / count, whole_.sensed[i],
+                                         mask_.used[i]);
+    }
+    for (std::size_t slab = 0; slab < slabs; ++slab) {
+      if (first[slab] > last[slab]) continue;
+      const double from = whole_.c[first[slab]];
+      const double turned = whole_.c[last[slab]] - from;
+      for (std::size_t sector = 0; sector < sectors; ++sector) {
+        const Cell& cell = cells[slab * sectors + sector];
+        const double off = cell.used > 0 ? cell.off_centre / static_cast<double>(cell.used) : 0.0;
+        const double part = (middle(sector) + shift(slab)) / count + off - 0.5;
+        const double c = c0 + middle(slab) * width + sign * two_pi * part;
+        const double share = turned != 0.0 ? (c - from) / turned : 0.0;
+        push(cell, c, between(whole_.z, first[slab], last[slab], share),
+             between(whole_.time, first[slab], last[slab], share), first[slab]);
+      }
+    }
   }
-  std::size_t count() const { return count_; }
-  double operator()(const Column& of) const {
-    double sum = 0.0;
-    for (std::size_t i = begin_; i < end_; ++i)
-      if (mask_.used[i] || count_ == 0) sum += of[i];
-    return sum / size();
-  }
-  /// Of angles, which may jump by a turn.
-  double angle(const Column& of) const {
-    double sum = 0.0;
-    for (std::size_t i = begin_; i < end_; ++i)
-      if (mask_.used[i] || count_ == 0) sum += std::remainder(of[i] - of[begin_], two_pi);
-    return of[begin_] + sum / size();
+
+  /// C stands still: means of neighbours.
+  void standing(const Run& run, std::size_t neighbours) {
+    for (std::size_t begin = run.begin; begin < run.end; begin += neighbours) {
+      const std::size_t end = std::min(begin + neighbours, run.end);
+      Cell cell;
+      double c = 0.0, z = 0.0, time = 0.0;
+      for (std::size_t i = begin; i < end; ++i) {
+        cell.add(left_[i], 0.0, whole_.sensed[i], mask_.used[i]);
+        c += whole_.c[i], z += whole_.z[i], time += whole_.time[i];
+      }
+      const auto size = static_cast<double>(end - begin);
+      push(cell, c / size, z / size, time / size, begin);
+    }
   }
 
  private:
-  double size() const { return static_cast<double>(count_ > 0 ? count_ : end_ - begin_); }
+  static double middle(std::size_t k) { return static_cast<double>(k) + 0.5; }
+  /// Of the sectors of a slab, in sectors: no fast line is then a slow one in all of them.
+  static double shift(std::size_t slab) {
+    constexpr double golden = 0.6180339887498949;
+    return std::fmod(golden * static_cast<double>(slab), 1.0);
+  }
+  static double count_less(std::size_t slabs) { return static_cast<double>(slabs) - 1e-9; }
+  static double between(const Column& x, std::size_t first, std::size_t last, double share) {
+    return x[first] + share * (x[last] - x[first]);
+  }
+
+  void push(const Cell& cell, double c, double z, double time, std::size_t reading) {
+    LinearisationPoint& point = out_.point;
+    const auto fold = static_cast<std::size_t>(std::ranges::upper_bound(mask_.fold_begin, reading) -
+                                               mask_.fold_begin.begin());
+    if (fold != fold_) out_.mask.fold_begin.push_back(point.c.size());
+    fold_ = fold;
+    point.c.push_back(c), point.z.push_back(z), point.time.push_back(time);
+    point.speed.push_back(whole_.speed[reading]);
+    point.velocity.push_back(whole_.velocity[reading]);
+    const auto used = static_cast<double>(cell.used);
+    out_.deviation_mm.push_back(cell.used > 0 ? cell.deviation / used : 0.0);
+    out_.mask.used.push_back(2 * cell.used > cell.all);
+    if (cell.used > 0) out_.sensed_mm = std::max(out_.sensed_mm, cell.most - cell.least);
+  }
+
+  const LinearisationPoint& whole_;
   const ObservationMask& mask_;
-  std::size_t begin_, end_, count_ = 0;
+  const Column& left_;
+  Means& out_;
+  std::size_t fold_ = 0;
 };
+
+/// What two sorted lists of intervals have in common.
+std::vector<Extent> common(const std::vector<Extent>& a, const std::vector<Extent>& b) {
+  std::vector<Extent> out;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const Extent both{std::max(a[i].low, b[j].low), std::min(a[i].high, b[j].high)};
+    if (both.high > both.low) out.push_back(both);
+    ++(a[i].high < b[j].high ? i : j);
+  }
+  return out;
+}
 
 }  // namespace
 
-std::size_t condensation(const LinearisationPoint& point, const Resolution& resolution) {
-  if (point.size() < few_readings || resolution.sections) return 1;
-  return static_cast<std::size_t>(std::max(1.0, std::floor(resolution.per_turn / means_per_turn)));
+bool is_condensed(const LinearisationPoint& point) { return point.size() >= few_readings; }
+
+Means condense(const LinearisationPoint& point, const ObservationMask& mask,
+               std::span<const double> deviation_mm, std::span<const Hypothesis> known,
+               std::span<const double> linear, bool sections, int threads) {
+  Column left(deviation_mm.begin(), deviation_mm.end());
+  if (!known.empty()) {
+    const Column effect = contribution(point, known, linear, threads);
+    for (std::size_t i = 0; i < left.size(); ++i) left[i] -= effect[i];
+  }
+  Means out;
+  static_cast<LinearisationFacts&>(out.point) = point;
+  out.mask.block = mask.block;
+  Condensing condensing(point, mask, left, out);
+  double turns = 0.0;
+  for (const Pass& pass : point.passes)
+    if (pass.c_sign != 0) turns += turns_of(point, pass.begin, pass.end);
+  std::size_t pass = point.passes.size();
+  for (const Run& run : runs_of(point, mask, sections)) {
+    const Pass& of = point.passes[run.pass];
+    const std::size_t begin = out.point.c.size();
+    const double own = turns_of(point, run.begin, run.end);
+    Means::Of averaged;
+    if (of.c_sign == 0 || !(own > 0.0)) {
+      averaged.neighbours =
+          std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(point.size()) /
+                                                            (sectors_wanted * turns_wanted)));
+      condensing.standing(run, averaged.neighbours);
+    } else {
+      const double per_turn = of.readings_per_revolution, whole = std::round(per_turn);
+      const bool same = std::abs(per_turn - whole) < 1e-4 && whole <= 2.0 * sectors_wanted;
+      averaged.sectors = same ? std::max(whole, 1.0) : sectors_wanted;
+      const double wanted =
+          std::max({1.0, turns / turns_wanted, least_readings * averaged.sectors / per_turn});
+      const double slabs = std::max(1.0, std::floor(own / wanted));
+      averaged.turns = own / slabs;
+      condensing.turning(run, static_cast<std::size_t>(slabs),
+                         static_cast<std::size_t>(averaged.sectors));
+    }
+    if (run.pass != pass) {
+      out.point.passes.push_back(of);
+      out.point.passes.back().begin = begin;
+      out.of_pass.push_back(averaged);
+    }
+    pass = run.pass;
+    out.point.passes.back().end = out.point.c.size();
+  }
+  fill_contacts(out.point, 1);
+  out.mask.fold_begin.push_back(out.point.size());
+  out.mask.find_runs(out.point);
+  if (!known.empty()) {
+    const Column effect = contribution(out.point, known, linear);
+    for (std::size_t i = 0; i < effect.size(); ++i) out.deviation_mm[i] += effect[i];
+  }
+  return out;
 }
 
-Condensed condense(const LinearisationPoint& point, const ObservationMask& mask,
-                   const std::vector<double>& deviation_mm, std::size_t every) {
-  const std::vector<std::size_t> first = groups_of(point, mask, every);
-  const std::size_t count = first.size() - 1;
-  Condensed out;
-  static_cast<LinearisationFacts&>(out.point) = point;
-  for (Column LinearisationPoint::*column : straight) (out.point.*column).reserve(count);
-  for (Column LinearisationPoint::*column : turning) (out.point.*column).reserve(count);
-  for (std::size_t g = 0; g < count; ++g) {
-    const Mean mean(mask, first[g], first[g + 1]);
-    for (Column LinearisationPoint::*column : straight)
-      (out.point.*column).push_back(mean(point.*column));
-    for (Column LinearisationPoint::*column : turning)
-      (out.point.*column).push_back(mean.angle(point.*column));
-    out.deviation_mm.push_back(mean(deviation_mm));
-    out.point.axis.push_back(point.axis[first[g]]);
-    out.point.rear.push_back(point.rear[first[g]]);
-    out.mask.used.push_back(2 * mean.count() > first[g + 1] - first[g]);
+std::vector<Extent> Means::kept(const LinearisationPoint& whole, const std::vector<double>& x,
+                                double turns, Extent within) const {
+  if (&x == &whole.sensed)
+    return common({within}, {{within.low, tenth_lost / std::max(sensed_mm, 1e-12)}});
+  std::vector<Extent> out{within};
+  for (std::size_t p = 0; p < of_pass.size(); ++p) {
+    const Pass& pass = whole.passes[p];
+    const Of& of = of_pass[p];
+    if (pass.end - pass.begin < 2) continue;
+    const double travel = x[pass.end - 1] - x[pass.begin];
+    std::vector<Extent> own;
+    if (of.turns == 0.0) {
+      const double step = std::abs(travel) / static_cast<double>(pass.end - pass.begin - 1) *
+                          static_cast<double>(of.neighbours);
+      own.push_back({within.low, step > 0.0 ? tenth_lost / step : within.high});
+    } else {
+      // Cycles a turn f a − turns: near a whole number, and few of them.
+      const double a = travel / (whole.c[pass.end - 1] - whole.c[pass.begin]) * two_pi;
+      // Within one turn nothing is lost between orders, over two a quarter of a cycle in two turns.
+      const double near = of.turns < one_turn ? 0.5 : tenth_lost / std::max(of.turns, 2.0);
+      const double most = std::floor(tenth_lost * of.sectors);
+      if (!(std::abs(a) > 0.0)) continue;
+      for (double cycles = -most; cycles <= most; ++cycles) {
+        const double one = (cycles - near + turns) / a, other = (cycles + near + turns) / a;
+        own.push_back({std::min(one, other), std::max(one, other)});
+      }
+      std::ranges::sort(own, {}, &Extent::low);
+    }
+    out = common(out, own);
   }
-  const auto group_of = [&](std::size_t reading) {
-    return static_cast<std::size_t>(std::ranges::lower_bound(first, reading) - first.begin());
-  };
-  for (Pass pass : point.passes) {
-    const auto readings = static_cast<double>(pass.end - pass.begin);
-    pass.begin = group_of(pass.begin), pass.end = group_of(pass.end);
-    pass.readings_per_revolution *= static_cast<double>(pass.end - pass.begin) / readings;
-    out.point.passes.push_back(pass);
-  }
-  for (const std::size_t begin : mask.fold_begin) {
-    const std::size_t group = group_of(begin);
-    if (out.mask.fold_begin.empty() || group > out.mask.fold_begin.back())
-      out.mask.fold_begin.push_back(group);
-  }
-  out.mask.block = mask.block;
-  out.mask.find_runs(out.point);
   return out;
 }
 

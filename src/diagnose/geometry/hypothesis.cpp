@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
+#include "base/threads.hpp"
 #include "math/sincos.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -14,7 +16,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t most_parameters = 8;
-constexpr std::size_t chunk = 512;
+constexpr std::size_t chunk = 512, part = 64 * chunk;  // of a thread
 
 /// By Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
 double legendre(int degree, double u) {
@@ -111,29 +113,53 @@ std::size_t columns_of(std::span<const Hypothesis> list) {
   return sum;
 }
 
+bool same(const Hypothesis& a, const Hypothesis& b) {
+  const auto shape = [](const TermShape& s) {
+    return std::tie(s.order, s.lever_from_mm, s.decay_length_mm, s.degree, s.period_mm,
+                    s.frequency_hz, s.time_constant_s, s.onset_s, s.reference_x_mm, s.range_mm);
+  };
+  const auto pattern = [](const Pattern& p) {
+    return std::tie(p.kind, p.order, p.spindle, p.degree, p.in_time, p.frequency, p.angle_rad,
+                    p.position_mm, p.width_rad, p.length_mm);
+  };
+  return a.effect == b.effect && a.free == b.free && a.tests == b.tests &&
+         shape(a.shape) == shape(b.shape) && pattern(a.pattern) == pattern(b.pattern);
+}
+
+bool same(std::span<const Hypothesis> a, std::span<const Hypothesis> b) {
+  return std::ranges::equal(
+      a, b, [](const Hypothesis& one, const Hypothesis& other) { return same(one, other); });
+}
+
 std::vector<double> contribution(const LinearisationPoint& point, std::span<const Hypothesis> terms,
-                                 std::span<const double> linear) {
+                                 std::span<const double> linear, int threads) {
   std::vector<double> out(point.size(), 0.0);
   const std::size_t count = columns_of(terms);
   if (count == 0) return out;
-  std::vector<double> buffer(count * chunk);
-  std::vector<double*> column(count);
-  for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
-  for (std::size_t begin = 0; begin < point.size();) {
-    std::size_t end = std::min(begin + chunk, point.size());
-    for (std::size_t i = begin + 1; i < end; ++i)
-      if (point.rear[i] != point.rear[begin]) end = i;
+  const auto add_chunk = [&](std::size_t begin, std::size_t end, std::span<double* const> column) {
     std::size_t next = 0;
     for (const Hypothesis& h : terms) {
-      fill(h, point, begin, end, {column.data() + next, h.columns()});
+      fill(h, point, begin, end, column.subspan(next, h.columns()));
       next += h.columns();
     }
     for (std::size_t j = 0; j < count; ++j) {
       const double c = linear[j];
       for (std::size_t i = begin; i < end; ++i) out[i] += c * column[j][i - begin];
     }
-    begin = end;
-  }
+  };
+  for_each_index((point.size() + part - 1) / part, threads, [&](std::size_t p) {
+    std::vector<double> buffer(count * chunk);
+    std::vector<double*> column(count);
+    for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
+    const std::size_t last = std::min((p + 1) * part, point.size());
+    for (std::size_t begin = p * part; begin < last;) {
+      std::size_t end = std::min(begin + chunk, last);
+      for (std::size_t i = begin + 1; i < end; ++i)
+        if (point.rear[i] != point.rear[begin]) end = i;
+      add_chunk(begin, end, column);
+      begin = end;
+    }
+  });
   return out;
 }
 

@@ -16,6 +16,10 @@ struct Hypothesis : TermValue {
   double tests = 1.0;
 };
 
+/// Whether two hypotheses are one: effect, shape, free parameters, pattern and tests.
+bool same(const Hypothesis& a, const Hypothesis& b);
+bool same(std::span<const Hypothesis> a, std::span<const Hypothesis> b);
+
 /// ∂X/∂(linear parameter) over readings [begin, end) of one set-up.
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
           std::size_t end, std::span<double* const> columns);
@@ -36,6 +40,6 @@ std::size_t columns_of(std::span<const Hypothesis> list);
 
 /// What terms do to X, one entry a reading, mm. @param linear of all terms, term after term
 std::vector<double> contribution(const LinearisationPoint& point, std::span<const Hypothesis> terms,
-                                 std::span<const double> linear);
+                                 std::span<const double> linear, int threads = 1);
 
 }  // namespace trueaxis::diagnose_detail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/threads.hpp"
 #include "math/sincos.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/error.hpp"
@@ -14,11 +15,11 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr double least_range_mm = 1e-3;
+constexpr std::size_t part_rows = 16384;  // of a thread
 
-const Clamping& clamping_of(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                            std::size_t i) {
-  if (stream.setup.empty()) return clampings.front();
-  const auto found = std::ranges::find(clampings, stream.setup[i], &Clamping::number);
+const Clamping& clamping_of(const std::vector<Clamping>& clampings, int number) {
+  if (clampings.size() == 1) return clampings.front();
+  const auto found = std::ranges::find(clampings, number, &Clamping::number);
   expects(found != clampings.end(), "a clamping for every set-up");
   return *found;
 }
@@ -98,49 +99,58 @@ Intersection contact_of(const Clamping& now, const BaseKind& base, double c, dou
   return at;
 }
 
-void fill_contacts(const ProbeStream& stream, const std::vector<Clamping>& clampings,
+/// Readings [begin, end) of one clamping.
+void fill_contacts(const Clamping& now, std::size_t begin, std::size_t end,
                    LinearisationPoint& point) {
-  for (auto* column :
-       {&point.x, &point.sensed, &point.dx_dc, &point.dx_dz, &point.d2x_dc2, &point.chuck,
-        &point.theta, &point.s, &point.clamp, &point.dx_dnormal, &point.dx_dy})
-    column->reserve(point.size());
-  const Clamping* last = nullptr;
-  PartFrame frame(clampings.front().shape.axis);
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    const Clamping& now = clamping_of(stream, clampings, i);
-    if (&now != last) frame = PartFrame((last = &now)->shape.axis);
+  const PartFrame frame(now.shape.axis);
+  const Axis& axis = now.shape.axis;
+  const bool face = point.base.face, behind = now.root == Root::rear;
+  for (std::size_t i = begin; i < end; ++i) {
     const Intersection at = contact_of(now, point.base, point.c[i], point.z[i]);
     expects(at.hit, "every probe line meets the fitted surface");
-    point.x.push_back(at.x_mm);
-    point.sensed.push_back(at.x_mm - now.x_jog_mm);
-    point.dx_dc.push_back(at.dx_dc);
-    point.dx_dz.push_back(at.dx_dz);
+    point.x[i] = at.x_mm;
+    point.sensed[i] = at.x_mm - now.x_jog_mm;
+    point.dx_dc[i] = at.dx_dc;
+    point.dx_dz[i] = at.dx_dz;
     const double cosine = std::cos(point.c[i]), sine = std::sin(point.c[i]);
-    const bool face = point.base.face;
-    const auto centre = now.shape.axis.at(point.z[i]);
-    point.d2x_dc2.push_back(face ? -point.z[i] * at.dx_dz
-                                 : -(centre[0] * cosine + centre[1] * sine));
+    const auto centre = axis.at(point.z[i]);
+    point.d2x_dc2[i] = face ? -point.z[i] * at.dx_dz : -(centre[0] * cosine + centre[1] * sine);
     const double x = face ? point.z[i] : at.x_mm, z = face ? at.x_mm : point.z[i];
     const auto polar = frame.at(x * cosine, x * sine, z);
-    point.chuck.push_back(polar.theta);
-    point.theta.push_back(polar.theta + now.reindex_rad);
-    point.s.push_back(face ? polar.rho : polar.s - now.z_shift_mm);
-    point.clamp.push_back(now.clamp_force_ratio);
-    point.axis.push_back(now.axis);
-    point.rear.push_back(now.root == Root::rear);
-    const Axis& axis = now.shape.axis;
+    point.chuck[i] = polar.theta;
+    point.theta[i] = polar.theta + now.reindex_rad;
+    point.s[i] = face ? polar.rho : polar.s - now.z_shift_mm;
+    point.clamp[i] = now.clamp_force_ratio;
+    point.axis[i] = static_cast<std::uint32_t>(now.axis);
+    point.rear[i] = behind;
     const double dx_dy = face ? axis.slope_x * sine - axis.slope_y * cosine : at.dx_dc / at.x_mm;
-    point.dx_dy.push_back(dx_dy);
+    point.dx_dy[i] = dx_dy;
     const double secant = std::sqrt(1.0 + dx_dy * dx_dy + at.dx_dz * at.dx_dz);
-    point.dx_dnormal.push_back(point.rear.back() ? -secant : secant);
+    point.dx_dnormal[i] = behind ? -secant : secant;
   }
 }
 
 }  // namespace
 
+void fill_contacts(LinearisationPoint& point, int threads) {
+  for (auto* column :
+       {&point.x, &point.sensed, &point.dx_dc, &point.dx_dz, &point.d2x_dc2, &point.chuck,
+        &point.theta, &point.s, &point.clamp, &point.dx_dnormal, &point.dx_dy})
+    column->resize(point.size());
+  point.axis.resize(point.size()), point.rear.resize(point.size());
+  for (const Pass& pass : point.passes) {
+    const Clamping& now = clamping_of(point.clampings, pass.setup);
+    const std::size_t parts = (pass.end - pass.begin + part_rows - 1) / part_rows;
+    for_each_index(parts, threads, [&](std::size_t part) {
+      const std::size_t begin = pass.begin + part * part_rows;
+      fill_contacts(now, begin, std::min(begin + part_rows, pass.end), point);
+    });
+  }
+}
+
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings) {
   for (std::size_t i = 0; i < stream.size() && stream.kind == StreamKind::lateral; ++i) {
-    const Clamping& now = clamping_of(stream, clampings, i);
+    const Clamping& now = clamping_of(clampings, stream.setup.empty() ? 1 : stream.setup[i]);
     const double z_mm = stream.has_position() ? stream.position_mm[i] : 0.0;
     if (!intersect(now.shape, stream.c_rad[i], z_mm, 0.0, now.root).hit) return false;
   }
@@ -148,7 +158,7 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
 }
 
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                                const BaseKind& base, bool bore) {
+                                const BaseKind& base, bool bore, int threads) {
   expects((stream.kind == StreamKind::face) == base.face && !stream.c_rad.empty(),
           "a stream of the surface");
   LinearisationPoint point;
@@ -161,7 +171,8 @@ LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Cla
   point.tan_half_angle = clampings.front().shape.tan_half_angle;
   fill_time(stream, point);
   fill_motion(point);
-  fill_contacts(stream, clampings, point);
+  point.clampings = clampings;
+  fill_contacts(point, threads);
   const auto [low, high] = range_of(base.face ? point.z : point.s);
   point.z_mid_mm = 0.5 * (low + high);
   point.z_half_mm = std::max(0.5 * (high - low), 1e-9);

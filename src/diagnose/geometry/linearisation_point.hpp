@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,7 @@ struct LinearisationFacts {
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
+  std::vector<Clamping> clampings;
 
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
@@ -55,10 +57,10 @@ struct LinearisationFacts {
 struct LinearisationPoint : LinearisationFacts {
   std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
       s, clamp;
-  std::vector<double> dx_dnormal;  ///< of form along the normal
-  std::vector<double> dx_dy;       ///< across the probe
-  std::vector<std::size_t> axis;   ///< of every reading
-  std::vector<char> rear;          ///< of every reading
+  std::vector<double> dx_dnormal;   ///< of form along the normal
+  std::vector<double> dx_dy;        ///< across the probe
+  std::vector<std::uint32_t> axis;  ///< of every reading
+  std::vector<char> rear;           ///< of every reading
   std::vector<Pass> passes;
 
   std::size_t size() const { return c.size(); }
@@ -78,7 +80,10 @@ bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& cl
 
 /// @param stream columns C, Z, t, set-up; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
-                                const BaseKind& base, bool bore);
+                                const BaseKind& base, bool bore, int threads = 1);
+
+/// Fills what follows from the surface at C and Z of every reading; passes and clampings are there.
+void fill_contacts(LinearisationPoint& point, int threads);
 
 /// A fit that ended short of a minimum, or a profile of one's own, has no point to diagnose.
 bool is_diagnosable(const FitResult& fit);

@@ -45,8 +45,8 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
   joint_.emplace(*problem_, model.phi, terms_, terms_.size());
   const auto count = static_cast<Eigen::Index>(columns_of(terms_));
-  effect_mm_ =
-      contribution(problem_->point, terms_, span_of(joint_->solution.coefficients.tail(count)));
+  effect_mm_ = contribution(problem_->point, terms_,
+                            span_of(joint_->solution.coefficients.tail(count)), first.threads);
   taken_off_mm_ = effect_mm_;
   if (!known_mm_.empty()) add(taken_off_mm_, known_mm_, -1.0);
   if (moved_) add(effect_mm_, turned_mm_);
@@ -76,7 +76,8 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, const Eigen::Ma
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {
-  return remainder(problem_->point, deviation_mm_, terms_, joint_->solution.coefficients);
+  return remainder(problem_->point, deviation_mm_, terms_, joint_->solution.coefficients,
+                   problem_->threads);
 }
 
 /// About the extended surface, where the terms leave one.
@@ -88,13 +89,15 @@ void RelinearisedFit::relinearise(const Model& model) {
   FitOptions bare = ideal_.fit_options;  // a place is wanted, not its uncertainty
   bare.influences.clear();
   const FitResult extended =
-      fit_cleaned(ideal_.stream, bare, contribution(first.point, terms_, span_of(found)),
-                  first.mask, ideal_.masked)
+      fit_cleaned(ideal_.stream, bare,
+                  contribution(first.point, terms_, span_of(found), first.threads), first.mask,
+                  ideal_.masked)
           .fit;
   if (!is_diagnosable(extended)) return;
   const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
   if (std::ranges::any_of(terms_, turns)) return turn(found, clampings);
-  point_ = linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore);
+  point_ =
+      linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore, first.threads);
 }
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
@@ -102,7 +105,7 @@ void RelinearisedFit::relinearise(const Model& model) {
 void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings) {
   const LinearisationPoint& first = ideal_.point;
   const auto point_of = [&](const ProbeStream& stream) {
-    return linearise_at(stream, clampings, first.base, first.bore);
+    return linearise_at(stream, clampings, first.base, first.bore, ideal_.problem.threads);
   };
   moved_ = ideal_.stream;
   Eigen::Index at = 0;

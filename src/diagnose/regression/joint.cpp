@@ -58,7 +58,7 @@ Eigen::VectorXd Joint::of(std::size_t term) const {
 
 std::vector<double> Joint::contribution_of(std::size_t term) const {
   const Eigen::VectorXd linear = of(term);
-  return contribution(equations.point(), {&terms[term], 1}, span_of(linear));
+  return contribution(equations.point(), {&terms[term], 1}, span_of(linear), equations.threads());
 }
 
 Solution Joint::without(std::size_t term) const {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -51,14 +52,17 @@ Matrix columns_of_rows(const LinearisationPoint& point, std::span<const double> 
 }  // namespace
 
 std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
-                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution) {
+                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution,
+                              int threads) {
   std::vector<double> out(point.size());
-  for (std::size_t begin = 0; begin < point.size(); begin += chunk) {
-    const std::size_t end = std::min(begin + chunk, point.size());
+  const auto work = [&](std::size_t k) {
+    const std::size_t begin = k * chunk, end = std::min(begin + chunk, point.size());
     const Matrix columns = columns_of_rows(point, deviation_mm, terms, begin, end);
     const Eigen::VectorXd left = columns.col(0) - columns.rightCols(columns.cols() - 1) * solution;
     std::copy(left.data(), left.data() + left.size(), out.begin() + static_cast<long>(begin));
-  }
+  };
+  const bool small = point.size() < 20'000;  // a thread costs more than it saves
+  for_each_index((point.size() + chunk - 1) / chunk, small ? 1 : threads, work);
   return out;
 }
 
@@ -91,7 +95,8 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
     Columns all = equations.base();
     for (const Columns& own : equations.append(basis))
       all.insert(all.end(), own.begin(), own.end());
-    left = remainder(point, deviation_mm, basis, solve(equations.total(), all).coefficients);
+    left =
+        remainder(point, deviation_mm, basis, solve(equations.total(), all).coefficients, threads);
   }
   mask.find_runs(point);
   std::vector<Rejected> list;

@@ -13,7 +13,8 @@ namespace trueaxis::diagnose_detail {
 /// Deviation minus base and terms at a solution; the solution's columns are in the order base,
 /// terms.
 std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
-                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution);
+                              std::span<const Hypothesis> terms, const Eigen::VectorXd& solution,
+                              int threads = 1);
 
 /// Masks readings farther than 8 robust σ from the surface with what `basis` lets it deviate by,
 /// and what clings to them, until nothing changes. @returns why, a line a reading (Eq. 63).

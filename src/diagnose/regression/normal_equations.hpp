@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "diagnose/geometry/condense.hpp"
 #include "diagnose/geometry/hypothesis.hpp"
 #include "diagnose/geometry/observation_mask.hpp"
 
@@ -38,6 +39,11 @@ struct Problem {
   std::size_t most_terms = 8;
   std::vector<const Effect*> effects = possible_causes(point.base);
   double rounding_mm = 0.0;  ///< step of the readings where it may show; 0: it does not
+  // Where the readings are means:
+  const Means* means = nullptr;
+  const Problem* whole = nullptr;  ///< all readings
+  std::vector<Hypothesis> fast{};  ///< lines found in all readings that means do not show
+  double fast_bandwidth = 0.0;     ///< of what was scanned for them
 
   /// The same readings about another point.
   Problem about(const LinearisationPoint& other, std::span<const double> deviation) const {

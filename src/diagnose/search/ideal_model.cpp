@@ -11,9 +11,10 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm) {
+LinearisationPoint about(const ProbeStream& stream, const FitResult& fit, double ball_mm,
+                         int threads) {
   const std::vector<Clamping> clampings = clampings_of(fit, ball_mm);
-  return linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore);
+  return linearise_at(stream, clampings, base_of(stream, fit, clampings), fit.bore, threads);
 }
 
 int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
@@ -35,7 +36,7 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
       fit_options(options.fit),
       fit(ideal),
       ball_mm(std::max(measured.ball_radius_mm.value_or(0.0), options.fit.ball_radius_mm)),
-      point(about(measured, ideal, ball_mm)),
+      point(about(measured, ideal, ball_mm, threads_of(options, measured))),
       mask(make_observation_mask(point)),
       resolution(resolution_of(point, mask)),
       deviation_mm(deviation_from(measured, point)),

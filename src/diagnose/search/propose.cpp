@@ -82,6 +82,16 @@ void take_peaks(std::vector<Peak> peaks, std::size_t most, double tests,
   }
 }
 
+/// Lines that were found in all readings.
+void take_fast(const std::vector<Hypothesis>& fast, bool causes, double tests,
+               std::vector<Hypothesis>& list) {
+  for (const Hypothesis& h : fast) {
+    if ((h.effect != nullptr) != causes) continue;
+    list.push_back(h);
+    list.back().tests = tests;
+  }
+}
+
 /// All at their first shapes, from one normal matrix; the best of them.
 std::vector<Candidate> judged_at_once(const Problem& problem, const std::vector<double>& phi,
                                       const std::vector<Hypothesis>& terms,
@@ -232,21 +242,21 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   const Eigen::VectorXd solution = solve(equations.total(), taken).coefficients;
   equations.shrink(dictionary.columns);
   const std::vector<double> left =
-      remainder(problem_.point, problem_.deviation_mm, terms, solution);
+      remainder(problem_.point, problem_.deviation_mm, terms, solution, problem_.threads);
   Step out;
   const auto presets = static_cast<long>(dictionary.presets.size());
   out.presets.assign(judged.begin(), judged.begin() + presets);
   out.basis.assign(judged.begin() + presets, judged.end());
   std::ranges::stable_sort(out.presets, better);
   std::ranges::stable_sort(out.basis, better);
-  out.scans = scan_lines(problem_, equations, left);
+  out.scans = scanner_(equations, left);
   double bumps_tested = 0.0;
   out.bumps = scan_bumps(equations, left, bumps_tested);
   for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
   for (const Candidate& c : judged) out.family.single += c.rank > 0;
   out.family.single += bumps_tested;
-  out.family.bandwidth = out.scans.bandwidth;
-  out.line_choice = std::max(1.0, line_tests * out.scans.bandwidth);
+  out.family.bandwidth = out.scans.bandwidth + problem_.fast_bandwidth;
+  out.line_choice = std::max(1.0, line_tests * out.family.bandwidth);
   return out;
 }
 
@@ -267,12 +277,23 @@ std::vector<Hypothesis> Proposer::shortlist(const Step& of, std::size_t presets)
   return list;
 }
 
-Proposal Proposer::beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi) {
+const Proposal& Proposer::beside(const std::vector<Hypothesis>& terms,
+                                 const std::vector<double>& phi) {
+  const auto asked = std::ranges::find_if(
+      asked_, [&](const Asked& a) { return a.phi == phi && same(a.terms, terms); });
+  if (asked != asked_.end()) return asked->proposal;
+  asked_.push_back({terms, phi, propose(terms, phi)});
+  return asked_.back().proposal;
+}
+
+Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi) {
   Step now = step(terms, phi);
   std::vector<Hypothesis> causes = shortlist(now, best_presets);
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, causes);
+  take_fast(problem_.fast, true, now.line_choice, causes);
   std::vector<Hypothesis> patterns = hypotheses_of(now.basis, best_patterns);
   take_peaks(std::move(now.scans.patterns), best_patterns, now.line_choice, patterns);
+  take_fast(problem_.fast, false, now.line_choice, patterns);
   patterns = joined(patterns, now.bumps);
   // Only the best at their first shapes are refined.
   const auto refined = [&](const std::vector<Hypothesis>& list) {
@@ -298,6 +319,7 @@ std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
   add_tilts(named, problem_, list);
   list = joined(list, shortlist(now, 0));
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, list);
+  take_fast(problem_.fast, true, now.line_choice, list);
   const auto each = one_of_each(judged_at_once(problem_, phi, others, list));
   return refine(problem_, phi, others, hypotheses_of(each, most_rivals));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -31,10 +32,11 @@ constexpr double step_start = 0.06;  ///< of a refinement, on a scale where 1 is
 /// the next step.
 class Proposer {
  public:
-  explicit Proposer(const Problem& problem) : problem_(problem) {}
+  explicit Proposer(const Problem& problem) : problem_(problem), scanner_(problem) {}
 
+  /// What was asked before is not worked out again; the answer lives as long as this.
   /// @param phi autoregression of the noise
-  Proposal beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
+  const Proposal& beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
 
   /// One of each effect that might explain the same as a cause that was named, which is among them.
   std::vector<Candidate> rivals(const Hypothesis& named, const std::vector<Hypothesis>& others,
@@ -44,11 +46,19 @@ class Proposer {
 
  private:
   struct Step;
+  struct Asked {
+    std::vector<Hypothesis> terms;
+    std::vector<double> phi;
+    Proposal proposal;
+  };
+  Proposal propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
   Step step(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
   std::vector<Hypothesis> shortlist(const Step& of, std::size_t presets) const;
 
   const Problem& problem_;
+  LineScanner scanner_;
   std::unique_ptr<Dictionary> dictionary_;
+  std::deque<Asked> asked_;
 };
 
 /// Candidates of one finding refined to their own best shape beside `others`, best first.

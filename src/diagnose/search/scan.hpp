@@ -24,12 +24,30 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+/// Scans of the readings of a problem, which outlives it; of means only lines that they keep.
 /// Eq. 72.
-/// @param equations of the readings of `problem`
-/// @param remainder_mm deviation minus base and terms, not whitened
-/// @param means 1: all lines; more: only those that means of so many readings weaken by 10 %
-Scans scan_lines(const Problem& problem, const NormalEquations& equations,
-                 std::span<const double> remainder_mm, std::size_t means = 1);
+class LineScanner {
+ public:
+  /// @param fast null: all lines; else those that these means would weaken by 10 %
+  explicit LineScanner(const Problem& problem, const Means* fast = nullptr);
+  ~LineScanner();
+
+  /// @param equations of the readings of the problem
+  /// @param remainder_mm deviation minus base and terms, not whitened
+  Scans operator()(const NormalEquations& equations, std::span<const double> remainder_mm);
+  double bandwidth() const { return bandwidth_; }  ///< see Scans
+
+ private:
+  struct Band;
+  struct Job;
+  struct Steps;
+  Scans scan(Job& job, const NormalEquations& equations, const std::vector<double>& plain,
+             const std::vector<double>& outward) const;
+
+  const Problem& problem_;
+  std::vector<Job> jobs_;
+  double bandwidth_ = 0.0;
+};
 
 /// The same hypothesis at another frequency of its scan.
 Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr double catalogue_first = 4.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
+constexpr std::size_t fits_kept = 4;
 constexpr double hides_a_term = 0.3;  // |φ|: less hardly weakens one
 
 Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
@@ -68,7 +70,7 @@ class StepwiseSearch {
     std::vector<Hypothesis> terms;
     while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
            terms.size() < problem_.most_terms) {
-      const Proposal p = proposer_.beside(terms, {});
+      const Proposal& p = proposer_.beside(terms, {});
       const Candidate* term = nullptr;
       for (const auto* list : {&p.causes, &p.patterns}) {
         if (list->empty() || !looks_like_noise(list->front().hypothesis)) continue;
@@ -133,13 +135,23 @@ class StepwiseSearch {
   }
 
   struct Fitted {
+    std::vector<Hypothesis> terms;
     NormalEquations equations;
     std::vector<Columns> places;
   };
-  Fitted fitted(const Model& model) const {
-    Fitted out{NormalEquations(problem_.point, problem_.mask, problem_.deviation_mm, model.phi,
+  /// Of the model, or as it was made for one of the last that were asked for; lives until some more
+  /// are asked for.
+  const Fitted& fitted(const Model& model) {
+    const auto made = std::ranges::find_if(fitted_, [&](const Fitted& f) {
+      return f.equations.autoregression() == model.phi && same(f.terms, model.terms);
+    });
+    if (made != fitted_.end()) return *made;
+    if (fitted_.size() == fits_kept) fitted_.pop_front();
+    Fitted& out = fitted_.emplace_back(
+        Fitted{model.terms,
+               NormalEquations(problem_.point, problem_.mask, problem_.deviation_mm, model.phi,
                                problem_.threads, true),
-               {}};
+               {}});
     out.places = out.equations.append(model.terms);
     return out;
   }
@@ -178,7 +190,7 @@ class StepwiseSearch {
   bool backward(Model& model) {
     bool changed = false;
     while (!model.terms.empty()) {
-      const Fitted f = fitted(model);
+      const Fitted& f = fitted(model);
       std::size_t worst = 0;
       double worst_log_p = -1e300;
       for (std::size_t i = 0; i < model.terms.size(); ++i) {
@@ -195,8 +207,8 @@ class StepwiseSearch {
 
   /// ν ln RSS, and what prior and choice of each term cost: what two models with the same noise are
   /// compared by (Eq. 81).
-  double criterion(const Model& model) const {
-    const Fitted f = fitted(model);
+  double criterion(const Model& model) {
+    const Fitted& f = fitted(model);
     Columns all = f.equations.base();
     const Columns terms = flat(f.places, 0, f.places.size());
     all.insert(all.end(), terms.begin(), terms.end());
@@ -248,7 +260,7 @@ class StepwiseSearch {
     Model other = model;
     other.terms = without(model.terms, term);
     for (int half = 0; half < 2; ++half) {
-      const Proposal p = proposer_.beside(other.terms, model.phi);
+      const Proposal& p = proposer_.beside(other.terms, model.phi);
       const auto next = std::ranges::find_if(
           p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
       if (next == p.causes.end()) return false;
@@ -260,7 +272,7 @@ class StepwiseSearch {
   }
 
   bool replace(Model& model, Model reduced, bool patterns) {
-    const Proposal p = proposer_.beside(reduced.terms, model.phi);
+    const Proposal& p = proposer_.beside(reduced.terms, model.phi);
     const Candidate* best = p.causes.empty() ? nullptr : &p.causes.front();
     if (!p.patterns.empty() && (patterns || best == nullptr) &&
         (best == nullptr || p.patterns.front().criterion + catalogue_first < best->criterion))
@@ -283,7 +295,7 @@ class StepwiseSearch {
 
   void finish(Model& model) {
     model.criterion = criterion(model);
-    const Fitted f = fitted(model);
+    const Fitted& f = fitted(model);
     model.p_values.clear();
     for (std::size_t i = 0; i < model.terms.size(); ++i)
       model.p_values.push_back(model.family.p_value(std::exp(term_log_p(f, i))));
@@ -292,6 +304,7 @@ class StepwiseSearch {
   Proposer& proposer_;
   const Problem& problem_;
   std::vector<Hypothesis> basis_;
+  std::deque<Fitted> fitted_;
 };
 
 }  // namespace
@@ -307,50 +320,6 @@ Model search(Proposer& proposer) {
     return mixed.terms.size() <= causes.terms.size() ? mixed : causes;
   }
   return mixed.criterion < causes.criterion ? mixed : causes;
-}
-
-bool fast_line_left(const Problem& problem, const Model& model, std::size_t means) {
-  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, model.phi,
-                            problem.threads);
-  Columns all = equations.base();
-  for (const Columns& own : equations.append(model.terms))
-    all.insert(all.end(), own.begin(), own.end());
-  const Solution fitted = solve(equations.total(), all);
-  const std::vector<double> left =
-      remainder(problem.point, problem.deviation_mm, model.terms, fitted.coefficients);
-  const Scans scans = scan_lines(problem, equations, left, means);
-  Family family = model.family;
-  family.bandwidth += scans.bandwidth;
-  const auto freedom = static_cast<double>(equations.count() - fitted.rank);
-  return std::ranges::any_of(scans.causes, [&](const Peak& peak) {
-    return family.p_value(std::exp(log_p_value(peak.gain, 2.0, fitted.rss, freedom))) <
-           problem.false_alarm;
-  });
-}
-
-CoarseToFineSearch::CoarseToFineSearch(const Problem& whole) {
-  const std::size_t every = condensation(whole.point, whole.resolution);
-  if (every > 1) {
-    means_ = condense(whole.point, whole.mask,
-                      {whole.deviation_mm.begin(), whole.deviation_mm.end()}, every);
-    resolution_ = resolution_of(means_.point, means_.mask);
-    problem_.emplace(Problem{means_.point, means_.mask, resolution_, means_.deviation_mm,
-                             whole.false_alarm, whole.threads, whole.most_terms, whole.effects});
-    model = search(proposer_.emplace(*problem_));
-    phi_ = model.phi;
-    std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
-    all.insert(all.end(), model.terms.begin(), model.terms.end());
-    model.phi = autoregression(whole.point, whole.mask, whole.deviation_mm, all).phi;
-    if (!fast_line_left(whole, model, every)) return;
-  }
-  model = search(proposer_.emplace(whole));
-  phi_ = model.phi;
-}
-
-Model CoarseToFineSearch::searched_model() const {
-  Model out = model;
-  out.phi = phi_;
-  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

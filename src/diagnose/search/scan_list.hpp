@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "diagnose/regression/normal_equations.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// One scan: cos, sin (2π f x − turns θ).
+struct Scan {
+  std::vector<double> LinearisationPoint::*x = nullptr;  ///< column
+  double turns = 0.0;
+  bool spindle = false;  ///< turns are of C
+  double low = 0.0, high = 0.0;
+  std::function<Hypothesis(double)> make;
+  bool pattern = false;
+  bool form = false;   ///< along the surface's normal: of the other sign at the rear
+  bool counts = true;  ///< false: the same lines as another scan
+};
+
+/// The scans that a stream lets be made; of means those of the whole.
+std::vector<Scan> scans_of(const Problem& problem);
+
+/// An order of the part's or the spindle's angle, times a line along Z or in time.
+Hypothesis pattern_line(double order, bool in_time, double frequency);
+
+/// What a line is periodic in.
+std::vector<double> LinearisationPoint::*column_of(Line::In in);
+
+}  // namespace trueaxis::diagnose_detail
