@@ -105,7 +105,7 @@ void CoarseToFineSearch::search_means(const Problem& whole) {
                       whole.resolution.sections, whole.threads);
     if (!scanner) scanner.emplace(whole, &means_);
     problem_.emplace(Problem{means_.point, means_.mask, whole.resolution, means_.deviation_mm,
-                             whole.false_alarm, whole.threads, whole.most_terms, whole.effects,
+                             whole.false_alarm, whole.threads, whole.most_terms, whole.effects, 0.0,
                              &means_, &whole, candidates, scanner->bandwidth()});
     model = search(proposer_.emplace(*problem_));
     phi_ = model.phi;
