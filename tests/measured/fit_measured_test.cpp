@@ -102,15 +102,22 @@ TEST_F(MeasuredJob, TubeToATable) {
       found.at("correction").at("margin").at("stroke_used").at("value").get<double>();
   EXPECT_GT(stroke, 2 * 0.084);
   EXPECT_LT(stroke, 2 * 0.25);
-  // The table against the fit of the same run: once a revolution the tool swings by the offset of
+  // The table against the axis of the same run: once a revolution the tool swings by the offset of
   // the axis, most at the end of the cut that is further off. Of second order, offset²/2R: 0.3 µm.
-  const auto p = found.at("references").at(0).at("fit").at("parameters");
-  const auto value = [&](const char* name) { return p.at(name).at("value").get<double>(); };
+  const auto axis = found.at("target_axis");
+  const auto value = [&](const char* name) { return axis.at(name).at("value").get<double>(); };
   double offset_mm = 0.0;
-  for (const double z_mm : {20.0, 0.0}) {
-    offset_mm = std::max(
-        offset_mm, std::hypot(value("x0") + value("l") * z_mm, value("y0") + value("m") * z_mm));
+  for (const double from_start_mm : {0.0, -20.0}) {
+    offset_mm =
+        std::max(offset_mm, std::hypot(value("x_at_start") + value("slope_x") * from_start_mm,
+                                       value("y_at_start") + value("slope_y") * from_start_mm));
   }
+  // And that axis against the fit of the surface alone: within U of what the diagnosis moved.
+  const auto fit = found.at("references").at(0).at("fit").at("parameters");
+  const auto of = [&](const char* name) { return fit.at(name).at("value").get<double>(); };
+  EXPECT_LT(std::hypot(value("x_at_start") - of("x0") - 20.0 * of("l"),
+                       value("y_at_start") - of("y0") - 20.0 * of("m")),
+            2.0 * value("u_at_start"));
   const auto [low, high] = wanted_range(read_text(folder_ / "out/table.csv"));
   EXPECT_NEAR(high - low, 2 * offset_mm, 0.001);
 }

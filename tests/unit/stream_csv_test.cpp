@@ -247,7 +247,9 @@ TEST_F(StreamCsv, RoundTripIsBitwise) {
     if (trial % 4 == 1) s.spindle_rpm = value();
     s.setups.front().x_jog_mm = value();
     if (!s.setup.empty()) {
-      s.setups.push_back({0, value(), value(), trial % 4 == 0, value(), std::abs(value())});
+      // An angle of more than three turns is refused.
+      s.setups.push_back(
+          {0, std::fmod(value(), 18.0), value(), trial % 4 == 0, value(), std::abs(value())});
       s.metadata["setup.0.reindex"] = "70 deg";  // the member decides
       s.metadata["setup.0.side"] = "rear";
     }
