@@ -100,7 +100,7 @@ async function look(browser, {name, width, height}) {
   });
   const broken = new Promise((_, reject) => page.once('pageerror', reject));  // a script that threw never gets ready
   broken.catch(() => {});
-  await page.goto(own);
+  await page.goto(own, {timeout: 120000});  // a busy machine starts a browser slowly
   try {
     const ready = page.waitForFunction(() => window.trueaxisReport?.ready, null, {timeout: 60000});
     ready.catch(() => {});
