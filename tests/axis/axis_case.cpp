@@ -9,6 +9,7 @@
 
 #include "blind/families.hpp"
 #include "blind/size.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::axis {
 namespace {
@@ -215,13 +216,21 @@ std::string_view name_of(Group group) {
 }
 
 Case draw_case(Group group, std::uint64_t seed) {
-  Draw draw(seed * 16 + static_cast<std::uint64_t>(group));
-  Case out;
-  out.group = group, out.seed = seed;
-  draw_part(draw, out);
-  draw_noise(draw, out);
-  draw_effects(draw, out);
-  return out;
+  constexpr std::uint64_t most_draws = 20;
+  for (std::uint64_t again = 0;; ++again) {
+    Draw draw(seed * 16 + static_cast<std::uint64_t>(group) + (again << 40U));
+    Case out;
+    out.group = group, out.seed = seed;
+    try {
+      draw_part(draw, out);
+      draw_noise(draw, out);
+      draw_effects(draw, out);
+      virtual_lathe::simulate(out.scenario);
+      return out;
+    } catch (const InputError&) {  // the probe would miss a part as small as that: another
+      if (again == most_draws) throw;
+    }
+  }
 }
 
 std::array<double, 4> true_ends(const Case& of) {
