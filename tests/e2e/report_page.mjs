@@ -88,6 +88,7 @@ function inspectText() {
 
 async function look(browser, {name, width, height}) {
   const page = await browser.newPage({viewport: {width, height}});
+  page.setDefaultTimeout(120000);  // a busy machine draws slowly
   const problems = [];
   const own = pathToFileURL(resolve(report)).href;
   page.on('console', (message) => {
@@ -100,9 +101,9 @@ async function look(browser, {name, width, height}) {
   });
   const broken = new Promise((_, reject) => page.once('pageerror', reject));  // a script that threw never gets ready
   broken.catch(() => {});
-  await page.goto(own, {timeout: 120000});  // a busy machine starts a browser slowly
+  await page.goto(own);
   try {
-    const ready = page.waitForFunction(() => window.trueaxisReport?.ready, null, {timeout: 60000});
+    const ready = page.waitForFunction(() => window.trueaxisReport?.ready);
     ready.catch(() => {});
     await Promise.race([ready, broken]);
     const charts = await page.evaluate(inspectCharts);

@@ -24,6 +24,8 @@ Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t 
   return out;
 }
 
+constexpr std::size_t few_readings = 400;  // of which what is slow looks like correlated noise
+
 bool moved(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -63,17 +65,19 @@ class StepwiseSearch {
 
  private:
   /// Noise before any term. A line that is no whole order, such as an asynchronous motion, or a
-  /// large step of the part looks like a noise that rings, and whitening then takes it away: where
-  /// terms beside a noise of their own leave less than chance makes them, that noise is taken.
+  /// large step of the part looks like a noise that rings, and whitening then takes it away; of few
+  /// readings anything strong does. Where terms beside a noise of their own leave less than chance
+  /// makes them, that noise is taken.
   std::vector<double> first_noise() {
     Autoregression best = noise({});
+    const bool few = problem_.point.size() < few_readings;
     std::vector<Hypothesis> terms;
     while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
            terms.size() < problem_.most_terms) {
       const Proposal& p = proposer_.beside(terms, {});
       const Candidate* term = nullptr;
       for (const auto* list : {&p.causes, &p.patterns}) {
-        if (list->empty() || !looks_like_noise(list->front().hypothesis)) continue;
+        if (list->empty() || !(few || looks_like_noise(list->front().hypothesis))) continue;
         if (!term || list->front().gain > term->gain) term = &list->front();
       }
       if (!term) break;
