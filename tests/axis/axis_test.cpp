@@ -30,15 +30,26 @@ Sums run(Group group) {
 TEST(AxisStudy, SeveralSmallEffectsMakeTheAxisNoWorse) {
   const Sums sums = run(Group::mixture);
   EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
-  // The four numbers of a stream go together: of 16 streams covered with probability 0.9 each,
-  // fewer than 11 are by chance 0.3 times in 100.
-  EXPECT_GE(sums.covered, 4 * 11) << "seed " << seed;
+  // The four numbers of a stream go together: of 16 streams covered with probability 0.935 each
+  // (the goal's lower end), fewer than 12 are by chance 0.3 times in 100.
+  EXPECT_GE(sums.covered, 4 * 12) << "seed " << seed;
 }
 
 // The ideal fit mixes what was probed before the slip and after it.
 TEST(AxisStudy, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
   const Sums sums = run(Group::slip);
   EXPECT_LT(std::sqrt(sums.stated / sums.ideal), 1.05) << "seed " << seed;
+}
+
+// A delay that moves the ideal axis by tens of µm, in 119 and 144 readings, is not taken for
+// correlated noise: of its error a tenth is left at most, and U says how much.
+TEST(AxisStudy, OfFewReadingsAStrongDelayIsNoNoise) {
+  for (const std::uint64_t at : {30000076U, 30000250U}) {
+    const Outcome o = run_case(Group::mixture, at);
+    ASSERT_LT(o.readings, 200U);
+    EXPECT_LT(o.extended.rms_mm(), 0.1 * o.ideal.rms_mm()) << "seed " << at;
+    EXPECT_LT(o.extended.rms_mm(), 2.0 * o.extended.u_rms_mm()) << "seed " << at;
+  }
 }
 
 // The nearest straight line of κ(s − middle)² is κ L²/12 all over the length: its ends and its
