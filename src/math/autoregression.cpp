@@ -38,7 +38,10 @@ struct Likelihood {
   double restricted2(double phi1, double phi2) const {
     const auto r = regression(phi1, phi2);
     if (!r) return -1e300;
-    return -(gram.rows() - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet;
+    const RunStart start(phi1, phi2);
+    return -(gram.rows() - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet +
+           2.0 * gram.first_rows() * std::log(start.first) +
+           2.0 * gram.second_rows() * std::log(start.second);
   }
 
   /// The noise with what it leaves.
@@ -84,51 +87,76 @@ std::vector<Eigen::Index> independent(const Matrix& gram) {
 }  // namespace
 
 LaggedGram::LaggedGram(Eigen::Index columns) {
-  for (auto& line : gram_) line.fill(Matrix::Zero(columns, columns));
+  for (Lags* of : {&gram_, &first_, &second_})
+    for (auto& line : *of) line.fill(Matrix::Zero(columns, columns));
+}
+
+double LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows, std::size_t lags,
+                       Lags& to) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Matrix at[3];
+  for (std::size_t lag = 0; lag < lags; ++lag) {
+    at[lag].resize(n, x.cols());
+    for (Eigen::Index i = 0; i < n; ++i)
+      at[lag].row(i) = x.row(rows[static_cast<std::size_t>(i)] - static_cast<Eigen::Index>(lag));
+  }
+  for (std::size_t a = 0; a < lags; ++a)
+    for (std::size_t b = a; b < lags; ++b) to[a][b].noalias() += at[a].transpose() * at[b];
+  return static_cast<double>(n);
 }
 
 void LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Matrix at[3];
-  for (Eigen::Index lag = 0; lag < 3; ++lag) {
-    at[lag].resize(n, x.cols());
-    for (Eigen::Index i = 0; i < n; ++i)
-      at[lag].row(i) = x.row(rows[static_cast<std::size_t>(i)] - lag);
-  }
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) gram_[a][b].noalias() += at[a].transpose() * at[b];
-  }
-  rows_ += static_cast<double>(n);
+  rows_ += add(x, rows, 3, gram_);
+}
+
+void LaggedGram::add_starts(const Matrix& x, std::span<const Eigen::Index> first,
+                            std::span<const Eigen::Index> second) {
+  first_rows_ += add(x, first, 1, first_);
+  second_rows_ += add(x, second, 2, second_);
+}
+
+template <typename Change>
+void LaggedGram::change(const LaggedGram& other, const Change& by) {
+  constexpr std::array<Lags LaggedGram::*, 3> all{&LaggedGram::gram_, &LaggedGram::first_,
+                                                  &LaggedGram::second_};
+  for (const auto lags : all)
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = a; b < 3; ++b) by((this->*lags)[a][b], (other.*lags)[a][b]);
 }
 
 void LaggedGram::add_transformed(const LaggedGram& other, const Matrix& t) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) gram_[a][b] += t.transpose() * other.gram_[a][b] * t;
-  }
+  change(other, [&](Matrix& to, const Matrix& from) { to += t.transpose() * from * t; });
   rows_ += other.rows_;
+  first_rows_ += other.first_rows_, second_rows_ += other.second_rows_;
 }
 
 LaggedGram LaggedGram::of_independent_columns() const {
   std::vector<Eigen::Index> kept = independent(gram_[0][0]);
   kept.insert(kept.begin(), 0);
   LaggedGram out = *this;
-  for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) out.gram_[a][b] = Matrix(gram_[a][b](kept, kept));
-  }
+  out.change(*this, [&](Matrix& to, const Matrix& from) { to = Matrix(from(kept, kept)); });
   return out;
 }
 
 Matrix LaggedGram::whitened(double phi1, double phi2) const {
-  const double c[3] = {1.0, -phi1, -phi2};
   Matrix sum = Matrix::Zero(gram_[0][0].rows(), gram_[0][0].cols());
-  for (std::size_t a = 0; a < 3; ++a) {
-    sum += c[a] * c[a] * gram_[a][a];
-    for (std::size_t b = a + 1; b < 3; ++b) {
-      if (c[a] * c[b] == 0.0) continue;
-      sum += c[a] * c[b] * (gram_[a][b] + gram_[a][b].transpose());
+  const auto add = [&sum](const Lags& lags, const std::array<double, 3>& c) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (c[a] != 0.0) sum += c[a] * c[a] * lags[a][a];
+      for (std::size_t b = a + 1; b < 3; ++b)
+        if (c[a] * c[b] != 0.0) sum += c[a] * c[b] * (lags[a][b] + lags[a][b].transpose());
     }
-  }
+  };
+  const RunStart start(phi1, phi2);
+  add(gram_, {1.0, -phi1, -phi2});
+  if (first_rows_ > 0.0) add(first_, {start.first, 0.0, 0.0});
+  if (second_rows_ > 0.0) add(second_, {start.second, -start.second * start.partial, 0.0});
   return sum;
+}
+
+RunStart::RunStart(double phi1, double phi2)
+    : second(std::sqrt(1.0 - phi2 * phi2)), partial(phi1 / (1.0 - phi2)) {
+  first = second * std::sqrt(1.0 - partial * partial);
 }
 
 Autoregression find_autoregression(const LaggedGram& of_all_columns,

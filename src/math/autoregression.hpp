@@ -25,10 +25,15 @@ class LaggedGram {
 
   /// Adds rows of `x`; the two rows before each of them are those of the two readings before.
   void add(const Eigen::MatrixXd& x, std::span<const Eigen::Index> rows);
+  /// Adds rows where runs of readings begin, and rows that are the second of theirs.
+  void add_starts(const Eigen::MatrixXd& x, std::span<const Eigen::Index> first,
+                  std::span<const Eigen::Index> second);
   /// Adds the products of x · t for x whose products are `other`.
   void add_transformed(const LaggedGram& other, const Eigen::MatrixXd& t);
 
-  double rows() const { return rows_; }
+  double rows() const { return rows_ + first_rows_ + second_rows_; }
+  double first_rows() const { return first_rows_; }
+  double second_rows() const { return second_rows_; }
   const Eigen::MatrixXd& at(std::size_t a, std::size_t b) const { return gram_[a][b]; }
 
   /// Only the columns that are independent of those before them.
@@ -36,8 +41,16 @@ class LaggedGram {
   Eigen::MatrixXd whitened(double phi1, double phi2) const;
 
  private:
-  std::array<std::array<Eigen::MatrixXd, 3>, 3> gram_;  ///< of the lags a ≤ b
-  double rows_ = 0.0;
+  using Lags = std::array<std::array<Eigen::MatrixXd, 3>, 3>;  ///< products of the lags a ≤ b
+  static double add(const Eigen::MatrixXd& x, std::span<const Eigen::Index> rows, std::size_t lags,
+                    Lags& to);
+  /// by(own, the other's) for all products.
+  template <typename Change>
+  void change(const LaggedGram& other, const Change& by);
+
+  Lags gram_;            ///< of rows with two readings before them
+  Lags first_, second_;  ///< of rows where a run begins, and of the second of a run
+  double rows_ = 0.0, first_rows_ = 0.0, second_rows_ = 0.0;
 };
 
 /// Autoregression of the first column beside the others by restricted maximum likelihood (Patterson
@@ -50,6 +63,17 @@ Autoregression find_autoregression(const LaggedGram& of_all_columns,
 /// Whether an autoregression of the second order rings with the spindle, whose angles at the
 /// readings are given: nothing random does, but what turns with it and is not explained looks so.
 bool rings_with_spindle(double phi1, double phi2, std::span<const double> c_rad);
+
+/// How the first readings of a run are whitened, so that a run is as likely as all of its readings
+/// are: e₀ = g₀ ε₀, e₁ = g₁ (ε₁ − a ε₀), of the same variance as every innovation behind them.
+/// Without them what differs from run to run, such as the sides of a delay, would be free (Prais
+/// and Winsten 1954, Eq. 66b).
+struct RunStart {
+  explicit RunStart(double phi1, double phi2 = 0.0);
+  explicit RunStart(const std::vector<double>& phi)
+      : RunStart(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]) {}
+  double first, second, partial;  ///< g₀, g₁, a
+};
 
 /// Variance of one reading over that of the innovation e, of order 0, 1 or 2.
 double variance_over_innovation(const std::vector<double>& phi);

@@ -136,6 +136,18 @@ void fit_to(const Case& of, Effect& effect) {
   }
 }
 
+/// A ball that nobody compensated moves all readings: the sensor is set anew to where they are, for
+/// beyond its range its cubic error is no sensor's.
+void set_sensor(const blind::Bench& bench, std::vector<Effect>& list) {
+  const auto ball = std::ranges::find(list, "probe.ball_radius", &Effect::id);
+  if (ball == list.end()) return;
+  const double before = bench.plain().cwiseAbs().mean();
+  const double after = (bench.plain() + bench.change({*ball})).cwiseAbs().mean();
+  for (Effect& effect : list)
+    if (effect.id == "probe.nonlinearity" || effect.id == "probe.gain")
+      effect.parameters["reference_mm"] += after - before;
+}
+
 /// Whether the plan would show the effect at the largest size that is typical of it, or the effect
 /// does nothing at its own.
 bool shows(const blind::Bench& bench, const Effect& effect, const Effect& largest,
@@ -196,6 +208,7 @@ void draw_effects(Draw& draw, Case& out) {
     if (out.group == Group::absorbed || shows(bench, effect, largest, sigma))
       list.push_back(std::move(effect));
   }
+  set_sensor(bench, list);
   if (out.group == Group::outside) list.push_back(draw_outside(draw, out, bench));
   if (out.group == Group::slip) {
     const double size = draw.log_between(0.01, 0.2), at = draw.phase();

@@ -20,6 +20,25 @@ std::vector<Hypothesis> some_hypotheses() {
           of_effect("spindle.asynchronous", {.order = 0.42})};
 }
 
+/// L⁻¹ of the covariance L Lᵀ of the first readings of an autoregression with innovations of
+/// variance 1, by its impulse response: γ_k = Σ ψ_i ψ_{i+k}.
+MatrixXd whitening_of_first(const std::vector<double>& phi) {
+  const auto n = static_cast<Index>(phi.size());
+  std::vector<double> psi{1.0};
+  for (std::size_t i = 1; i < 4000; ++i) {
+    psi.push_back(0.0);
+    for (std::size_t j = 1; j <= std::min(i, phi.size()); ++j) psi[i] += phi[j - 1] * psi[i - j];
+  }
+  MatrixXd covariance = MatrixXd::Zero(n, n);
+  for (Index r = 0; r < n; ++r)
+    for (Index c = 0; c < n; ++c) {
+      const auto lag = static_cast<std::size_t>(std::abs(r - c));
+      for (std::size_t i = 0; i + lag < psi.size(); ++i) covariance(r, c) += psi[i] * psi[i + lag];
+    }
+  const MatrixXd factor = covariance.llt().matrixL();
+  return factor.inverse();
+}
+
 /// Out in front and back at the rear, with masked readings and a gap in the sampling.
 struct Bench {
   ProbeStream stream;
@@ -49,19 +68,26 @@ struct Bench {
     return count;
   }
 
-  /// [deviation | base | list], whitened, dropped rows gone; `from`, `to` choose readings.
+  /// [deviation | base | list], whitened, masked rows gone; `from`, `to` choose readings. The first
+  /// of a run by the inverse of a Cholesky factor of what the noise's autocovariance is there.
   MatrixXd dense(const std::vector<Hypothesis>& list, const std::vector<double>& phi,
                  std::size_t from, std::size_t to) const {
     const MatrixXd columns = testing::explicit_columns(point, list);
     MatrixXd raw(columns.rows(), columns.cols() + 1);
     raw << testing::as_vector(deviation), columns;
     MatrixXd out(static_cast<Index>(to - from), raw.cols());
+    const MatrixXd start = whitening_of_first(phi);
     Index kept = 0;
     for (std::size_t i = from; i < to; ++i) {
-      if (!mask.used[i] || before(i) < phi.size()) continue;
-      out.row(kept) = raw.row(static_cast<Index>(i));
+      if (!mask.used[i]) continue;
+      const auto now = static_cast<Index>(i), run = static_cast<Index>(before(i));
+      if (run < start.rows()) {
+        out.row(kept++) = start.row(run).head(run + 1) * raw.middleRows(now - run, run + 1);
+        continue;
+      }
+      out.row(kept) = raw.row(now);
       for (std::size_t j = 0; j < phi.size(); ++j)
-        out.row(kept) -= phi[j] * raw.row(static_cast<Index>(i - j - 1));
+        out.row(kept) -= phi[j] * raw.row(now - static_cast<Index>(j) - 1);
       ++kept;
     }
     return out.topRows(kept);

@@ -134,11 +134,9 @@ void narrow(ConfounderSet& found, double likelihood_ratio) {
     at->probability = other;
     return;
   }
+  found.probability = both;
   found.members.erase(found.members.begin() + 1 + (at - found.rivals.begin()));
-  const double rest = 1.0 - at->probability;
-  found.probability /= rest;
   found.rivals.erase(at);
-  for (Rival& rival : found.rivals) rival.probability /= rest;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/threads.hpp"
@@ -121,11 +122,13 @@ Autoregression autoregression(const LinearisationPoint& point, const Observation
     const std::size_t begin = mask.fold_begin[f];
     const std::size_t end = std::min(mask.fold_begin[f + 1], begin + enough_rows / 4);
     const std::size_t from = begin - std::min<std::size_t>(begin, 2);  // the two before its first
-    std::vector<Eigen::Index> good;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (mask.used[i] && mask.run[i] >= 2) good.push_back(static_cast<Eigen::Index>(i - from));
-    }
-    lagged.add(columns_of_rows(point, deviation_mm, terms, from, end), good);
+    std::array<std::vector<Eigen::Index>, 3> rows;  // first and second of a run, behind them
+    for (std::size_t i = begin; i < end; ++i)
+      if (mask.used[i])
+        rows[std::min<std::size_t>(mask.run[i], 2)].push_back(static_cast<Eigen::Index>(i - from));
+    const Matrix columns = columns_of_rows(point, deviation_mm, terms, from, end);
+    lagged.add(columns, rows[2]);
+    lagged.add_starts(columns, rows[0], rows[1]);
   }
   const auto columns = static_cast<double>(point.base.columns() + columns_of(terms));
   if (lagged.rows() < columns + least_freedom) return {};

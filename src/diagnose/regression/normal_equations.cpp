@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/threads.hpp"
+#include "math/autoregression.hpp"
 #include "math/gram.hpp"
 #include "math/wide_gram.hpp"
 #include "trueaxis/error.hpp"
@@ -54,6 +55,16 @@ class Chunk {
       }
     }
   }
+  /// A row that is the first or second of its run.
+  void begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
+                 std::size_t run) {
+    const RunStart start(phi);
+    for (std::size_t c = 0; c < raw_column_.size(); ++c) {
+      const double* from = raw_column_[c] + lead + row;
+      white_column_[c][row] =
+          run == 0 ? start.first * from[0] : start.second * (from[0] - start.partial * from[-1]);
+    }
+  }
   void drop(std::size_t row) {
     for (double* column : white_column_) column[row] = 0.0;
   }
@@ -96,8 +107,13 @@ NormalEquations::NormalEquations(const LinearisationPoint& point, const Observat
       threads_(threads),
       part_begin_(blocks ? mask.fold_begin : whole_passes(mask, point.size())),
       folds_(part_begin_.size() - 1) {
-  for (std::size_t i = 0; i < point.size(); ++i)
-    count_ += mask.used[i] && mask.run[i] >= autoregression_.size();
+  const RunStart start(autoregression_);
+  for (std::size_t i = 0; i < point.size(); ++i) {
+    if (!mask.used[i]) continue;
+    ++count_;
+    if (mask.run[i] < autoregression_.size())
+      log_volume_ += 2.0 * std::log(mask.run[i] == 0 ? start.first : start.second);
+  }
   double sum = 0.0;
   for (std::size_t i = 0; i < point.size(); ++i)
     sum += mask.used[i] ? deviation_[i] * deviation_[i] : 0.0;
@@ -188,10 +204,12 @@ void NormalEquations::pass(std::span<const Hypothesis> fresh) {
       fill_raw(fresh, start, end, chunk.raw());
       chunk.whiten(autoregression_, begin - start, end - begin);
       for (std::size_t i = begin; i < end; ++i) {
-        if (!mask_->used[i] || mask_->run[i] < history) chunk.drop(i - begin);
+        if (!mask_->used[i])
+          chunk.drop(i - begin);
+        else if (mask_->run[i] < history)
+          chunk.begin_run(autoregression_, begin - start, i - begin, mask_->run[i]);
+        counted += mask_->used[i] != 0;
       }
-      for (std::size_t i = begin; i < end; ++i)
-        counted += mask_->used[i] && mask_->run[i] >= history;
       const std::span<const double* const> columns = chunk.white(end - begin);
       const WideBlock left{columns.subspan(before), end - begin};
       add_wide_products(left, own);

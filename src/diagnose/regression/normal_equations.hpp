@@ -59,8 +59,8 @@ using Columns = std::vector<std::size_t>;
 /// the readings from the point's surface (mm); then the base; then what was appended.
 class NormalEquations {
  public:
-  /// @param autoregression φ of ε_i = Σ φ_j ε_{i−j} + e_i: a row is y_i − Σ φ_j y_{i−j}; rows
-  ///        without that many unbroken predecessors do not count.
+  /// @param autoregression φ of ε_i = Σ φ_j ε_{i−j} + e_i: a row is y_i − Σ φ_j y_{i−j}, and where
+  ///        a run of readings begins that of RunStart.
   /// @param blocks whether the Gram matrices of the blocks are wanted, or their sum alone
   NormalEquations(const LinearisationPoint& point, const ObservationMask& mask,
                   std::span<const double> deviation_mm, std::vector<double> autoregression,
@@ -73,6 +73,8 @@ class NormalEquations {
   /// Of the blocks that are held out. @throws ContractViolation where they were not asked for.
   const std::vector<Eigen::MatrixXd>& folds() const;
   std::size_t count() const { return count_; }  ///< rows that count
+  /// 2 ln of the determinant of the whitening: of its first readings of runs, 0 for all others.
+  double log_volume() const { return log_volume_; }
   const Columns& base() const { return base_; }
   const std::vector<double>& autoregression() const { return autoregression_; }
   const LinearisationPoint& point() const { return *point_; }
@@ -95,6 +97,7 @@ class NormalEquations {
   std::vector<Hypothesis> list_;
   Columns base_;
   std::size_t count_ = 0;
+  double log_volume_ = 0.0;
   double floor2_ = 0.0;  ///< mm²: what rounding and the linearisation of the columns leave
   Eigen::MatrixXd total_;
   std::vector<std::size_t> part_begin_;  ///< of what one Gram matrix sums over

@@ -24,8 +24,6 @@ Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t 
   return out;
 }
 
-constexpr std::size_t few_readings = 400;  // of which what is slow looks like correlated noise
-
 bool moved(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -64,22 +62,19 @@ class StepwiseSearch {
   }
 
  private:
-  /// Noise before any term. A line that is no whole order, such as an asynchronous motion, or a
-  /// large step of the part looks like a noise that rings, and whitening then takes it away; of few
-  /// readings anything strong does. Where terms beside a noise of their own leave less than chance
-  /// makes them, that noise is taken.
+  /// Noise before any term. What is no noise may look like it, and whitening then takes it away: a
+  /// line that is no whole order like one that rings, a step, or of few readings anything slow,
+  /// like a walk. Where terms beside a noise of their own leave less than chance makes them, that
+  /// noise is taken.
   std::vector<double> first_noise() {
     Autoregression best = noise({});
-    const bool few = problem_.point.size() < few_readings;
     std::vector<Hypothesis> terms;
     while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
            terms.size() < problem_.most_terms) {
       const Proposal& p = proposer_.beside(terms, {});
       const Candidate* term = nullptr;
-      for (const auto* list : {&p.causes, &p.patterns}) {
-        if (list->empty() || !(few || looks_like_noise(list->front().hypothesis))) continue;
-        if (!term || list->front().gain > term->gain) term = &list->front();
-      }
+      for (const auto* list : {&p.causes, &p.patterns})
+        if (!list->empty() && (!term || list->front().gain > term->gain)) term = &list->front();
       if (!term) break;
       terms.push_back(term->hypothesis);
       Autoregression with = noise(terms);
@@ -89,10 +84,6 @@ class StepwiseSearch {
       best = std::move(with);
     }
     return best.phi;
-  }
-
-  static bool looks_like_noise(const Hypothesis& h) {
-    return is_line(h) || (h.effect && is_step(h.effect->term));
   }
 
   Autoregression noise(const std::vector<Hypothesis>& terms) const {
@@ -231,6 +222,15 @@ class StepwiseSearch {
     return sum;
   }
 
+  /// The same with what the noise alone takes: models with another noise are compared by it, for
+  /// every innovation counts as one reading of the same volume but where a run begins (Eq. 81).
+  double evidence(const Model& model) {
+    const Fitted& f = fitted(model);
+    const auto freedom = static_cast<double>(f.equations.count() - f.equations.base().size());
+    return criterion(model) + freedom * std::log(f.equations.total()(0, 0)) -
+           f.equations.log_volume();
+  }
+
   /// Every term against the best there is in its place, and pairs of one angular order against a
   /// single hypothesis.
   bool swap(Model& model, bool patterns) {
@@ -298,7 +298,7 @@ class StepwiseSearch {
   }
 
   void finish(Model& model) {
-    model.criterion = criterion(model);
+    model.criterion = evidence(model);
     const Fitted& f = fitted(model);
     model.p_values.clear();
     for (std::size_t i = 0; i < model.terms.size(); ++i)
@@ -319,10 +319,6 @@ Model search(Proposer& proposer) {
   Model causes = engine.run(false, pattern_was_better);
   if (!pattern_was_better) return causes;
   Model mixed = engine.run(true, pattern_was_better);
-  if (moved(mixed.phi, causes.phi)) {
-    // Compared with the noise of the better described of the two.
-    return mixed.terms.size() <= causes.terms.size() ? mixed : causes;
-  }
   return mixed.criterion < causes.criterion ? mixed : causes;
 }
 
