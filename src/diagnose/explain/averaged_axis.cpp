@@ -11,8 +11,12 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double present = 0.2;   // how often a stream has an effect, before it is looked at
-constexpr double told = 1e-3;     // probability below which a model is not listed
+constexpr double present = 0.2;  // how often a stream has an effect, before it is looked at
+constexpr double told = 1e-3;    // probability below which a model is not listed
+// A form that no cause explains is known by the patterns that the data show of it, and may have as
+// well what the surface takes: in the axis at each end, this share of the patterns' root mean
+// square.
+constexpr double discrepancy = 0.1;
 constexpr double nothing = 1e-2;  // of u: a shift below is none
 
 /// A model of the readings instead of the named one.
@@ -41,6 +45,16 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
            });
   });
   return list;
+}
+
+/// Of all that no cause explains, mm.
+double unexplained_rms(const Joint& joint) {
+  double sum = 0.0;
+  for (std::size_t t = 0; t < joint.terms.size(); ++t) {
+    if (joint.terms[t].effect) continue;
+    for (const double x : joint.contribution_of(t)) sum += x * x;
+  }
+  return std::sqrt(sum / static_cast<double>(joint.equations.point().size()));
 }
 
 class Averaging {
@@ -233,7 +247,12 @@ class Averaging {
 
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings, const FitResult& ideal) {
-  return Averaging(problem, joint, findings, ideal).average();
+  AveragedAxis out = Averaging(problem, joint, findings, ideal).average();
+  if (!problem.point.base.face) {
+    const double left = discrepancy * unexplained_rms(joint);
+    out.between += covariance_of_ends(problem.point, out.between.rows(), left);
+  }
+  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -85,6 +85,17 @@ AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& cha
   return worst;
 }
 
+Eigen::MatrixXd covariance_of_ends(const LinearisationPoint& point, Eigen::Index base,
+                                   double u_mm) {
+  const auto per = static_cast<Eigen::Index>(point.base.per_axis());
+  Eigen::MatrixXd ends(4, per);
+  ends << position_at(point, -1.0), position_at(point, 1.0);
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(base, base);
+  out.block(last_axis(point), last_axis(point), per, per) =
+      u_mm * u_mm * (ends.transpose() * ends).inverse() * (per < 4 ? 2.0 : 1.0);
+  return out;
+}
+
 AxisUncertainty axis_uncertainty(const LinearisationPoint& point,
                                  const Eigen::MatrixXd& base_covariance) {
   const auto per = static_cast<Eigen::Index>(point.base.per_axis());

@@ -40,6 +40,10 @@ struct AxisShift {
 AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& change,
                      const Eigen::MatrixXd& covariance);
 
+/// Covariance of the base where x, y of the last axis at both ends of the probed length are each
+/// known to u_mm, and independent.
+Eigen::MatrixXd covariance_of_ends(const LinearisationPoint& point, Eigen::Index base, double u_mm);
+
 /// Largest standard uncertainty of the last axis over the probed length, in its worse direction,
 /// and the root mean square of its distance from the true one.
 struct AxisUncertainty {
