@@ -83,6 +83,10 @@ struct TargetAxis {
 TargetAxis solve_target_axis(std::span<const Reference> references, double z_start_mm,
                              double z_end_mm, bool needs_position = true);
 
+/// What is left at each reference when the part is cut about any axis `target` instead.
+std::vector<Remainder> remainders_of(std::span<const Reference> references, const Axis& target,
+                                     double z_start_mm, double z_end_mm);
+
 /// ISO 1101 coaxiality of `toleranced` over [z_start, z_end] with `datum` as the datum axis: a
 /// diameter, mm (Eq. 118).
 double coaxiality_mm(const Axis& toleranced, const Axis& datum, double z_start_mm, double z_end_mm);

@@ -33,6 +33,16 @@ struct JobReference {
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
 };
 
+/// The axis of a diagnosed reference that a cut is about. Whichever it is, the verdict holds the
+/// cut against the stated one, which is where the axis is as far as the readings tell.
+enum class AxisOfCut {
+  stated,  ///< the average over what may have caused the readings
+  named,   ///< were all causes those that are named
+  ideal    ///< of the ideal surface, were there no cause
+};
+
+const char* to_string(AxisOfCut axis);
+
 /// The main job: from probe streams to a correction table. Everything but the references is
 /// optional; without a target the job ends with the fit.
 struct Job {
@@ -48,6 +58,7 @@ struct Job {
   Actuator actuator;
   /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
   std::vector<std::string> include;
+  AxisOfCut axis_of_cut = AxisOfCut::stated;
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form

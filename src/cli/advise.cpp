@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "format/text_layout.hpp"
+#include "job/agreement.hpp"
+#include "job/conclude.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -19,25 +25,44 @@ struct Options {
   double false_alarm = DiagnoseOptions{}.false_alarm;
 };
 
-int advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm) {
+Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm) {
   DiagnoseOptions options;
   options.fit = fit;
   options.false_alarm = false_alarm;
-  const Diagnosis diagnosis = diagnose(stream, options);
+  Diagnosis diagnosis = diagnose(stream, options);
   expect_enough_readings(diagnosis.baseline);
   std::cout << advice_text(diagnosis);
+  return diagnosis;
+}
+
+int exit_code_of(const Diagnosis& diagnosis) {
   return diagnosis.baseline.status == FitStatus::converged ? done : numerical;
 }
 
+/// What the tolerance of the job asks of the measurement: its verdict, as `run` would have it.
+void advise_on_tolerance(JobResult result) {
+  if (!result.job.coaxiality_tolerance_mm) return;
+  result.agreement = hold_together(result);
+  conclude(result);
+  std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", result.verdict.line);
+}
+
 int advise_job(const Options& options) {
-  const Job job = read_job_toml(options.stream.path);
-  const std::vector<ProbeStream> streams = read_streams(job);
+  JobResult result;
+  result.job = read_job_toml(options.stream.path);
+  result.streams = read_streams(result.job);
   int worst = done;
-  for (std::size_t i = 0; i < streams.size(); ++i) {
-    const JobReference& reference = job.references[i];
+  for (std::size_t i = 0; i < result.streams.size(); ++i) {
+    const JobReference& reference = result.job.references[i];
     std::cout << (i ? "\n" : "") << reference.name << " (" << reference.stream << ")\n";
-    worst = std::max(worst, advise(streams[i], reference.fit, options.false_alarm));
+    const Diagnosis& diagnosis =
+        result.diagnoses.emplace_back(advise(result.streams[i], reference.fit, options.false_alarm))
+            .value();
+    result.fits.push_back(diagnosis.baseline);
+    result.resimulations.emplace_back();
+    worst = std::max(worst, exit_code_of(diagnosis));
   }
+  if (worst == done) advise_on_tolerance(std::move(result));
   return worst;
 }
 
@@ -56,7 +81,8 @@ void add_advise(CLI::App& app, int& exit_code) {
       return;
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
-    exit_code = advise(options->stream.read(), options->association.chosen(), options->false_alarm);
+    exit_code = exit_code_of(
+        advise(options->stream.read(), options->association.chosen(), options->false_alarm));
   });
 }
 

@@ -56,7 +56,9 @@ Identified identified(const Options& options) {
     out.diagnosis = read_diagnosis(text, options.fit);
     out.fit = out.diagnosis->baseline;
     if (options.ideal || !options.diagnosis.empty())
-      throw InputError(options.fit, "is a diagnosis itself: leave --ideal and --diagnosis out");
+      throw InputError(options.fit,
+                       "is a diagnosis itself: leave --ideal and --diagnosis out; a cut about its "
+                       "ideal fit is asked for by axis = \"ideal\" in [correction] of the target");
     return out;
   }
   out.fit = fit_from_json(text, options.fit);

@@ -41,11 +41,13 @@ inline void add_false_alarm(CLI::App& command, double& level) {
       ->check(number_in(0.0, true, 0.5, "a probability above 0, up to 0.5"));
 }
 
-/// A place to write to: any text but an empty one, which a script's empty variable gives.
+/// A place to write to: any text but an empty or blank one, which a script's empty variable gives.
 inline CLI::Validator a_place() {
   return {[](const std::string& text) {
-            return text.empty() ? std::string("is empty: name a place for the result")
-                                : std::string();
+            return text.find_first_not_of(" \t\r\n") == std::string::npos
+                       ? std::string(text.empty() ? "is empty" : "is blank") +
+                             ": name a place for the result"
+                       : std::string();
           },
           "", "place"};
 }

@@ -51,9 +51,9 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.harmonics = table_harmonics(profile, actuator);
 
   const Spectrum spectrum(profile);
-  if (actuator.precompensate) {
-    precompensate(spectrum, actuator, motion_of(profile, tool.speed_rpm), correction.rows);
-  }
+  const Motion motion = motion_of(profile, tool.speed_rpm);
+  if (can_precompensate(spectrum, motion, actuator))
+    precompensate(spectrum, actuator, motion, correction.rows);
   correction.margin = margin_at(spectrum, profile, actuator, tool.speed_rpm);
   const double searched_rpm = max_speed_rpm(spectrum, profile, actuator);
   correction.margin.max_speed_rpm =

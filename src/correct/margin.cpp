@@ -166,7 +166,29 @@ Demand demand_at(const Chain& chain, const std::vector<SlowAmplitude>& wanted,
   return demand;
 }
 
+/// Calls `each` with the amplitudes at places all along the cut.
+template <typename Each>
+void for_places(const Spectrum& spectrum, Each each) {
+  std::vector<SlowAmplitude> wanted;
+  for (int place = 0; place < places; ++place) {
+    const double share = static_cast<double>(place) / (places - 1);
+    spectrum.at(spectrum.start_mm() + share * (spectrum.end_mm() - spectrum.start_mm()), wanted);
+    each(wanted);
+  }
+}
+
+/// The highest order that the bandwidth and the set-points must pass; 0: none.
+int highest_order_of(const Spectrum& spectrum, const std::vector<SlowAmplitude>& wanted) {
+  int highest = 0;
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if (std::abs(wanted[k].value) > counted_mm) highest = std::max(highest, spectrum.orders()[k]);
+  return highest;
+}
+
 std::string number(double value, const char* unit) { return fmt::format("{:.4g} {}", value, unit); }
+
+/// Whether set-points show an order at all; what they do not show no command brings about.
+bool enough_set_points(double per_revolution, int order) { return per_revolution > 2.0 * order; }
 
 void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm) {
   const auto check = [&](bool holds, const std::string& what) {
@@ -183,7 +205,7 @@ void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm)
   check(margin.highest_frequency_hz <= margin.bandwidth_hz,
         "frequency " + number(margin.highest_frequency_hz, "Hz") + " of a bandwidth of " +
             number(margin.bandwidth_hz, "Hz"));
-  check(margin.set_points_per_revolution > 2.0 * highest_order,
+  check(enough_set_points(margin.set_points_per_revolution, highest_order),
         "set-points " + number(margin.set_points_per_revolution, "a revolution") + ", more than " +
             std::to_string(2 * highest_order) + " are needed for order " +
             std::to_string(highest_order));
@@ -227,13 +249,10 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
   ActuatorMargin margin;
   Extremes command{infinity, -infinity};
   int highest_order = 0;
-  std::vector<SlowAmplitude> wanted;
-  for (int place = 0; place < places; ++place) {
-    const double share = static_cast<double>(place) / (places - 1);
-    spectrum.at(spectrum.start_mm() + share * (spectrum.end_mm() - spectrum.start_mm()), wanted);
+  const bool ahead = can_precompensate(spectrum, motion, actuator);
+  for_places(spectrum, [&](const std::vector<SlowAmplitude>& wanted) {
     const Demand plain = demand_at(chain, wanted, actuator, false, turn);
-    const Demand sent =
-        actuator.precompensate ? demand_at(chain, wanted, actuator, true, turn) : plain;
+    const Demand sent = ahead ? demand_at(chain, wanted, actuator, true, turn) : plain;
     command.low = std::min(command.low, sent.command.low);
     command.high = std::max(command.high, sent.command.high);
     margin.slew_used_mm_per_s = std::max(margin.slew_used_mm_per_s, sent.slew_mm_per_s);
@@ -241,12 +260,8 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
     margin.following_once_mm = std::max(margin.following_once_mm, sent.following_once_mm);
     margin.following_uncompensated_mm =
         std::max(margin.following_uncompensated_mm, plain.following_mm);
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      if (std::abs(wanted[k].value) > counted_mm) {
-        highest_order = std::max(highest_order, chain.paths[k].order);
-      }
-    }
-  }
+    highest_order = std::max(highest_order, highest_order_of(spectrum, wanted));
+  });
   margin.stroke_used_mm = command.high - command.low;
   margin.stroke_available_mm = actuator.stroke_mm * (1.0 - actuator.stroke_reserve);
   margin.slew_available_mm_per_s = actuator.slew_mm_per_s;
@@ -262,6 +277,15 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
 ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
                          double speed_rpm) {
   return margin_at(spectrum, motion_of(profile, speed_rpm), actuator);
+}
+
+bool can_precompensate(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator) {
+  int order = 0;
+  for_places(spectrum, [&](const std::vector<SlowAmplitude>& wanted) {
+    order = std::max(order, highest_order_of(spectrum, wanted));
+  });
+  return actuator.precompensate &&
+         enough_set_points(actuator.sampling_hz * two_pi / motion.omega_rad_per_s, order);
 }
 
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator) {

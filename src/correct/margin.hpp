@@ -17,6 +17,11 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Profile& profile, const
 /// The same of a run that differs from the profile's in its rows a revolution too.
 ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator);
 
+/// Whether precompensation is asked for and set-points come often enough for all orders that
+/// matter: else what it asks of the actuator is without bound, and the wanted profile is what is
+/// sent.
+bool can_precompensate(const Spectrum& spectrum, const Motion& motion, const Actuator& actuator);
+
 /// The highest speed at which margin_at follows; 0: at none. Never above the actuator's bandwidth
 /// in revolutions.
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator);

@@ -120,10 +120,16 @@ TargetAxis solve_target_axis(std::span<const Reference> references, double z_sta
     covariance += j * Eigen::Map<const Matrix4>(reference.covariance.data()) * j.transpose();
   }
   Eigen::Map<Matrix4>(target.axis.covariance.data()) = covariance;
-  for (const Reference& reference : references) {
-    target.remainders.push_back(remainder(reference, axis, z_start_mm, z_end_mm));
-  }
+  target.remainders = remainders_of(references, axis, z_start_mm, z_end_mm);
   return target;
+}
+
+std::vector<Remainder> remainders_of(std::span<const Reference> references, const Axis& target,
+                                     double z_start_mm, double z_end_mm) {
+  std::vector<Remainder> list;
+  for (const Reference& reference : references)
+    list.push_back(remainder(reference, target, z_start_mm, z_end_mm));
+  return list;
 }
 
 // The distance from a line is convex along another line: its maximum is at an end.

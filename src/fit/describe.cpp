@@ -208,7 +208,7 @@ void note_radius(FitResult& result) {
   for (const double z_mm : {result.position_min_mm, result.position_max_mm}) {
     const double radius_mm =
         result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);
-    if (!(radius_mm <= 0.0)) continue;
+    if (!(radius_mm <= radius_U_mm(result))) continue;
     result.notes.push_back(
         fmt::format("no part has a radius of {:.6g} mm, as this one at Z = {:.6g} mm: give the "
                     "radius of the probe's ball, or none where the readings are of the contact",
@@ -263,6 +263,15 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
 }
 
 }  // namespace
+
+double radius_U_mm(const FitResult& fit) {
+  double U_mm = 0.0;
+  for (const auto* list : {&fit.parameters, &fit.derived})
+    for (const FitParameter& p : *list)
+      if ((p.name == "radius" || p.name == "radius_mid") && std::isfinite(p.estimate.u))
+        U_mm = fit.coverage_factor * p.estimate.u;
+  return U_mm;
+}
 
 void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
               Association& association, ReadingNoise noise, const FitOptions& options,

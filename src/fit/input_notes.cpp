@@ -52,6 +52,26 @@ std::string unit_of_angle(const ProbeStream& stream) {
   return "";
 }
 
+/// C that creeps through part of a turn while Z runs to and fro: each is in the other's column.
+std::string exchanged_columns(const ProbeStream& stream) {
+  constexpr int least_returns = 3;
+  if (stream.kind == StreamKind::face || !stream.has_position() || stream.size() < 2) return "";
+  const auto [low, high] = range_of(stream.position_mm);
+  const auto [from, to] = range_of(stream.c_rad);
+  int returns = 0;
+  bool creeps = true;
+  const double sense = stream.c_rad.back() - stream.c_rad.front();
+  for (std::size_t i = 1; i < stream.size(); ++i) {
+    creeps = creeps && (stream.c_rad[i] - stream.c_rad[i - 1]) * sense > 0.0;
+    returns += std::abs(stream.position_mm[i] - stream.position_mm[i - 1]) > 0.5 * (high - low);
+  }
+  if (!creeps || to - from >= two_pi || returns < least_returns) return "";
+  return fmt::format(
+      "C runs once through {:.3g}° while Z jumps {} times through its whole range: are the columns "
+      "C and Z exchanged?",
+      (to - from) / rad_per_deg, returns);
+}
+
 }  // namespace
 
 std::vector<std::string> notes_on_input(const ProbeStream& stream, const SurfaceInfo& info) {
@@ -69,6 +89,7 @@ std::vector<std::string> notes_on_input(const ProbeStream& stream, const Surface
   }
   if (!info.needs_position && stream.has_position()) add(unused_position(stream));
   add(unit_of_angle(stream));
+  add(exchanged_columns(stream));
   return notes;
 }
 

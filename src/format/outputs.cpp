@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/outputs.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +24,32 @@ namespace trueaxis {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr const char* part = ".part";  // and the number of the process that writes it
+
+bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0; }
+
+/// Makes a new file beside a place, locks it and appends to `path` what makes its name new; -1: it
+/// cannot be made. Where files cannot be locked it is made all the same.
+int made_beside(std::string& path) {
+  path += part + std::to_string(::getpid());
+  for (;;) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file < 0 && errno != EEXIST) return -1;
+    if (file < 0) {
+      path += '_';
+      continue;
+    }
+    struct stat status {};
+    const bool taken = !lock(file) && errno == EWOULDBLOCK;
+    if (!taken && ::fstat(file, &status) == 0 && status.st_nlink > 0) return file;
+    ::close(file);  // somebody took it for left over
+  }
+}
+
+}  // namespace
+
 OutputFile::OutputFile(const std::string& path)
     : path_(is_standard_output(path) ? "-" : path), place_(link_target(path_)) {
   if (path_ == "-") return;
@@ -30,25 +59,31 @@ OutputFile::OutputFile(const std::string& path)
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     file_.open(place_, std::ios::binary);
   } else {
-    beside_ = place_ + ".part" + std::to_string(::getpid());
-    while (fs::exists(beside_, error)) beside_ += '_';
-    file_.open(beside_, std::ios::binary);
+    beside_ = place_;
+    lock_ = made_beside(beside_);
+    if (lock_ >= 0) file_.open(beside_, std::ios::binary);
   }
-  if (!file_) {
-    beside_.clear();
-    fail(std::strerror(errno));
+  if (file_.is_open()) return;
+  const std::string why = std::strerror(errno);
+  if (lock_ >= 0) {
+    fs::remove(beside_, error);
+    ::close(lock_);
   }
+  beside_.clear();
+  fail(why);
 }
 
 OutputFile::~OutputFile() {
   std::error_code ignored;
   if (!beside_.empty()) fs::remove(beside_, ignored);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       place_(std::move(other.place_)),
       beside_(std::exchange(other.beside_, {})),
+      lock_(std::exchange(other.lock_, -1)),
       file_(std::move(other.file_)) {}
 
 void OutputFile::write(std::string_view text) {
@@ -215,10 +250,40 @@ void Outputs::make_folder() {
   if (error) throw InputError(folder_, cannot(error.message()));
 }
 
+/// Removes what runs that were killed have left beside a place: a file of their naming that nobody
+/// holds and that is empty or begins as the result would.
+void Outputs::remove_left_over(const Place& place) const {
+  const fs::path target = link_target(place.path);
+  const std::string start = target.filename().string() + part;
+  std::error_code error;
+  const fs::path folder = target.parent_path();
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(folder.empty() ? "." : folder, error)) {
+    const std::string path = entry.path().string(), name = entry.path().filename().string();
+    const std::string number = name.starts_with(start) ? name.substr(start.size()) : "";
+    if (number.empty() || number.find_first_not_of("0123456789_") != std::string::npos ||
+        entry.is_symlink(error) || !entry.is_regular_file(error))
+      continue;
+    const bool is_read = std::ranges::any_of(inputs_, [&](const std::string& input) {
+      return identity_of_input(input) == identity_of_output(path);
+    });
+    const bool ours = entry.file_size(error) == 0 || schema_of_file(path) == place.schema;
+    if (is_read || !ours) continue;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) continue;
+    if (lock(file)) fs::remove(path, error);
+    ::close(file);
+  }
+}
+
 OutputFile& Outputs::open(const std::string& path) {
   expects(checked_ && std::ranges::find(places_, path, &Place::path) != places_.end(),
           "outputs that were named and checked");
-  if (files_.empty()) make_folder();
+  if (files_.empty()) {
+    make_folder();
+    for (const Place& place : places_)
+      if (!is_standard_output(place.path)) remove_left_over(place);
+  }
   return files_.emplace_back(path);
 }
 

@@ -10,8 +10,9 @@
 namespace trueaxis {
 
 /// A file that is whole or not there: it is written beside its place and renamed by `commit`; what
-/// is not committed is removed. A link keeps pointing to its file, a device or pipe is written as
-/// it is, "-" is standard output. A command writes through `Outputs`, which opens these.
+/// is not committed is removed, what a killed run left by the next one. A link keeps pointing to
+/// its file, a device or pipe is written as it is, "-" is standard output. A command writes through
+/// `Outputs`, which opens these.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -28,6 +29,7 @@ class OutputFile {
  private:
   [[noreturn]] void fail(const std::string& why) const;
   std::string path_, place_, beside_;
+  int lock_ = -1;  ///< held on what stands beside the place: nobody writes one that is not locked
   std::ofstream file_;
 };
 
@@ -82,6 +84,7 @@ class Outputs {
   };
   std::string objection(const Place& place) const;
   std::string of_folder() const;
+  void remove_left_over(const Place& place) const;
 
   bool force_, checked_ = false, made_folder_ = false;
   std::vector<std::string> inputs_;

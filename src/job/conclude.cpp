@@ -17,9 +17,11 @@ namespace {
 void correct(JobResult& result) {
   const TargetSurface& target = *result.job.target;
   const std::vector<Reference> references = references_of(result);
-  result.target_axis = solve_target_axis(references, target.z_start_mm, target.z_end_mm,
-                                         target.kind != TargetKind::face);
+  result.target_axis = solve_target_axis(references_aimed_at(result), target.z_start_mm,
+                                         target.z_end_mm, target.kind != TargetKind::face);
   TargetAxis& solved = *result.target_axis;
+  solved.remainders =
+      remainders_of(references, solved.axis.axis, target.z_start_mm, target.z_end_mm);
   for (std::size_t i = 0; i < references.size(); ++i) {
     solved.remainders[i].limit_mm = CoaxialityDistribution({&references[i], 1}, solved.axis.axis,
                                                            target.z_start_mm, target.z_end_mm)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/describe.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -28,7 +29,7 @@ std::string ball_objection(const JobResult& result, std::size_t i) {
   for (const double z_mm : {fit.position_min_mm, fit.position_max_mm}) {
     const double radius_mm =
         fit.shape.radius_mm + fit.shape.tan_half_angle * (z_mm - fit.shape.axis.z_ref_mm);
-    if (radius_mm > 0.0) continue;
+    if (radius_mm > radius_U_mm(fit)) continue;
     return fmt::format(
         "{}: with a ball of radius {:.6g} mm the surface has a radius of {:.6g} mm at Z = {:.6g} "
         "mm: give the radius of the probe's ball, or none where the readings are of the contact",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/references.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -73,6 +75,37 @@ std::vector<Reference> references_of(const JobResult& result) {
                           face_radius(named, fit, *result.job.target), freedom_of(fit)});
   }
   return references;
+}
+
+std::vector<Reference> references_aimed_at(const JobResult& result) {
+  std::vector<Reference> references = references_of(result);
+  for (std::size_t i = 0; i < references.size() && i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i] || result.job.axis_of_cut == AxisOfCut::stated) continue;
+    const FitResult& asked =
+        result.job.axis_of_cut == AxisOfCut::named ? result.diagnoses[i]->named : result.fits[i];
+    if (asked.status == FitStatus::converged) references[i].axis.axis = asked.axis.axis;
+  }
+  return references;
+}
+
+std::string axis_reservation(const JobResult& result) {
+  const bool diagnosed =
+      std::ranges::any_of(result.diagnoses, [](const auto& d) { return d.has_value(); });
+  if (result.job.axis_of_cut == AxisOfCut::stated || !diagnosed) return "";
+  return fmt::format("the job has the part cut about the {} axis, not about the stated one",
+                     to_string(result.job.axis_of_cut));
+}
+
+const char* to_string(AxisOfCut axis) {
+  switch (axis) {
+    case AxisOfCut::stated:
+      return "stated";
+    case AxisOfCut::named:
+      return "named";
+    case AxisOfCut::ideal:
+      return "ideal";
+  }
+  return "";
 }
 
 }  // namespace trueaxis

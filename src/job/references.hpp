@@ -11,4 +11,10 @@ namespace trueaxis {
 /// weight, and the radius at which a tilt counts.
 std::vector<Reference> references_of(const JobResult& result);
 
+/// The same with the axes that the job wants the cut to be about.
+std::vector<Reference> references_aimed_at(const JobResult& result);
+
+/// What a reader of a go must know where the job does not take the stated axes; else empty.
+std::string axis_reservation(const JobResult& result);
+
 }  // namespace trueaxis

@@ -177,6 +177,8 @@ Verdict decide(const JobResult& result) {
   for (std::string& why : model_reservations(result))
     verdict.reservations.push_back(std::move(why));
   for (std::string& why : cut_reservations(result)) verdict.reservations.push_back(std::move(why));
+  if (std::string why = axis_reservation(result); !why.empty())
+    verdict.reservations.push_back(std::move(why));
   if (const auto tolerance_mm = result.job.coaxiality_tolerance_mm) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
     verdict.line += moved;

@@ -12,7 +12,7 @@ const fontFamily = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neu
  * what a chart asks for whose size does not say it. */
 function figure({caption, description, size = 'normal', renderer = 'canvas', build, height}) {
   const box = element('div', {class: `chart ${size}`});
-  const made = element('figure', {}, box, element('figcaption', {}, caption));
+  const made = element('figure', {}, box, element('figcaption', {}, joined(caption)));
   const fit = () => { if (height) box.style.height = `${height(box.clientWidth)}px`; };
   made.start = () => {
     fit();
@@ -59,7 +59,25 @@ function axis(name, more = {}) {
 
 /** Upright axis: its name stands level above it, which needs no width. */
 const uprightAxis = (name, more = {}) =>
-  axis(name, {nameLocation: 'end', nameGap: 12, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -36]}, ...more});
+  axis(name, {nameLocation: 'end', nameGap: 12, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -24]}, ...more});
+
+/** An axis that ends just beyond its values, labelled at round numbers. */
+function spanning(values) {
+  const kept = values.filter(isNumber);
+  const low = kept.reduce((a, b) => Math.min(a, b), Infinity), high = kept.reduce((a, b) => Math.max(a, b), -Infinity);
+  const margin = high > low ? 0.02 * (high - low) : 1;
+  const step = 10 ** Math.floor(Math.log10(margin));
+  const min = Number((step * Math.floor((low - margin) / step)).toPrecision(10)), max = Number((step * Math.ceil((high + margin) / step)).toPrecision(10));
+  const customValues = niceTicks(min, max, 6);
+  return {min, max, axisTick: {show: true, customValues, lineStyle: {color: '#9aa4b0'}},
+    axisLabel: {color: colours.ink, hideOverlap: true, formatter: tick, customValues}};
+}
+
+/** An axis about zero whose ends, of roundUpFinely, are labelled like the steps between. */
+function aboutZero(limit) {
+  const leading = Number((limit / 10 ** Math.floor(Math.log10(limit))).toPrecision(6));
+  return {min: -limit, max: limit, interval: Number((limit / ([1.2, 2.4, 3, 6].includes(leading) ? 3 : 2)).toPrecision(6))};
+}
 
 const angleAxis = (width, name = 'spindle angle C in °') =>
   axis(name, {min: 0, max: 360, interval: width < 480 ? 90 : 45});
@@ -68,7 +86,10 @@ const tick = (value) => String(Math.abs(value) < 1e-12 ? 0 : Number(value.toPrec
 
 const grid = (more = {}) => ({left: 12, right: 22, top: 44, bottom: 34, containLabel: true, ...more});
 
-const legend = (more = {}) => ({top: 0, right: 0, itemWidth: 18, itemHeight: 9, textStyle: {color: colours.ink}, ...more});
+/** A name as long as a legend on a phone has room for. */
+const shortened = (name) => name.length > 42 ? `${name.slice(0, 41)}…` : name;
+
+const legend = (more = {}) => ({top: 0, right: 0, itemWidth: 18, itemHeight: 9, textStyle: {color: colours.ink}, formatter: shortened, ...more});
 
 /** A legend of series; lines are shown without a mark, which they do not have. */
 const legendOf = (series, more = {}) => legend({

@@ -124,8 +124,8 @@ function marginSection(data) {
     ['Set-points per revolution', tick(Number(margin.set_points_per_revolution.toPrecision(4)))],
   ]));
   parts.push(element('div', {class: 'pair'}, marginChart(lines),
-    element('div', {}, table('The numbers behind the bars', ['Limit', 'What', 'Used', 'Available', 'Share'],
-      lines.map((line) => [line.name, line.what, line.show(line.used), line.show(line.limit), percent(line.share)]), 2),
+    element('div', {}, table('The numbers behind the bars', ['Limit', 'Used', 'Available', 'Share'],
+      lines.map((line) => [element('span', {}, line.name, element('small', {}, line.what)), line.show(line.used), line.show(line.limit), percent(line.share)])),
     paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve is what stands against it.", 'quiet'))));
   return section('margin', "The actuator's margin", ...parts);
 }

@@ -7,7 +7,7 @@ const diagnosisWords = {
   unexplained: 'The ideal surface misses something that no catalogued cause explains in full.',
 };
 
-const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)} %`;
+const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)}${nbsp}%`;
 const spoken = (name) => name.replaceAll('_', ' ');
 
 /** "value ± U" of an estimate in the unit that suits its size, or why it is not there. */
@@ -18,15 +18,17 @@ function estimated({value, u, unit, why}, k) {
   return isNumber(u) && u > 0 ? `${shown} ± ${uncertainty(k * u, unit)}` : shown;
 }
 
+const minutes = (plan) => `${tick(Number(plan.minutes.toPrecision(2)))}${nbsp}min`;
+
 /** With `power` or, of the next measurement, `power_after`. */
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${tick(Number(plan.minutes.toPrecision(3)))} min${otherPlans(plan)}.`;
+  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
 }
 
 function otherPlans({others = []}) {
-  return others.map((o) => `; or ${o.plan} (→ ${chance(o.power)}, ${tick(Number(o.minutes.toPrecision(3)))} min)`).join('');
+  return others.map((o) => `; or ${o.plan} (→ ${chance(o.power)}, ${minutes(o)})`).join('');
 }
 
 function classTable(finding, titles) {
@@ -72,11 +74,11 @@ function gainFacts({gain, options: {coverage_factor: k}}, face) {
     [face ? 'What the tilt moved by, at the outer end' : 'Shift of the axis', estimated(gain.axis_shift, k)],
     [face ? 'Expected axial run-out at the outer end, cut square to the axis of the ideal surface'
       : 'Expected coaxiality over the probed length, cut about the axis of the ideal surface', estimated(gain.coaxiality_before, k)],
-    [`The same ${face ? 'square to' : 'about'} the axis of the extended model`, estimated(gain.coaxiality_after, k)],
+    [`The same ${face ? 'square to the axis of the extended model' : 'about the stated axis'}`, estimated(gain.coaxiality_after, k)],
   ]);
 }
 
-const axisNames = {stated: 'stated: the average over what may have caused the readings', named: 'were all causes those that are named', ideal: 'were there no cause'};
+const axisNames = {stated: ['stated', 'the average over what may have caused the readings'], named: ['named', 'were all causes those that are named'], ideal: ['ideal fit', 'were there no cause']};
 
 function shareWords({effect, instead_of: instead, probability, axis_shift: shift}, k) {
   const what = !effect ? `no ${instead} at all` : instead ? `${effect} instead of ${instead}` : `${effect}, too small to be found,`;
@@ -92,16 +94,20 @@ function faceAxisBlock({shares, options: {coverage_factor: k}}) {
 }
 
 /** The axis that is stated, beside those of the named model and of the ideal fit, and what moved it. */
-function axesBlock({axes, shares, options: {coverage_factor: k}}, face) {
+function axesBlock({verdict, axes, shares, axis_of_cut: cut, options: {coverage_factor: k}}, face) {
   if (face) return faceAxisBlock({shares, options: {coverage_factor: k}});
   if (!axes.stated.length) return null;
-  const place = ({x, y, u}) => `(${(x * 1000).toFixed(2)}, ${(y * 1000).toFixed(2)}) ± ${micrometres(k * u)}`;
-  const rows = Object.entries(axisNames).filter(([key]) => axes[key].length)
-    .map(([key, words]) => [words, ...axes[key].map(place)]);
-  const telling = shares.filter((s) => isNumber(s.axis_shift.value) && s.probability * s.axis_shift.value > 0.1 * axes.stated[0].u).slice(0, 5);
-  return block('The axis', table(`x, y in µm; ± is U = k u, k = ${tick(k)}`,
-    ['Axis', ...axes.stated.map(({z}) => `at Z ${significant(z, 4)} mm`)], rows),
-    telling.length ? element('ul', {}, telling.map((s) => element('li', {}, shareWords(s, k)))) : null);
+  const ideal = verdict === 'ideal';
+  const noted = (text, note) => element('span', {}, text, element('small', {}, note));
+  const place = ({x, y, u}) => noted(`(${micrometres(x, u).replace(`${nbsp}µm`, '')}, ${micrometres(y, u).replace(`${nbsp}µm`, '')})${nbsp}µm`, `± ${uncertainty(k * u, 'mm')}`);
+  const rows = Object.entries(axisNames).filter(([key]) => axes[key].length && !(ideal && key === 'named'))
+    .map(([key, [name, meaning]]) => [noted(name, ideal && key === 'stated' ? 'that of the ideal fit, with what may hide in the readings' : meaning), ...axes[key].map(place)]);
+  const words = ideal ? 'Nothing was found, so the axis that is stated is that of the ideal fit. Its U holds what effects too small to be found may do to it.'
+    : 'The axis that is stated is an average over what may have caused the readings, each cause by its probability: the data cannot tell more. Its U holds what they leave open.';
+  return block('The axis', paragraph(`${words}${!cut ? '' : cut === 'stated' ? ' The correction takes the axis that is stated.' : ` The job asks for the ${cut} axis, and the correction takes that.`}`),
+    table(`x and y of the axis; ± is U = k u, k = ${tick(k)}`, ['Axis', ...axes.stated.map(({z}) => `at Z = ${millimetres(z, 2)}`)], rows),
+    shares.length ? paragraph(ideal ? 'What widens its U:' : 'What moves it from the named axis, or widens its U:') : null,
+    shares.length ? element('ul', {}, shares.map((s) => element('li', {}, shareWords(s, k)))) : null);
 }
 
 /** How far the simulation is from the measurement, before and after, in words. */
@@ -181,12 +187,18 @@ function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: 
     ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
 }
 
+function plansTable(plans) {
+  const rows = feasible(plans).map((plan) => [element('span', {}, plan.plan, element('small', {}, plan.what)),
+    `${chance(plan.power_before)} → ${chance(plan.power)}`, minutes(plan)]);
+  return rows.length ? table('The measurements, the best first', ['Measurement', 'Right name', 'Time'], rows) : null;
+}
+
 function nextBlock({next_measurement: next, plans}) {
   if (!next.plan && !next.why_not && !plans.length) return null;
   const what = next.plan ? measurementWords(next) + (next.separates.length ? ` It separates ${next.separates.join(', ')}.` : '')
     : next.why_not ? `None: ${next.why_not}.` : 'None: there is nothing to tell apart.';
   const impossible = plans.filter((plan) => plan.why_not);
-  return block('Next measurement', paragraph(what), plansChart(plans),
+  return block('Next measurement', paragraph(what), plansChart(plans), plansTable(plans),
     impossible.length ? paragraph(`Not possible here: ${impossible.map((plan) => `${plan.plan} (${plan.why_not})`).join('; ')}.`, 'quiet') : null);
 }
 
@@ -198,7 +210,7 @@ function diagnosisSection(reference, index) {
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
   if (hypotheses) {
     parts.push(paragraph(`${hypotheses} hypotheses were tried; the chance of any finding in a stream that has none is ${percent(alarm)}.` +
-      (reference.extended ? ' The correction takes the axis of the extended model.' : ''), 'quiet'));
+      (reference.extended && readings?.face ? ' The correction takes the axis of the extended model.' : ''), 'quiet'));
   }
   const {status, message} = diagnosis.extended;
   if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));

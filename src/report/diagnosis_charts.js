@@ -74,30 +74,38 @@ function spectrumChart(diagnosis, extended) {
     const i = nearest(line);
     marks.set(i, [...(marks.get(i) ?? []), `${line.name.split('.').pop().replaceAll('_', ' ')} (${tick(Number(line.order.toPrecision(4)))})`]);
   });
-  const labelled = [...marks].map(([i, names]) => ({value: [order[i], before[i]], label: {formatter: names.join('\n')}}));
+  const end = tidy(Math.ceil(largest(order)));
+  // Above the mark where there is room on either side, else beside it.
+  const beside = (width, i, names) => {
+    const half = 3.3 * Math.max(...names.map((name) => name.length)), place = (width - 56) * order[i] / end;
+    return place + half > width - 40 ? 'left' : place < half - 30 ? 'right' : 'top';
+  };
+  const labelled = (width) => [...marks].map(([i, names]) => ({value: [order[i], before[i]], label: {formatter: names.join('\n'), position: beside(width, i, names)}}));
   const curve = (name, values, colour, width) => ({name, type: 'line', symbol: 'none', emphasis: {disabled: true},
     itemStyle: {color: colour}, lineStyle: {color: colour, width}, data: order.map((o, i) => [o, values[i]])});
-  const series = [curve(extended ? 'before' : 'measured − simulated', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
-  if (labelled.length) {
-    series.push({name: 'found', type: 'scatter', symbol: 'triangle', symbolSize: 9, symbolOffset: [0, -8], z: 5, emphasis: {disabled: true},
-      itemStyle: {color: colours.series[2]}, labelLayout: {moveOverlap: 'shiftY'},
-      label: {show: true, position: 'top', distance: 8, color: colours.ink, fontSize: 11}, data: labelled});
-  }
-  const build = () => ({
+  const curves = [curve(extended ? 'before' : 'measured − simulated', before, colours.measured, 1.6), ...(extended ? [curve('after', after, colours.model, 1.6)] : [])];
+  const found = (width) => ({name: 'found', type: 'scatter', symbol: 'triangle', symbolSize: 9, symbolOffset: [0, -8], z: 5, emphasis: {disabled: true},
+    itemStyle: {color: colours.series[2]}, labelLayout: {moveOverlap: 'shiftY'},
+    label: {show: true, distance: 8, color: colours.ink, fontSize: 11}, data: labelled(width)});
+  const seriesFor = (width) => marks.size ? [...curves, found(width)] : curves;
+  const build = (width) => ({
     grid: grid({top: 64}),
-    legend: legendOf(series, {left: 0, right: 0}),
-    xAxis: axis('order: undulations per revolution', {min: 0, max: tidy(Math.ceil(largest(order)))}),
-    yAxis: uprightAxis('amplitude in µm', {nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -18]}, min: 0, max: roundUpFinely(most * 1.25)}),
-    series,
+    legend: legendOf(seriesFor(width), {left: 0, right: 0}),
+    xAxis: axis('order: undulations per revolution', {min: 0, max: end}),
+    yAxis: uprightAxis('amplitude in µm', {min: 0, max: roundUpFinely(most * 1.25)}),
+    series: seriesFor(width),
   });
   return figure({caption: `Spectrum of measured minus simulated${extended ? ', before and after the model was extended. Marks are the lines that were found.' : '.'}` +
     (spectrum.grouped ? ' Each point is the highest of its neighbours.' : ''),
     description: 'Amplitude over the order before and after, with the found lines.', size: 'map', renderer: 'svg', build});
 }
 
+/** Plans that can be carried out and whose gain is known. */
+const feasible = (plans) => plans.filter((plan) => !plan.why_not && isNumber(plan.power_before) && isNumber(plan.power));
+
 /** What every plan would do to the chance of the right name. */
 function plansChart(plans) {
-  const shown = plans.filter((plan) => !plan.why_not && isNumber(plan.power_before) && isNumber(plan.power));
+  const shown = feasible(plans);
   if (!shown.length) return null;
   const share = (v) => Number((100 * v).toPrecision(4));
   const bars = (name, key, colour) => ({name, type: 'bar', barWidth: '34%', emphasis: {disabled: true}, itemStyle: {color: colour},
@@ -106,7 +114,7 @@ function plansChart(plans) {
     grid: grid({top: 48}),
     legend: legend({left: 0, right: 0}),
     xAxis: axis('chance of the right name in %', {min: 0, max: 100}),
-    yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => `${plan.plan}, ${tick(Number(plan.minutes.toPrecision(3)))} min`),
+    yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => plan.plan),
       axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink}}),
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });

@@ -3,6 +3,11 @@
 // every number carries its unit behind a no-break space.
 
 const nbsp = '\u00a0';
+
+/** No line ends between a number and its unit or within an equation. */
+const joined = (text) => text.replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
+  .replace(/(?<!\p{L})(\p{L}) = (?=[\d−])/gu, `$1${nbsp}=${nbsp}`);
+
 const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
 
 function fixed(value, decimals) {

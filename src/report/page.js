@@ -12,7 +12,7 @@ function element(tag, attributes = {}, ...children) {
   return made;
 }
 
-const paragraph = (text, kind) => element('p', {class: kind}, text);
+const paragraph = (text, kind) => element('p', {class: kind}, joined(text));
 
 function section(id, title, ...children) {
   return element('section', {id}, element('h2', {}, title), ...children);

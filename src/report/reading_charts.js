@@ -50,7 +50,7 @@ function pointMap(readings, values, {limit, width}) {
   return {
     grid: grid({bottom: 66}),
     xAxis: angleAxis(width),
-    yAxis: uprightAxis(positionName(readings), {scale: true}),
+    yAxis: uprightAxis(positionName(readings), spanning(points.position_mm)),
     visualMap: colourScale(limit, width),
     series,
   };
@@ -70,8 +70,8 @@ function residualChart(readings, {x, envelope, name, words}) {
   const inside = (v) => Math.max(-limit, Math.min(limit, v));
   const build = (width) => ({
     grid: grid(),
-    xAxis: thinned ? bandAxis(band, name, envelope === 'c' ? (width < 480 ? 4 : 8) : 6) : envelope === 'c' ? angleAxis(width) : axis(name, {scale: true}),
-    yAxis: uprightAxis('measured − model in µm', {min: -limit, max: limit}),
+    xAxis: thinned ? bandAxis(band, name, envelope === 'c' ? (width < 480 ? 4 : 8) : 6) : envelope === 'c' ? angleAxis(width) : axis(name, spanning(x)),
+    yAxis: uprightAxis('measured − model in µm', aboutZero(limit)),
     series: thinned ? bandSeries(band) : [
       {name: 'residual', type: 'scatter', symbolSize: readings.count > 4000 ? 2 : 4, progressive: 0, emphasis: {disabled: true},
         itemStyle: {color: colours.measured, opacity: 0.65}, data: pairs(x, readings.points.residual_um, data.kept)},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "diagnose/files/axes_text.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "fit/files/fit_files.hpp"
 #include "report/page.hpp"
@@ -66,7 +67,7 @@ Json axis_ends(const FitResult& fit) {
 
 /// A diagnosis as in its file, without what the page has elsewhere or only counts.
 Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
-                    const Resimulation* again) {
+                    const Resimulation* again, const char* axis_of_cut) {
   Json data = diagnosis_object(diagnosis);
   for (const char* key : {"baseline", "named", "spectrum", "u_frame"}) data.erase(key);
   data["axes"] = {{"stated", axis_ends(diagnosis.extended)},
@@ -76,7 +77,13 @@ Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
                       {"message", diagnosis.extended.message}};
   data["noise"]["masked"] = diagnosis.noise.masked.size();
   data["noise"]["interruptions"] = diagnosis.noise.interruptions.size();
+  if (diagnosis.extended.surface != SurfaceKind::plane) {
+    data["shares"] = Json::array();
+    for (const AxisShare& share : telling_shares(diagnosis))
+      data["shares"].push_back(share_object(share));
+  }
   data["titles"] = titles_of(diagnosis);
+  data["axis_of_cut"] = axis_of_cut;
   data["simulation"] = simulation_data(stream, diagnosis, again);
   return data;
 }
@@ -89,8 +96,9 @@ Json reference_data(const JobResult& result, std::size_t i) {
     data["readings"] = readings_data(result.streams[i], result.fits[i]);
     if (i < result.diagnoses.size() && result.diagnoses[i]) {
       const bool again = i < result.resimulations.size() && result.resimulations[i];
-      data["diagnosis"] = diagnosis_data(result.streams[i], *result.diagnoses[i],
-                                         again ? &*result.resimulations[i] : nullptr);
+      data["diagnosis"] = diagnosis_data(
+          result.streams[i], *result.diagnoses[i], again ? &*result.resimulations[i] : nullptr,
+          result.job.target ? to_string(result.job.axis_of_cut) : "");
     }
     data["extended"] = &fit_used(result, i) != &result.fits[i] &&
                        result.diagnoses[i]->verdict != DiagnosisVerdict::ideal;

@@ -86,7 +86,7 @@ function alongChart(target, lines) {
   const build = (width) => ({
     grid: grid({top: width < 480 ? 110 : 84}),
     legend: legendOf(series, {left: 0, right: 0}),
-    xAxis: axis('Z in mm', {scale: true}),
+    xAxis: axis('Z in mm', spanning(lines.flatMap(({axis: a}) => [a.start.z_mm, a.end.z_mm]))),
     yAxis: uprightAxis('x, y in µm', {scale: true}),
     series,
   });
@@ -109,7 +109,7 @@ function targetSection(data) {
   if (solved) parts.push(axesTable(target, references, k));
   for (const apart of target.apart) parts.push(paragraph(`Beyond U, half-way between them, ${apart}.`, 'quiet'));
   if (target.references.some((r) => r.after)) {
-    parts.push(remaindersTable(target, references, k),
+    parts.push(element('div', {class: 'wide'}, remaindersTable(target, references, k)),
       paragraph('Offsets and tilt of the remainder are what the weights leave; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.', 'quiet'));
   }
   const lines = axisLines(target, references);

@@ -51,12 +51,11 @@ function inspectCharts() {
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
-    const whole = document.title.startsWith('TrueAxis sweep');  // of a job's page names at the edge are still cut
-    const cut = !whole ? [] : texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
+    const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
     if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
     const plot = chart.getModel().getComponent('grid')?.coordinateSystem?.getRect();
     const names = new Set(series.map((s) => s.name));
-    const over = !whole || !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
+    const over = !plot || plot.height < 100 ? [] : texts(chart).filter(({text, box: at}) => names.has(text) && at.x + at.width > plot.x + 1 && at.y + at.height > plot.y + 1 && at.y < plot.y + plot.height);
     if (over.length) problems.push(`${name}: the legend lies on the plot: ${over.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
   });
   return {count: charts.length, problems};

@@ -129,5 +129,13 @@ TEST_F(ReportPage, TheScriptFindsAnEmptyChart) {
   EXPECT_FALSE(opinion.sound);
 }
 
+TEST_F(ReportPage, TheScriptFindsTextThatIsCut) {
+  const std::string page = replaced(render_report(example::cone_job(100)),
+                                    "padding: [0, 0, 0, -24]", "padding: [0, 0, 0, -60]");
+  const Opinion opinion = open_page(page, "text_cut");
+  EXPECT_NE(opinion.log.find("text is cut at the edge"), std::string::npos) << opinion.log;
+  EXPECT_FALSE(opinion.sound);
+}
+
 }  // namespace
 }  // namespace trueaxis

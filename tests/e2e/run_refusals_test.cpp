@@ -112,9 +112,12 @@ TEST_F(RunRefusals, AHeightThatIsImplausibleMovesNoAxis) {
   const CommandStreams done =
       run_with("id = \"encoder.eccentricity\"\namplitude_deg = 1\n", "2", 1000.0, 1);
   EXPECT_EQ(done.exit_code, 0) << done.err;
-  EXPECT_FALSE(contains(done.out, "probe.height")) << done.out;
+  const json diagnosis = result("out/diagnosis_1_seat.json");
+  EXPECT_FALSE(contains(diagnosis.at("findings").dump(), "probe.height")) << done.out;
+  for (std::size_t at = 0; (at = done.out.find("probe.height", at)) != std::string::npos; ++at)
+    EXPECT_EQ(done.out.substr(at, 35), "probe.height, too small to be found") << done.out;
   EXPECT_LT(simulated_again().at("after").at("share_of_variance").get<double>(), 0.5);
-  const json axis = result("out/diagnosis_1_seat.json").at("extended").at("axis");
+  const json axis = diagnosis.at("extended").at("axis");
   // An angle that errs by ε cos C shifts the axis by ε² and less of e; U of x is some 0.5 µm.
   EXPECT_NEAR(
       axis.at("x").at("value").get<double>() - 0.0002 * axis.at("z_ref").at("value").get<double>(),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/hundredths.hpp"
 #include "diagnose/advise/advise.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -195,8 +196,8 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const char* feed = face ? "X" : "Z";
   if (along) {
     add("RZ",
-        fmt::format("probe back from {} {:.4g} to {:.4g} mm at {:.4g} rpm", feed, m.z_end,
-                    m.z_start, rpm),
+        fmt::format("probe back from {} {:.6g} to {:.6g} mm at {:.4g} rpm", feed,
+                    hundredths(m.z_end), hundredths(m.z_start), rpm),
         pass_minutes, {{m.z_end, m.z_start, turns, m.seconds}}, nullptr);
   }
   if (timed) {
@@ -208,13 +209,15 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   }
   const double middle = 0.5 * (m.z_start + m.z_end),
                dwell = std::max(10.0, std::min(60.0, m.seconds));
-  add("DW", fmt::format("dwell {:.3g} s at {} {:.4g} mm, {:.4g} rpm", dwell, feed, middle, rpm),
+  add("DW",
+      fmt::format("dwell {:.3g} s at {} {:.6g} mm, {:.4g} rpm", dwell, feed, hundredths(middle),
+                  rpm),
       dwell / 60.0, {{middle, middle, m.sign * dwell * m.speed / two_pi, dwell}}, nullptr);
   if (timed) {
     add("ST",
         fmt::format(
-            "10 s at {} {:.4g} mm with the spindle standing still, and 10 s a quarter turn on",
-            feed, middle),
+            "10 s at {} {:.6g} mm with the spindle standing still, and 10 s a quarter turn on",
+            feed, hundredths(middle)),
         20.0 / 60.0, {{middle, middle, 0.0, 10.0}, {middle, middle, 0.0, 10.0, 0.25 * two_pi}},
         nullptr);
   }
@@ -230,8 +233,8 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   const bool behind = now.root == Root::rear;
   if (face && !point.two_sided) {
     add("RE",
-        fmt::format("probe the other side of the axis, from X {:.4g} to {:.4g} mm", -m.z_end,
-                    -m.z_start),
+        fmt::format("probe the other side of the axis, from X {:.6g} to {:.6g} mm",
+                    hundredths(-m.z_end), hundredths(-m.z_start)),
         pass_minutes, {{-m.z_end, -m.z_start, turns, m.seconds}}, nullptr);
   }
   if (!face) {

@@ -18,6 +18,7 @@ namespace {
 constexpr double seen = 0.5;      // power below which an effect counts as not observable
 constexpr double no_size = 1e-2;  // mm or rad, where the entry names none
 constexpr double nearly_absorbed = 0.05;
+constexpr double beyond_sense = 1e2;      // times the largest typical size: no size is found
 constexpr double typical_range_mm = 0.5;  // of a gauge, what its nonlinearity is a share of
 
 /// Why the stream cannot show an effect at all; empty: it may.
@@ -30,6 +31,11 @@ std::string why_not(const Requirement& needs, const LinearisationPoint& point) {
 double size_of(const Effect& effect, const LinearParameter& linear) {
   const EffectParameter* p = size_for(effect, linear.name);
   return p && p->high > 0.0 ? p->high : no_size;
+}
+
+std::string percent_left(double share) {
+  const double least = 1e-4;
+  return share < least ? "less than 0.01 %" : fmt::format("{:.2g} %", 100.0 * share);
 }
 
 /// An effect at its typical shape; and in a form that is told of apart.
@@ -153,8 +159,9 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     h.entry.axis_bias_typical = {h.axis_bias_mm, 0.0, "mm", ""};
     h.entry.detectable_unit = t.unit;
     const double at_threshold = model.family.threshold(problem.false_alarm);
-    h.entry.detectable = lambda > 0.0 ? t.size * t.edge * std::sqrt(at_threshold / lambda)
-                                      : std::numeric_limits<double>::infinity();
+    const double times = lambda > 0.0 ? std::sqrt(at_threshold / lambda) : beyond_sense;
+    h.entry.detectable =
+        times < beyond_sense ? times * t.size * t.edge : std::numeric_limits<double>::infinity();
     const double share = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
     if (!can) {
       h.entry.why = why;
@@ -168,11 +175,12 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
                            : elsewhere ? "height and tilt of the face"
                            : effect.absorbed_by.empty() ? "the surface's own parameters"
                                                         : effect.absorbed_by);
-      h.entry.why = fmt::format("absorbed by {}: {:.2g} % of it is left", by, 100.0 * share);
+      h.entry.why = fmt::format("absorbed by {}: {} of it is left", by, percent_left(share));
     } else {
-      h.entry.why =
-          fmt::format("too small beside the noise at its typical size: found from {:.3g} {} on",
-                      h.entry.detectable, t.unit);
+      const bool small = t.unit == "mm" && h.entry.detectable < 1.0;
+      h.entry.why = fmt::format(
+          "too small beside the noise at its typical size: found from {:.3g} {} on",
+          small ? h.entry.detectable / mm_per_um : h.entry.detectable, small ? "µm" : t.unit);
     }
     h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));

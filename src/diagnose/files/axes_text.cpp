@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 
+#include "base/hundredths.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
@@ -15,7 +18,7 @@ using namespace layout;
 namespace {
 
 constexpr std::size_t most_shares = 5;
-constexpr double worth_a_line = 0.1;  // of u
+constexpr double worth_a_line = 0.1;  // of u, or of its square
 
 std::string place(const FitResult& fit, double k) {
   std::string text;
@@ -23,9 +26,9 @@ std::string place(const FitResult& fit, double k) {
     const auto at = fit.axis.axis.at(z);
     const double U_um = k * fit.axis.u_at(z) / mm_per_um;
     const int decimals = decimals_of(U_um, 1);
-    text +=
-        fmt::format("{}({:.{}f}, {:.{}f}) ± {:.{}f} µm at Z {:.4g} mm", text.empty() ? "" : "; ",
-                    at[0] / mm_per_um, decimals, at[1] / mm_per_um, decimals, U_um, decimals, z);
+    text += fmt::format("{}({:.{}f}, {:.{}f}) ± {:.{}f} µm at Z {:.6g} mm",
+                        text.empty() ? "" : "; ", at[0] / mm_per_um, decimals, at[1] / mm_per_um,
+                        decimals, U_um, decimals, hundredths(z));
   }
   return text;
 }
@@ -34,15 +37,41 @@ double u_of(const FitResult& fit) {
   return std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
 }
 
+/// What a share adds to the square of u.
+double widens(const AxisShare& share) {
+  const double shift = share.axis_shift.value, u = share.axis_shift.u;
+  return share.probability * (shift * shift + u * u);
+}
+
+/// The axes of a diagnosis that has them, and what told: one line each.
+std::string axes_lines(const Diagnosis& d) {
+  const double k = d.extended.coverage_factor;
+  const bool ideal = d.verdict == DiagnosisVerdict::ideal;
+  std::string text =
+      wrapped("  stated   ", place(d.extended, k) +
+                                 (ideal ? ": that of the ideal fit; its U holds what effects too "
+                                          "small to be found may do to it"
+                                        : ": the average over what may have caused the readings"));
+  if (!ideal)
+    text += wrapped("  named    ", place(d.named, k) + ": were all causes those that are named");
+  text += wrapped("  ideal    ", place(d.baseline, k) + ": were there no cause");
+  for (const AxisShare& share : telling_shares(d))
+    text += wrapped("  why      ", share_text(share, k));
+  return text;
+}
+
 }  // namespace
 
 std::vector<AxisShare> telling_shares(const Diagnosis& d) {
+  if (d.extended.surface == SurfaceKind::plane) return {};  // the named model stands
+  const double u = u_of(d.extended);
   std::vector<AxisShare> list;
-  if (d.extended.surface == SurfaceKind::plane) return list;  // the named model stands
-  for (const AxisShare& share : d.shares)
-    if (list.size() < most_shares &&
-        share.probability * share.axis_shift.value > worth_a_line * u_of(d.extended))
-      list.push_back(share);
+  std::ranges::copy_if(d.shares, std::back_inserter(list), [&](const AxisShare& share) {
+    return share.probability * share.axis_shift.value > worth_a_line * u ||
+           widens(share) > worth_a_line * u * u;
+  });
+  std::ranges::stable_sort(list, std::ranges::greater{}, widens);
+  if (list.size() > most_shares) list.resize(most_shares);
   return list;
 }
 
@@ -56,19 +85,11 @@ std::string share_text(const AxisShare& share, double k) {
                      plus_minus(share.axis_shift, k, 1.0 / mm_per_um, "µm"));
 }
 
-std::string axes_text(const Diagnosis& d) {
+std::string axes_text(const Diagnosis& d, const std::string& heading) {
   if (d.extended.status != FitStatus::converged || d.extended.surface == SurfaceKind::plane)
     return "";
-  const double k = d.extended.coverage_factor;
-  std::string text = fmt::format("\nAxis (x, y); ± U (k = {:.3g})\n", k);
-  text += wrapped("  stated   ",
-                  place(d.extended, k) + ": the average over what may have caused the readings");
-  if (d.verdict != DiagnosisVerdict::ideal)
-    text += wrapped("  named    ", place(d.named, k) + ": were all causes those that are named");
-  text += wrapped("  ideal    ", place(d.baseline, k) + ": were there no cause");
-  for (const AxisShare& share : telling_shares(d))
-    text += wrapped("  why      ", share_text(share, k));
-  return text;
+  return heading + fmt::format(" (x, y); ± U (k = {:.3g})\n", d.extended.coverage_factor) +
+         axes_lines(d);
 }
 
 }  // namespace trueaxis

@@ -28,6 +28,9 @@ Json diagnosis_summary(const Diagnosis& diagnosis);
 /// A finding without its term and rivals, for results that hold a summary.
 Json finding_summary(const Finding& finding);
 
+/// A model that the axis is averaged over.
+Json share_object(const AxisShare& share);
+
 /// A pattern in words and its amplitude.
 Json unexplained_summary(const Unexplained& unexplained);
 
@@ -58,8 +61,8 @@ TermValue effect_term_from(const std::string& id, const Json& json,
 TermValue pattern_term_from(const Json& json);
 
 /// What the virtual lathe and a verdict need of a diagnosis: its verdict, both fits as
-/// `fit_from_object` has them, u's frame, findings and patterns with their classes, the next
-/// measurement; σ, autoregression and masked rows.
+/// `fit_from_object` has them, u's frame, findings and patterns with their classes, shares of the
+/// axis, what cannot be seen, the measurements; noise and masked rows.
 /// @param path of the text, for messages
 /// @param own_effects that it was made with; they outlive the result
 /// @throws InputError when the text is no trueaxis.diagnosis/2, or names an effect that neither the

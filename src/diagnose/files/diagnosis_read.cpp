@@ -40,6 +40,38 @@ Finding finding_from(const Json& json, std::span<const Effect> own_effects) {
   return finding;
 }
 
+Separating separating_from(const Json& json) {
+  Separating s;
+  s.plan = json.at("plan"), s.what = json.at("what"), s.why_not = json.at("why_not");
+  s.power = number_from(json.at("power")), s.power_before = number_from(json.at("power_before"));
+  s.minutes = number_from(json.at("minutes"));
+  return s;
+}
+
+NotObservable not_observable_from(const Json& json) {
+  NotObservable n;
+  n.effect = json.at("effect"), n.why = json.at("why");
+  if (!json.at("separate_with").is_null())
+    n.separate_with = separating_from(json.at("separate_with"));
+  return n;
+}
+
+AxisShare share_from(const Json& json) {
+  return {json.at("effect"), json.at("instead_of"), number_from(json.at("probability")),
+          estimate_from(json.at("axis_shift"))};
+}
+
+/// What a verdict asks of the noise.
+NoiseReport noise_from(const Json& json) {
+  NoiseReport noise;
+  noise.sigma_mm = value(json, "sigma");
+  noise.u_sigma_mm = number_from(json.at("sigma").at("u"));
+  if (!json.at("stated").at("value").is_null()) noise.stated_mm = value(json, "stated");
+  noise.autoregression = json.at("autoregression").get<std::vector<double>>();
+  noise.masked = rows_from(json.at("masked"));
+  return noise;
+}
+
 Unexplained unexplained_from(const Json& json) {
   return {pattern_term_from(json.at("term")), estimate_from(json.at("amplitude")),
           number_from(json.at("p_value"))};
@@ -62,9 +94,12 @@ Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) 
     d.unexplained.push_back(unexplained_from(pattern));
   d.next.plan = json.at("next_measurement").at("plan");
   d.next.what = json.at("next_measurement").at("what");
-  d.noise.sigma_mm = value(json.at("noise"), "sigma");
-  d.noise.autoregression = json.at("noise").at("autoregression").get<std::vector<double>>();
-  d.noise.masked = rows_from(json.at("noise").at("masked"));
+  d.noise = noise_from(json.at("noise"));
+  d.gain.rms_after_mm = number_from(json.at("gain").at("rms_after").at("value"));
+  for (const Json& share : json.at("shares")) d.shares.push_back(share_from(share));
+  for (const Json& hidden : json.at("not_observable"))
+    d.not_observable.push_back(not_observable_from(hidden));
+  for (const Json& plan : json.at("plans")) d.plans.push_back(separating_from(plan));
   return d;
 }
 

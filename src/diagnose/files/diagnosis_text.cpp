@@ -232,14 +232,12 @@ std::string findings_text(const Diagnosis& d) {
     const std::string axis = axis_note(f);
     if (!axis.empty()) text += wrapped("    ", "the axis is " + axis);
   }
-  for (const AxisShare& share : telling_shares(d))
-    text += wrapped("  axis: ", share_text(share, k));
   for (const Unexplained& u : d.unexplained) {
     text += wrapped("  ", "unexplained: " + harmonic_text(u.term.pattern) + ", " +
                               dependence_text(u.term.pattern) + ", amplitude " +
                               plus_minus(u.amplitude, k, 1.0 / mm_per_um, "µm"));
   }
-  return text;
+  return text + axes_text(d, "axis");
 }
 
 std::string diagnosis_text(const Diagnosis& d) {
@@ -257,8 +255,8 @@ std::string diagnosis_text(const Diagnosis& d) {
   }
   if (!d.unexplained.empty()) text += "\nUnexplained\n";
   for (const Unexplained& u : d.unexplained) text += unexplained_block(u, k);
-  return text + axes_text(d) + gain_block(d) + not_observable_text(d) + noise_text(d.noise) +
-         checks_text(d.checks) + remarks_text(d.remarks) + next_text(d.next);
+  return text + axes_text(d, "\nAxis") + gain_block(d) + not_observable_text(d) +
+         noise_text(d.noise) + checks_text(d.checks) + remarks_text(d.remarks) + next_text(d.next);
 }
 
 }  // namespace trueaxis

@@ -85,8 +85,12 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   summary["readings"] = readings_file(result.job, i);
   if (result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
-  summary["axis_of_the_correction"] =
-      result.diagnoses[i]->verdict == DiagnosisVerdict::ideal ? "ideal surface" : "extended model";
+  summary["axis_of_the_correction"] = result.diagnoses[i]->verdict == DiagnosisVerdict::ideal ||
+                                              result.job.axis_of_cut == AxisOfCut::ideal
+                                          ? "ideal surface"
+                                      : result.job.axis_of_cut == AxisOfCut::named
+                                          ? "named model"
+                                          : "extended model";
   return summary;
 }
 
@@ -210,6 +214,15 @@ std::vector<ProbeStream> read_streams(const Job& job) {
           reference.stream, {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  for (std::size_t i = 0; i < streams.size() && diagnostics.empty(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (streams[i].input_hash != streams[k].input_hash) continue;
+      diagnostics.push_back({job.references[i].stream, 0, 0,
+                             "holds the readings of " + job.references[k].name + " (" +
+                                 job.references[k].stream + ") again, for the reference " +
+                                 job.references[i].name + ": name the stream of each"});
     }
   }
   if (!diagnostics.empty()) throw InputError(std::move(diagnostics));

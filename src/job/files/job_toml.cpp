@@ -148,6 +148,14 @@ void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& too
   const double travel = target.kind == TargetKind::face
                             ? target.radius_end_mm - target.radius_start_mm
                             : target.z_end_mm - target.z_start_mm;
+  if (tool.feed_mm_per_rev > std::abs(travel)) {
+    cut.complain(
+        "feed_mm_per_rev",
+        fmt::format("is more than the length of the cut, {:.6g} mm, which would be over in "
+                    "less than a revolution",
+                    std::abs(travel)));
+    return;
+  }
   const double rows = std::abs(travel) / tool.feed_mm_per_rev * tool.rows_per_revolution;
   if (rows <= most_rows || std::isnan(rows)) return;
   cut.complain(
@@ -191,8 +199,12 @@ Actuator read_actuator(TomlTable table) {
   return a;
 }
 
-/// Only what repeats at the tool may be asked for.
-void read_include(TomlTable table, Job& job) {
+/// Of motions only what repeats at the tool may be asked for.
+void read_correction(TomlTable table, Job& job) {
+  job.axis_of_cut = table.choice<AxisOfCut>(
+      "axis",
+      {{"stated", AxisOfCut::stated}, {"named", AxisOfCut::named}, {"ideal", AxisOfCut::ideal}},
+      AxisOfCut::stated);
   job.include = table.texts("include");
   for (const std::string& id : job.include) {
     const auto known = repeating_effects();
@@ -213,7 +225,7 @@ void read_cut(TomlTable root, Job& job, bool required) {
     check_rows(cut, *job.target, job.tool);
     check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
-    if (auto correction = root.maybe_table("correction")) read_include(*correction, job);
+    if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
   } else {
     for (const char* key : {"cut", "actuator", "correction"}) {
       if (auto table = root.maybe_table(key)) {
