@@ -173,8 +173,7 @@ enum class Slot {
   noise        ///< ε
 };
 
-/// What an effect is fixed to: it decides what re-chucking, reversal, another speed or a return
-/// pass does to it.
+/// What an effect is fixed to: what re-chucking, reversal, another speed or a return pass does.
 enum class Frame { part, chuck, spindle, machine, probe, time };
 
 /// A parameter with the sizes that machines show: priors, not limits. Both 0: no typical size.
@@ -185,6 +184,7 @@ struct EffectParameter {
   std::string_view meaning;
   std::string_view of = {};     ///< shape or linear parameter that it tells, where named otherwise
   double share_of_range = 0.0;  ///< share of shape.range_mm that `high` is at most; 0: any
+  double least = -1e300, most = 1e300;  ///< of a linear one; what is beyond is no such effect
 };
 
 /// What a stream must have for an effect to be seen in it.

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <string>
 
 /// Factors between the units of the edge and those inside (mm, rad, s). Degrees, µm, inch and
@@ -23,7 +26,16 @@ struct Estimate {
   std::string unit;     ///< unit of value and u, as at the edge ("mm", "deg", "1")
   std::string why_not;  ///< why value or u is missing; empty when both are there
 
+  /// Ends of the probabilistically symmetric coverage interval (JCGM 101, 7.7) where value ± U is
+  /// none, with the coverage factor of the result that the estimate is of. The apex of a cone.
+  std::optional<std::array<double, 2>> interval{};
+
   bool determined() const { return std::isfinite(value); }
+  /// U: k u; of an interval its larger side, so that value ± U holds it.
+  double expanded(double coverage_factor) const {
+    return interval ? std::max(value - interval->front(), interval->back() - value)
+                    : coverage_factor * u;
+  }
 };
 
 /// Decimals that show U with two digits (GUM 7.2.6), at least `least`; U of 0 or NaN shows `least`.

@@ -190,7 +190,7 @@ std::vector<Effect> part_profile() {
        .needs = {.length = true},
        .typical = {{&TermShape::period_mm, {7.3}, ShapeValues::In::per_length}},
        .search = {When::scanned},
-       .line = Line{Line::In::length, 1.0 / 30.0, 2.0, 1.5}},
+       .line = Line{Line::In::length, 0.0, 2.0, 1.5}},
   };
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/apex_interval.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -62,8 +63,7 @@ std::vector<FitParameter> report_parameters(const SurfaceInfo& info,
 }
 
 void withdraw(FitParameter& parameter, const std::string& why) {
-  parameter.estimate.value = parameter.estimate.u = std::numeric_limits<double>::quiet_NaN();
-  parameter.estimate.why_not = why;
+  parameter.estimate = {.unit = parameter.estimate.unit, .why_not = why};
 }
 
 void withdraw(FitResult& result, std::string_view name, const std::string& why) {
@@ -74,14 +74,15 @@ void withdraw(FitResult& result, std::string_view name, const std::string& why) 
   }
 }
 
-/// A cone whose half angle is zero within its uncertainty has no apex.
+/// A cone whose half angle is zero within its uncertainty, at the level of U too, has no apex.
 void check_cone(const JointModel& model, const std::vector<double>& joint,
-                const Eigen::MatrixXd& covariance, FitResult& result) {
+                const Eigen::MatrixXd& covariance, double coverage, FitResult& result) {
   const Eigen::Index tan = index_of(model.names(), "tan_half_angle");
   if (tan < 0 || !result.not_determined.empty()) return;
   const double value = joint[static_cast<std::size_t>(tan)], u = std::sqrt(covariance(tan, tan));
   // As many readings as parameters have no u: nothing then says that it is a cylinder.
-  const double limit = std::isfinite(u) ? std::max(cylinder_sds * u, cylinder_tan) : cylinder_tan;
+  const double sds = std::max(cylinder_sds, coverage);
+  const double limit = std::isfinite(u) ? std::max(sds * u, cylinder_tan) : cylinder_tan;
   if (std::abs(value) > limit) return;
   result.not_determined.push_back(fmt::format(
       "k and half_angle: the cone cannot be told from a cylinder, half angle {:.2g}° ± {:.2g}°",
@@ -308,11 +309,12 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     const Standing standing = stand(placed);
     const RowMajorMatrix& jacobian = standing.report_jacobian;
     const RowMajorMatrix edge = jacobian * covariance * jacobian.transpose();
-    result.set_ups.push_back(report_set_up(
-        placed, standing,
-        report_parameters(model.info(), standing.surface.report(standing.working).value, jacobian,
-                          edge, determination)));
     result.covariance.assign(edge.data(), edge.data() + edge.size());
+    std::vector<FitParameter> parameters =
+        report_parameters(model.info(), standing.surface.report(standing.working).value, jacobian,
+                          edge, determination);
+    add_apex_interval(parameters, result.covariance, options.coverage_factor);
+    result.set_ups.push_back(report_set_up(placed, standing, parameters));
   }
   const Standing last = stand(set_ups.back());
   for (const Source& source : sources) {
@@ -322,7 +324,7 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     for (const double v : variance) line.u.push_back(std::sqrt(std::max(v, 0.0)));
     result.budget.push_back(std::move(line));
   }
-  check_cone(model, joint, covariance, result);
+  check_cone(model, joint, covariance, options.coverage_factor, result);
   check_rival(model, set_ups, association, noise, result);
   if (model.indication() == Indication::relative) {
     withdraw(result, "radius", "a relative gauge does not show it; the nominal radius was used");

@@ -41,9 +41,10 @@ inline NameAndUnit name_and_unit(std::string_view name) {
   return {std::string(name), "1"};
 }
 
-/// {"value", "u", "unit"} and "why" where a number is missing.
+/// {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is missing.
 inline Json to_json(const Estimate& estimate) {
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
+  if (estimate.interval) json["interval"] = *estimate.interval;
   if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
   return json;
 }
@@ -55,8 +56,10 @@ inline double number_from(const Json& json) {
 
 /// `to_json` read back.
 inline Estimate estimate_from(const Json& json) {
-  return {number_from(json.at("value")), number_from(json.at("u")), json.at("unit"),
-          json.value("why", "")};
+  Estimate estimate{number_from(json.at("value")), number_from(json.at("u")), json.at("unit"),
+                    json.value("why", "")};
+  if (json.contains("interval")) estimate.interval = json.at("interval");
+  return estimate;
 }
 
 /// As written to a file. Bytes that are no UTF-8 (a file name may hold some) become U+FFFD.

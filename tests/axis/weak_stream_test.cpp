@@ -18,21 +18,25 @@ namespace {
 constexpr std::uint64_t seed = 7700;
 constexpr double sigma_mm = 1e-3;
 
-/// A plan of the blind study stretched to so many readings, with 20 µm of eccentricity.
-Case stream_of(blind::PlanId plan, blind::SurfaceId surface, double readings, std::uint64_t own) {
+/// A plan of the blind study stretched to a length and to so many readings, with 20 µm of
+/// eccentricity.
+Case stream_of(blind::PlanId plan, blind::SurfaceId surface, double readings, std::uint64_t own,
+               double length_mm = blind::end_mm) {
   std::mt19937_64 random(own);
   const double per_turn = std::uniform_real_distribution(9.3, 36.7)(random);
   Case out;
   out.surface = blind::to_string(surface);
-  out.low_mm = blind::start_mm, out.high_mm = blind::end_mm;
+  out.low_mm = blind::start_mm, out.high_mm = length_mm;
   virtual_lathe::Scenario& s = out.scenario;
   s = blind::plain_scenario(plan, surface, static_cast<int>(own % 4));
   for (double* v : {&s.part.x0_mm, &s.part.y0_mm, &s.part.l, &s.part.m}) *v *= 0.1;
   double now = 0.0;
   for (const virtual_lathe::PlannedPass& pass : s.plan.passes)
     now += std::abs(pass.end_mm - pass.start_mm) / pass.feed_mm_per_rev * per_turn;
+  s.u_end_mm = length_mm;
   for (virtual_lathe::PlannedPass& pass : s.plan.passes) {
-    pass.feed_mm_per_rev *= now / readings;
+    pass.start_mm *= length_mm / blind::end_mm, pass.end_mm *= length_mm / blind::end_mm;
+    pass.feed_mm_per_rev *= now / readings * length_mm / blind::end_mm;
     pass.readings_per_revolution = per_turn;
     pass.jitter = 0.2;
   }
@@ -40,11 +44,15 @@ Case stream_of(blind::PlanId plan, blind::SurfaceId surface, double readings, st
   return out;
 }
 
-Diagnosis diagnosed(const Case& of) {
+Diagnosis diagnosed(const ProbeStream& stream, std::string_view surface) {
   DiagnoseOptions options;
   options.threads = 1;
-  options.fit.surface = of.surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
-  return diagnose(virtual_lathe::simulate(of.scenario), options);
+  options.fit.surface = surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
+  return diagnose(stream, options);
+}
+
+Diagnosis diagnosed(const Case& of) {
+  return diagnosed(virtual_lathe::simulate(of.scenario), of.surface);
 }
 
 bool is_silent(const Diagnosis& d) { return d.findings.empty() && d.unexplained.empty(); }
@@ -136,10 +144,118 @@ TEST(FeedMarks, OfNearlyTheProbesLeadStayInTheClass) {
   }
 }
 
+/// What of so many streams the binomial law allows of a rate of 5 %: once in 1000.
+double allowed(int streams) {
+  return quantile(complement(boost::math::binomial(streams, 0.05), 1e-3));
+}
+
+bool may_be(const Diagnosis& d, std::string_view effect) {
+  return std::ranges::any_of(d.findings, [&](const Finding& f) { return f.may_be(effect); });
+}
+
+// As slow along a single pass as a taper with a barrel, marks of nearly its lead are none of the
+// two names: the classes hold both. One line of marks stood for taper and barrel in 7 of 20.
+TEST(FeedMarks, OfTheProbesLeadTaperAndBarrelAreNotToldApart) {
+  constexpr int streams = 40;
+  std::cout << "seed " << seed << '\n';
+  int lost = 0, named = 0, marks_lost = 0;
+  for (std::uint64_t i = 0; i < streams; ++i) {
+    std::mt19937_64 random(seed + i);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    const auto size = [&] {
+      return std::copysign(between(2.0, 8.0), between(-1.0, 1.0)) * sigma_mm;
+    };
+    Case of =
+        stream_of(blind::PlanId::p1, blind::SurfaceId::cylinder, between(400.0, 2000.0), seed + i);
+    of.scenario.effects = {{"part.barrel", {{"amplitude_mm", size()}, {"cubic_mm", 0.0}}},
+                           {"part.taper", {{"amplitude_mm", size()}}}};
+    const Diagnosis form = diagnosed(of);
+    lost += !may_be(form, "part.barrel") || !may_be(form, "part.taper");
+    const double lead_mm = of.scenario.plan.passes[0].feed_mm_per_rev;
+    of.scenario.effects = {
+        {"part.feed_marks",
+         {{"feed_mm_per_rev", 1.0 / (1.0 / lead_mm + between(-0.5, 0.5) / of.high_mm)},
+          {"amplitude_mm", between(4.0, 12.0) * sigma_mm},
+          {"phase_rad", between(-std::numbers::pi, std::numbers::pi)}}}};
+    const Diagnosis spiral = diagnosed(of);
+    named += !spiral.findings.empty();
+    marks_lost += !spiral.findings.empty() && !may_be(spiral, "part.feed_marks");
+  }
+  std::cout << lost << " of " << streams << " without taper or barrel, " << marks_lost << " of "
+            << named << " without the marks\n";
+  EXPECT_LE(lost, allowed(streams));
+  EXPECT_LE(marks_lost, allowed(named));
+}
+
+// Up to two thirds of the probed length; beyond 30 mm none was looked for, and half were missed or
+// had another name.
+TEST(Waviness, OfALongWaveIsFound) {
+  constexpr int streams = 32;
+  std::cout << "seed " << seed << '\n';
+  int lost = 0;
+  double ideal = 0.0, stated = 0.0;
+  for (std::uint64_t i = 0; i < streams; ++i) {
+    std::mt19937_64 random(seed + i);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
+    const double length_mm = between(60.0, 120.0);
+    Case of =
+        stream_of(blind::all_plans()[i % 4], surface, between(400.0, 3000.0), seed + i, length_mm);
+    of.scenario.effects = {{"part.waviness",
+                            {{"amplitude_mm", between(2.0, 8.0) * sigma_mm},
+                             {"wavelength_mm", between(35.0, length_mm / 1.5)},
+                             {"phase_rad", between(-std::numbers::pi, std::numbers::pi)}}}};
+    if (i % 3 == 0) {
+      of.scenario.noise.outlier_fraction = 0.01;
+      of.scenario.noise.outlier_size_mm = between(10.0, 100.0) * sigma_mm;
+    }
+    const Diagnosis d = diagnosed(of);
+    lost += !may_be(d, "part.waviness");
+    ideal += std::pow(judge(of, d.baseline.axis).rms_mm(), 2);
+    stated += std::pow(judge(of, d.extended.axis).rms_mm(), 2);
+  }
+  std::cout << lost << " of " << streams << " lost, axis " << 1e3 * std::sqrt(ideal / streams)
+            << " and " << 1e3 * std::sqrt(stated / streams) << " µm\n";
+  EXPECT_LE(lost, allowed(streams));
+  EXPECT_LT(stated, ideal);
+}
+
+// A machine that moved between two set-ups that are a jog apart looks like a gain of some −70 %,
+// by which the axis would go 23 µm off: nothing is named, and the ideal fit stands.
+TEST(Gain, OfAnImpossibleSizeIsNoCause) {
+  constexpr int streams = 24;
+  std::cout << "seed " << seed << '\n';
+  int gains = 0, named = 0;
+  for (std::uint64_t i = 0; i < streams; ++i) {
+    std::mt19937_64 random(seed + i);
+    const auto between = [&](double low, double high) {
+      return std::uniform_real_distribution(low, high)(random);
+    };
+    const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
+    Case of = stream_of(blind::all_plans()[i % 4], surface, between(400.0, 1500.0), seed + i);
+    of.scenario = *blind::with_measurement(of.scenario, "XJ");
+    ProbeStream stream = virtual_lathe::simulate(of.scenario);
+    const double moved_mm = between(-0.09, -0.03);
+    for (std::size_t k = 0; k < stream.size(); ++k)
+      if (stream.setup[k] == 2) stream.reading_mm[k] += moved_mm;
+    const Diagnosis d = diagnosed(stream, of.surface);
+    gains += may_be(d, "probe.gain");
+    named += !is_silent(d);
+  }
+  std::cout << gains << " gains, " << named << " of " << streams << " named\n";
+  EXPECT_EQ(gains, 0);
+  EXPECT_LE(named, allowed(streams));
+}
+
 // Of few readings a dent has few: it is a local form and none of the catalogue's. The blind study's
-// goal for what no catalogue has is 95 %; lobes, slips and feed marks were named in 40 %.
+// goal for what no catalogue has is 95 %; with boxes of eight readings and more it was 75 %.
 TEST(Dent, OfAShortStreamHasNoOtherName) {
-  constexpr int streams = 30;
+  constexpr int streams = 60;
+  constexpr std::uint64_t seed = 9000;
   std::cout << "seed " << seed << '\n';
   int named = 0;
   double ideal = 0.0, stated = 0.0;
@@ -164,8 +280,8 @@ TEST(Dent, OfAShortStreamHasNoOtherName) {
   }
   std::cout << named << " of " << streams << " named, axis " << 1e3 * std::sqrt(ideal / streams)
             << " and " << 1e3 * std::sqrt(stated / streams) << " µm\n";
-  EXPECT_LE(named, quantile(complement(boost::math::binomial(streams, 0.05), 1e-3)));
-  EXPECT_LT(stated, 0.25 * ideal);
+  EXPECT_LE(named, allowed(streams));
+  EXPECT_LT(stated, 0.05 * ideal);
 }
 
 }  // namespace

@@ -86,5 +86,24 @@ TEST(SizePrior, AnUnknownSizeIsTheBic) {
   EXPECT_NEAR(criterion, n * std::log(1.0 - gram * a_hat * a_hat / rss) + std::log(n), 0.1);
 }
 
+// A sensor whose gain is 79 % off is none: however well the readings show it.
+TEST(SizePrior, WhatIsBeyondAnySizeIsNotPossible) {
+  const SizePrior gain = size_prior(of_effect("probe.gain", {}));
+  EXPECT_TRUE(gain.allows(Eigen::VectorXd::Constant(1, -0.19)));
+  EXPECT_FALSE(gain.allows(Eigen::VectorXd::Constant(1, -0.79)));
+  const SizePrior lag = size_prior(of_effect("probe.lag", {}));
+  EXPECT_FALSE(lag.allows(Eigen::VectorXd::Constant(1, -1e-4)));
+  const auto found = [&](double size, double u) {
+    const double gram = 1.0 / (u * u);
+    return weigh(gain, Eigen::MatrixXd::Constant(1, 1, gram),
+                 Eigen::VectorXd::Constant(1, gram * size), Eigen::VectorXd::Constant(1, gram),
+                 1e6 + gram * size * size, 1e6 + 1.0);
+  };
+  EXPECT_TRUE(found(0.02, 1e-3).possible);
+  EXPECT_FALSE(found(-0.79, 1e-2).possible);
+  // Nor does what the readings leave open make U of such a size: 0.2 is the largest scale.
+  EXPECT_LT(found(0.0, 10.0).covariance(0, 0), 0.2 * 0.2);
+}
+
 }  // namespace
 }  // namespace trueaxis::diagnose_detail

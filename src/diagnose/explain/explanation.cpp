@@ -60,6 +60,7 @@ void add_improbable(const Problem& problem, const Joint& joint, const Confounder
     terms[term] = hypothesis;
     const Joint instead(problem, joint.equations.autoregression(), terms, terms.size());
     const SizePrior prior = size_prior(hypothesis);
+    if (!prior.allows(instead.of(term))) continue;
     const Eigen::ArrayXd size = instead.of(term).cwiseAbs().array();
     if ((size > prior.scale(possible).array()).any()) continue;
     if (told && (size < prior.scale(ordinary).array()).all()) continue;

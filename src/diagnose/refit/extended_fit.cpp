@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/apex_interval.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -109,6 +110,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance[p * n + p]));
     if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
   }
+  add_apex_interval(result.parameters, result.covariance, result.coverage_factor);
   if (from_causes.maxCoeff() > 0.0) {
     BudgetLine line{"causes that the readings cannot tell", 'B', {}};
     for (std::size_t p = 0; p < n; ++p) line.u.push_back(root(from_causes, p));

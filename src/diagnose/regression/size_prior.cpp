@@ -35,8 +35,7 @@ struct Range {
   double median = 0.0, spread = least_spread;
 };
 
-Range range_of_size(const Effect& effect, const TermShape& shape, std::string_view linear) {
-  const EffectParameter* p = size_for(effect, linear);
+Range range_of_size(const EffectParameter* p, const TermShape& shape) {
   if (!p || !(p->high > 0.0)) return {};
   double high = p->high;
   const double low = (p->low > 0.0 ? p->low / p->high : open_end) * high;
@@ -49,19 +48,32 @@ Range range_of_size(const Effect& effect, const TermShape& shape, std::string_vi
 
 SizePrior size_prior(const Hypothesis& h) {
   const auto count = static_cast<Eigen::Index>(h.columns());
-  SizePrior out{Eigen::VectorXd::Zero(count), least_spread};
+  const EffectParameter any{};
+  SizePrior out{Eigen::VectorXd::Zero(count), least_spread,
+                Eigen::VectorXd::Constant(count, any.least),
+                Eigen::VectorXd::Constant(count, any.most)};
   if (!h.effect) return out;
   const auto names = linear_parameters(h.effect->term, h.shape);
   for (Eigen::Index j = 0; j < count; ++j) {
     const auto k = static_cast<std::size_t>(j);
     const std::string& name = names[h.free.empty() ? k : h.free[k]].name;
-    const Range range = range_of_size(*h.effect, h.shape, name);
+    const EffectParameter* parameter = size_for(*h.effect, name);
+    const Range range = range_of_size(parameter, h.shape);
     const bool pair = name.ends_with("_cos") || name.ends_with("_sin");
     out.median(j) = range.median / (pair ? std::sqrt(2.0) : 1.0);
+    if (parameter) {
+      out.most(j) = parameter->most;
+      out.least(j) = pair ? -parameter->most : parameter->least;
+    }
     out.spread = std::max(out.spread, range.spread);
   }
   out.spread *= h.effect->size_spread;
   return out;
+}
+
+bool SizePrior::allows(const Eigen::VectorXd& size) const {
+  return least.size() == 0 ||
+         ((size.array() >= least.array()).all() && (size.array() <= most.array()).all());
 }
 
 Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
@@ -88,7 +100,8 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
 
   std::array<double, nodes.size()> criterion{};
   double best = 1e300;
-  const auto count = known ? nodes.size() : 1;
+  auto count = known ? nodes.size() : 1;
+  while (count > 1 && !prior.allows(prior.scale(nodes[count - 1].at))) --count;
   const auto factor2 = [&](std::size_t k) {
     return known ? std::exp(2.0 * prior.spread * nodes[k].at) : 1.0;
   };
@@ -126,6 +139,7 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
   const Small spread = (outer / sum - mean * mean.transpose()) + Small((second / sum).asDiagonal());
   const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
   out.mean = back * mean;
+  out.possible = prior.allows(out.mean);
   out.covariance = back * spread * back.transpose();
   out.precision = Eigen::VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j)

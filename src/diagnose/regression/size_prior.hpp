@@ -13,9 +13,12 @@ namespace trueaxis::diagnose_detail {
 struct SizePrior {
   Eigen::VectorXd median;  ///< of the scale of every column, mm, rad, s; 0: no size is known
   double spread = 1.0;     ///< standard deviation of the logarithm of the scale
+  Eigen::VectorXd least{}, most{};  ///< what a column may be at all; empty: anything
 
   /// The scale that many spreads above the median; 0: no size is known.
   Eigen::VectorXd scale(double spreads) const { return std::exp(spreads * spread) * median; }
+
+  bool allows(const Eigen::VectorXd& size) const;
 };
 SizePrior size_prior(const Hypothesis& hypothesis);
 
@@ -25,6 +28,7 @@ struct Weighed {
   Eigen::VectorXd mean;        ///< of the coefficients
   Eigen::MatrixXd covariance;  ///< of them
   Eigen::VectorXd precision;   ///< what the prior adds to the normal matrix where it is largest
+  bool possible = true;        ///< whether the mean is within what the sizes may be
 };
 
 /// Marginal likelihood and moments of a term's coefficients over the mixture of scales (Eq. 80).

@@ -9,6 +9,7 @@
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/scan_bumps.hpp"
+#include "diagnose/search/scan_list.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -49,20 +50,34 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
     if (s.rank > 0) {
       const Weighed weighed = weigh(list[h], projection, own, equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
+      c.possible = weighed.possible;
     }
     out.push_back(std::move(c));
   }
   return out;
 }
 
+void erase_impossible(std::vector<Candidate>& list) {
+  std::erase_if(list, [](const Candidate& c) { return !c.possible; });
+}
+
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 
+bool is_spiral(const Hypothesis& h) {
+  return h.effect && h.effect->line && h.effect->line->in == Line::In::spiral;
+}
+
 /// Variants of a hypothesis in a round of refining.
-std::vector<Hypothesis> variants(const Hypothesis& h, const LinearisationPoint& point, double step,
+std::vector<Hypothesis> variants(const Hypothesis& h, const Problem& problem, double step,
                                  double line_step) {
-  if (!is_line(h)) return neighbours(h, point, step);
+  if (!is_line(h)) return neighbours(h, problem.point, step);
   const double f = frequency_of(h);
-  return {at_frequency(h, std::max(f - line_step, 1e-6)), at_frequency(h, f + line_step)};
+  const Extent slow = is_spiral(h) ? slow_spirals(problem) : Extent{0.0, 0.0};
+  const auto is_slow = [&](double of) { return of > slow.low && of < slow.high; };
+  std::vector<Hypothesis> out;
+  for (const double to : {std::max(f - line_step, 1e-6), f + line_step})
+    if (is_slow(f) || !is_slow(to)) out.push_back(at_frequency(h, to));
+  return out;
 }
 
 /// Half a resolution cell of a line in its own variable.
@@ -170,6 +185,18 @@ void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypo
   }
 }
 
+/// Spirals nearly of the lead of a single pass: none is searched there, and each may be what was
+/// named for a taper or a barrel.
+void add_slow_spirals(const Problem& problem, std::vector<Hypothesis>& list) {
+  const Extent slow = slow_spirals(problem);
+  if (!(slow.length() > 0.0)) return;
+  for (const Effect* effect : problem.effects) {
+    if (!effect->line || effect->line->in != Line::In::spiral) continue;
+    const Hypothesis h = of_effect(*effect, typical_shape(*effect, problem.point));
+    list.push_back(at_frequency(h, slow.low + 0.25 * slow.length()));
+  }
+}
+
 }  // namespace
 
 std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
@@ -187,7 +214,7 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
       tried.push_back(candidates[i]);
       owner.push_back(i);
       if (round == rounds) continue;
-      for (Hypothesis& v : variants(candidates[i], problem.point, step, 0.5 * shrink * cell[i])) {
+      for (Hypothesis& v : variants(candidates[i], problem, step, 0.5 * shrink * cell[i])) {
         tried.push_back(std::move(v));
         owner.push_back(i);
       }
@@ -302,6 +329,9 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
   };
   Proposal out;
   out.causes = refined(causes);
+  const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
+  if (refused != out.causes.end()) out.impossible = *refused;
+  erase_impossible(out.causes);
   out.patterns = refined(patterns);
   const double freedom = dictionary_->noise_freedom;
   average_over_noise(problem_, phi, freedom, terms, out.causes);
@@ -317,11 +347,14 @@ std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
   std::vector<Hypothesis> list = hypotheses_of(now.presets, now.presets.size());
   list.push_back(named);
   add_tilts(named, problem_, list);
+  add_slow_spirals(problem_, list);
   list = joined(list, shortlist(now, 0));
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, list);
   take_fast(problem_.fast, true, now.line_choice, list);
   const auto each = one_of_each(judged_at_once(problem_, phi, others, list));
-  return refine(problem_, phi, others, hypotheses_of(each, most_rivals));
+  std::vector<Candidate> out = refine(problem_, phi, others, hypotheses_of(each, most_rivals));
+  erase_impossible(out);
+  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "diagnose/search/dictionary.hpp"
@@ -18,11 +19,13 @@ struct Candidate {
   std::size_t rank = 0;
   double log_p = 0.0;      ///< ln of its own p-value
   double criterion = 0.0;  ///< change of the extended BIC; negative is better
+  bool possible = true;    ///< whether its sizes are
 };
 
 /// The best next hypotheses beside some terms, refined, best first.
 struct Proposal {
   std::vector<Candidate> causes, patterns;
+  std::optional<Candidate> impossible;  ///< the best cause of a size that cannot be
   Family family;
 };
 

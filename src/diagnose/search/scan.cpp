@@ -91,6 +91,16 @@ std::vector<Extent> beside(const std::vector<Extent>& intervals, Extent within) 
   return out;
 }
 
+std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& left_out) {
+  std::vector<Extent> out;
+  for (const Extent& e : intervals) {
+    const double below = std::min(e.high, left_out.low), above = std::max(e.low, left_out.high);
+    if (below > e.low) out.push_back({e.low, below});
+    if (e.high > above) out.push_back({above, e.high});
+  }
+  return out;
+}
+
 }  // namespace
 
 /// A range of frequencies of a scan, and its sums.
@@ -133,6 +143,7 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
       else
         counted = beside(counted, all);
     }
+    if (scan.left_out.length() > 0.0) counted = without(counted, scan.left_out);
     double width = 0.0;
     for (const Extent& e : counted) width += e.length();
     if (!(width > 0.0)) continue;

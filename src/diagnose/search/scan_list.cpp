@@ -16,7 +16,8 @@ using Column = std::vector<double>;
 
 constexpr double shortest_mm = 1.0;  // of a length that a wave along Z is seen over
 constexpr double fewest_turns = 2.5;
-constexpr double most_cycles = 250.0;  // of a pattern: what 500 means of a long stream resolve
+constexpr double fewest_cycles = 0.75;  // fewer are a slope and a curvature, and no line
+constexpr double most_cycles = 250.0;   // of a pattern: what 500 means of a long stream resolve
 
 /// Steps of an abscissa within passes: the median is its sampling, for the highest line seen.
 double sampling(const LinearisationPoint& point, const Column& x) {
@@ -95,7 +96,7 @@ double half_a_cycle(const LinearisationPoint& point, const Column& x) {
 void add_patterns(const LinearisationPoint& point, const Sampled& of, bool in_time, bool counts,
                   int harmonics, std::vector<Scan>& list) {
   Column LinearisationPoint::*x = in_time ? &LinearisationPoint::time : &LinearisationPoint::s;
-  const double low = 0.75 / of.extent,
+  const double low = fewest_cycles / of.extent,
                high = std::max((in_time ? 30.0 : 20.0) / of.extent,
                                std::min(half_a_cycle(point, point.*x), most_cycles / of.extent));
   for (int n = 1; n <= harmonics; ++n) {
@@ -136,6 +137,18 @@ std::vector<double> LinearisationPoint::*column_of(Line::In in) {
   return &LinearisationPoint::s;
 }
 
+Extent slow_spirals(const Problem& problem) {
+  const LinearisationPoint& point = problem.whole ? problem.whole->point : problem.point;
+  if (!problem.resolution.one_variable || !point.has_position) return {0.0, 0.0};
+  const Pass& pass =
+      *std::ranges::max_element(point.passes, {}, [](const Pass& p) { return p.end - p.begin; });
+  const double along = point.s[pass.end - 1] - point.s[pass.begin];
+  const double turns = (point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
+  if (!(turns * along > 0.0)) return {0.0, 0.0};
+  const double of_lead = turns / along, slow = fewest_cycles / std::abs(along);
+  return {of_lead - slow, of_lead + slow};
+}
+
 std::vector<Scan> scans_of(const Problem& problem) {
   using enum Line::In;
   const LinearisationPoint& point = problem.whole ? problem.whole->point : problem.point;
@@ -149,6 +162,7 @@ std::vector<Scan> scans_of(const Problem& problem) {
           !(std::abs(point.tan_half_angle) > least_tangent))
         continue;
       list.push_back(scan_of(*effect, of, point));
+      if (in == spiral) list.back().left_out = slow_spirals(problem);
     }
     // Of one variable, the lines of C are these too.
     const bool same =

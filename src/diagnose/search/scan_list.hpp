@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -18,7 +19,13 @@ struct Scan {
   bool pattern = false;
   bool form = false;   ///< along the surface's normal: of the other sign at the rear
   bool counts = true;  ///< false: the same lines as another scan
+  Extent left_out{0.0, 0.0};
 };
+
+/// Frequencies of spirals, such as feed marks, that have less than ¾ of a cycle of their own over a
+/// single pass, being nearly of its lead: there they are a taper and a barrel, and no line. Both 0:
+/// none.
+Extent slow_spirals(const Problem& problem);
 
 /// The scans that a stream lets be made; of means those of the whole.
 std::vector<Scan> scans_of(const Problem& problem);

@@ -115,6 +115,10 @@ class StepwiseSearch {
       if (p.causes.empty() && p.patterns.empty()) return;
       const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
       const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
+      // Of what only a size explains that cannot be, the next best is not the cause either.
+      if (p.impossible && passes(*p.impossible) &&
+          p.impossible->criterion + catalogue_first < std::min(cause, pattern))
+        return;
       if (!p.causes.empty() && pattern < cause) pattern_was_better = true;
       const bool take_pattern = p.causes.empty() || (patterns && pattern < cause);
       model.terms.push_back((take_pattern ? p.patterns : p.causes).front().hypothesis);
@@ -182,6 +186,14 @@ class StepwiseSearch {
     return change < 0.0;
   }
 
+  /// Whether its sizes beside all others are.
+  static bool is_possible(const Fitted& f, std::size_t i) {
+    Columns taken = besides(f, i);
+    taken.insert(taken.end(), f.places[i].begin(), f.places[i].end());
+    const Eigen::VectorXd all = solve(f.equations.total(), taken).coefficients;
+    return size_prior(f.terms[i]).allows(all.tail(static_cast<Eigen::Index>(f.places[i].size())));
+  }
+
   bool backward(Model& model) {
     bool changed = false;
     while (!model.terms.empty()) {
@@ -189,7 +201,8 @@ class StepwiseSearch {
       std::size_t worst = 0;
       double worst_log_p = -1e300;
       for (std::size_t i = 0; i < model.terms.size(); ++i) {
-        const double log_p = predicts(f, i, model.terms[i]) ? term_log_p(f, i) : 0.0;
+        const bool stands = is_possible(f, i) && predicts(f, i, model.terms[i]);
+        const double log_p = stands ? term_log_p(f, i) : 0.0;
         if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
       }
       if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;

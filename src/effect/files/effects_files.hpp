@@ -17,6 +17,9 @@ std::string effect_text(const Effect& effect);
 /// "0.1 to 5 ms", in the unit that reads without powers of ten; empty: no typical size.
 std::string typical_size(const EffectParameter& parameter);
 
+/// "at most 0.2 either way", "never negative"; empty: anything.
+std::string possible_size(const EffectParameter& parameter);
+
 /// The catalogue as docs/effects.md: the measuring chain, an index, a section an effect.
 std::string effects_markdown();
 

@@ -17,6 +17,9 @@ Json parameter_object(const EffectParameter& parameter) {
   if (parameter.low != 0.0 || parameter.high != 0.0) {
     json["typical"] = {parameter.low * scale, parameter.high * scale};
   }
+  const EffectParameter any{};
+  if (parameter.least != any.least) json["least"] = parameter.least * scale;
+  if (parameter.most != any.most) json["most"] = parameter.most * scale;
   return json;
 }
 

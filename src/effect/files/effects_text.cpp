@@ -144,9 +144,10 @@ void section(std::string& out, const Effect& e) {
       fmt::format("{}; fixed to the {}", to_string(e.slot), to_string(e.frame)));
   row(out, "seen on", std::string(seen_on(e)));
   for (const EffectParameter& p : e.parameters) {
-    const std::string sizes = typical_size(p);
+    const std::string sizes = typical_size(p), possible = possible_size(p);
     row(out, fmt::format("`{}`", p.name),
-        std::string(cell(p.meaning)) + (sizes.empty() ? "" : fmt::format(" ({})", sizes)));
+        std::string(cell(p.meaning)) + (sizes.empty() ? "" : fmt::format(" ({})", sizes)) +
+            (possible.empty() ? "" : ", " + possible));
   }
   row(out, "signature", cell(e.signature));
   std::string others;
@@ -171,6 +172,15 @@ std::string typical_size(const EffectParameter& parameter) {
   return unit.name.empty() ? text : text + ' ' + unit.name;
 }
 
+std::string possible_size(const EffectParameter& parameter) {
+  const EffectParameter any{};
+  const DisplayUnit unit = display_unit(parameter.unit, parameter.high);
+  const std::string size =
+      format("{:.4g}{}{}", parameter.most * unit.scale, unit.name.empty() ? "" : " ", unit.name);
+  if (parameter.most == any.most) return parameter.least == any.least ? "" : "never negative";
+  return parameter.least < 0.0 ? format("at most {} either way", size) : format("at most {}", size);
+}
+
 std::string effects_list_text() {
   return "Effects that the ideal surface misses ('trueaxis effects ID' explains one)\n" +
          list(false) + "\nChecks of the data: handled and reported, never a name for a form\n\n" +
@@ -185,9 +195,10 @@ std::string effect_text(const Effect& effect) {
   out += line("fixed to", to_string(effect.frame));
   out += line("seen on", seen_on(effect));
   for (const EffectParameter& parameter : effect.parameters) {
-    out +=
-        line(&parameter == effect.parameters.data() ? "parameters" : " ",
-             format("{:<15}{:<26}{}", parameter.name, typical_size(parameter), parameter.meaning));
+    const std::string possible = possible_size(parameter);
+    out += line(&parameter == effect.parameters.data() ? "parameters" : " ",
+                format("{:<15}{:<26}{}{}", parameter.name, typical_size(parameter),
+                       parameter.meaning, possible.empty() ? "" : ", " + possible));
   }
   out += scenario_keys_text(effect.id);
   out += line("signature", effect.signature);

@@ -17,17 +17,27 @@ void append(std::string& text, fmt::format_string<T...> form, T&&... values) {
   fmt::format_to(std::back_inserter(text), form, std::forward<T>(values)...);
 }
 
+/// " (from LOW to HIGH)" where the sides of an interval differ by more than the last digit of U.
+std::string ends(const Estimate& e, double U) {
+  if (!e.interval) return "";
+  const auto [low, high] = *e.interval;
+  const int decimals = decimals_of(U, 0);
+  const double last_digit = std::pow(10.0, std::floor(std::log10(U)) - 1.0);
+  if (std::abs((high - e.value) - (e.value - low)) <= last_digit) return "";
+  return fmt::format(" (from {:.{}f} to {:.{}f})", low, decimals, high, decimals);
+}
+
 void append_parameters(std::string& text, const std::vector<FitParameter>& parameters, double k) {
   for (const FitParameter& p : parameters) {
     const Estimate& e = p.estimate;
-    const double U = k * e.u;
+    const double U = e.expanded(k);
     if (!e.determined()) {
       append(text, "  {:<16} {:>16}  {}\n", p.name, "-", e.why_not);
     } else if (!std::isfinite(U)) {
       append(text, "  {:<16} {:16.6f}  {:<3}  ({})\n", p.name, e.value, e.unit, e.why_not);
     } else {
-      append(text, "  {:<16} {:16.{}f} ± {:<10.2g} {}\n", p.name, e.value, decimals_of(U), U,
-             e.unit);
+      append(text, "  {:<16} {:16.{}f} ± {:<10.2g} {}{}\n", p.name, e.value, decimals_of(U), U,
+             e.unit, ends(e, U));
     }
   }
 }
@@ -38,12 +48,13 @@ void append_set_up(std::string& text, const SetUpFit& one, double k) {
   text += one.side == Root::rear ? " rear: " : " front:";
   for (const FitParameter& p : one.parameters) {
     const Estimate& e = p.estimate;
+    const double U = e.expanded(k);
     text += &p == one.parameters.data() ? " " : ", ";
-    if (!e.determined() || !std::isfinite(k * e.u)) {
+    if (!e.determined() || !std::isfinite(U)) {
       append(text, "{} -", p.name);
     } else {
-      append(text, "{} {:.{}f} ± {:.2g}{}", p.name, e.value, decimals_of(k * e.u), k * e.u,
-             e.unit == "1" ? "" : " " + e.unit);
+      append(text, "{} {:.{}f} ± {:.2g}{}{}", p.name, e.value, decimals_of(U), U,
+             e.unit == "1" ? "" : " " + e.unit, ends(e, U));
     }
   }
   text += "\n";

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/apex_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+void add_apex_interval(std::vector<FitParameter>& parameters, const std::vector<double>& covariance,
+                       double coverage_factor) {
+  const auto apex = std::ranges::find(parameters, "k", &FitParameter::name),
+             angle = std::ranges::find(parameters, "half_angle", &FitParameter::name);
+  if (apex == parameters.end() || angle == parameters.end()) return;
+  Estimate& k = apex->estimate;
+  k.interval.reset();
+  if (!k.determined() || !std::isfinite(k.u)) return;
+  const auto row = static_cast<std::size_t>(apex - parameters.begin()),
+             column = static_cast<std::size_t>(angle - parameters.begin());
+  const double half_angle_rad = angle->estimate.value * rad_per_deg;
+  // ∂ ln tan α/∂α in edge units: what is wanted of tan α are its covariances relative to itself.
+  const double relative = 2.0 * rad_per_deg / std::sin(2.0 * half_angle_rad);
+  const double with_tan = relative * covariance[row * parameters.size() + column];
+  const double squared = coverage_factor * coverage_factor;
+  const double left = 1.0 - squared * std::pow(relative * angle->estimate.u, 2);
+  if (!(left > 0.0)) return;
+  const double middle = -squared * with_tan / left;
+  const double half = std::sqrt(middle * middle + squared * k.u * k.u / left);
+  k.interval = {k.value + middle - half, k.value + middle + half};
+}
+
+}  // namespace trueaxis
