@@ -50,6 +50,10 @@ Range range_of_size(const Effect& effect, const TermShape& shape, std::string_vi
 SizePrior size_prior(const Hypothesis& h) {
   const auto count = static_cast<Eigen::Index>(h.columns());
   SizePrior out{Eigen::VectorXd::Zero(count), least_spread};
+  if (!h.effect && h.smallest_mm > 0.0) {
+    out.median.setConstant(std::sqrt(h.smallest_mm * h.largest_mm));
+    out.spread = std::max(least_spread, std::log(h.largest_mm / h.smallest_mm) / ends_of_range);
+  }
   if (!h.effect) return out;
   const auto names = linear_parameters(h.effect->term, h.shape);
   for (Eigen::Index j = 0; j < count; ++j) {
