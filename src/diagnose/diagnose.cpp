@@ -5,6 +5,7 @@
 #include "diagnose/advise/advise.hpp"
 #include "diagnose/explain/averaged_axis.hpp"
 #include "diagnose/explain/explanation.hpp"
+#include "diagnose/explain/form_class.hpp"
 #include "diagnose/explain/gain.hpp"
 #include "diagnose/explain/observable.hpp"
 #include "diagnose/explain/quality.hpp"
@@ -54,6 +55,8 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
                            ideal.fit_options.noise_mm);
   out.checks = check_quality(ideal.stream, joint, out.residual_after_mm, out.noise);
   out.remarks = off_centre_remark(problem, model);
+  for (std::string& remark : form_class_remark(problem, joint, model.otherwise))
+    out.remarks.push_back(std::move(remark));
   out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
   out.threshold = model.family.threshold(out.false_alarm);
@@ -87,8 +90,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
                                          : DiagnosisVerdict::ideal;
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
-  AveragedAxis average =
-      average_axis(refit->problem(), refit->joint(), explanation.ambiguous, out.baseline);
+  AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
+                                      out.baseline, search.model.otherwise);
   out.named = refit->named();
   out.extended = refit->shifted(average.shift, average.within, average.between);
   out.shares = std::move(average.shares);

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
-#include <random>
 
+#include "axis/draw.hpp"
 #include "blind/families.hpp"
 #include "blind/size.hpp"
 #include "trueaxis/error.hpp"
@@ -16,21 +16,6 @@ namespace {
 
 using virtual_lathe::Effect;
 using virtual_lathe::Scenario;
-
-/// Numbers that are the same with every standard library.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random(seed * 0x9E3779B97F4A7C15ULL + 1) {}
-  double unit() { return static_cast<double>(random() >> 11U) * 0x1p-53; }
-  double between(double low, double high) { return low + (high - low) * unit(); }
-  double log_between(double low, double high) { return low * std::pow(high / low, unit()); }
-  int whole(int low, int high) {
-    return low + static_cast<int>(unit() * static_cast<double>(high - low + 1));
-  }
-  double phase() { return between(-std::numbers::pi, std::numbers::pi); }
-
-  std::mt19937_64 random;
-};
 
 constexpr double least_radius_mm = 3.0;
 /// In σ², of the sum of squares: what half of all searches find, and what moves no axis.

@@ -88,7 +88,8 @@ double cylinder_held_out(const ProbeStream& stream, const FitOptions& options) {
   return std::sqrt(sum / 60.0);
 }
 
-// Leaving one section out: to 38.5 µm or better. Before: refits linearised about the whole fit err
+// Leaving one section out: to 32 µm or better, 31.4 being what lobes of order 2, 3 and 4 that are
+// linear in Z leave. Before: refits linearised about the whole fit err
 // by the squares of what they move, a few 0.1 mm in 76 mm.
 TEST_F(Tube, PredictsASectionLeftOut) {
   ASSERT_EQ(stream_.size(), 60u);
@@ -97,8 +98,19 @@ TEST_F(Tube, PredictsASectionLeftOut) {
   const double before = cylinder_held_out(stream_, options_.fit);
   EXPECT_NEAR(gain.held_out_before_mm.value, before, 0.005 * before);
   std::cout << "held out " << before << ", " << gain.held_out_after_mm.value << " mm\n";
-  EXPECT_LE(gain.held_out_after_mm.value, 0.0385);
-  EXPECT_LE(gain.rms_after_mm, 0.031);  // 30.5 of a cone with ovality linear in Z
+  EXPECT_LE(gain.held_out_after_mm.value, 0.032);
+  EXPECT_LE(gain.rms_after_mm, 0.018);  // 17.7 with them
+}
+
+// On twelve even angles no lobe and no taper moves the axis.
+TEST_F(Tube, AxisStaysThatOfTheIdealFit) {
+  for (const double z : {found_.extended.position_min_mm, found_.extended.position_max_mm}) {
+    const auto stated = found_.extended.axis.axis.at(z), ideal = found_.baseline.axis.axis.at(z);
+    EXPECT_LE(std::hypot(stated[0] - ideal[0], stated[1] - ideal[1]),
+              2.0 * found_.extended.axis.u_at(z))
+        << "at Z " << z;
+  }
+  EXPECT_LE(found_.gain.axis_shift.value, 2.0 * found_.extended.axis.u_at(0.0));
 }
 
 // They lose held out.
@@ -142,14 +154,18 @@ TEST_F(Tube, TwinsAreNamedAndWhatSplitsThemIsAdvised) {
   EXPECT_GT(f->separate_with->power, 0.95);
 }
 
-// Turned by 70° the ovality is told from the spindle's error, and a taper from a slide out of
-// parallel no better than before: one of two questions from ½ to 1.
-TEST_F(Tube, ReindexingSplitsTheOvalityAlone) {
-  ASSERT_EQ(found_.findings.size(), 2u);
+// Turned by 70° lobes are told from the spindle's error, and a taper from a slide out of parallel
+// no better than before: of n questions all but one from ½ to 1.
+TEST_F(Tube, ReindexingSplitsTheLobesAlone) {
+  const auto questions = static_cast<double>(found_.findings.size());
+  ASSERT_EQ(std::ranges::count_if(found_.findings,
+                                  [](const Finding& f) { return f.effect() == "part.taper"; }),
+            1);
+  ASSERT_GT(questions, 1.0);
   const auto plan = std::ranges::find(found_.plans, "RC", &Separating::plan);
   ASSERT_NE(plan, found_.plans.end());
   EXPECT_NEAR(plan->power_before, 0.5, 0.05);
-  EXPECT_NEAR(plan->power, 0.75, 0.05);
+  EXPECT_NEAR(plan->power, 1.0 - 0.5 / questions, 0.05);
 }
 
 class Trace : public ::testing::Test {

@@ -4,20 +4,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/explain/form_class.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
+#include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/statistic.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double present = 0.2;  // how often a stream has an effect, before it is looked at
-constexpr double told = 1e-3;    // probability below which a model is not listed
 // A form that no cause explains is known by the patterns that the data show of it, and may have as
 // well what the surface takes: in the axis at each end, this share of the patterns' root mean
 // square.
 constexpr double discrepancy = 0.1;
-constexpr double nothing = 1e-2;  // of u: a shift below is none
+constexpr double present = 0.2;         // how often a stream has an effect, before it is looked at
+constexpr double told = 1e-3;           // probability below which a model is not listed
+constexpr double nothing = 1e-2;        // of u: a shift below is none
+constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
+constexpr double finer[] = {0.06, 0.02, 0.007};  // steps about the one that was found
 
 /// A model of the readings instead of the named one.
 struct Alternative {
@@ -64,6 +68,7 @@ class Averaging {
       : problem_(problem),
         terms_(joint.terms.size()),
         findings_(findings),
+        local_(local_shapes(problem, joint)),
         beside_(not_found(problem, joint.terms, findings, ideal)),
         wide_(problem, joint.equations.autoregression(), all_of(joint), terms_),
         gram_(wide_.equations.total()),
@@ -86,6 +91,7 @@ class Averaging {
     out.shift = named_.coefficients.head(n_) - wide_.base();
     std::size_t next = terms_;
     for (const AmbiguousFinding& finding : findings_) of_finding(finding, next, out);
+    for (const LocalShapes& shapes : local_) of_local_form(shapes, next, out);
     if (problem_.point.base.face) {  // of a face the named model stands, with what rivals would do
       out.within = wide_.base_covariance();
       out.shift.setZero();
@@ -106,11 +112,38 @@ class Averaging {
   }
 
  private:
+  /// What a local form may be instead where few angles do not show its shape.
+  struct LocalShapes {
+    std::size_t term = 0;
+    std::vector<Hypothesis> shapes;
+  };
+  static std::vector<LocalShapes> local_shapes(const Problem& problem, const Joint& joint) {
+    std::vector<LocalShapes> out;
+    if (!problem.resolution.sparse || std::ranges::none_of(joint.terms, is_local)) return out;
+    const LocalForms forms(problem);
+    for (std::size_t t = 0; t < joint.terms.size(); ++t) {
+      if (!is_local(joint.terms[t])) continue;
+      std::vector<Hypothesis> others = joint.terms;
+      others.erase(others.begin() + static_cast<long>(t));
+      LocalShapes& local = out.emplace_back(LocalShapes{t, {joint.terms[t]}});
+      for (const double step : finer)
+        for (Hypothesis& near : neighbours(joint.terms[t], problem.point, step)) {
+          keep_local(problem, near);
+          local.shapes.push_back(std::move(near));
+        }
+      for (Hypothesis& form : forms.beside(others, most_forms, false))
+        local.shapes.push_back(std::move(form));
+    }
+    return out;
+  }
+
   std::vector<Hypothesis> all_of(const Joint& joint) const {
     std::vector<Hypothesis> all = joint.terms;
     for (const AmbiguousFinding& finding : findings_)
       for (std::size_t r = 1; r < finding.found.members.size(); ++r)
         all.push_back(finding.found.members[r].hypothesis);
+    for (const LocalShapes& local : local_)
+      all.insert(all.end(), local.shapes.begin(), local.shapes.end());
     all.insert(all.end(), beside_.begin(), beside_.end());
     return all;
   }
@@ -181,6 +214,29 @@ class Averaging {
     add(list, out);
   }
 
+  /// The shapes are alternatives to each other, and take the place of the one that was found.
+  void of_local_form(const LocalShapes& local, std::size_t& next, AveragedAxis& out) const {
+    const Solution without = solve(gram_, columns_without(local.term));
+    const Projection beside = project(gram_, without.columns);
+    std::vector<Alternative> list;
+    std::vector<double> criterion;
+    for (std::size_t k = 0; k < local.shapes.size(); ++k, ++next) {
+      const Weighed weighed = weigh_term(next, beside);
+      list.push_back(with(next, without, weighed));
+      criterion.push_back(weighed.criterion);
+    }
+    if (list.empty()) return;
+    const double best = std::ranges::min(criterion);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < list.size(); ++k)
+      sum += list[k].probability = std::exp(-0.5 * (criterion[k] - best));
+    for (Alternative& a : list) a.probability /= sum;
+    add(list, out);
+    // What its own size adds was counted with the noise already.
+    out.between -= wide_.sigma_mm * wide_.sigma_mm *
+                   (named_.inverse.topLeftCorner(n_, n_) - without.inverse.topLeftCorner(n_, n_));
+  }
+
   /// One effect that was not found, its shapes being alternatives.
   struct Missed {
     std::vector<Alternative> shapes;  ///< the probability of each once it is there
@@ -236,6 +292,7 @@ class Averaging {
   const Problem& problem_;
   std::size_t terms_;
   const std::vector<AmbiguousFinding>& findings_;
+  std::vector<LocalShapes> local_;
   std::vector<Hypothesis> beside_;
   Joint wide_;
   Eigen::MatrixXd gram_;  ///< with what the sizes of the terms may plausibly be
@@ -243,15 +300,37 @@ class Averaging {
   Solution named_;
 };
 
+/// With what no cause explains.
+AveragedAxis averaged(const Problem& problem, const Joint& joint,
+                      const std::vector<AmbiguousFinding>& findings, const FitResult& ideal) {
+  AveragedAxis out = Averaging(problem, joint, findings, ideal).average();
+  if (problem.point.base.face) return out;
+  const double left_mm = discrepancy * unexplained_rms(joint);
+  out.between += covariance_of_ends(problem.point, out.between.rows(), left_mm);
+  return out;
+}
+
 }  // namespace
 
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
-                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal) {
-  AveragedAxis out = Averaging(problem, joint, findings, ideal).average();
-  if (!problem.point.base.face) {
-    const double left = discrepancy * unexplained_rms(joint);
-    out.between += covariance_of_ends(problem.point, out.between.rows(), left);
-  }
+                          const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
+                          const std::optional<Otherwise>& otherwise) {
+  AveragedAxis out = averaged(problem, joint, findings, ideal);
+  if (!otherwise || otherwise->probability < told) return out;
+  const Joint other(problem, joint.equations.autoregression(), otherwise->terms,
+                    otherwise->terms.size());
+  const AveragedAxis rival = averaged(problem, other, {}, ideal);
+  const double p = otherwise->probability;
+  const Eigen::VectorXd away = other.base() + rival.shift - joint.base() - out.shift;
+  out.shift += p * away;
+  out.within = (1.0 - p) * out.within + p * rival.within;
+  out.between =
+      (1.0 - p) * out.between + p * rival.between + p * (1.0 - p) * (away * away.transpose());
+  const AxisShift moved = axis_shift(problem.point, away, other.base_covariance());
+  out.shares.insert(out.shares.begin(), {form_words(otherwise->terms),
+                                         form_words(joint.terms),
+                                         p,
+                                         {moved.value_mm, moved.u_mm, "mm", ""}});
   return out;
 }
 

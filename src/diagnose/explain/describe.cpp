@@ -166,7 +166,12 @@ std::string alias_of(const Hypothesis& h, const Resolution& resolution) {
   if (!harmonic) return "";
   const double order = harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
   const double m = std::round(resolution.per_turn), other = m - order;
-  if (other <= 0.0 || other == order || other > highest_alias) return "";
+  if (other == order)
+    return fmt::format(
+        "{:g} of another phase: with {:g} readings a revolution one phase of order {:g} shows, at "
+        "least this much; take an asynchronous rate",
+        other, m, order);
+  if (other <= 0.0 || other > highest_alias) return "";
   return fmt::format(
       "{:g}: with {:g} readings a revolution orders n and {:g} - n are one column; take an "
       "asynchronous rate",

@@ -30,6 +30,20 @@ std::vector<std::size_t> section_starts(const LinearisationPoint& point) {
 }
 
 constexpr int most_harmonics = 12, most_degrees = 4;
+constexpr double most_by_hand = 36.0;  // angles of a section
+constexpr double even = 0.02;          // of the step: what an angle is off
+
+/// Whether each section has as many angles, all the same step apart.
+bool are_even(const LinearisationPoint& point, const ObservationMask& mask, double per_turn) {
+  const double step = two_pi / per_turn;
+  for (std::size_t f = 0; f < mask.folds(); ++f) {
+    const std::size_t begin = mask.fold_begin[f], end = mask.fold_begin[f + 1];
+    if (static_cast<double>(end - begin) != per_turn) return false;
+    for (std::size_t i = begin + 1; i < end; ++i)
+      if (std::abs(std::abs(point.c[i] - point.c[i - 1]) - step) > even * step) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -108,6 +122,11 @@ Resolution resolution_of(const LinearisationPoint& point, const ObservationMask&
   out.harmonics = static_cast<int>(std::min<double>(most_harmonics, std::floor(most)));
   out.degrees = point.has_position ? most_degrees : 0;
   if (out.sections) out.degrees = std::min<int>(most_degrees, static_cast<int>(mask.folds()) - 2);
+  out.sparse = out.sections && out.per_turn <= most_by_hand &&
+               are_even(point, mask, out.per_turn) && point.clampings.size() == 1 &&
+               !point.base.face;
+  const int half = static_cast<int>(std::lround(out.per_turn)) / 2;
+  if (out.sparse && half > out.harmonics && half <= most_harmonics) out.half_seen = half;
   std::size_t moving = 0;
   for (const Pass& pass : point.passes) moving += pass.end - pass.begin > 8;
   out.one_variable = moving <= 1 && !out.sections;

@@ -35,6 +35,8 @@ struct Resolution {
   double turns = 0.0;        ///< of all passes
   bool one_variable = true;  ///< C, Z and t are one: a single pass of constant speed and feed
   bool sections = false;     ///< Z steps from section to section
+  bool sparse = false;       ///< few even angles in each of them, as hand probing gives
+  int half_seen = 0;         ///< of M angles the order M/2, of which one phase shows; 0: none
 };
 Resolution resolution_of(const LinearisationPoint& point, const ObservationMask& mask);
 

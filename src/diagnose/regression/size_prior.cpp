@@ -52,6 +52,10 @@ SizePrior size_prior(const Hypothesis& h) {
   SizePrior out{Eigen::VectorXd::Zero(count), least_spread,
                 Eigen::VectorXd::Constant(count, any.least),
                 Eigen::VectorXd::Constant(count, any.most)};
+  if (!h.effect && h.smallest_mm > 0.0) {
+    out.median.setConstant(std::sqrt(h.smallest_mm * h.largest_mm));
+    out.spread = std::max(least_spread, std::log(h.largest_mm / h.smallest_mm) / ends_of_range);
+  }
   if (!h.effect) return out;
   const auto names = linear_parameters(h.effect->term, h.shape);
   for (Eigen::Index j = 0; j < count; ++j) {

@@ -45,11 +45,28 @@ double tests_of(const SearchRange& range, bool alone) {
   return static_cast<double>(sum);
 }
 
+/// Of M angles lobes of the order M/2 show one column in place of two: which of the linear
+/// parameters those are. Their other phase is nowhere.
+std::vector<std::size_t> visible(const Effect& effect, const Form& form, const TermShape& shape,
+                                 const Problem& problem) {
+  if (!problem.resolution.half_seen || shape.order != problem.resolution.half_seen)
+    return form.free;
+  const bool cosine = std::abs(std::cos(shape.order * problem.point.theta.front())) > 0.5;
+  const auto names = linear_parameters(effect.term, shape);
+  std::vector<std::size_t> out;
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const bool asked = form.free.empty() || std::ranges::find(form.free, j) != form.free.end();
+    if (asked && names[j].name.ends_with(cosine ? "_cos" : "_sin")) out.push_back(j);
+  }
+  return out;
+}
+
 /// @param alone one start of each form
 void add_form(const Effect& effect, const Form& form, TermShape shape, bool alone, double tests,
               const Problem& problem, std::vector<Hypothesis>& list) {
   if (problem.resolution.degrees < form.degrees || !can_start(form.starts, problem)) return;
-  const auto add = [&] { list.push_back(of_effect(effect, shape, form.free, tests)); };
+  const std::vector<std::size_t> free = visible(effect, form, shape, problem);
+  const auto add = [&] { list.push_back(of_effect(effect, shape, free, tests)); };
   const ShapeValues& starts = form.starts;
   if (starts.values.empty()) return add();
   for (std::size_t k = 0; k < starts.values.size(); ++k) {
@@ -164,7 +181,8 @@ std::vector<Hypothesis> preset_causes(const Problem& problem) {
         add_form(*effect, form, shape, false, tests_of(range, false), problem, list);
     } else {
       const double tests = tests_of(range, true) * orders_of(*effect, problem.resolution);
-      for (int n = 2; n <= problem.resolution.harmonics; ++n) {
+      for (int n = 2; n <= std::max(problem.resolution.harmonics, problem.resolution.half_seen);
+           ++n) {
         if (range.highest_order > 0 && n > range.highest_order) break;
         shape.order = n;
         for (const Form& form : range.forms)

@@ -215,6 +215,7 @@ std::vector<Candidate> refine(const Problem& problem, const std::vector<double>&
       owner.push_back(i);
       if (round == rounds) continue;
       for (Hypothesis& v : variants(candidates[i], problem, step, 0.5 * shrink * cell[i])) {
+        if (problem.resolution.sparse && is_local(v)) keep_local(problem, v);
         tried.push_back(std::move(v));
         owner.push_back(i);
       }
@@ -278,8 +279,13 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   std::ranges::stable_sort(out.basis, better);
   out.scans = scanner_(equations, left);
   double bumps_tested = 0.0;
-  out.bumps = scan_bumps(equations, left, bumps_tested);
-  for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
+  if (local_forms_) {
+    out.bumps = local_forms_->beside(terms, best_refined, true);
+    bumps_tested = local_forms_->tests();
+  } else {
+    out.bumps = scan_bumps(equations, left, bumps_tested);
+    for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
+  }
   for (const Candidate& c : judged) out.family.single += c.rank > 0;
   out.family.single += bumps_tested;
   out.family.bandwidth = out.scans.bandwidth + problem_.fast_bandwidth;
@@ -301,6 +307,8 @@ std::vector<Hypothesis> Proposer::shortlist(const Step& of, std::size_t presets)
   std::ranges::sort(orders, std::greater<>());
   for (std::size_t i = 0; i < std::min(best_orders, orders.size()); ++i)
     list = joined(list, causes_of_order(problem_, orders[i].second));
+  if (problem_.resolution.half_seen)
+    list = joined(list, causes_of_order(problem_, problem_.resolution.half_seen));
   return list;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "diagnose/search/dictionary.hpp"
+#include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/statistic.hpp"
 
@@ -35,7 +36,9 @@ constexpr double step_start = 0.06;  ///< of a refinement, on a scale where 1 is
 /// the next step.
 class Proposer {
  public:
-  explicit Proposer(const Problem& problem) : problem_(problem), scanner_(problem) {}
+  explicit Proposer(const Problem& problem) : problem_(problem), scanner_(problem) {
+    if (problem.resolution.sparse) local_forms_.emplace(problem);
+  }
 
   /// What was asked before is not worked out again; the answer lives as long as this.
   /// @param phi autoregression of the noise
@@ -60,6 +63,7 @@ class Proposer {
 
   const Problem& problem_;
   LineScanner scanner_;
+  std::optional<LocalForms> local_forms_;  ///< of a sparse design
   std::unique_ptr<Dictionary> dictionary_;
   std::deque<Asked> asked_;
 };

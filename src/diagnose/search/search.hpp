@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "diagnose/search/propose.hpp"
 
 namespace trueaxis::diagnose_detail {
+/// Terms that explain the readings instead.
+struct Otherwise {
+  std::vector<Hypothesis> terms;
+  double probability = 0.0;
+};
+
 /// A set of terms beside the surface.
 struct Model {
   std::vector<Hypothesis> terms;
@@ -13,11 +20,14 @@ struct Model {
   std::vector<double> phi;       ///< autoregression of the noise beside them
   double criterion = 0.0;
   Family family;
+  /// Of few angles the best model of the other kind, with a local form of the part or without.
+  std::optional<Otherwise> otherwise;
 };
 
 /// Forward by the best hypothesis, backward, swapped and merged, until nothing changes; once with
 /// catalogued causes first and, where a pattern did better on the way, once with patterns allowed:
-/// the better of the two.
+/// the better of the two. Of few angles
+/// with and without local forms.
 Model search(Proposer& proposer);
 
 }  // namespace trueaxis::diagnose_detail

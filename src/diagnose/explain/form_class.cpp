@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/explain/form_class.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "diagnose/search/local_forms.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double in_the_class = 1e-3;  // probability, as of any class
+constexpr double told_for_sure = 4.1;  // d with Φ(d/2) = 0.98
+constexpr int tried[] = {12, 16, 20, 24, 30, 36, 48, 60, 72, 90, 120};
+
+bool is_lobes(const Hypothesis& h) {
+  return h.effect ? has_free_order(*h.effect) && std::holds_alternative<Harmonic>(h.effect->term)
+                  : h.pattern.kind == Pattern::Kind::fourier_legendre && h.pattern.order > 1.0;
+}
+
+double order_of(const Hypothesis& h) { return h.effect ? h.shape.order : h.pattern.order; }
+
+std::string place_of(const Pattern& p) {
+  const std::string around = fmt::format("a local form at {:.0f}° (± {:.0f}°)",
+                                         p.angle_rad / rad_per_deg, p.width_rad / rad_per_deg);
+  if (!(p.length_mm > 0.0)) return around + " all along";
+  return around + fmt::format(", Z {:.4g} mm (± {:.3g} mm)", p.position_mm, p.length_mm);
+}
+
+/// The same sections with other angles, even and over the whole turn.
+ProbeStream sections_of(const Problem& problem, int angles) {
+  const LinearisationPoint& point = problem.point;
+  ProbeStream out;
+  for (std::size_t f = 0; f < problem.mask.folds(); ++f)
+    for (int k = 0; k < angles; ++k) {
+      out.c_rad.push_back(point.c.front() +
+                          two_pi * (static_cast<double>(f) + static_cast<double>(k) / angles));
+      out.position_mm.push_back(point.z[problem.mask.fold_begin[f]]);
+      out.reading_mm.push_back(0.0);
+    }
+  return out;
+}
+
+/// Of lobes both phases, of which the angles at hand may show one.
+std::vector<Hypothesis> whole(std::vector<Hypothesis> terms) {
+  for (Hypothesis& h : terms)
+    if (is_lobes(h) && h.free.size() == 1) h.free = {0, 1};
+  return terms;
+}
+
+/// d² of what the terms do from base and the best of other terms (Eq. 87). Without terms there is
+/// nothing to be told.
+double distance2(const LinearisationPoint& point, const Joint& of,
+                 const std::vector<Hypothesis>& other) {
+  if (of.terms.empty()) return std::numeric_limits<double>::infinity();
+  const auto count = static_cast<Eigen::Index>(columns_of(of.terms));
+  const Eigen::VectorXd linear = of.solution.coefficients.tail(count);
+  const std::vector<double> done = contribution(point, of.terms, span_of(linear));
+  const ObservationMask mask = make_observation_mask(point);
+  NormalEquations equations(point, mask, done, {}, 1);
+  Columns taken = equations.base();
+  for (const Columns& own : equations.append(whole(other)))
+    taken.insert(taken.end(), own.begin(), own.end());
+  return project(equations.total(), taken).rss / (of.sigma_mm * of.sigma_mm);
+}
+
+}  // namespace
+
+std::string form_words(const std::vector<Hypothesis>& terms) {
+  std::vector<std::string> words;
+  std::vector<double> orders;
+  for (const Hypothesis& h : terms) {
+    if (is_local(h)) words.push_back(place_of(h.pattern));
+    if (is_lobes(h)) orders.push_back(order_of(h));
+  }
+  std::ranges::sort(orders);
+  const auto [first, last] = std::ranges::unique(orders);
+  orders.erase(first, last);
+  if (!orders.empty()) words.push_back(fmt::format("lobes of order {:g}", fmt::join(orders, ", ")));
+  return words.empty() ? "no form" : fmt::format("{}", fmt::join(words, " and "));
+}
+
+int angles_that_tell(const Problem& problem, const Joint& named, const Joint& other) {
+  const LinearisationPoint& point = problem.point;
+  for (const int angles : tried) {
+    if (angles <= problem.resolution.per_turn) continue;
+    const LinearisationPoint more =
+        linearise_at(sections_of(problem, angles), point.clampings, point.base, point.bore);
+    const double d2 =
+        std::min(distance2(more, named, other.terms), distance2(more, other, named.terms));
+    if (d2 >= told_for_sure * told_for_sure) return angles;
+  }
+  return 0;
+}
+
+std::vector<std::string> form_class_remark(const Problem& problem, const Joint& joint,
+                                           const std::optional<Otherwise>& otherwise) {
+  if (!otherwise || otherwise->probability < in_the_class) return {};
+  const Joint other(problem, {}, otherwise->terms, otherwise->terms.size());
+  const int angles = angles_that_tell(problem, joint, other);
+  return {fmt::format(
+      "{} (probability {:.2g}) or {} ({:.2g}): {:.0f} angles a section cannot tell, and the axis "
+      "is averaged over both; {}",
+      form_words(joint.terms), 1.0 - otherwise->probability, form_words(otherwise->terms),
+      otherwise->probability, problem.resolution.per_turn,
+      angles > 0 ? fmt::format("{} angles a section would tell", angles)
+                 : "no number of angles up to 120 would")};
+}
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "diagnose/regression/joint.hpp"
+#include "diagnose/search/search.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Terms by what they are of a part: "a local form at 30.0° (± 10.0°) and lobes of order 2, 4".
+std::string form_words(const std::vector<Hypothesis>& terms);
+
+/// Of few angles a local form of the part and lobes are one class where either explains the
+/// readings: both in words, their probabilities, and the least number of angles a section that
+/// would tell them apart. Empty: one of them alone does.
+/// @param joint of the model that is named
+std::vector<std::string> form_class_remark(const Problem& problem, const Joint& joint,
+                                           const std::optional<Otherwise>& otherwise);
+
+/// The least number of angles in each of the same sections at which the one model's best fit is
+/// told from the other's with the probability 0.98 (Eq. 88); 0: none of those that are tried.
+int angles_that_tell(const Problem& problem, const Joint& named, const Joint& other);
+
+}  // namespace trueaxis::diagnose_detail
