@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "math/autoregression.hpp"
 
+#include <hwy/aligned_allocator.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "math/gram.hpp"
 #include "math/statistics.hpp"
+#include "math/wide_gram.hpp"
 
 namespace trueaxis {
 namespace {
@@ -88,15 +92,30 @@ LaggedGram::LaggedGram(Eigen::Index columns) {
 }
 
 void LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Matrix at[3];
+  // The columns of all lags beside each other, padded with zeros as of a WideBlock.
+  const auto columns = static_cast<std::size_t>(x.cols());
+  const std::size_t n = rows.size(), stride = (n + 7) / 8 * 8;
+  const auto memory = hwy::MakeUniqueAlignedArray<double>(3 * columns * stride + 1);
+  std::vector<const double*> column;
   for (Eigen::Index lag = 0; lag < 3; ++lag) {
-    at[lag].resize(n, x.cols());
-    for (Eigen::Index i = 0; i < n; ++i)
-      at[lag].row(i) = x.row(rows[static_cast<std::size_t>(i)] - lag);
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      double* to = memory.get() + column.size() * stride;
+      for (std::size_t i = 0; i < n; ++i) to[i] = x(rows[i] - lag, j);
+      column.push_back(to);
+    }
   }
+  std::vector<double> lower(gram_size(column.size()), 0.0);
+  add_wide_products({column, n}, lower);
   for (std::size_t a = 0; a < 3; ++a) {
-    for (std::size_t b = a; b < 3; ++b) gram_[a][b].noalias() += at[a].transpose() * at[b];
+    for (std::size_t b = a; b < 3; ++b) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        for (std::size_t j = 0; j < columns; ++j) {
+          const std::size_t one = a * columns + i, other = b * columns + j;
+          gram_[a][b](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+              lower[gram_index(std::max(one, other), std::min(one, other))];
+        }
+      }
+    }
   }
   rows_ += static_cast<double>(n);
 }
