@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "math/autoregression.hpp"
 
+#include <hwy/aligned_allocator.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "math/gram.hpp"
 #include "math/statistics.hpp"
+#include "math/wide_gram.hpp"
 
 namespace trueaxis {
 namespace {
@@ -93,15 +97,32 @@ LaggedGram::LaggedGram(Eigen::Index columns) {
 
 double LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows, std::size_t lags,
                        Lags& to) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
-  Matrix at[3];
+  // The columns of all lags beside each other, padded with zeros as of a WideBlock.
+  const auto columns = static_cast<std::size_t>(x.cols());
+  const std::size_t n = rows.size(), stride = (n + 7) / 8 * 8;
+  const auto memory = hwy::MakeUniqueAlignedArray<double>(lags * columns * stride + 1);
+  std::fill_n(memory.get(), lags * columns * stride, 0.0);
+  std::vector<const double*> column;
   for (std::size_t lag = 0; lag < lags; ++lag) {
-    at[lag].resize(n, x.cols());
-    for (Eigen::Index i = 0; i < n; ++i)
-      at[lag].row(i) = x.row(rows[static_cast<std::size_t>(i)] - static_cast<Eigen::Index>(lag));
+    for (Eigen::Index j = 0; j < x.cols(); ++j) {
+      double* own = memory.get() + column.size() * stride;
+      for (std::size_t i = 0; i < n; ++i) own[i] = x(rows[i] - static_cast<Eigen::Index>(lag), j);
+      column.push_back(own);
+    }
   }
-  for (std::size_t a = 0; a < lags; ++a)
-    for (std::size_t b = a; b < lags; ++b) to[a][b].noalias() += at[a].transpose() * at[b];
+  std::vector<double> lower(gram_size(column.size()), 0.0);
+  add_wide_products({column, n}, lower);
+  for (std::size_t a = 0; a < lags; ++a) {
+    for (std::size_t b = a; b < lags; ++b) {
+      for (std::size_t i = 0; i < columns; ++i) {
+        for (std::size_t j = 0; j < columns; ++j) {
+          const std::size_t one = a * columns + i, other = b * columns + j;
+          to[a][b](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+              lower[gram_index(std::max(one, other), std::min(one, other))];
+        }
+      }
+    }
+  }
   return static_cast<double>(n);
 }
 

@@ -77,8 +77,8 @@ HWY_INLINE void add_all(const WideBlock& left, const WideBlock& right, const Pla
     for (std::size_t i = 0; i < left.column.size(); i += tall) {
       const std::size_t end = limit(std::min(i + tall, left.column.size()) - 1);
       std::size_t j = 0;
-      for (; j + 1 < end; j += wide) add_tile<wide>(left, right, i, j, from, place, limit);
-      if (j < end) add_tile<1>(left, right, i, j, from, place, limit);
+      for (; j + 2 < end; j += wide) add_tile<wide>(left, right, i, j, from, place, limit);
+      if (j < end) add_tile<2>(left, right, i, j, from, place, limit);
     }
   }
 }

@@ -154,6 +154,39 @@ TEST_P(NormalEquationsOf, AppendsAndShrinks) {
   for (const MatrixXd& fold : equations.folds()) EXPECT_EQ(fold.rows(), bare.rows());
 }
 
+// Those behind the first `together` are judged one by one: they have the products with those and
+// with what was there, and their own; cells of one order in a row count as one. No other is made.
+TEST_P(NormalEquationsOf, LeavesOutWhatIsNotAsked) {
+  const Bench b(700);
+  const std::vector<Hypothesis> some = some_hypotheses();
+  Hypothesis constant;  // and behind it the cell of order 5 and degree 2
+  constant.pattern = {.order = 5.0};
+  const std::vector<Hypothesis> list{some[0], some[1], constant, some[2], some[3]};
+  constexpr std::size_t together = 1;
+  const MatrixXd dense = b.dense(list, GetParam(), 0, b.stream.size());
+  MatrixXd all = dense.transpose() * dense;
+  NormalEquations equations(b.point, b.mask, b.deviation, GetParam(), 1, with_blocks);
+  const std::vector<Columns> places = equations.append(list, together);
+  MatrixXd sum = MatrixXd::Zero(all.rows(), all.cols());
+  for (const MatrixXd& fold : equations.folds()) sum += fold;
+  for (std::size_t a = together; a < list.size(); ++a) {
+    for (std::size_t other = together; other < list.size(); ++other) {
+      const bool cells = (a == 2 || a == 3) && (other == 2 || other == 3);
+      if (a == other || cells) continue;
+      for (const std::size_t i : places[a])
+        for (const std::size_t j : places[other])
+          all(static_cast<Index>(i), static_cast<Index>(j)) = 0.0;
+    }
+  }
+  for (Index i = 1; i < all.rows(); ++i) {
+    for (Index j = 0; j < all.cols(); ++j) {
+      const double rounding = 1e-12 * std::sqrt(all(i, i) * all(j, j)) + 1e-300;
+      EXPECT_NEAR(equations.total()(i, j), all(i, j), rounding) << i << " " << j;
+      EXPECT_NEAR(sum(i, j), all(i, j), rounding) << i << " " << j;
+    }
+  }
+}
+
 TEST_P(NormalEquationsOf, DoesNotDependOnTheThreads) {
   const Bench b(24000);  // two passes: above the size from which the sum alone is shared out
   const std::vector<Hypothesis> list = some_hypotheses();

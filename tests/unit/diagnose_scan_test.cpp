@@ -122,6 +122,7 @@ INSTANTIATE_TEST_SUITE_P(
             LineCase{"environment.vibration", {}, 7.31, &LinearisationPoint::time},
             LineCase{"part.waviness", {}, 1.0 / 7.3, &LinearisationPoint::s},
             LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &LinearisationPoint::z},
+            LineCase{"probe.cyclic", {}, 20.0, &LinearisationPoint::sensed},
             LineCase{"part.feed_marks", {}, 1.0 / 0.87, &LinearisationPoint::s},
             LineCase{nullptr,
                      {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},

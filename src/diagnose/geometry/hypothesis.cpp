@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +18,14 @@ namespace {
 
 constexpr std::size_t most_parameters = 8;
 constexpr std::size_t chunk = 512, part = 64 * chunk;  // of a thread
+constexpr double nothing_left = 80.0;  // a bump 9 widths away is below the rounding of its top
+
+/// An angle of few turns in −π … π.
+double wrapped(double angle_rad) {
+  while (angle_rad > std::numbers::pi) angle_rad -= two_pi;
+  while (angle_rad < -std::numbers::pi) angle_rad += two_pi;
+  return angle_rad;
+}
 
 /// By Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
 double legendre(int degree, double u) {
@@ -44,11 +53,12 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_
     const std::size_t i = begin + k;
     double size = of.spindle ? 1.0 : point.dx_dnormal[i];
     if (of.kind == Pattern::Kind::bump) {
-      const double v = std::remainder(point.theta[i] - of.angle_rad, two_pi) / of.width_rad;
+      const double v = wrapped(point.theta[i] - of.angle_rad) / of.width_rad;
       const double w = point.has_position && of.length_mm > 0.0
                            ? (point.s[i] - of.position_mm) / of.length_mm
                            : 0.0;
-      columns[0][k] = size * std::exp(-0.5 * (v * v + w * w));
+      const double away = v * v + w * w;
+      columns[0][k] = away < nothing_left ? size * std::exp(-0.5 * away) : 0.0;
       continue;
     }
     if (of.kind == Pattern::Kind::fourier_legendre) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <variant>
 
+#include "base/threads.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
 
@@ -30,8 +31,25 @@ void add(std::vector<double>& to, const std::vector<double>& values, double fact
 }
 
 std::vector<double> contribution_of(const Hypothesis& h, const LinearisationPoint& point,
-                                    const Eigen::VectorXd& linear) {
-  return contribution(point, {&h, 1}, span_of(linear));
+                                    const Eigen::VectorXd& linear, int threads) {
+  return contribution(point, {&h, 1}, span_of(linear), threads);
+}
+
+/// Takes off what a shift of the base does to X, block by block.
+void subtract_base(std::vector<double>& from, const LinearisationPoint& point,
+                   const Eigen::VectorXd& shift, int threads) {
+  constexpr std::size_t block = 4096;
+  const auto work = [&](std::size_t k) {
+    const std::size_t begin = k * block, end = std::min(begin + block, point.size());
+    Eigen::MatrixXd columns(static_cast<Eigen::Index>(end - begin), shift.size());
+    std::vector<double*> places;
+    for (Eigen::Index j = 0; j < shift.size(); ++j) places.push_back(columns.col(j).data());
+    point.fill_base(begin, end, places);
+    for (Eigen::Index j = 0; j < shift.size(); ++j)
+      for (std::size_t i = begin; i < end; ++i)
+        from[i] -= shift(j) * columns(static_cast<Eigen::Index>(i - begin), j);
+  };
+  for_each_index((point.size() + block - 1) / block, threads, work);
 }
 
 }  // namespace
@@ -66,12 +84,7 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, const Eigen::Ma
   if (shift.isZero(0.0)) return extended_fit(cleaned_, point, base);
   // Readings of which the surface with that base is the best one.
   std::vector<double> moved = taken_off_mm_;
-  const auto n = static_cast<std::size_t>(shift.size());
-  std::vector<std::vector<double>> columns(n, std::vector<double>(point.size()));
-  std::vector<double*> places;
-  for (std::vector<double>& column : columns) places.push_back(column.data());
-  point.fill_base(0, point.size(), places);
-  for (std::size_t j = 0; j < n; ++j) add(moved, columns[j], -shift(static_cast<Eigen::Index>(j)));
+  subtract_base(moved, point, shift, problem_->threads);
   return extended_fit(cleaned(moved), point, base);
 }
 
@@ -126,7 +139,7 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
     const Eigen::VectorXd by = found.segment(at, static_cast<Eigen::Index>(h.columns()));
     at += by.size();
     if (is_lag(h)) {
-      add(known_mm_, contribution_of(h, *point_, by));
+      add(known_mm_, contribution_of(h, *point_, by, ideal_.problem.threads));
       add(known_mm_, timing_mm(h, h.shape.time_constant_s, recorded), -1.0);
       add(known_mm_, turned_mm_);
     } else if (turns(h)) {

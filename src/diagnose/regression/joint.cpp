@@ -30,7 +30,7 @@ Eigen::Index last_axis(const LinearisationPoint& point) {
 Joint::Joint(const Problem& problem, const std::vector<double>& phi,
              std::vector<Hypothesis> hypotheses, std::size_t fitted_terms, bool blocks)
     : equations(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads, blocks),
-      places(equations.append(hypotheses)),
+      places(equations.append(hypotheses, fitted_terms)),
       terms(std::move(hypotheses)),
       fitted(fitted_terms) {
   Columns all = equations.base();

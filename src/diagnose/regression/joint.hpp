@@ -28,7 +28,7 @@ struct Joint {
   Solution without(std::size_t term) const;
 
   std::vector<Hypothesis> terms;
-  std::size_t fitted;  ///< how many of the terms are in the solution; the others are only there
+  std::size_t fitted;  ///< how many of the terms are in the solution; the others are beside it
 };
 
 /// Largest distance over the probed length between two positions of the last axis, and its u; from

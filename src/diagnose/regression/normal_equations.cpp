@@ -5,11 +5,10 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "base/threads.hpp"
 #include "math/autoregression.hpp"
-#include "math/gram.hpp"
-#include "math/wide_gram.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -85,14 +84,24 @@ class Chunk {
   std::vector<const double*> view_;
 };
 
-/// Beginnings of blocks, far apart: parts that threads share, none within a block.
-std::vector<std::size_t> whole_passes(const ObservationMask& mask, std::size_t size) {
-  constexpr std::size_t least = 20'000;
-  std::vector<std::size_t> begins{0};
-  for (const std::size_t b : mask.fold_begin)
-    if (b - begins.back() >= least && size - b >= least / 2) begins.push_back(b);
+/// Beginnings of parts that threads share, at most 64.
+std::vector<std::size_t> parts_of(std::size_t size) {
+  constexpr std::size_t most = 64, least = 4 * chunk_rows;
+  const std::size_t chunks = (size + most * chunk_rows - 1) / (most * chunk_rows);
+  const std::size_t rows = std::max(least, chunks * chunk_rows);
+  std::vector<std::size_t> begins;
+  for (std::size_t b = 0; b < size; b += rows) begins.push_back(b);
   begins.push_back(size);
   return begins;
+}
+
+/// Cells of the Fourier-Legendre basis that are one column of degree 0 times a polynomial in s.
+bool same_order(const Hypothesis& a, const Hypothesis& b) {
+  const auto cell = [](const Hypothesis& h) {
+    return !h.effect && h.pattern.kind == Pattern::Kind::fourier_legendre && !h.pattern.in_time;
+  };
+  return cell(a) && cell(b) && a.pattern.order == b.pattern.order &&
+         a.pattern.spindle == b.pattern.spindle;
 }
 
 }  // namespace
@@ -105,8 +114,8 @@ NormalEquations::NormalEquations(const LinearisationPoint& point, const Observat
       deviation_(deviation_mm),
       autoregression_(std::move(autoregression)),
       threads_(threads),
-      part_begin_(blocks ? mask.fold_begin : whole_passes(mask, point.size())),
-      folds_(part_begin_.size() - 1) {
+      part_begin_(blocks ? mask.fold_begin : parts_of(point.size())),
+      folds_(blocks ? mask.folds() : 0) {
   const RunStart start(autoregression_);
   for (std::size_t i = 0; i < point.size(); ++i) {
     if (!mask.used[i]) continue;
@@ -121,15 +130,16 @@ NormalEquations::NormalEquations(const LinearisationPoint& point, const Observat
                      second_order * second_order * sum / static_cast<double>(point.size()));
   base_.resize(point.base.columns());
   std::iota(base_.begin(), base_.end(), 1U);
-  pass({});
+  pass({}, 0);
 }
 
 const std::vector<Eigen::MatrixXd>& NormalEquations::folds() const {
-  expects(part_begin_ == mask_->fold_begin, "equations with blocks");
+  expects(!folds_.empty(), "equations with blocks");
   return folds_;
 }
 
-std::vector<Columns> NormalEquations::append(std::span<const Hypothesis> list) {
+std::vector<Columns> NormalEquations::append(std::span<const Hypothesis> list,
+                                             std::size_t together) {
   std::vector<Columns> places;
   auto next = static_cast<std::size_t>(total_.rows());
   for (const Hypothesis& h : list) {
@@ -138,7 +148,7 @@ std::vector<Columns> NormalEquations::append(std::span<const Hypothesis> list) {
     next += own.size();
     places.push_back(std::move(own));
   }
-  if (!list.empty()) pass(list);
+  if (!list.empty()) pass(list, together);
   return places;
 }
 
@@ -165,76 +175,93 @@ void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t be
     for (const Hypothesis& h : some) {
       const std::span<double* const> own = columns.subspan(next, h.columns());
       next += own.size();
-      const bool cell =
-          !h.effect && h.pattern.kind == Pattern::Kind::fourier_legendre && !h.pattern.in_time;
-      if (cell && h.pattern.degree > 0 && constant != nullptr &&
-          constant->pattern.order == h.pattern.order &&
-          constant->pattern.spindle == h.pattern.spindle) {
+      if (h.pattern.degree > 0 && constant != nullptr && same_order(*constant, h)) {
         raise_degree(h, *point_, begin, end, constant_columns, own);
         continue;
       }
       fill(h, *point_, begin, end, own);
-      constant = cell && h.pattern.degree == 0 ? &h : nullptr;
+      constant = same_order(h, h) && h.pattern.degree == 0 ? &h : nullptr;
       if (constant != nullptr) constant_columns.assign(own.begin(), own.end());
     }
   }
 }
 
-void NormalEquations::pass(std::span<const Hypothesis> fresh) {
+Appended NormalEquations::appended(std::span<const Hypothesis> fresh, std::size_t together) const {
+  Appended out;
+  out.before = static_cast<std::size_t>(total_.rows());
+  const std::size_t own = out.before == 0 ? 1 + base_.size() : 0;
+  out.together = out.before + own + columns_of(fresh.first(together));
+  std::size_t end = out.together;
+  for (std::size_t h = together; h < fresh.size(); ++h) {
+    end += fresh[h].columns();
+    if (h > together && same_order(fresh[h - 1], fresh[h])) out.ends.pop_back();
+    out.ends.push_back(end);
+  }
+  return out;
+}
+
+GramSums NormalEquations::sums_of(std::size_t part, std::span<const Hypothesis> fresh,
+                                  const Appended& appended) const {
   const LinearisationPoint& point = *point_;
-  const bool first = total_.rows() == 0;
-  const std::size_t fixed = 1 + base_.size();
-  const std::size_t before = first ? 0 : static_cast<std::size_t>(total_.rows());
-  const std::size_t after = first ? fixed : before + columns_of(fresh);
   const std::size_t history = autoregression_.size();
-  const auto k1 = static_cast<Eigen::Index>(after);
-
-  const auto work = [&](std::size_t f) {
-    Chunk chunk(after, history);
-    double counted = 0.0;
-    std::vector<double> own(gram_size(after - before), 0.0), cross((after - before) * before, 0.0);
-    for (std::size_t begin = part_begin_[f]; begin < part_begin_[f + 1];) {
-      std::size_t end = std::min(begin + chunk_rows, part_begin_[f + 1]);
-      for (std::size_t i = begin + 1; i < end; ++i) {
-        if (point.rear[i] != point.rear[begin]) end = i;
-      }
-      // Where the side changes a pass begins: nothing before it is then read.
-      std::size_t start = begin - std::min(begin, history);
-      if (point.rear[start] != point.rear[begin]) start = begin;
-      fill_raw(fresh, start, end, chunk.raw());
-      chunk.whiten(autoregression_, begin - start, end - begin);
-      for (std::size_t i = begin; i < end; ++i) {
-        if (!mask_->used[i])
-          chunk.drop(i - begin);
-        else if (mask_->run[i] < history)
-          chunk.begin_run(autoregression_, begin - start, i - begin, mask_->run[i]);
-        counted += mask_->used[i] != 0;
-      }
-      const std::span<const double* const> columns = chunk.white(end - begin);
-      const WideBlock left{columns.subspan(before), end - begin};
-      add_wide_products(left, own);
-      if (before > 0) add_cross_products(left, {columns.first(before), end - begin}, cross);
-      begin = end;
+  Chunk chunk(appended.columns(), history);
+  GramSums out(appended);
+  for (std::size_t begin = part_begin_[part]; begin < part_begin_[part + 1];) {
+    std::size_t end = std::min(begin + chunk_rows, part_begin_[part + 1]);
+    for (std::size_t i = begin + 1; i < end; ++i) {
+      if (point.rear[i] != point.rear[begin]) end = i;
     }
-    if (first) own[0] += floor2_ * counted;
-    Matrix& gram = folds_[f];
-    gram.conservativeResize(k1, k1);
-    for (std::size_t i = before; i < after; ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      for (std::size_t j = 0; j <= i; ++j) {
-        const double value =
-            j < before ? cross[(i - before) * before + j] : own[gram_index(i - before, j - before)];
-        gram(row, static_cast<Eigen::Index>(j)) = gram(static_cast<Eigen::Index>(j), row) = value;
-      }
+    // Where the side changes a pass begins: nothing before it is then read.
+    std::size_t start = begin - std::min(begin, history);
+    if (point.rear[start] != point.rear[begin]) start = begin;
+    fill_raw(fresh, start, end, chunk.raw());
+    chunk.whiten(autoregression_, begin - start, end - begin);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!mask_->used[i])
+        chunk.drop(i - begin);
+      else if (mask_->run[i] < history)
+        chunk.begin_run(autoregression_, begin - start, i - begin, mask_->run[i]);
     }
-  };
+    out.add(chunk.white(end - begin), end - begin);
+    begin = end;
+  }
+  return out;
+}
 
-  const bool small = point.size() * after < 200'000;  // a thread costs more than it saves
-  for_each_index(folds_.size(), small ? 1 : threads_, work);
+void NormalEquations::pass(std::span<const Hypothesis> fresh, std::size_t together) {
+  const Appended appended = this->appended(fresh, together);
+  const bool first = appended.before == 0;
+  std::vector<std::optional<GramSums>> sums(part_begin_.size() - 1);
+  const bool small = point_->size() * appended.columns() < 200'000;  // a thread costs more
+  for_each_index(sums.size(), small ? 1 : threads_,
+                 [&](std::size_t p) { sums[p].emplace(sums_of(p, fresh, appended)); });
 
   list_.insert(list_.end(), fresh.begin(), fresh.end());
-  total_ = Matrix::Zero(k1, k1);
-  for (const Matrix& fold : folds_) total_ += fold;
+  const auto columns = static_cast<Eigen::Index>(appended.columns()),
+             there = static_cast<Eigen::Index>(appended.before);
+  const auto widen = [&](Matrix& gram) {
+    gram.conservativeResize(columns, columns);
+    gram.rightCols(columns - there).setZero();
+    gram.bottomRows(columns - there).setZero();
+  };
+  widen(total_);
+  for (Matrix& fold : folds_) widen(fold);
+  for (std::size_t p = 0; p < sums.size(); ++p) {
+    if (!folds_.empty()) sums[p]->add_to(folds_[p]);
+    sums[p]->add_to(total_);
+  }
+  for (std::size_t p = 0; first && p < sums.size(); ++p) {
+    const double floor2 =
+        floor2_ * static_cast<double>(counted(part_begin_[p], part_begin_[p + 1]));
+    if (!folds_.empty()) folds_[p](0, 0) += floor2;
+    total_(0, 0) += floor2;
+  }
+}
+
+std::size_t NormalEquations::counted(std::size_t begin, std::size_t end) const {
+  std::size_t count = 0;
+  for (std::size_t i = begin; i < end; ++i) count += mask_->used[i] != 0;
+  return count;
 }
 
 Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
@@ -269,17 +296,25 @@ Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
   return out;
 }
 
-Projection project(const Eigen::MatrixXd& gram, const Columns& taken) {
+Projection::Projection(const Eigen::MatrixXd& gram, const Columns& taken)
+    : norm2(gram.diagonal()),
+      whole_(&gram),
+      cross_(static_cast<Eigen::Index>(taken.size()), gram.cols()) {
   const Solution solution = solve(gram, taken);
-  Projection out;
-  out.norm2 = gram.diagonal();
-  out.rank = solution.rank;
-  const auto n = static_cast<Eigen::Index>(taken.size());
-  Matrix cross(n, gram.cols());
-  for (Eigen::Index i = 0; i < n; ++i)
-    cross.row(i) = gram.row(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]));
-  out.gram = gram - cross.transpose() * (solution.inverse * cross);
-  out.rss = out.gram(0, 0);
+  rank = solution.rank;
+  for (Eigen::Index i = 0; i < cross_.rows(); ++i)
+    cross_.row(i) = gram.row(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]));
+  weighted_.noalias() = solution.inverse * cross_;
+  rss = this->gram(0, 0);
+}
+
+Eigen::MatrixXd Projection::gram(const Columns& rows, const Columns& columns) const {
+  Matrix out(rows.size(), columns.size());
+  for (Eigen::Index i = 0; i < out.rows(); ++i) {
+    for (Eigen::Index j = 0; j < out.cols(); ++j)
+      out(i, j) = gram(static_cast<Eigen::Index>(rows[static_cast<std::size_t>(i)]),
+                       static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
+  }
   return out;
 }
 

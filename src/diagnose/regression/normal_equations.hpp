@@ -9,6 +9,7 @@
 #include "diagnose/geometry/condense.hpp"
 #include "diagnose/geometry/hypothesis.hpp"
 #include "diagnose/geometry/observation_mask.hpp"
+#include "diagnose/regression/gram_sums.hpp"
 
 namespace trueaxis::diagnose_detail {
 /// Whether streams of a kind have an effect.
@@ -67,7 +68,13 @@ class NormalEquations {
                   int threads, bool blocks = false);
 
   /// One pass over the readings. @returns the columns of each hypothesis.
-  std::vector<Columns> append(std::span<const Hypothesis> list);
+  std::vector<Columns> append(std::span<const Hypothesis> list) {
+    return append(list, list.size());
+  }
+  /// The same where only the first `together` are fitted: those behind them are judged one by one
+  /// beside these and what is there already, and no product of two of them is made (0). Cells of
+  /// one order of the Fourier-Legendre basis in a row count as one.
+  std::vector<Columns> append(std::span<const Hypothesis> list, std::size_t together);
 
   const Eigen::MatrixXd& total() const { return total_; }
   /// Of the blocks that are held out. @throws ContractViolation where they were not asked for.
@@ -85,7 +92,11 @@ class NormalEquations {
   void shrink(std::size_t columns);
 
  private:
-  void pass(std::span<const Hypothesis> fresh);
+  void pass(std::span<const Hypothesis> fresh, std::size_t together);
+  Appended appended(std::span<const Hypothesis> fresh, std::size_t together) const;
+  GramSums sums_of(std::size_t part, std::span<const Hypothesis> fresh,
+                   const Appended& appended) const;
+  std::size_t counted(std::size_t begin, std::size_t end) const;
   void fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
                 std::span<double* const> columns) const;
 
@@ -108,15 +119,29 @@ inline std::span<const double> span_of(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
-/// What is left of every column once some are taken out by least squares.
-struct Projection {
-  Eigen::MatrixXd gram;   ///< Schur complement over all columns
+/// What is left of every column once some are taken out by least squares. Eq. 58.
+class Projection {
+ public:
+  /// @param gram outlives this
+  Projection(const Eigen::MatrixXd& gram, const Columns& taken);
+
   Eigen::VectorXd norm2;  ///< of the columns before
   double rss = 0.0;       ///< of column 0
   std::size_t rank = 0;   ///< of what was taken out
+
+  /// An entry of the Schur complement; made where it is asked for.
+  double gram(Eigen::Index i, Eigen::Index j) const {
+    return (*whole_)(i, j) - cross_.col(i).dot(weighted_.col(j));
+  }
+  Eigen::MatrixXd gram(const Columns& rows, const Columns& columns) const;
+
+ private:
+  const Eigen::MatrixXd* whole_;
+  Eigen::MatrixXd cross_, weighted_;  ///< of what was taken, and times the inverse of its own
 };
-/// Eq. 58.
-Projection project(const Eigen::MatrixXd& gram, const Columns& taken);
+inline Projection project(const Eigen::MatrixXd& gram, const Columns& taken) {
+  return {gram, taken};
+}
 
 /// What more columns take off the sum of squares.
 struct Score {

@@ -153,7 +153,7 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
 
 Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
               std::size_t count) {
-  return weigh(size_prior(hypothesis), projection.gram(own, own), projection.gram(own, 0),
+  return weigh(size_prior(hypothesis), projection.gram(own, own), projection.gram(own, {0}),
                projection.norm2(own), projection.rss,
                static_cast<double>(count - std::min(count, projection.rank)));
 }

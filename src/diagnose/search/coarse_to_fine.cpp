@@ -81,7 +81,7 @@ void date_steps(const Problem& whole, Model& model) {
     if (!term.effect || !is_step(term.effect->term)) continue;
     std::vector<Hypothesis> others = model.terms;
     others.erase(others.begin() + static_cast<long>(t));
-    term = refine(whole, model.phi, others, {term}, first_date_step).front().hypothesis;
+    term = refine(whole, model.phi, others, term, first_date_step);
   }
 }
 

@@ -191,7 +191,7 @@ std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
     carrier[i] = static_cast<std::size_t>(found - list.begin());
     if (found == list.end()) list.push_back(wanted);
   }
-  const std::vector<Columns> places = out->equations.append(list);
+  const std::vector<Columns> places = out->equations.append(list, 0);
   out->basis_places.assign(places.begin(), places.begin() + static_cast<long>(out->basis.size()));
   for (std::size_t i = 0; i < out->presets.size(); ++i) {
     out->preset_places.push_back(shared[i] ? *shared[i]

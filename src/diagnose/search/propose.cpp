@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/threads.hpp"
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
@@ -33,22 +34,19 @@ std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vect
   return out;
 }
 
-/// Scores of hypotheses beside terms from one equations over [terms, list].
-std::vector<Candidate> judge(const NormalEquations& equations, const std::vector<Columns>& places,
-                             const std::vector<Hypothesis>& list, std::size_t terms) {
-  Columns taken = equations.base();
-  for (std::size_t t = 0; t < terms; ++t)
-    taken.insert(taken.end(), places[t].begin(), places[t].end());
+/// Scores of hypotheses beside columns that are taken, from one projection.
+std::vector<Candidate> judge(const NormalEquations& equations, const Columns& taken,
+                             const std::vector<Columns>& places,
+                             const std::vector<Hypothesis>& list) {
   const Projection projection = project(equations.total(), taken);
   const auto freedom = static_cast<double>(equations.count() - projection.rank);
   std::vector<Candidate> out;
   for (std::size_t h = 0; h < list.size(); ++h) {
-    const Columns& own = places[terms + h];
-    const Score s = score(projection, own);
+    const Score s = score(projection, places[h]);
     Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
     c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
     if (s.rank > 0) {
-      const Weighed weighed = weigh(list[h], projection, own, equations.count());
+      const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
       c.possible = weighed.possible;
     }
@@ -60,6 +58,30 @@ std::vector<Candidate> judge(const NormalEquations& equations, const std::vector
 void erase_impossible(std::vector<Candidate>& list) {
   std::erase_if(list, [](const Candidate& c) { return !c.possible; });
 }
+/// Judges lists of hypotheses beside the same terms.
+class Judge {
+ public:
+  Judge(const Problem& problem, const std::vector<double>& phi,
+        const std::vector<Hypothesis>& terms)
+      : problem_(&problem),
+        equations_(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
+        taken_(equations_.base()) {
+    append_columns(taken_, equations_.append(terms));
+  }
+  std::vector<Candidate> operator()(const std::vector<Hypothesis>& list) {
+    const auto columns = static_cast<std::size_t>(equations_.total().rows());
+    const std::vector<Columns> places = equations_.append(list, 0);
+    std::vector<Candidate> out = judge(equations_, taken_, places, list);
+    equations_.shrink(columns);
+    return out;
+  }
+  const Problem& problem() const { return *problem_; }
+
+ private:
+  const Problem* problem_;
+  NormalEquations equations_;
+  Columns taken_;
+};
 
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 
@@ -107,14 +129,9 @@ void take_fast(const std::vector<Hypothesis>& fast, bool causes, double tests,
   }
 }
 
-/// All at their first shapes, from one normal matrix; the best of them.
-std::vector<Candidate> judged_at_once(const Problem& problem, const std::vector<double>& phi,
-                                      const std::vector<Hypothesis>& terms,
-                                      const std::vector<Hypothesis>& list) {
-  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi,
-                            problem.threads);
-  const auto places = equations.append(joined(terms, list));
-  std::vector<Candidate> out = judge(equations, places, list, terms.size());
+/// All at their first shapes, from one normal matrix; best first.
+std::vector<Candidate> judged_at_once(Judge& judge, const std::vector<Hypothesis>& list) {
+  std::vector<Candidate> out = judge(list);
   std::ranges::stable_sort(out, better);
   return out;
 }
@@ -138,11 +155,8 @@ void average_over_noise(const Problem& problem, const std::vector<double>& phi, 
   for (const double d : {-away, away}) {
     std::vector<double> other = phi;
     other[0] = std::tanh(std::atanh(first) + d) * (1.0 - second);
-    NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, other,
-                              problem.threads);
-    const std::vector<Hypothesis> all = hypotheses_of(list, list.size());
-    const auto places = equations.append(joined(terms, all));
-    const std::vector<Candidate> judged = judge(equations, places, all, terms.size());
+    const std::vector<Candidate> judged =
+        Judge(problem, other, terms)(hypotheses_of(list, list.size()));
     for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(judged[i].log_p) / 6.0;
   }
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
@@ -197,53 +211,46 @@ void add_slow_spirals(const Problem& problem, std::vector<Hypothesis>& list) {
   }
 }
 
-}  // namespace
-
-std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
-                              const std::vector<Hypothesis>& others,
-                              std::vector<Hypothesis> candidates, double step) {
+/// Candidates refined to their own best shape, best first.
+std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
+                               double step = step_start) {
+  const double first_step = step;
   double shrink = 1.0;
-  std::vector<double> cell;
-  for (const Hypothesis& h : candidates)
-    cell.push_back(is_line(h) ? half_cell(h, problem.point) : 0.0);
-  std::vector<Candidate> best;
-  for (int round = 0; round <= rounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     std::vector<Hypothesis> tried;
     std::vector<std::size_t> owner;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      tried.push_back(candidates[i]);
-      owner.push_back(i);
-      if (round == rounds) continue;
-      for (Hypothesis& v : variants(candidates[i], problem, step, 0.5 * shrink * cell[i])) {
-        if (problem.resolution.sparse && is_local(v)) keep_local(problem, v);
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      const Hypothesis& h = best[i].hypothesis;
+      const double cell = is_line(h) ? half_cell(h, judge.problem().point) : 0.0;
+      for (Hypothesis& v : variants(h, judge.problem(), step, 0.5 * shrink * cell)) {
+        if (judge.problem().resolution.sparse && is_local(v)) keep_local(judge.problem(), v);
         tried.push_back(std::move(v));
         owner.push_back(i);
       }
     }
-    if (round > 0 && round < rounds && tried.size() == candidates.size()) continue;
-    NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi,
-                              problem.threads);
-    const auto places = equations.append(joined(others, tried));
-    const std::vector<Candidate> judged = judge(equations, places, tried, others.size());
-    best.assign(candidates.size(), {});
-    std::vector<char> seen(candidates.size(), 0);
-    for (std::size_t k = 0; k < judged.size(); ++k) {
-      Candidate& b = best[owner[k]];
-      if (!seen[owner[k]] || judged[k].gain > b.gain) b = judged[k];
-      seen[owner[k]] = 1;
-    }
-    for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i] = best[i].hypothesis;
+    if (tried.empty()) break;
+    const std::vector<Candidate> judged = judge(tried);
+    for (std::size_t k = 0; k < judged.size(); ++k)
+      if (judged[k].gain > best[owner[k]].gain) best[owner[k]] = judged[k];
     step *= step_shrink;
     shrink *= step_shrink;
   }
   std::ranges::stable_sort(best, better);
   const Effect* leads = best.empty() ? nullptr : best.front().hypothesis.effect;
+  step = first_step * std::pow(step_shrink, rounds);
   if (step > finest && leads && is_step(leads->term)) {
-    Candidate dated =
-        refine(problem, phi, others, {best.front().hypothesis}, step / step_shrink).front();
+    Candidate dated = refined(judge, {best.front()}, step).front();
     if (dated.criterion < best.front().criterion) best.front() = std::move(dated);
   }
   return best;
+}
+
+}  // namespace
+
+Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
+                  const std::vector<Hypothesis>& others, const Hypothesis& candidate, double step) {
+  Judge judge(problem, phi, others);
+  return refined(judge, judge({candidate}), step).front().hypothesis;
 }
 
 /// What one look beside the terms gives.
@@ -261,12 +268,11 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   Dictionary& dictionary = *dictionary_;
   NormalEquations& equations = dictionary.equations;
   const std::vector<Hypothesis> fixed = joined(dictionary.presets, dictionary.basis);
-  std::vector<Columns> places = equations.append(terms);
-  Columns taken = equations.base();
-  append_columns(taken, places);
-  places.insert(places.end(), dictionary.preset_places.begin(), dictionary.preset_places.end());
+  std::vector<Columns> places = dictionary.preset_places;
   places.insert(places.end(), dictionary.basis_places.begin(), dictionary.basis_places.end());
-  const std::vector<Candidate> judged = judge(equations, places, fixed, terms.size());
+  Columns taken = equations.base();
+  append_columns(taken, equations.append(terms));
+  const std::vector<Candidate> judged = judge(equations, taken, places, fixed);
   const Eigen::VectorXd solution = solve(equations.total(), taken).coefficients;
   equations.shrink(dictionary.columns);
   const std::vector<double> left =
@@ -330,20 +336,22 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
   take_peaks(std::move(now.scans.patterns), best_patterns, now.line_choice, patterns);
   take_fast(problem_.fast, false, now.line_choice, patterns);
   patterns = joined(patterns, now.bumps);
-  // Only the best at their first shapes are refined.
-  const auto refined = [&](const std::vector<Hypothesis>& list) {
-    return refine(problem_, phi, terms,
-                  hypotheses_of(judged_at_once(problem_, phi, terms, list), best_refined));
-  };
+  // Only the best at their first shapes are refined; causes and patterns at the same time.
+  const Judge beside_terms(problem_, phi, terms);
   Proposal out;
-  out.causes = refined(causes);
+  const auto refine_some = [&](const std::vector<Hypothesis>& list, std::vector<Candidate>& to) {
+    Judge judge = beside_terms;
+    std::vector<Candidate> best = judged_at_once(judge, list);
+    best.resize(std::min(best.size(), best_refined));
+    to = refined(judge, std::move(best));
+    average_over_noise(problem_, phi, dictionary_->noise_freedom, terms, to);
+  };
+  for_each_index(2, problem_.threads, [&](std::size_t k) {
+    k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
+  });
   const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
   if (refused != out.causes.end()) out.impossible = *refused;
   erase_impossible(out.causes);
-  out.patterns = refined(patterns);
-  const double freedom = dictionary_->noise_freedom;
-  average_over_noise(problem_, phi, freedom, terms, out.causes);
-  average_over_noise(problem_, phi, freedom, terms, out.patterns);
   out.family = now.family;
   return out;
 }
@@ -359,8 +367,10 @@ std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
   list = joined(list, shortlist(now, 0));
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, list);
   take_fast(problem_.fast, true, now.line_choice, list);
-  const auto each = one_of_each(judged_at_once(problem_, phi, others, list));
-  std::vector<Candidate> out = refine(problem_, phi, others, hypotheses_of(each, most_rivals));
+  Judge judge(problem_, phi, others);
+  std::vector<Candidate> each = one_of_each(judged_at_once(judge, list));
+  each.resize(std::min(each.size(), most_rivals));
+  std::vector<Candidate> out = refined(judge, std::move(each));
   erase_impossible(out);
   return out;
 }

@@ -68,9 +68,8 @@ class Proposer {
   std::deque<Asked> asked_;
 };
 
-/// Candidates of one finding refined to their own best shape beside `others`, best first.
-std::vector<Candidate> refine(const Problem& problem, const std::vector<double>& phi,
-                              const std::vector<Hypothesis>& others,
-                              std::vector<Hypothesis> candidates, double step = step_start);
+/// A hypothesis refined to its own best shape beside `others`.
+Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
+                  const std::vector<Hypothesis>& others, const Hypothesis& candidate, double step);
 
 }  // namespace trueaxis::diagnose_detail

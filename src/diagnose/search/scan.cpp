@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <numeric>
 
 #include "base/threads.hpp"
 #include "diagnose/search/scan_list.hpp"
@@ -20,6 +21,7 @@ using Column = std::vector<double>;
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
 constexpr double finer = 4.0;
+constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
 
 double variance(const Column& x) {
   double mean = 0.0, sum = 0.0;
@@ -45,6 +47,36 @@ double line_norm2(const NormalEquations& equations, const std::vector<double>& u
     sum += 0.5 * used_of_pass[p] * std::norm(transfer);
   }
   return sum;
+}
+
+/// The same of lines cos(2π f x − turns θ), f = low, low + df …, where x goes by another step from
+/// reading to reading, as the part's own length and what is sensed do of a part that is tilted or
+/// off centre: |A|² is a sum of the cosines of one step and of two, summed over the readings.
+Column norm2_by_step(const NormalEquations& equations, const Column& x, const Column& angle,
+                     double turns, double low, double df, std::size_t bins) {
+  const auto& phi = equations.autoregression();
+  const ObservationMask& mask = equations.mask();
+  Column factor{1.0};
+  for (const double p : phi) factor.push_back(-p);
+  const double flat = std::inner_product(factor.begin(), factor.end(), factor.begin(), 0.0);
+  Column norm2(bins, 0.5 * static_cast<double>(equations.count()) * flat);
+  for (std::size_t lag = 1; lag < factor.size(); ++lag) {
+    const double both = std::inner_product(factor.begin() + static_cast<long>(lag), factor.end(),
+                                           factor.begin(), 0.0);
+    Column step, turned;
+    for (std::size_t i = lag; i < x.size(); ++i) {
+      if (!mask.used[i] || mask.run[i] < phi.size()) continue;
+      step.push_back(x[i] - x[i - lag]);
+      turned.push_back(turns * (angle[i] - angle[i - lag]));
+    }
+    Column sine(step.size()), cosine(step.size());
+    sincos(turned, sine, cosine);
+    for (std::size_t i = 0; i < step.size(); ++i) sine[i] *= both, cosine[i] *= both;
+    const std::span<const double> parts[] = {cosine, sine};
+    const auto sums = FourierSums(step, two_pi * low, two_pi * df, bins).of(parts);
+    for (std::size_t k = 0; k < bins; ++k) norm2[k] += sums[0][k].real() - sums[1][k].imag();
+  }
+  return norm2;
 }
 
 /// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
@@ -103,7 +135,7 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 
 }  // namespace
 
-/// A range of frequencies of a scan, and its sums.
+/// A range of frequencies of a scan, at most most_bins of them, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
   std::size_t bins = 0;
@@ -165,9 +197,12 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     job.fringes = scan.x == &LinearisationPoint::sensed && point.two_sided;
     const double df =
         1.0 / ((job.fringes ? finer : 1.0) * oversampling * range_of(point.*scan.x).length());
-    for (const Extent& band : bands)
-      job.bands.push_back(
-          {band.low, df, static_cast<std::size_t>((band.high - band.low) / df) + 1, nullptr});
+    for (const Extent& band : bands) {
+      const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
+      for (std::size_t from = 0; from < bins; from += most_bins)
+        job.bands.push_back({band.low + df * static_cast<double>(from), df,
+                             std::min(most_bins, bins - from), nullptr});
+    }
     jobs_.push_back(std::move(job));
   }
 }
@@ -179,10 +214,20 @@ Scans LineScanner::operator()(const NormalEquations& equations,
   std::vector<double> outward = plain;  // of what lies along the normal
   for (std::size_t i = 0; i < outward.size(); ++i)
     if (point.rear[i]) outward[i] = -outward[i];
+  std::vector<std::vector<Gains>> gains(jobs_.size());  // of every band of every job
+  std::vector<std::pair<std::size_t, std::size_t>> bands;
+  for (std::size_t j = 0; j < jobs_.size(); ++j) {
+    gains[j].resize(jobs_[j].bands.size());
+    for (std::size_t b = 0; b < gains[j].size(); ++b) bands.emplace_back(j, b);
+  }
+  const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
+  for_each_index(bands.size(), threads, [&](std::size_t k) {
+    const auto [j, b] = bands[k];
+    gains[j][b] = gains_of(jobs_[j], jobs_[j].bands[b], equations, plain, outward);
+  });
   std::vector<Scans> found(jobs_.size());
-  const bool small = point.size() < 10'000;  // a thread costs more than it saves
-  for_each_index(jobs_.size(), small ? 1 : problem_.threads,
-                 [&](std::size_t j) { found[j] = scan(jobs_[j], equations, plain, outward); });
+  for_each_index(jobs_.size(), threads,
+                 [&](std::size_t j) { found[j] = peaks_of(jobs_[j], std::move(gains[j])); });
   Scans out;
   for (Scans& one : found) {
     std::ranges::move(one.causes, std::back_inserter(out.causes));
@@ -219,46 +264,59 @@ struct LineScanner::Steps {
   }
 };
 
-Scans LineScanner::scan(Job& job, const NormalEquations& equations, const Column& plain,
-                        const Column& outward) const {
+LineScanner::Gains LineScanner::gains_of(const Job& job, Band& band,
+                                         const NormalEquations& equations, const Column& plain,
+                                         const Column& outward) const {
   const LinearisationPoint& point = problem_.point;
   const Column& x = point.*job.scans.front().x;
   const Steps steps(equations, x, problem_.means);
-  const bool white = equations.autoregression().empty(), keeps = !is_condensed(point);
-  Scans out;
+  const bool white = equations.autoregression().empty();
+  const bool swings = !white && (job.scans.front().x == &LinearisationPoint::sensed ||
+                                 job.scans.front().x == &LinearisationPoint::s);
+  std::shared_ptr<const FourierSums> plan = band.plan;
+  if (!plan)
+    plan = std::make_shared<FourierSums>(x, two_pi * band.low, two_pi * band.df, band.bins);
+  if (!is_condensed(point)) band.plan = plan;
   TurnedSums turned;
-  std::vector<std::vector<double>> gains(job.scans.size());
-  for (Band& band : job.bands) {
-    std::shared_ptr<const FourierSums> plan = band.plan;
-    if (!plan)
-      plan = std::make_shared<FourierSums>(x, two_pi * band.low, two_pi * band.df, band.bins);
-    if (keeps) band.plan = plan;
-    for (std::size_t s = 0; s < job.scans.size(); ++s) {
-      const Scan& scan = job.scans[s];
-      const std::vector<double>& g = scan.form ? outward : plain;
-      std::vector<std::complex<double>> sums;
-      if (scan.turns == 0.0) {
-        sums = plan->of(g);
-      } else {
-        const double n = std::abs(scan.turns);
-        if (turned.plan != plan.get() || turned.order != n)
-          turned = turned_sums(*plan, n, scan.spindle ? point.c : point.theta, g);
-        // Σ g exp(−i(2πfx − turns θ))
-        sums = turned.cosine;
-        const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
-        for (std::size_t k = 0; k < band.bins; ++k) sums[k] += turn * turned.sine[k];
-      }
-      const double flat = line_norm2(equations, steps.used, steps.x, steps.c, band.low, scan.turns);
-      for (std::size_t k = 0; k < band.bins; ++k) {
-        const double f = band.low + band.df * static_cast<double>(k);
-        const double norm2 =
-            white ? flat : line_norm2(equations, steps.used, steps.x, steps.c, f, scan.turns);
-        gains[s].push_back(std::norm(sums[k]) / norm2);  // of cos and of sin: norm2 each
-      }
+  Gains gains(job.scans.size());
+  for (std::size_t s = 0; s < job.scans.size(); ++s) {
+    const Scan& scan = job.scans[s];
+    const std::vector<double>& g = scan.form ? outward : plain;
+    const Column& angle = scan.spindle ? point.c : point.theta;
+    std::vector<std::complex<double>> sums;
+    if (scan.turns == 0.0) {
+      sums = plan->of(g);
+    } else {
+      const double n = std::abs(scan.turns);
+      if (turned.plan == nullptr || turned.order != n) turned = turned_sums(*plan, n, angle, g);
+      // Σ g exp(−i(2πfx − turns θ))
+      sums = turned.cosine;
+      const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
+      for (std::size_t k = 0; k < band.bins; ++k) sums[k] += turn * turned.sine[k];
+    }
+    const double flat = line_norm2(equations, steps.used, steps.x, steps.c, band.low, scan.turns);
+    Column by_step;
+    if (swings && !scan.pattern)  // a pattern is of few cycles
+      by_step = norm2_by_step(equations, x, angle, scan.turns, band.low, band.df, band.bins);
+    for (std::size_t k = 0; k < band.bins; ++k) {
+      const double f = band.low + band.df * static_cast<double>(k);
+      const double norm2 = white ? flat
+                           : !by_step.empty()
+                               ? by_step[k]
+                               : line_norm2(equations, steps.used, steps.x, steps.c, f, scan.turns);
+      gains[s].push_back(std::norm(sums[k]) / norm2);  // of cos and of sin: norm2 each
     }
   }
+  return gains;
+}
+
+Scans LineScanner::peaks_of(const Job& job, std::vector<Gains> of_bands) const {
+  const LinearisationPoint& point = problem_.point;
+  Scans out;
   for (std::size_t s = 0; s < job.scans.size(); ++s) {
-    std::vector<double>& gain = gains[s];
+    std::vector<double> gain = std::move(of_bands.front()[s]);
+    for (std::size_t b = 1; b < of_bands.size(); ++b)
+      gain.insert(gain.end(), of_bands[b][s].begin(), of_bands[b][s].end());
     std::size_t interval = 0;
     for (std::size_t k = 0; job.sieved && k < gain.size(); ++k) {
       const double f = job.frequency(k);

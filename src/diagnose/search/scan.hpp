@@ -41,8 +41,11 @@ class LineScanner {
   struct Band;
   struct Job;
   struct Steps;
-  Scans scan(Job& job, const NormalEquations& equations, const std::vector<double>& plain,
-             const std::vector<double>& outward) const;
+  /// What lines take off the sum of squares, scan by scan, frequency by frequency.
+  using Gains = std::vector<std::vector<double>>;
+  Gains gains_of(const Job& job, Band& band, const NormalEquations& equations,
+                 const std::vector<double>& plain, const std::vector<double>& outward) const;
+  Scans peaks_of(const Job& job, std::vector<Gains> of_bands) const;
 
   const Problem& problem_;
   std::vector<Job> jobs_;
