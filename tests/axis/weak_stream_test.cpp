@@ -251,6 +251,28 @@ TEST(Gain, OfAnImpossibleSizeIsNoCause) {
   EXPECT_LE(named, allowed(streams));
 }
 
+// Play of the slide acts like a delay of either sign, and no sensor leads what it follows: of the
+// two only the delay is taken, and the class is told.
+TEST(Lag, ThatWouldLeadIsNoCause) {
+  int delays = 0;
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    Case of = stream_of(blind::PlanId::p2, blind::SurfaceId::cone, 1500.0, seed + i);
+    for (double* v : {&of.scenario.part.x0_mm, &of.scenario.part.y0_mm}) *v *= 10.0;
+    of.scenario.effects = {
+        {"slide.backlash", {{"across_mm", i % 2 == 0 ? 0.004 : -0.004}, {"along_mm", 0.0}}}};
+    for (const Finding& f : diagnosed(of).findings) {
+      delays += f.effect() == "probe.latency" && f.parameter("delay").value < 0.0;
+      if (f.effect() == "probe.lag") {
+        EXPECT_GT(f.parameter("time_constant").value, 0.0) << "seed " << seed + i;
+      }
+      if (f.may_be("probe.latency")) {
+        EXPECT_TRUE(f.may_be("slide.backlash")) << "seed " << seed + i;
+      }
+    }
+  }
+  EXPECT_GT(delays, 0) << "none of the streams asks the question";
+}
+
 // Of few readings a dent has few: it is a local form and none of the catalogue's. The blind study's
 // goal for what no catalogue has is 95 %; with boxes of eight readings and more it was 75 %.
 TEST(Dent, OfAShortStreamHasNoOtherName) {

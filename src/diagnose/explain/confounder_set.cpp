@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/regression/size_prior.hpp"
+#include "diagnose/search/statistic.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -94,7 +96,13 @@ ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t te
     out.members.push_back(c);
     out.rivals.push_back(rival);
   }
-  if (out.members.empty()) out.members.push_back({named, best.gain, best.rank, 0.0, 0.0});
+  if (out.members.size() ==
+      out.rivals.size()) {  // its own refined form is none, it stands as it is
+    const Weighed weighed =
+        weigh(named, beside, joint.places[others.size()], joint.equations.count());
+    out.members.insert(out.members.begin(), {named, best.gain, best.rank, 0.0,
+                                             weighed.criterion + choice_of(named, weighed.mean)});
+  }
   double sum = 0.0;
   const double best_criterion = std::ranges::min(out.members, {}, &Candidate::criterion).criterion;
   const auto likelihood = [&](const Candidate& c) {

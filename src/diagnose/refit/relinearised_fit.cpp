@@ -8,6 +8,7 @@
 #include "base/threads.hpp"
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/size_prior.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -159,6 +160,7 @@ std::unique_ptr<RelinearisedFit> relinearise(const IdealModel& ideal, Model& mod
     other.terms[t] =
         of_effect(std::string(effect->second_order_twin).c_str(), {.time_constant_s = 0.0});
     auto rival = std::make_unique<RelinearisedFit>(ideal, other);
+    if (!size_prior(other.terms[t]).allows(rival->joint().of(t))) continue;  // a lag that leads
     const auto rows = static_cast<double>(best->joint().equations.count());
     double ratio = rows * std::log(rival->joint().solution.rss / best->joint().solution.rss);
     if (ratio < 0.0) {
