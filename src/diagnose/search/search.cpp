@@ -61,14 +61,14 @@ Model with_local_form(Proposer& proposer, StepwiseSearch& engine, const Model& w
 Model search(Proposer& proposer) {
   StepwiseSearch engine(proposer);
   if (!proposer.problem().resolution.sparse) return search_with(engine);
-  engine.local_forms = false;
+  engine.take_local_forms(false);
   Model without = search_with(engine);
   bool ignored = false;
   for (const bool growing : {false, true}) {
     Model model = engine.run(true, ignored, all_lobes(proposer.problem(), growing));
     if (model.criterion < without.criterion) without = std::move(model);
   }
-  engine.local_forms = true;
+  engine.take_local_forms(true);
   Model with = with_local_form(proposer, engine, without);
   const auto has_local = [](const Model& m) { return std::ranges::any_of(m.terms, is_local); };
   if (!has_local(with)) return without;

@@ -7,6 +7,7 @@
 #include "diagnose/search/propose.hpp"
 
 namespace trueaxis::diagnose_detail {
+
 /// Terms that explain the readings instead.
 struct Otherwise {
   std::vector<Hypothesis> terms;
@@ -26,8 +27,7 @@ struct Model {
 
 /// Forward by the best hypothesis, backward, swapped and merged, until nothing changes; once with
 /// catalogued causes first and, where a pattern did better on the way, once with patterns allowed:
-/// the better of the two. Of few angles
-/// with and without local forms.
+/// the better of the two. Of few angles with and without local forms.
 Model search(Proposer& proposer);
 
 }  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/stepwise_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/size_prior.hpp"
+#include "diagnose/search/dictionary.hpp"
+
+namespace trueaxis::diagnose_detail {
+namespace {
+
+constexpr double catalogue_first = 4.0;  // 2 ln of the odds that a pattern is no new cause
+constexpr double correlation_moved = 0.02;
+constexpr std::size_t fits_kept = 4;
+constexpr double hides_a_term = 0.3;  // |φ|: less hardly weakens one
+
+Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
+  Columns out;
+  for (std::size_t t = begin; t < end; ++t)
+    out.insert(out.end(), places[t].begin(), places[t].end());
+  return out;
+}
+
+bool moved(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) return true;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::abs(a[i] - b[i]) > correlation_moved) return true;
+  return false;
+}
+
+std::vector<Hypothesis> without(const std::vector<Hypothesis>& terms, std::size_t i) {
+  std::vector<Hypothesis> out(terms);
+  out.erase(out.begin() + static_cast<long>(i));
+  return out;
+}
+
+}  // namespace
+
+class StepwiseSearch::Engine {
+ public:
+  explicit Engine(Proposer& proposer)
+      : proposer_(proposer),
+        problem_(proposer.problem()),
+        basis_(small_fourier_legendre_basis(problem_.point, problem_.resolution)) {}
+
+  Model run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first) {
+    Model model;
+    model.phi = first_noise();
+    model.terms = std::move(first);
+    forward(model, patterns, pattern_was_better);
+    for (int round = 0; round < 3; ++round) {
+      bool changed = backward(model);
+      if (model.terms.size() > 1 || std::ranges::any_of(model.terms, splits))
+        changed |= swap(model, patterns);
+      if (!changed) break;
+      forward(model, patterns, pattern_was_better);
+    }
+    backward(model);
+    finish(model);
+    return model;
+  }
+
+  bool local_forms = true;
+
+ private:
+  bool may_be_taken(const Candidate& c) const { return local_forms || !is_local(c.hypothesis); }
+
+  /// Noise before any term. What is no noise may look like it, and whitening then takes it away: a
+  /// line that is no whole order like one that rings, a step, or of few readings anything slow,
+  /// like a walk. Where terms beside a noise of their own leave less than chance makes them, that
+  /// noise is taken.
+  std::vector<double> first_noise() {
+    if (problem_.resolution.sparse) return {};
+    Autoregression best = noise({});
+    std::vector<Hypothesis> terms;
+    while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
+           terms.size() < problem_.most_terms) {
+      const Proposal& p = proposer_.beside(terms, {});
+      const Candidate* term = nullptr;
+      for (const auto* list : {&p.causes, &p.patterns})
+        if (!list->empty() && (!term || list->front().gain > term->gain)) term = &list->front();
+      if (!term) break;
+      terms.push_back(term->hypothesis);
+      Autoregression with = noise(terms);
+      const double log_p =
+          log_p_value(best.rss - with.rss, best.freedom - with.freedom, best.rss, best.freedom);
+      if (!(p.family.p_value(std::exp(log_p)) < problem_.false_alarm)) break;
+      best = std::move(with);
+    }
+    return best.phi;
+  }
+
+  Autoregression noise(const std::vector<Hypothesis>& terms) const {
+    std::vector<Hypothesis> all(basis_);
+    all.insert(all.end(), terms.begin(), terms.end());
+    return autoregression(problem_.point, problem_.mask, problem_.deviation_mm, all);
+  }
+
+  /// Whether the other terms leave all its columns: else their sizes would share one between them.
+  /// A step is one whatever is read after it; how far it went, its plausible size bounds.
+  static bool is_whole(const Candidate& c) {
+    const bool step = c.hypothesis.effect && is_step(c.hypothesis.effect->term);
+    return c.rank > 0 && (step || c.rank == c.hypothesis.columns());
+  }
+
+  double family_p(const Family& family, const Candidate& c) const {
+    return family.p_value(std::exp(c.log_p));
+  }
+
+  void forward(Model& model, bool patterns, bool& pattern_was_better) {
+    while (model.terms.size() < problem_.most_terms) {
+      Proposal p = proposer_.beside(model.terms, model.phi);
+      model.family = p.family;
+      const auto passes = [&](const Candidate& c) {
+        return may_be_taken(c) && is_whole(c) && family_p(p.family, c) < problem_.false_alarm;
+      };
+      std::erase_if(p.causes, [&](const Candidate& c) { return !passes(c); });
+      std::erase_if(p.patterns, [&](const Candidate& c) { return !passes(c); });
+      if (p.causes.empty() && p.patterns.empty()) return;
+      const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
+      const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
+      // Of what only a size explains that cannot be, the next best is not the cause either.
+      if (p.impossible && passes(*p.impossible) &&
+          p.impossible->criterion + catalogue_first < std::min(cause, pattern))
+        return;
+      if (!p.causes.empty() && pattern < cause) pattern_was_better = true;
+      const bool take_pattern = p.causes.empty() || (patterns && pattern < cause);
+      model.terms.push_back((take_pattern ? p.patterns : p.causes).front().hypothesis);
+      renew_noise(model);
+    }
+  }
+
+  // A strong slow effect looks like autocorrelation, until it is a term.
+  void renew_noise(Model& model) const {
+    if (model.phi.empty()) return;
+    std::vector<double> phi = noise(model.terms).phi;
+    if (moved(phi, model.phi)) model.phi = std::move(phi);
+  }
+
+  struct Fitted {
+    std::vector<Hypothesis> terms;
+    NormalEquations equations;
+    std::vector<Columns> places;
+  };
+  /// Of the model, or as it was made for one of the last that were asked for; lives until some more
+  /// are asked for.
+  const Fitted& fitted(const Model& model) {
+    const auto made = std::ranges::find_if(fitted_, [&](const Fitted& f) {
+      return f.equations.autoregression() == model.phi && same(f.terms, model.terms);
+    });
+    if (made != fitted_.end()) return *made;
+    if (fitted_.size() == fits_kept) fitted_.pop_front();
+    Fitted& out = fitted_.emplace_back(
+        Fitted{model.terms,
+               NormalEquations(problem_.point, problem_.mask, problem_.deviation_mm, model.phi,
+                               problem_.threads, true),
+               {}});
+    out.places = out.equations.append(model.terms);
+    return out;
+  }
+
+  /// The base and all terms but one.
+  static Columns besides(const Fitted& f, std::size_t i) {
+    Columns taken = f.equations.base();
+    for (std::size_t t = 0; t < f.places.size(); ++t)
+      if (t != i) taken.insert(taken.end(), f.places[t].begin(), f.places[t].end());
+    return taken;
+  }
+
+  double term_log_p(const Fitted& f, std::size_t i) const {
+    const Projection projection = project(f.equations.total(), besides(f, i));
+    const Score s = score(projection, f.places[i]);
+    return log_p_value(s.gain, static_cast<double>(s.rank), projection.rss,
+                       static_cast<double>(f.equations.count() - projection.rank));
+  }
+
+  /// Pooled held-out sum of squares with a term minus without it.
+  bool predicts(const Fitted& f, std::size_t i, const Hypothesis& h) const {
+    // Of a step and of a local form the other blocks may hold nothing.
+    if (h.effect ? is_step(h.effect->term) : h.pattern.kind == Pattern::Kind::bump) return true;
+    Columns with = f.equations.base(), rest = with;
+    for (std::size_t t = 0; t < f.places.size(); ++t) {
+      with.insert(with.end(), f.places[t].begin(), f.places[t].end());
+      if (t != i) rest.insert(rest.end(), f.places[t].begin(), f.places[t].end());
+    }
+    double change = 0.0;
+    for (const Eigen::MatrixXd& fold : f.equations.folds())
+      change +=
+          held_out(f.equations.total(), fold, with) - held_out(f.equations.total(), fold, rest);
+    return change < 0.0;
+  }
+
+  /// Whether its sizes beside all others are.
+  static bool is_possible(const Fitted& f, std::size_t i) {
+    Columns taken = besides(f, i);
+    taken.insert(taken.end(), f.places[i].begin(), f.places[i].end());
+    const Eigen::VectorXd all = solve(f.equations.total(), taken).coefficients;
+    return size_prior(f.terms[i]).allows(all.tail(static_cast<Eigen::Index>(f.places[i].size())));
+  }
+
+  bool backward(Model& model) {
+    bool changed = false;
+    while (!model.terms.empty()) {
+      const Fitted& f = fitted(model);
+      std::size_t worst = 0;
+      double worst_log_p = -1e300;
+      for (std::size_t i = 0; i < model.terms.size(); ++i) {
+        const bool stands = is_possible(f, i) && predicts(f, i, model.terms[i]);
+        const double log_p = stands ? term_log_p(f, i) : 0.0;
+        if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
+      }
+      if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;
+      model.terms.erase(model.terms.begin() + static_cast<long>(worst));
+      renew_noise(model);
+      changed = true;
+    }
+    return changed;
+  }
+
+  /// ν ln RSS, and what prior and choice of each term cost: what two models with the same noise are
+  /// compared by (Eq. 81).
+  double criterion(const Model& model) {
+    const Fitted& f = fitted(model);
+    Columns all = f.equations.base();
+    const Columns terms = flat(f.places, 0, f.places.size());
+    all.insert(all.end(), terms.begin(), terms.end());
+    const Solution s = solve(f.equations.total(), all);
+    double sum = static_cast<double>(f.equations.count() - f.equations.base().size()) *
+                 std::log(s.rss / f.equations.total()(0, 0));
+    std::vector<Weighed> sizes;
+    for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      const Hypothesis& h = model.terms[i];
+      const Projection beside = project(f.equations.total(), besides(f, i));
+      const Weighed weighed = weigh(h, beside, f.places[i], f.equations.count());
+      const double gain = score(beside, f.places[i]).gain;
+      if (problem_.resolution.sparse) sum -= shared_width(beside, f.places[i], weighed);
+      sum += weighed.criterion + choice_of(h, weighed.mean) + (h.effect ? 0.0 : catalogue_first) -
+             static_cast<double>(f.equations.count() - beside.rank) *
+                 std::log(std::max(1.0 - gain / beside.rss, 1e-12));
+      sizes.push_back(weighed);
+    }
+    if (problem_.resolution.sparse && !model.terms.empty())
+      sum += shared_width(project(f.equations.total(), f.equations.base()), terms, joined(sizes));
+    return sum;
+  }
+
+  /// ln det(G + Λ), Λ what the plausible sizes add: of terms that share their columns the width of
+  /// all together is not the sum of what each has beside the others.
+  static double shared_width(const Projection& beside, const Columns& own, const Weighed& sizes) {
+    Eigen::MatrixXd gram = beside.gram(own, own);
+    gram.diagonal() += sizes.precision;
+    const Eigen::LLT<Eigen::MatrixXd> factor(gram);
+    if (factor.info() != Eigen::Success) return 0.0;
+    return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+  }
+  static Weighed joined(const std::vector<Weighed>& sizes) {
+    Weighed out;
+    for (const Weighed& w : sizes) {
+      const Eigen::VectorXd before = out.precision;
+      out.precision.resize(before.size() + w.precision.size());
+      out.precision << before, w.precision;
+    }
+    return out;
+  }
+
+  /// The same with what the noise alone takes: models with another noise are compared by it, for
+  /// every innovation counts as one reading of the same volume but where a run begins (Eq. 81).
+  double evidence(const Model& model) {
+    const Fitted& f = fitted(model);
+    const auto freedom = static_cast<double>(f.equations.count() - f.equations.base().size());
+    return criterion(model) + freedom * std::log(f.equations.total()(0, 0)) -
+           f.equations.log_volume();
+  }
+
+  /// Every term against the best there is in its place, and pairs of one angular order against a
+  /// single hypothesis.
+  bool swap(Model& model, bool patterns) {
+    bool changed = false;
+    for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      Model other = model;
+      other.terms = without(model.terms, i);
+      changed |= replace(model, std::move(other), patterns);
+    }
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      if (splits(model.terms[i])) changed |= split(model, i);
+    for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
+      for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
+        if (angular_order(model.terms[i]) != angular_order(model.terms[j])) continue;
+        Model other = model;
+        other.terms = without(without(model.terms, j), i);
+        if (!replace(model, std::move(other), patterns)) continue;
+        changed = true;
+        break;
+      }
+    }
+    return changed;
+  }
+
+  /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so
+  /// too.
+  static bool splits(const Hypothesis& h) {
+    return h.effect && has_two_orders(h.effect->term) && h.columns() == 4;
+  }
+  bool split(Model& model, std::size_t term) {
+    Model other = model;
+    other.terms = without(model.terms, term);
+    for (int half = 0; half < 2; ++half) {
+      const Proposal& p = proposer_.beside(other.terms, model.phi);
+      const auto next = std::ranges::find_if(
+          p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
+      if (next == p.causes.end()) return false;
+      other.terms.push_back(next->hypothesis);
+    }
+    if (criterion(other) > criterion(model)) return false;
+    model.terms = std::move(other.terms);
+    return true;
+  }
+
+  bool replace(Model& model, Model reduced, bool patterns) {
+    const Proposal& p = proposer_.beside(reduced.terms, model.phi);
+    const Candidate* best = p.causes.empty() ? nullptr : &p.causes.front();
+    const auto pattern =
+        std::ranges::find_if(p.patterns, [&](const Candidate& c) { return may_be_taken(c); });
+    if (pattern != p.patterns.end() && (patterns || best == nullptr) &&
+        (best == nullptr || pattern->criterion + catalogue_first < best->criterion))
+      best = &*pattern;
+    if (best == nullptr || !is_whole(*best)) return false;
+    reduced.terms.push_back(best->hypothesis);
+    if (criterion(reduced) > criterion(model) - 0.5) return false;
+    model.terms = std::move(reduced.terms);
+    return true;
+  }
+
+  static double angular_order(const Hypothesis& h) {
+    if (!h.effect)
+      return h.pattern.kind == Pattern::Kind::fourier_legendre ? h.pattern.order : -1.0;
+    if (is_line(h)) return -1.0;
+    const auto* harmonic = std::get_if<Harmonic>(&h.effect->term);
+    if (harmonic) return harmonic->fixed_order > 0.0 ? harmonic->fixed_order : h.shape.order;
+    return 0.0;
+  }
+
+  void finish(Model& model) {
+    model.criterion = evidence(model);
+    const Fitted& f = fitted(model);
+    model.p_values.clear();
+    for (std::size_t i = 0; i < model.terms.size(); ++i)
+      model.p_values.push_back(model.family.p_value(std::exp(term_log_p(f, i))));
+  }
+
+  Proposer& proposer_;
+  const Problem& problem_;
+  std::vector<Hypothesis> basis_;
+  std::deque<Fitted> fitted_;
+};
+
+StepwiseSearch::StepwiseSearch(Proposer& proposer) : engine_(std::make_unique<Engine>(proposer)) {}
+StepwiseSearch::~StepwiseSearch() = default;
+
+void StepwiseSearch::take_local_forms(bool wanted) { engine_->local_forms = wanted; }
+
+Model StepwiseSearch::run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first) {
+  return engine_->run(patterns, pattern_was_better, std::move(first));
+}
+
+}  // namespace trueaxis::diagnose_detail
