@@ -29,7 +29,7 @@ function parameterName(name) {
 }
 
 /** U, or both sides of an interval that is not symmetric. */
-function expanded({value, u, unit, interval}, k) {
+function bothSides({value, u, unit, interval}, k) {
   if (!interval) return uncertainty(isNumber(u) ? k * u : null, unit);
   const [below, above] = [value - interval[0], interval[1] - value].map((side) => uncertainty(side, unit));
   return below === above ? above : `+ ${above}, − ${below}`;
@@ -39,7 +39,7 @@ function expanded({value, u, unit, interval}, k) {
 function parameterRow({name, value, u, unit, why, interval}, k) {
   const has = isNumber(value);
   const cells = [parameterName(name), has ? quantity(value, u, unit) : 'not determined', has ? uncertainty(u, unit) : '–',
-    has ? expanded({value, u, unit, interval}, k) : '–'];
+    has ? bothSides({value, u, unit, interval}, k) : '–'];
   const missing = !has || !isNumber(u);
   return {cells, lost: !has, note: missing ? `${has ? 'no uncertainty: ' : ''}${why || 'the readings do not fix it'}` : null};
 }
