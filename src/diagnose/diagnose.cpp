@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -55,6 +57,12 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
                            ideal.fit_options.noise_mm);
   out.checks = check_quality(ideal.stream, joint, out.residual_after_mm, out.noise);
   out.remarks = off_centre_remark(problem, model);
+  if (model.impossible)
+    out.remarks.push_back(
+        fmt::format("{} ({}) would fit the readings best, but at a size that cannot be, and "
+                    "nothing is taken in "
+                    "its place: see whether set-ups, units and passes belong together",
+                    model.impossible->id, model.impossible->title));
   for (std::string& remark : form_class_remark(problem, joint, model.otherwise))
     out.remarks.push_back(std::move(remark));
   out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);

@@ -21,6 +21,8 @@ struct Model {
   std::vector<double> phi;       ///< autoregression of the noise beside them
   double criterion = 0.0;
   Family family;
+  /// What would explain more than any term that may be taken, were its size one that can be.
+  const Effect* impossible = nullptr;
   /// Of few angles the best model of the other kind, with a local form of the part or without.
   std::optional<Otherwise> otherwise;
 };

@@ -113,6 +113,7 @@ class StepwiseSearch::Engine {
   }
 
   void forward(Model& model, bool patterns, bool& pattern_was_better) {
+    model.impossible = nullptr;
     while (model.terms.size() < problem_.most_terms) {
       Proposal p = proposer_.beside(model.terms, model.phi);
       model.family = p.family;
@@ -121,13 +122,15 @@ class StepwiseSearch::Engine {
       };
       std::erase_if(p.causes, [&](const Candidate& c) { return !passes(c); });
       std::erase_if(p.patterns, [&](const Candidate& c) { return !passes(c); });
-      if (p.causes.empty() && p.patterns.empty()) return;
       const double cause = p.causes.empty() ? 1e300 : p.causes[0].criterion;
       const double pattern = p.patterns.empty() ? 1e300 : p.patterns[0].criterion + catalogue_first;
       // Of what only a size explains that cannot be, the next best is not the cause either.
       if (p.impossible && passes(*p.impossible) &&
-          p.impossible->criterion + catalogue_first < std::min(cause, pattern))
+          p.impossible->criterion + catalogue_first < std::min(cause, pattern)) {
+        model.impossible = p.impossible->hypothesis.effect;
         return;
+      }
+      if (p.causes.empty() && p.patterns.empty()) return;
       if (!p.causes.empty() && pattern < cause) pattern_was_better = true;
       const bool take_pattern = p.causes.empty() || (patterns && pattern < cause);
       model.terms.push_back((take_pattern ? p.patterns : p.causes).front().hypothesis);
