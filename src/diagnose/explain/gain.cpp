@@ -85,12 +85,9 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis
       axis_shift(problem.point, joint.base() + average.shift - bare.coefficients, difference);
   out.axis_shift = {shift.value_mm, shift.u_mm, "mm", ""};
   const AxisUncertainty u = axis_uncertainty(problem.point, extended);
-  const double from_extended = 2.0 * u.rms_mm;
-  out.coaxiality_after = {from_extended, 2.0 * u.u_mm, "mm", ""};
-  const AxisUncertainty u_bare =
-      axis_uncertainty(problem.point, joint.sigma_mm * joint.sigma_mm * bare.inverse);
-  out.coaxiality_before = {std::max(2.0 * shift.value_mm, 2.0 * u_bare.rms_mm),
-                           2.0 * std::hypot(shift.u_mm, u_bare.u_mm), "mm", ""};
+  // About either axis, of a part whose axis is the stated one to its u.
+  out.coaxiality_after = {2.0 * u.rms_mm, 2.0 * u.u_mm, "mm", ""};
+  out.coaxiality_before = {2.0 * std::hypot(shift.value_mm, u.rms_mm), 2.0 * u.u_mm, "mm", ""};
   return out;
 }
 
