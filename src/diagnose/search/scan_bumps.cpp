@@ -16,9 +16,11 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
   const std::vector<double> g = weighted(equations, remainder_mm);
   std::vector<Hypothesis> best;
   tests = 0.0;
-  constexpr std::size_t least_readings = 4;
-  constexpr double three_readings =
-      4.0 / 9.0;  // what is left of equal ones without one: (1 − 1/3)²
+  // Of few readings a form has few; of many the smallest windows would be chances among very many.
+  // Three quarters of the least make a form: (1 − 1/n)² is left of n equal ones without one.
+  const std::size_t least_readings = std::clamp<std::size_t>(point.size() / 100, 4, 8);
+  const double making = 0.75 * static_cast<double>(least_readings);
+  const double without_one = (1.0 - 1.0 / making) * (1.0 - 1.0 / making);
   for (const std::size_t sectors : {6U, 12U, 24U, 48U}) {
     for (const std::size_t lengths : {1U, 3U, 6U, 12U, 24U}) {
       if (lengths > 1 && !point.has_position) continue;
@@ -50,8 +52,8 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
         if (count[b] < least_readings) continue;
         tests += 1.0;
         const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
-        const double rest = sum[b] - largest[b];  // a form is not made by one reading, nor by two
-        if (rest * rest / static_cast<double>(count[b] - 1) < three_readings * value) continue;
+        const double rest = sum[b] - largest[b];  // a form is not made by a reading or two
+        if (rest * rest / static_cast<double>(count[b] - 1) < without_one * value) continue;
         if (value > top) top = value, where = b;
       }
       if (!(top > 0.0)) continue;
