@@ -227,7 +227,7 @@ struct SearchRange {
     always,      ///< in every step
     told_apart,  ///< so once re-chucking or the rear side tells frames; before, as `at_orders`
     at_orders,   ///< at those undulations per revolution that stand out
-    scanned      ///< as a line alone
+    scanned      ///< by a scan alone: as a line, or a step between any two readings
   } when = When::always;
   std::vector<Form> forms = std::vector<Form>(1);
   int highest_order = 0;   ///< of a harmonic of free order; 0: what the sampling tells

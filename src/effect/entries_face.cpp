@@ -12,12 +12,6 @@ namespace {
 
 constexpr StreamKind face = StreamKind::face;
 
-std::vector<double> sixteenths() {
-  std::vector<double> list;
-  for (int k = 1; k < 16; ++k) list.push_back(k / 16.0);
-  return list;
-}
-
 }  // namespace
 
 std::vector<Effect> part_face() {
@@ -131,10 +125,7 @@ std::vector<Effect> part_face() {
        .source = "kinematics of a step",
        .needs = {.stream = face},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
-       .search = {.forms = {{{0}, {&TermShape::onset_s, sixteenths(), ShapeValues::In::instant}},
-                            {{1, 2}, {&TermShape::onset_s, sixteenths(), ShapeValues::In::instant}},
-                            {{}, {&TermShape::onset_s, sixteenths(), ShapeValues::In::instant}}},
-                  .tests = 64},
+       .search = {.when = When::scanned, .forms = {{{0}}, {{1, 2}}, {{}}}, .tests = 64},
        .refinement = Refinement{&TermShape::onset_s, By::duration}},
   };
 }

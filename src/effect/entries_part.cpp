@@ -11,8 +11,6 @@ using By = Refinement::By;
 
 std::vector<Effect> part_roundness() {
   const ShapeValues jaw_decays{&TermShape::decay_length_mm, {10.0, 20.0, 40.0, 80.0, 160.0}};
-  ShapeValues instants{&TermShape::onset_s, {}, ShapeValues::In::instant};
-  for (int k = 1; k < 16; ++k) instants.values.push_back(k / 16.0);
   return {
       {.id = "part.chuck_lobing",
        .title = "lobes pressed in by the jaws of the chuck",
@@ -126,7 +124,7 @@ std::vector<Effect> part_roundness() {
                  "angle mark",
        .needs = {.stream = StreamKind::lateral},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
-       .search = {.forms = {{{0, 1}, instants}, {{2}, instants}}, .tests = 64},
+       .search = {.when = When::scanned, .forms = {{{0, 1}}, {{2}}}, .tests = 64},
        .refinement = Refinement{&TermShape::onset_s, By::duration}},
   };
 }

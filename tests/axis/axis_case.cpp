@@ -297,17 +297,21 @@ Judged judge(const Case& of, const AxisEstimate& axis) {
   return out;
 }
 
+Diagnosis diagnosed(const Case& of, const ProbeStream& stream) {
+  DiagnoseOptions options;
+  options.threads = 1;
+  options.fit.surface = of.surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
+  options.fit.bore = of.scenario.part.bore;
+  return diagnose(stream, options);
+}
+
 Outcome run_case(Group group, std::uint64_t seed) {
   Outcome out;
   out.made = draw_case(group, seed);
   const ProbeStream stream = virtual_lathe::simulate(out.made.scenario);
   out.readings = stream.size();
-  DiagnoseOptions options;
-  options.threads = 1;
-  options.fit.surface = out.made.surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
-  options.fit.bore = out.made.scenario.part.bore;
   const auto start = std::chrono::steady_clock::now();
-  const Diagnosis diagnosis = diagnose(stream, options);
+  const Diagnosis diagnosis = diagnosed(out.made, stream);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   out.ideal = judge(out.made, diagnosis.baseline.axis);
   out.extended = judge(out.made, diagnosis.extended.axis);

@@ -53,6 +53,9 @@ struct Judged {
 };
 Judged judge(const Case& of, const AxisEstimate& axis);
 
+/// What `diagnose` says of the readings of a case alone, on one thread.
+Diagnosis diagnosed(const Case& of, const ProbeStream& stream);
+
 /// One diagnosed case.
 struct Outcome {
   Case made;

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "axis/axis_case.hpp"
+#include "axis/draw.hpp"
 
 namespace trueaxis::axis {
 namespace {
@@ -44,16 +45,7 @@ Case stream_of(blind::PlanId plan, blind::SurfaceId surface, double readings, st
   return out;
 }
 
-Diagnosis diagnosed(const ProbeStream& stream, std::string_view surface) {
-  DiagnoseOptions options;
-  options.threads = 1;
-  options.fit.surface = surface == "cylinder" ? SurfaceKind::cylinder : SurfaceKind::cone;
-  return diagnose(stream, options);
-}
-
-Diagnosis diagnosed(const Case& of) {
-  return diagnosed(virtual_lathe::simulate(of.scenario), of.surface);
-}
+Diagnosis diagnosed(const Case& of) { return diagnosed(of, virtual_lathe::simulate(of.scenario)); }
 
 bool is_silent(const Diagnosis& d) { return d.findings.empty() && d.unexplained.empty(); }
 
@@ -160,15 +152,12 @@ TEST(FeedMarks, OfTheProbesLeadTaperAndBarrelAreNotToldApart) {
   std::cout << "seed " << seed << '\n';
   int lost = 0, named = 0, marks_lost = 0;
   for (std::uint64_t i = 0; i < streams; ++i) {
-    std::mt19937_64 random(seed + i);
-    const auto between = [&](double low, double high) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
+    Draw draw(seed + i);
     const auto size = [&] {
-      return std::copysign(between(2.0, 8.0), between(-1.0, 1.0)) * sigma_mm;
+      return std::copysign(draw.between(2.0, 8.0), draw.between(-1.0, 1.0)) * sigma_mm;
     };
-    Case of =
-        stream_of(blind::PlanId::p1, blind::SurfaceId::cylinder, between(400.0, 2000.0), seed + i);
+    Case of = stream_of(blind::PlanId::p1, blind::SurfaceId::cylinder, draw.between(400.0, 2000.0),
+                        seed + i);
     of.scenario.effects = {{"part.barrel", {{"amplitude_mm", size()}, {"cubic_mm", 0.0}}},
                            {"part.taper", {{"amplitude_mm", size()}}}};
     const Diagnosis form = diagnosed(of);
@@ -176,9 +165,9 @@ TEST(FeedMarks, OfTheProbesLeadTaperAndBarrelAreNotToldApart) {
     const double lead_mm = of.scenario.plan.passes[0].feed_mm_per_rev;
     of.scenario.effects = {
         {"part.feed_marks",
-         {{"feed_mm_per_rev", 1.0 / (1.0 / lead_mm + between(-0.5, 0.5) / of.high_mm)},
-          {"amplitude_mm", between(4.0, 12.0) * sigma_mm},
-          {"phase_rad", between(-std::numbers::pi, std::numbers::pi)}}}};
+         {{"feed_mm_per_rev", 1.0 / (1.0 / lead_mm + draw.between(-0.5, 0.5) / of.high_mm)},
+          {"amplitude_mm", draw.between(4.0, 12.0) * sigma_mm},
+          {"phase_rad", draw.phase()}}}};
     const Diagnosis spiral = diagnosed(of);
     named += !spiral.findings.empty();
     marks_lost += !spiral.findings.empty() && !may_be(spiral, "part.feed_marks");
@@ -197,21 +186,18 @@ TEST(Waviness, OfALongWaveIsFound) {
   int lost = 0;
   double ideal = 0.0, stated = 0.0;
   for (std::uint64_t i = 0; i < streams; ++i) {
-    std::mt19937_64 random(seed + i);
-    const auto between = [&](double low, double high) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
+    Draw draw(seed + i);
     const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
-    const double length_mm = between(60.0, 120.0);
-    Case of =
-        stream_of(blind::all_plans()[i % 4], surface, between(400.0, 3000.0), seed + i, length_mm);
+    const double length_mm = draw.between(60.0, 120.0);
+    Case of = stream_of(blind::all_plans()[i % 4], surface, draw.between(400.0, 3000.0), seed + i,
+                        length_mm);
     of.scenario.effects = {{"part.waviness",
-                            {{"amplitude_mm", between(2.0, 8.0) * sigma_mm},
-                             {"wavelength_mm", between(35.0, length_mm / 1.5)},
-                             {"phase_rad", between(-std::numbers::pi, std::numbers::pi)}}}};
+                            {{"amplitude_mm", draw.between(2.0, 8.0) * sigma_mm},
+                             {"wavelength_mm", draw.between(35.0, length_mm / 1.5)},
+                             {"phase_rad", draw.phase()}}}};
     if (i % 3 == 0) {
       of.scenario.noise.outlier_fraction = 0.01;
-      of.scenario.noise.outlier_size_mm = between(10.0, 100.0) * sigma_mm;
+      of.scenario.noise.outlier_size_mm = draw.between(10.0, 100.0) * sigma_mm;
     }
     const Diagnosis d = diagnosed(of);
     lost += !may_be(d, "part.waviness");
@@ -231,18 +217,15 @@ TEST(Gain, OfAnImpossibleSizeIsNoCause) {
   std::cout << "seed " << seed << '\n';
   int gains = 0, named = 0, said = 0;
   for (std::uint64_t i = 0; i < streams; ++i) {
-    std::mt19937_64 random(seed + i);
-    const auto between = [&](double low, double high) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
+    Draw draw(seed + i);
     const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
-    Case of = stream_of(blind::all_plans()[i % 4], surface, between(400.0, 1500.0), seed + i);
+    Case of = stream_of(blind::all_plans()[i % 4], surface, draw.between(400.0, 1500.0), seed + i);
     of.scenario = *blind::with_measurement(of.scenario, "XJ");
     ProbeStream stream = virtual_lathe::simulate(of.scenario);
-    const double moved_mm = between(-0.09, -0.03);
+    const double moved_mm = draw.between(-0.09, -0.03);
     for (std::size_t k = 0; k < stream.size(); ++k)
       if (stream.setup[k] == 2) stream.reading_mm[k] += moved_mm;
-    const Diagnosis d = diagnosed(stream, of.surface);
+    const Diagnosis d = diagnosed(of, stream);
     gains += may_be(d, "probe.gain");
     named += !is_silent(d);
     said += std::ranges::any_of(d.remarks, [](const std::string& remark) {
@@ -288,17 +271,14 @@ TEST(Dent, OfAShortStreamHasNoOtherName) {
   for (std::uint64_t i = 0; i < streams; ++i) {
     const blind::PlanId plans[] = {blind::PlanId::p1, blind::PlanId::p2, blind::PlanId::p3};
     const auto surface = i % 2 == 0 ? blind::SurfaceId::cone : blind::SurfaceId::cylinder;
-    std::mt19937_64 random(seed + i);
-    const auto between = [&](double low, double high) {
-      return std::uniform_real_distribution(low, high)(random);
-    };
-    Case of = stream_of(plans[i % 3], surface, between(300.0, 700.0), seed + i);
+    Draw draw(seed + i);
+    Case of = stream_of(plans[i % 3], surface, draw.between(300.0, 700.0), seed + i);
     of.scenario.effects = {{"extra.dent",
-                            {{"angle_rad", between(-std::numbers::pi, std::numbers::pi)},
-                             {"position_mm", between(0.15, 0.85) * of.high_mm},
-                             {"depth_mm", between(8.0, 40.0) * sigma_mm},
-                             {"width_rad", between(0.1, 0.4)},
-                             {"length_mm", between(0.05, 0.2) * of.high_mm}}}};
+                            {{"angle_rad", draw.phase()},
+                             {"position_mm", draw.between(0.15, 0.85) * of.high_mm},
+                             {"depth_mm", draw.between(8.0, 40.0) * sigma_mm},
+                             {"width_rad", draw.between(0.1, 0.4)},
+                             {"length_mm", draw.between(0.05, 0.2) * of.high_mm}}}};
     const Diagnosis d = diagnosed(of);
     named += !d.findings.empty();
     ideal += std::pow(judge(of, d.baseline.axis).rms_mm(), 2);

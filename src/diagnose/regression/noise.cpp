@@ -19,14 +19,16 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr double far_out = 8.0;  // MAD σ; a real local form peaks at 4.5 σ
 constexpr double clings = 3.0;   // beside a reading far out
-constexpr std::size_t chunk = 512;
+constexpr std::size_t chunk = most_rows;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
 constexpr double least_freedom = 20.0;  // readings beyond the columns: u(φ) is 0.2 of white noise
 
-/// Columns [deviation | base | terms] of some readings, scaled to unit size and made independent.
-Matrix columns_of_rows(const LinearisationPoint& point, std::span<const double> deviation,
-                       std::span<const Hypothesis> terms, std::size_t begin, std::size_t end) {
+}  // namespace
+
+Eigen::MatrixXd columns_of_rows(const LinearisationPoint& point, std::span<const double> deviation,
+                                std::span<const Hypothesis> terms, std::size_t begin,
+                                std::size_t end) {
   const std::size_t base = point.base.columns(), count = 1 + base + columns_of(terms);
   Matrix out(static_cast<Eigen::Index>(end - begin), static_cast<Eigen::Index>(count));
   std::vector<double*> column(count);
@@ -49,8 +51,6 @@ Matrix columns_of_rows(const LinearisationPoint& point, std::span<const double> 
   }
   return out;
 }
-
-}  // namespace
 
 std::vector<double> remainder(const LinearisationPoint& point, std::span<const double> deviation_mm,
                               std::span<const Hypothesis> terms, const Eigen::VectorXd& solution,

@@ -12,7 +12,6 @@ namespace {
 using When = SearchRange::When;
 
 constexpr double no_motion = 1e-9;
-constexpr std::size_t readings_per_instant = 8;
 constexpr int rounding_harmonics = 3;  // the next is 1/4 of the first, and σ takes it away
 
 bool both_ways(const LinearisationPoint& point) {
@@ -30,10 +29,7 @@ bool can_show(const Requirement& needs, const Problem& problem) {
 /// Whether the stream has what the values are written in.
 bool can_start(const ShapeValues& starts, const Problem& problem) {
   const bool seen = sensed_swing(problem.point) > least_swing_mm && !problem.resolution.sections;
-  const std::size_t instants = starts.values.size() + 1;
-  return (starts.in != ShapeValues::In::per_swing || seen) &&
-         (starts.in != ShapeValues::In::instant ||
-          problem.point.size() >= readings_per_instant * instants);
+  return starts.in != ShapeValues::In::per_swing || seen;
 }
 
 /// What the choice of a variant counts as, for an order.

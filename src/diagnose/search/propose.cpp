@@ -11,6 +11,7 @@
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/scan_bumps.hpp"
 #include "diagnose/search/scan_list.hpp"
+#include "diagnose/search/scan_steps.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -257,7 +258,7 @@ Hypothesis refine(const Problem& problem, const std::vector<double>& phi,
 struct Proposer::Step {
   std::vector<Candidate> presets, basis;  ///< best first
   Scans scans;
-  std::vector<Hypothesis> bumps;
+  std::vector<Hypothesis> bumps, steps;
   Family family;
   double line_choice = 1.0;  ///< what the choice of a line counts as
 };
@@ -292,8 +293,10 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
     out.bumps = scan_bumps(equations, left, bumps_tested);
     for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
   }
+  double steps_tested = 0.0;
+  out.steps = scan_steps(problem_, phi, terms, steps_tested);
   for (const Candidate& c : judged) out.family.single += c.rank > 0;
-  out.family.single += bumps_tested;
+  out.family.single += bumps_tested + steps_tested;
   out.family.bandwidth = out.scans.bandwidth + problem_.fast_bandwidth;
   out.line_choice = std::max(1.0, line_tests * out.family.bandwidth);
   return out;
@@ -329,7 +332,7 @@ const Proposal& Proposer::beside(const std::vector<Hypothesis>& terms,
 
 Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi) {
   Step now = step(terms, phi);
-  std::vector<Hypothesis> causes = shortlist(now, best_presets);
+  std::vector<Hypothesis> causes = joined(shortlist(now, best_presets), now.steps);
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, causes);
   take_fast(problem_.fast, true, now.line_choice, causes);
   std::vector<Hypothesis> patterns = hypotheses_of(now.basis, best_patterns);
@@ -364,7 +367,7 @@ std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
   list.push_back(named);
   add_tilts(named, problem_, list);
   add_slow_spirals(problem_, list);
-  list = joined(list, shortlist(now, 0));
+  list = joined(joined(list, shortlist(now, 0)), now.steps);
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, list);
   take_fast(problem_.fast, true, now.line_choice, list);
   Judge judge(problem_, phi, others);
