@@ -111,7 +111,7 @@ std::vector<Effect> part_roundness() {
        .formula = "from t0 on: axis point + (dx, dy), or theta - turn",
        .parameters = {{"dx", "mm", 0.01, 0.2, "step along x of the spindle frame"},
                       {"dy", "mm", 0.01, 0.2, "step along y"},
-                      {"turn", "rad", 1e-3, 0.1, "turn in the sense of C"},
+                      {"turn", "rad", 1e-3, 0.1, "turn in the sense of C", {}, 0.0, -0.5, 0.5},
                       {"onset", "s", 0, 0, "t0; without a clock the number of the reading",
                        "onset_s"}},
        .signature = "the vector of 1 undulation per revolution steps at an instant",

@@ -79,6 +79,27 @@ std::optional<Columns> in_basis(const Hypothesis& h, const std::vector<Hypothesi
   return out;
 }
 
+/// Causes that show from pass to pass, first what noise is taken for most easily.
+std::vector<Hypothesis> shown_between_passes(const LinearisationPoint& point,
+                                             const Resolution& resolution) {
+  std::vector<Hypothesis> list;
+  if (resolution.one_variable || resolution.sections) return list;
+  std::vector<const Effect*> shown;
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.between_passes > 0 && is_of(effect, point.base) &&
+        (!effect.needs.length || resolution.degrees > 0) && (!effect.needs.time || point.has_time))
+      shown.push_back(&effect);
+  }
+  std::ranges::sort(shown, {}, &Effect::between_passes);
+  for (const Effect* effect : shown) {
+    TermShape sensor;
+    sensor.reference_x_mm = point.reference_x_mm;
+    sensor.range_mm = point.range_x_mm;
+    list.push_back(of_effect(*effect, sensor));
+  }
+  return list;
+}
+
 }  // namespace
 
 std::vector<Hypothesis> fourier_legendre_basis(const LinearisationPoint& point,
@@ -107,12 +128,14 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
   std::vector<Hypothesis> basis;
   const std::size_t most = point.size() / 3;
   std::size_t columns = point.base.columns();
-  const auto add = [&](int n, int l) {
-    const std::size_t own = n == 0 ? 1 : 2;
-    if (columns + own > most) return;
-    columns += own;
-    basis.push_back(function_of(n, l));
+  const auto take = [&](Hypothesis h) {
+    if (columns + h.columns() > most) return;
+    columns += h.columns();
+    basis.push_back(std::move(h));
   };
+  // A constant of every pass is what a walk of the noise looks like: before any harmonic.
+  for (Hypothesis& h : shown_between_passes(point, resolution)) take(std::move(h));
+  const auto add = [&](int n, int l) { take(function_of(n, l)); };
   for (int n = 0; n <= resolution.harmonics; ++n) {
     add(n, 0);
     if (resolution.degrees > 0) add(n, 1);
@@ -122,10 +145,7 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
   }
   // Between passes: machine terms seen from the rear, drift, backlash, latency.
   const auto add_machine = [&](int n, int l, bool in_time) {
-    const std::size_t own = n == 0 ? 1 : 2;
-    if (columns + own > most) return;
-    columns += own;
-    basis.push_back(function_of(n, l, true, in_time));
+    take(function_of(n, l, true, in_time));
   };
   if (point.two_sided || point.reindexed) {
     for (int l = 0; l <= std::min(3, resolution.degrees); ++l) add_machine(0, l, false);
@@ -137,22 +157,6 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
   if (point.has_time && !resolution.one_variable && !resolution.sections) {
     for (int n = 0; n <= 1; ++n)
       for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
-  }
-  if (resolution.one_variable || resolution.sections) return basis;
-  std::vector<const Effect*> shown;
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.between_passes > 0 && is_of(effect, point.base) &&
-        (!effect.needs.length || resolution.degrees > 0) && (!effect.needs.time || point.has_time))
-      shown.push_back(&effect);
-  }
-  std::ranges::sort(shown, {}, &Effect::between_passes);
-  for (const Effect* effect : shown) {
-    TermShape sensor;
-    sensor.reference_x_mm = point.reference_x_mm;
-    sensor.range_mm = point.range_x_mm;
-    Hypothesis h = of_effect(*effect, sensor);
-    columns += h.columns();
-    if (columns <= most) basis.push_back(std::move(h));
   }
   return basis;
 }

@@ -353,7 +353,11 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
   });
   const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
-  if (refused != out.causes.end()) out.impossible = *refused;
+  const auto explains_it = [&](const Candidate& c) {
+    return c.possible && c.gain >= refused->gain;
+  };
+  if (refused != out.causes.end() && std::ranges::none_of(out.causes, explains_it))
+    out.impossible = *refused;
   erase_impossible(out.causes);
   out.family = now.family;
   return out;
