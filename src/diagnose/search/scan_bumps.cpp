@@ -5,9 +5,22 @@
 #include <cmath>
 
 #include "diagnose/search/scan.hpp"
+#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
+namespace {
+
+/// Share of a window that its readings go over: at a standing spindle they see one place, and what
+/// is off there is no form.
+constexpr double least_seen = 0.25;
+constexpr Extent nowhere{1e300, -1e300};
+
+void widen(Extent& extent, double to) {
+  extent.low = std::min(extent.low, to), extent.high = std::max(extent.high, to);
+}
+
+}  // namespace
 
 std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
                                    std::span<const double> remainder_mm, double& tests) {
@@ -27,20 +40,18 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
       if (mask.folds() < 12 && lengths > 6) continue;
       std::vector<double> sum(sectors * lengths, 0.0);
       std::vector<std::size_t> count(sectors * lengths, 0);
-      const auto place = [&](std::size_t i) {
-        double turn = point.theta[i] / two_pi;
-        turn -= std::floor(turn);
-        const double u =
-            std::clamp(0.5 + 0.5 * (point.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999);
-        const auto a =
-            std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
-        return a * lengths +
-               (lengths > 1 ? static_cast<std::size_t>(u * static_cast<double>(lengths)) : 0);
-      };
       std::vector<double> largest(sum.size(), 0.0);
+      std::vector<Extent> around(sum.size(), nowhere), along(sum.size(), nowhere);
       for (std::size_t i = 0; i < point.size(); ++i) {
         if (!mask.used[i]) continue;
-        const std::size_t at = place(i);
+        const double turn = (point.theta[i] / two_pi - std::floor(point.theta[i] / two_pi)) *
+                            static_cast<double>(sectors);
+        const double u =
+            std::clamp(0.5 + 0.5 * (point.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999) *
+            static_cast<double>(lengths);
+        const auto sector = std::min(sectors - 1, static_cast<std::size_t>(turn));
+        const std::size_t at = sector * lengths + static_cast<std::size_t>(u);
+        widen(around[at], turn), widen(along[at], u);
         const double value = point.rear[i] ? -g[i] : g[i];
         sum[at] += value;
         ++count[at];
@@ -49,7 +60,8 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
       double top = 0.0;
       std::size_t where = 0;
       for (std::size_t b = 0; b < sum.size(); ++b) {
-        if (count[b] < least_readings) continue;
+        const double seen = std::max(around[b].length(), along[b].length());
+        if (count[b] < least_readings || seen < least_seen) continue;
         tests += 1.0;
         const double value = sum[b] * sum[b] / static_cast<double>(count[b]);
         const double rest = sum[b] - largest[b];  // a form is not made by a reading or two

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "diagnose/regression/noise.hpp"
+#include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -18,6 +19,7 @@ using Three = Eigen::Matrix3d;
 constexpr Index least_readings = 4;  // before and after a step: fewer are outliers
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
+constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
 bool counts(const ObservationMask& mask, std::size_t row, std::size_t lags) {
@@ -59,15 +61,58 @@ Matrix orthonormal(const Matrix& columns) {
                     eigen.eigenvalues().tail(there).cwiseSqrt().cwiseInverse().asDiagonal());
 }
 
+/// A step before a reading: what base and terms leave of its columns.
+struct Date {
+  std::size_t reading;
+  Three gram;
+  Eigen::Vector3d right, whole;  ///< products with what is left; squares of the columns themselves
+};
+
+/// Steps between any two readings that have enough on both sides.
+std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
+                           const Matrix& taken, const Eigen::VectorXd& left) {
+  const std::vector<double>& time = problem.point.time;
+  const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
+  const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
+  struct Sums {
+    Three gram = Three::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Matrix cross;
+  };
+  const auto add = [&](Index row, const Eigen::Vector3d& own, Sums& to) {
+    to.gram += own * own.transpose();
+    to.cross.noalias() += own * taken.row(row);
+    to.right += own * left(row);
+  };
+  std::vector<Date> out;
+  Sums before;
+  before.cross = Matrix::Zero(3, taken.cols());
+  for (Index k = 1; k + least_readings <= size; ++k) {
+    const auto reading = static_cast<std::size_t>(k);
+    add(k - 1, step.row(k - 1), before);
+    if (k < least_readings || !(time[reading] > time[reading - 1])) continue;
+    Sums sums = before;
+    // Readings just after the step are predicted from those before it.
+    for (Index row = k; row < std::min(size, k + lags); ++row) {
+      if (!counts(problem.mask, static_cast<std::size_t>(row), phi.size())) continue;
+      Eigen::Vector3d own = Eigen::Vector3d::Zero();
+      for (Index lag = row - k + 1; lag <= lags; ++lag)
+        own -= phi[static_cast<std::size_t>(lag - 1)] * step_raw.row(row - lag).transpose();
+      add(row, own, sums);
+    }
+    out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
+                   sums.gram.diagonal()});
+  }
+  return out;
+}
+
 /// What the columns of a form take off the sum of squares.
-double gain_of(const std::vector<std::size_t>& form, const Three& left,
-               const Eigen::Vector3d& right, const Eigen::Vector3d& whole) {
+double gain_of(const std::vector<Index>& form, const Date& date) {
   double gain = 0.0;
-  Three rest = left;
-  Eigen::Vector3d along = right;
-  for (const std::size_t free : form) {  // a Cholesky step each
-    const auto j = static_cast<Index>(free);
-    if (!(rest(j, j) > absorbed * whole(j))) continue;
+  Three rest = date.gram;
+  Eigen::Vector3d along = date.right;
+  for (const Index j : form) {  // a Cholesky step each
+    if (!(rest(j, j) > absorbed * date.whole(j))) continue;
     gain += along(j) * along(j) / rest(j, j);
     const Eigen::Vector3d share = rest.col(j) / rest(j, j);
     along -= share * along(j);
@@ -76,63 +121,51 @@ double gain_of(const std::vector<std::size_t>& form, const Three& left,
   return gain;
 }
 
+/// The most likely date of a form: of those that take off as much but for noise, by their plausible
+/// sizes (a step at a standing spindle is seen along the probe alone).
+const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
+                        const std::vector<Date>& dates, double rss, double freedom) {
+  std::vector<double> gains;
+  for (const Date& date : dates) gains.push_back(gain_of(form, date));
+  if (gains.empty()) return nullptr;
+  const double most = std::ranges::max(gains);
+  const double near = most - as_likely * std::max(rss - most, 0.0) / freedom;
+  const Date* best = nullptr;
+  double least = 1e300;
+  for (std::size_t i = 0; i < dates.size(); ++i) {
+    if (!(gains[i] > 0.0) || gains[i] < near) continue;
+    const double criterion = weigh(prior, dates[i].gram(form, form), dates[i].right(form),
+                                   dates[i].whole(form), rss, freedom)
+                                 .criterion;
+    if (criterion < least) least = criterion, best = &dates[i];
+  }
+  return best;
+}
+
 /// Dates one effect.
 std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>& phi,
                               const std::vector<Hypothesis>& terms, const Effect& effect) {
-  const LinearisationPoint& point = problem.point;
-  TermShape never = typical_shape(effect, point);
-  never.onset_s = 1e300;
+  const std::vector<double>& time = problem.point.time;
+  TermShape shape = typical_shape(effect, problem.point);
+  shape.onset_s = 1e300;
   std::vector<Hypothesis> all(terms);
-  all.push_back(of_effect(effect, never));
+  all.push_back(of_effect(effect, shape));
   const Rows rows = rows_of(problem, phi, all);
-  const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
   const Matrix taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 4));
   const Eigen::VectorXd left = rows.white.col(0) - taken * (taken.transpose() * rows.white.col(0));
-  const std::vector<Form>& forms = effect.search.forms;
-  std::vector<double> best(forms.size(), 0.0);
-  std::vector<Index> date(forms.size(), 0);
-  Three gram = Three::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  Matrix cross = Matrix::Zero(3, taken.cols());
-  const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
-  for (Index k = 1; k + least_readings <= size; ++k) {
-    const auto add = [&](Index row, const Eigen::Vector3d& own, Three& to, Matrix& to_cross,
-                         Eigen::Vector3d& to_right) {
-      to += own * own.transpose();
-      to_cross.noalias() += own * taken.row(row);
-      to_right += own * left(row);
-    };
-    add(k - 1, step.row(k - 1), gram, cross, right);
-    if (k < least_readings ||
-        point.time[static_cast<std::size_t>(k)] <= point.time[static_cast<std::size_t>(k - 1)])
-      continue;
-    // Readings just after the step are predicted from those before it.
-    Three own = gram;
-    Matrix own_cross = cross;
-    Eigen::Vector3d own_right = right;
-    for (Index row = k; row < std::min(size, k + lags); ++row) {
-      if (!counts(problem.mask, static_cast<std::size_t>(row), phi.size())) continue;
-      Eigen::Vector3d before = Eigen::Vector3d::Zero();
-      for (Index lag = row - k + 1; lag <= lags; ++lag)
-        before -= phi[static_cast<std::size_t>(lag - 1)] * step_raw.row(row - lag).transpose();
-      add(row, before, own, own_cross, own_right);
-    }
-    const Eigen::Vector3d whole = own.diagonal();
-    own.noalias() -= own_cross * own_cross.transpose();
-    for (std::size_t f = 0; f < forms.size(); ++f) {
-      const double gain =
-          gain_of(forms[f].free.empty() ? std::vector<std::size_t>{0, 1, 2} : forms[f].free, own,
-                  own_right, whole);
-      if (gain > best[f]) best[f] = gain, date[f] = k;
-    }
-  }
+  const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left);
   std::vector<Hypothesis> out;
-  for (std::size_t f = 0; f < forms.size(); ++f) {
-    if (date[f] == 0) continue;
-    const auto k = static_cast<std::size_t>(date[f]);
-    TermShape shape = never;
-    shape.onset_s = 0.5 * (point.time[k - 1] + point.time[k]);
-    out.push_back(of_effect(effect, shape, forms[f].free, effect.search.tests));
+  for (const Form& form : effect.search.forms) {
+    Hypothesis h = of_effect(effect, shape, form.free, effect.search.tests);
+    std::vector<Index> columns;
+    for (std::size_t j = 0; j < h.columns(); ++j)
+      columns.push_back(static_cast<Index>(form.free.empty() ? j : form.free[j]));
+    const Date* date =
+        most_likely(columns, size_prior(h), dates, left.squaredNorm(),
+                    std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
+    if (date == nullptr) continue;
+    h.shape.onset_s = 0.5 * (time[date->reading - 1] + time[date->reading]);
+    out.push_back(std::move(h));
   }
   return out;
 }
