@@ -155,7 +155,7 @@ std::vector<Effect> probe_response() {
        .frame = Frame::time,
        .term = Response{Response::Of::lag},
        .formula = "H = 1/(1 + j k omega T) for harmonic k",
-       .parameters = {{"time_constant", "s", 1e-4, 5e-3, "T", "", 0.0, 0.0}},
+       .parameters = {{"time_constant", "s", 1e-4, 5e-3, "T", "", 0.0, 0.0, 0.2}},
        .signature = "phase and gain change with the order times the speed",
        .confounders = {"probe.latency", "slide.backlash", "encoder.offset"},
        .absorbed_by = "direction and size of x0, y0, l, m, at one speed",
