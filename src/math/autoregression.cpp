@@ -17,6 +17,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 
 constexpr double five_percent = 3.84;
+// Share of a column's square by which columns that nearly depend are told apart: without it a
+// likelihood that could not be worked out was one of white noise.
+constexpr double rounding = 1e-12;
 
 /// The likelihoods of autoregressions beside the columns of a Gram matrix.
 struct Likelihood {
@@ -30,7 +33,8 @@ struct Likelihood {
   std::optional<Regression> regression(double phi1, double phi2) const {
     const Matrix all = gram.whitened(phi1, phi2);
     const Eigen::Index m = all.rows() - 1;
-    const Matrix normal = all.bottomRightCorner(m, m);
+    Matrix normal = all.bottomRightCorner(m, m);
+    normal.diagonal() *= 1.0 + rounding;
     const Eigen::LLT<Matrix> factor(normal);
     if (factor.info() != Eigen::Success) return {};
     const Eigen::VectorXd half = factor.matrixL().solve(all.col(0).tail(m));

@@ -2,6 +2,7 @@
 #include "diagnose/search/dictionary.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "diagnose/search/causes.hpp"
@@ -128,13 +129,18 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
   std::vector<Hypothesis> basis;
   const std::size_t most = point.size() / 3;
   std::size_t columns = point.base.columns();
-  const auto take = [&](Hypothesis h) {
-    if (columns + h.columns() > most) return;
+  const auto fits = [&](const Hypothesis& h) {
+    if (columns + h.columns() > most) return false;
     columns += h.columns();
-    basis.push_back(std::move(h));
+    return true;
   };
-  // A constant of every pass is what a walk of the noise looks like: before any harmonic.
-  for (Hypothesis& h : shown_between_passes(point, resolution)) take(std::move(h));
+  // A constant of every pass is what a walk of the noise looks like: it has its room before any
+  // harmonic, and its place behind them, which may already hold it.
+  std::vector<Hypothesis> shown = shown_between_passes(point, resolution);
+  std::erase_if(shown, [&](const Hypothesis& h) { return !fits(h); });
+  const auto take = [&](Hypothesis h) {
+    if (fits(h)) basis.push_back(std::move(h));
+  };
   const auto add = [&](int n, int l) { take(function_of(n, l)); };
   for (int n = 0; n <= resolution.harmonics; ++n) {
     add(n, 0);
@@ -158,6 +164,7 @@ std::vector<Hypothesis> small_fourier_legendre_basis(const LinearisationPoint& p
     for (int n = 0; n <= 1; ++n)
       for (int l = 1; l <= 3; ++l) add_machine(n, l, true);
   }
+  std::ranges::move(shown, std::back_inserter(basis));
   return basis;
 }
 
