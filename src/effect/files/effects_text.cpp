@@ -178,7 +178,8 @@ std::string possible_size(const EffectParameter& parameter) {
   const std::string size =
       format("{:.4g}{}{}", parameter.most * unit.scale, unit.name.empty() ? "" : " ", unit.name);
   if (parameter.most == any.most) return parameter.least == any.least ? "" : "never negative";
-  return parameter.least < 0.0 ? format("at most {} either way", size) : format("at most {}", size);
+  return parameter.least < 0.0 ? format("at most {} either way", size)
+                               : format("never negative, at most {}", size);
 }
 
 std::string effects_list_text() {
