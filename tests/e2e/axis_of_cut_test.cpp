@@ -97,7 +97,7 @@ TEST_F(AxisOfCut, RunAndReportSayTheThreeAxesAndWhy) {
     EXPECT_TRUE(contains(done.out, part)) << part << '\n' << done.out;
   EXPECT_FALSE(contains(done.out, "Z -0")) << done.out;
   // The first reason is what widens U most.
-  const json of = result("out/diagnosis_1_cone.json").at("shares");
+  const json of = result("out/diagnosis_1_cone_seat.json").at("shares");
   const auto widens = [](const json& share) {
     const json& shift = share.at("axis_shift");
     return share.at("probability").get<double>() * (std::pow(shift.at("value").get<double>(), 2) +
