@@ -316,6 +316,7 @@ AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
                           const std::vector<Otherwise>& others) {
   AveragedAxis out = averaged(problem, joint, findings, ideal);
+  if (others.empty()) return out;
   const Eigen::VectorXd named = out.shift;
   double probability = 1.0;
   for (const Otherwise& other : others) probability -= other.probability;
