@@ -127,7 +127,7 @@ std::vector<std::string> form_class_remark(const Problem& problem, const Joint& 
 }
 
 std::vector<std::string> alias_remark(const Resolution& resolution) {
-  if (!resolution.sections || !resolution.whole) return {};
+  if (!resolution.sparse) return {};
   const auto m = static_cast<int>(std::lround(resolution.per_turn));
   return {fmt::format(
       "{0} even angles a section see lobes of the orders n and k {0} ± n as one: those of order "

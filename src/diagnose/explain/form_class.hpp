@@ -19,8 +19,8 @@ std::string form_words(const std::vector<Hypothesis>& terms);
 std::vector<std::string> form_class_remark(const Problem& problem, const Joint& joint,
                                            const std::vector<Otherwise>& others);
 
-/// Of sections of even angles what lobes no such section shows: they look like eccentricity or like
-/// another radius (Eq. 76a). Empty: of another stream.
+/// Of sections of few even angles what lobes no such section shows: they look like eccentricity or
+/// like another radius (Eq. 76a). Empty: of another stream.
 std::vector<std::string> alias_remark(const Resolution& resolution);
 
 /// The least number of angles in each of the same sections at which the one model's best fit is
