@@ -63,7 +63,9 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
                     "nothing is taken in "
                     "its place: see whether set-ups, units and passes belong together",
                     model.impossible->id, model.impossible->title));
-  for (std::string& remark : form_class_remark(problem, joint, model.otherwise))
+  for (std::string& remark : form_class_remark(problem, joint, model.others))
+    out.remarks.push_back(std::move(remark));
+  for (std::string& remark : alias_remark(problem.resolution))
     out.remarks.push_back(std::move(remark));
   out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
@@ -99,7 +101,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
   AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
-                                      out.baseline, search.model.otherwise);
+                                      out.baseline, search.model.others);
   out.named = refit->named();
   out.extended = refit->shifted(average.shift, average.within, average.between);
   out.shares = std::move(average.shares);

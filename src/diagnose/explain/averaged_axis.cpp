@@ -314,23 +314,30 @@ AveragedAxis averaged(const Problem& problem, const Joint& joint,
 
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
-                          const std::optional<Otherwise>& otherwise) {
+                          const std::vector<Otherwise>& others) {
   AveragedAxis out = averaged(problem, joint, findings, ideal);
-  if (!otherwise || otherwise->probability < told) return out;
-  const Joint other(problem, joint.equations.autoregression(), otherwise->terms,
-                    otherwise->terms.size());
-  const AveragedAxis rival = averaged(problem, other, {}, ideal);
-  const double p = otherwise->probability;
-  const Eigen::VectorXd away = other.base() + rival.shift - joint.base() - out.shift;
-  out.shift += p * away;
-  out.within = (1.0 - p) * out.within + p * rival.within;
-  out.between =
-      (1.0 - p) * out.between + p * rival.between + p * (1.0 - p) * (away * away.transpose());
-  const AxisShift moved = axis_shift(problem.point, away, other.base_covariance());
-  out.shares.insert(out.shares.begin(), {form_words(otherwise->terms),
-                                         form_words(joint.terms),
-                                         p,
-                                         {moved.value_mm, moved.u_mm, "mm", ""}});
+  if (others.empty()) return out;
+  const Eigen::VectorXd named = out.shift;
+  double probability = 1.0;
+  for (const Otherwise& other : others) probability -= other.probability;
+  out.shift *= probability, out.within *= probability;
+  out.between = probability * (out.between + named * named.transpose());
+  std::vector<AxisShare> shares;
+  for (const Otherwise& o : others) {
+    const Joint other(problem, joint.equations.autoregression(), o.terms, o.terms.size());
+    const AveragedAxis rival = averaged(problem, other, {}, ideal);
+    const Eigen::VectorXd shift = other.base() + rival.shift - joint.base();
+    out.shift += o.probability * shift;
+    out.within += o.probability * rival.within;
+    out.between += o.probability * (rival.between + shift * shift.transpose());
+    const AxisShift moved = axis_shift(problem.point, shift - named, other.base_covariance());
+    shares.push_back({form_words(o.terms),
+                      form_words(joint.terms),
+                      o.probability,
+                      {moved.value_mm, moved.u_mm, "mm", ""}});
+  }
+  out.between -= out.shift * out.shift.transpose();
+  out.shares.insert(out.shares.begin(), shares.begin(), shares.end());
   return out;
 }
 

@@ -20,10 +20,10 @@ struct AveragedAxis {
 };
 
 /// @param findings the ambiguous terms of the joint fit
-/// @param otherwise terms that explain the readings instead of all of these
+/// @param others models of other terms that explain the readings instead
 /// @param ideal the fit of the surface alone: what its budget states is not averaged over
 AveragedAxis average_axis(const Problem& problem, const Joint& joint,
                           const std::vector<AmbiguousFinding>& findings, const FitResult& ideal,
-                          const std::optional<Otherwise>& otherwise = {});
+                          const std::vector<Otherwise>& others = {});
 
 }  // namespace trueaxis::diagnose_detail

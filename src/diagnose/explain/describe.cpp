@@ -173,9 +173,9 @@ std::string alias_of(const Hypothesis& h, const Resolution& resolution) {
         other, m, order);
   if (other <= 0.0 || other > highest_alias) return "";
   return fmt::format(
-      "{:g}: with {:g} readings a revolution orders n and {:g} - n are one column; take an "
-      "asynchronous rate",
-      other, m, m);
+      "{:g} or {:g}: with {:g} readings a revolution orders n and k {:g} ± n are one column; take "
+      "{:g} of them, which tell all orders up to {:g}, or an asynchronous rate",
+      other, m + order, m, m, 2.0 * other + 1.0, other);
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -26,8 +26,9 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
 /// A term that is no catalogued cause.
 Unexplained unexplained_of(const Joint& joint, std::size_t term);
 
-/// "12 (sampled 15 times a revolution, orders n and 15 − n are one column)"; empty: no alias.
-/// Eq. 76.
+/// The other orders that are one column with it, and the readings a revolution that tell them
+/// apart: "10 or 14: with 12 readings a revolution orders n and k 12 ± n are one column; take 21
+/// …". Empty: none. Eq. 76.
 std::string alias_of(const Hypothesis& hypothesis, const Resolution& resolution);
 
 }  // namespace trueaxis::diagnose_detail

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "diagnose/search/local_forms.hpp"
 #include "trueaxis/units.hpp"
@@ -13,7 +14,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double in_the_class = 1e-3;  // probability, as of any class
 constexpr double told_for_sure = 4.1;  // d with Φ(d/2) = 0.98
 constexpr int tried[] = {12, 16, 20, 24, 30, 36, 48, 60, 72, 90, 120};
 
@@ -98,17 +98,42 @@ int angles_that_tell(const Problem& problem, const Joint& named, const Joint& ot
 }
 
 std::vector<std::string> form_class_remark(const Problem& problem, const Joint& joint,
-                                           const std::optional<Otherwise>& otherwise) {
-  if (!otherwise || otherwise->probability < in_the_class) return {};
-  const Joint other(problem, {}, otherwise->terms, otherwise->terms.size());
-  const int angles = angles_that_tell(problem, joint, other);
+                                           const std::vector<Otherwise>& others) {
+  if (others.empty()) return {};
+  std::vector<std::pair<std::string, double>> members{{form_words(joint.terms), 1.0}};
+  int angles = 0;
+  bool tell = true;
+  for (const Otherwise& o : others) {
+    members.front().second -= o.probability;
+    const std::string words = form_words(o.terms);
+    const auto same = std::ranges::find(members, words, &std::pair<std::string, double>::first);
+    if (same == members.end())
+      members.emplace_back(words, o.probability);
+    else
+      same->second += o.probability;
+    const Joint other(problem, joint.equations.autoregression(), o.terms, o.terms.size());
+    const int needed = angles_that_tell(problem, joint, other);
+    tell &= needed > 0;
+    angles = std::max(angles, needed);
+  }
+  std::vector<std::string> list;
+  for (const auto& [words, probability] : members)
+    list.push_back(fmt::format("{} (probability {:.2g})", words, probability));
+  return {
+      fmt::format("{}: {:.0f} angles a section cannot tell, and the axis is averaged over all; {}",
+                  fmt::join(list, " or "), problem.resolution.per_turn,
+                  tell ? fmt::format("{} angles a section would tell", angles)
+                       : "no number of angles up to 120 would")};
+}
+
+std::vector<std::string> alias_remark(const Resolution& resolution) {
+  if (!resolution.sparse) return {};
+  const auto m = static_cast<int>(std::lround(resolution.per_turn));
   return {fmt::format(
-      "{} (probability {:.2g}) or {} ({:.2g}): {:.0f} angles a section cannot tell, and the axis "
-      "is averaged over both; {}",
-      form_words(joint.terms), 1.0 - otherwise->probability, form_words(otherwise->terms),
-      otherwise->probability, problem.resolution.per_turn,
-      angles > 0 ? fmt::format("{} angles a section would tell", angles)
-                 : "no number of angles up to 120 would")};
+      "{0} even angles a section see lobes of the orders n and k {0} ± n as one: those of order "
+      "{1}, {2}, {3}, {4} … look like eccentricity, whose axis they move by their amplitude, those "
+      "of order {0}, {5} … like another radius; {6} angles tell all orders up to {2}",
+      m, m - 1, m + 1, 2 * m - 1, 2 * m + 1, 2 * m, 2 * m + 3)};
 }
 
 }  // namespace trueaxis::diagnose_detail

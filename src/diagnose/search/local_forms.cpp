@@ -12,11 +12,12 @@ namespace {
 
 // Standard deviations in steps from angle to angle and from section to section: of what meets one
 // reading, of what its neighbours see too, and of what several do.
-constexpr double widths[] = {0.4, 0.9, 2.0}, lengths[] = {0.4, 1.2, 3.0};
-constexpr double widest_rad = 0.4, least_width = 0.3;   // beyond it is lobes; of the steps
+constexpr double widths[] = {0.4, 0.9, 2.0, 3.0}, lengths[] = {0.4, 1.2, 3.0};
+constexpr double widest_rad = 0.5, least_width = 0.3;   // beyond it is lobes; of the steps
 constexpr double left_over = 1e-6;                      // share of a column that must be left
 constexpr double smallest_mm = 1e-3, largest_mm = 0.2;  // of dents, flats, burrs
-constexpr double odds_against = 19.0;  // before the data: one part in twenty has a local form
+constexpr double odds_against = 4.0;  // before the data: one part in five, as of any effect
+constexpr double shape_step = 0.005;  // of neighbours() for the bend of the likelihood
 
 struct Spacing {
   double rad, mm;  ///< from angle to angle, and from section to section
@@ -32,7 +33,43 @@ void keep_local(const Problem& problem, Hypothesis& form) {
   const Spacing step = spacing_of(problem);
   Pattern& p = form.pattern;
   p.width_rad = std::clamp(p.width_rad, std::min(least_width * step.rad, widest_rad), widest_rad);
-  if (p.length_mm > 0.0) p.length_mm = std::max(p.length_mm, least_width * step.mm);
+  const double half = problem.point.z_half_mm, mid = problem.point.z_mid_mm;
+  p.position_mm = std::clamp(p.position_mm, mid - half, mid + half);
+  if (p.length_mm > 0.0) p.length_mm = std::clamp(p.length_mm, least_width * step.mm, 2.0 * half);
+}
+
+double shape_choice(const Problem& problem, const std::vector<double>& phi,
+                    const std::vector<Hypothesis>& terms, std::size_t term) {
+  const Hypothesis& form = terms[term];
+  const Pattern& p = form.pattern;
+  std::vector<Hypothesis> list = terms;
+  const std::vector<Hypothesis> near = neighbours(form, problem.point, shape_step);
+  list.insert(list.end(), near.begin(), near.end());
+  NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi, 1);
+  const std::vector<Columns> places = equations.append(list);
+  Columns beside = equations.base();
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    if (t != term) beside.insert(beside.end(), places[t].begin(), places[t].end());
+  const Projection rest = project(equations.total(), beside);
+  const auto freedom = static_cast<double>(equations.count() - rest.rank);
+  const auto fit = [&](std::size_t k) {
+    return freedom * std::log(std::max(rest.rss - score(rest, places[k]).gain, 1e-12 * rest.rss));
+  };
+  const Spacing step = spacing_of(problem);
+  const double length = 2.0 * problem.point.z_half_mm, by = 8.0 * shape_step;
+  // In the order of neighbours(): what the step is, and what the parameter may be before the data.
+  const double steps[] = {by * p.width_rad, by, by * p.length_mm, by};
+  const double ranges[] = {
+      two_pi, std::log(widest_rad / std::min(least_width * step.rad, 0.5 * widest_rad)), length,
+      std::log(length / (least_width * step.mm))};
+  double sum = 2.0 * std::log(2.0 * odds_against);  // all along or not
+  for (std::size_t k = 0; 2 * k < near.size(); ++k) {
+    const double bend =
+        (fit(terms.size() + 2 * k) - 2.0 * fit(term) + fit(terms.size() + 2 * k + 1)) /
+        (steps[k] * steps[k]);
+    if (bend > 0.0) sum += std::max(0.0, std::log(ranges[k] * ranges[k] * bend / (2.0 * two_pi)));
+  }
+  return sum;
 }
 
 LocalForms::LocalForms(const Problem& problem) : problem_(problem) {

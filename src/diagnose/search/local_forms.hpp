@@ -13,9 +13,14 @@ inline bool is_local(const TermValue& h) {
   return !h.effect && h.pattern.kind == Pattern::Kind::bump;
 }
 
-/// Makes a form no wider than a local one is, and no finer than the readings.
+/// Makes a form no wider than a local one is, no finer than the readings, and one of the part.
 /// @param problem sparse
 void keep_local(const Problem& problem, Hypothesis& form);
+
+/// −2 ln of the share of all places, widths and lengths that explain the readings as well as a form
+/// of the terms does, times that of parts that have one: what its choice costs (Eq. 82d).
+double shape_choice(const Problem& problem, const std::vector<double>& phi,
+                    const std::vector<Hypothesis>& terms, std::size_t term);
 
 /// Local forms of a part that is probed in sections of a few even angles: at every angle and half
 /// way to the next, at every section and all along, some angles wide and some sections long. One
@@ -28,21 +33,30 @@ class LocalForms {
   /// How many of them are of their own.
   double tests() const { return tests_; }
 
+  const std::vector<Hypothesis>& forms() const { return forms_; }
+  /// Which of the widths and lengths a form of the list has.
+  std::size_t size_of(std::size_t form) const { return size_[form]; }
+  std::size_t sizes() const { return sizes_; }
+
+  /// Columns of terms at the readings that count, behind those of the surface where they are
+  /// wanted.
+  Eigen::MatrixXd rows_of(const std::vector<Hypothesis>& terms, bool with_base) const;
+  /// The readings that count less the ideal surface, mm.
+  const Eigen::VectorXd& deviation_mm() const { return deviation_; }
+
   /// Those that explain most beside base and terms, best first.
   /// @param one_of_each of every width and length the best alone
   std::vector<Hypothesis> beside(const std::vector<Hypothesis>& terms, std::size_t most,
                                  bool one_of_each) const;
 
  private:
-  Eigen::MatrixXd rows_of(const std::vector<Hypothesis>& terms, bool with_base) const;
-
   const Problem& problem_;
   std::vector<std::size_t> used_;
   std::vector<Hypothesis> forms_;
   std::vector<std::size_t> size_;  ///< which of the sizes
   std::size_t sizes_ = 0;
-  Eigen::VectorXd deviation_;
-  Eigen::MatrixXd columns_;  ///< of all forms, at the readings that count
+  Eigen::VectorXd deviation_;  ///< mm
+  Eigen::MatrixXd columns_;    ///< of all forms, at the readings that count
   double tests_ = 1.0;
 };
 

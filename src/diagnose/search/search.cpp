@@ -4,11 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "diagnose/regression/joint.hpp"
 #include "diagnose/search/causes.hpp"
+#include "diagnose/search/form_with_lobes.hpp"
 #include "diagnose/search/stepwise_search.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
+
+constexpr std::size_t most_starts = 6;  // local forms that a search is begun with
+constexpr double in_the_class = 1e-3;   // probability, as of any class
 
 Model search_with(StepwiseSearch& engine) {
   bool pattern_was_better = false;
@@ -37,45 +42,87 @@ std::vector<Hypothesis> all_lobes(const Problem& problem, bool growing) {
   return out;
 }
 
-/// The best model of few angles that has a local form: found step by step, begun with one, or with
-/// one beside what is found without, or beside all lobes.
-Model with_local_form(Proposer& proposer, StepwiseSearch& engine, const Model& without) {
-  Model best = search_with(engine);
-  for (const std::vector<Hypothesis>& beside :
-       {std::vector<Hypothesis>{}, without.terms, all_lobes(proposer.problem(), false)}) {
-    const Proposal& p = proposer.beside(beside, best.phi);
-    const auto form = std::ranges::find_if(
-        p.patterns, [](const Candidate& c) { return is_local(c.hypothesis) && c.rank > 0; });
-    if (form == p.patterns.end()) continue;
-    std::vector<Hypothesis> first = beside;
-    first.push_back(form->hypothesis);
-    bool ignored = false;
-    Model model = engine.run(true, ignored, std::move(first));
-    if (model.criterion < best.criterion) best = std::move(model);
+std::vector<LobesOfOrder> lobes_by_order(const Problem& problem) {
+  std::vector<LobesOfOrder> out;
+  for (const bool growing : {false, true})
+    for (const Hypothesis& h : all_lobes(problem, growing)) {
+      const auto at = std::ranges::find(
+          out, h.shape.order, [](const LobesOfOrder& order) { return order.front().shape.order; });
+      at == out.end() ? out.push_back({h}) : at->push_back(h);
+    }
+  return out;
+}
+
+/// Puts the likelihood of local forms averaged over all that they might be in the place of that of
+/// the best among so many.
+void count_shapes(const Problem& problem, Model& model) {
+  for (std::size_t t = 0; t < model.terms.size(); ++t)
+    if (is_local(model.terms[t]))
+      model.criterion +=
+          shape_choice(problem, model.phi, model.terms, t) - 2.0 * std::log(model.terms[t].tests);
+}
+
+/// What the terms of a model do to X, mm.
+std::vector<double> effect_of(const Problem& problem, const Model& model) {
+  const Joint joint(problem, model.phi, model.terms, model.terms.size());
+  const auto count = static_cast<Eigen::Index>(columns_of(model.terms));
+  return contribution(problem.point, model.terms, span_of(joint.solution.coefficients.tail(count)));
+}
+
+bool has_local(const Model& model) { return std::ranges::any_of(model.terms, is_local); }
+
+/// The best of models that explain the readings alike, and the others by their probability. What
+/// differs by less than one standard deviation is one model (Eq. 82b).
+Model best_of(const Problem& problem, std::vector<Model> found) {
+  std::ranges::stable_sort(found, {}, &Model::criterion);
+  Model& best = found.front();
+  const Joint joint(problem, best.phi, best.terms, best.terms.size());
+  const double variance = joint.sigma_mm * joint.sigma_mm;
+  std::vector<std::vector<double>> had;
+  double sum = 0.0;
+  for (const Model& model : found) {
+    const double likelihood = std::exp(-0.5 * (model.criterion - best.criterion));
+    if (likelihood < in_the_class) break;
+    if (!had.empty() && !has_local(best) && !has_local(model)) continue;  // no lobe moves the axis
+    std::vector<double> effect = effect_of(problem, model);
+    const auto is_it = [&](const std::vector<double>& other) {
+      double sum2 = 0.0;
+      for (std::size_t i = 0; i < effect.size(); ++i) sum2 += std::pow(effect[i] - other[i], 2);
+      return sum2 < variance;
+    };
+    if (std::ranges::any_of(had, is_it)) continue;
+    if (!had.empty()) best.others.push_back({model.terms, likelihood});
+    had.push_back(std::move(effect));
+    sum += likelihood;
   }
-  return best;
+  for (Otherwise& other : best.others) other.probability /= sum;
+  return std::move(best);
+}
+
+/// Found step by step from nothing, from lobes of all orders, and from each local form with the
+/// lobes that are left beside it.
+Model search_few_angles(Proposer& proposer, StepwiseSearch& engine) {
+  const Problem& problem = proposer.problem();
+  std::vector<Model> found{search_with(engine)};
+  std::vector<std::vector<Hypothesis>> starts =
+      forms_with_lobes(problem, LocalForms(problem), lobes_by_order(problem), most_starts);
+  engine.take_local_forms(LocalFormsTaken::none);
+  found.push_back(search_with(engine));
+  for (const bool growing : {false, true}) starts.push_back(all_lobes(problem, growing));
+  engine.take_local_forms(LocalFormsTaken::given);
+  bool ignored = false;
+  for (std::vector<Hypothesis>& start : starts)
+    found.push_back(engine.run(true, ignored, std::move(start)));
+  for (Model& model : found) count_shapes(problem, model);
+  return best_of(problem, std::move(found));
 }
 
 }  // namespace
 
 Model search(Proposer& proposer) {
   StepwiseSearch engine(proposer);
-  if (!proposer.problem().resolution.sparse) return search_with(engine);
-  engine.take_local_forms(false);
-  Model without = search_with(engine);
-  bool ignored = false;
-  for (const bool growing : {false, true}) {
-    Model model = engine.run(true, ignored, all_lobes(proposer.problem(), growing));
-    if (model.criterion < without.criterion) without = std::move(model);
-  }
-  engine.take_local_forms(true);
-  Model with = with_local_form(proposer, engine, without);
-  const auto has_local = [](const Model& m) { return std::ranges::any_of(m.terms, is_local); };
-  if (!has_local(with)) return without;
-  if (without.criterion < with.criterion) std::swap(with, without);
-  const double odds = std::exp(0.5 * (without.criterion - with.criterion));
-  with.otherwise = Otherwise{without.terms, 1.0 / (1.0 + odds)};
-  return with;
+  return proposer.problem().resolution.sparse ? search_few_angles(proposer, engine)
+                                              : search_with(engine);
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "diagnose/search/propose.hpp"
 
 namespace trueaxis::diagnose_detail {
 
-/// Terms that explain the readings instead.
+/// Terms that explain the readings instead of those of a model.
 struct Otherwise {
   std::vector<Hypothesis> terms;
   double probability = 0.0;
@@ -23,13 +22,14 @@ struct Model {
   Family family;
   /// What would explain more than any term that may be taken, were its size one that can be.
   const Effect* impossible = nullptr;
-  /// Of few angles the best model of the other kind, with a local form of the part or without.
-  std::optional<Otherwise> otherwise;
+  /// Of few angles the models that the readings do not tell from this one, the most probable first.
+  std::vector<Otherwise> others;
 };
 
 /// Forward by the best hypothesis, backward, swapped and merged, until nothing changes; once with
 /// catalogued causes first and, where a pattern did better on the way, once with patterns allowed:
-/// the better of the two. Of few angles with and without local forms.
+/// the better of the two. Of few angles begun with lobes and local
+/// forms of every kind: the best, and the others that may be.
 Model search(Proposer& proposer);
 
 }  // namespace trueaxis::diagnose_detail

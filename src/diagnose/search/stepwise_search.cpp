@@ -65,10 +65,15 @@ class StepwiseSearch::Engine {
     return model;
   }
 
-  bool local_forms = true;
+  LocalFormsTaken local_forms = LocalFormsTaken::any;
 
  private:
-  bool may_be_taken(const Candidate& c) const { return local_forms || !is_local(c.hypothesis); }
+  bool may_be_taken(const Candidate& c) const {
+    return local_forms == LocalFormsTaken::any || !is_local(c.hypothesis);
+  }
+  bool is_kept(const Hypothesis& h) const {
+    return local_forms == LocalFormsTaken::given && is_local(h);
+  }
 
   /// Noise before any term. What is no noise may look like it, and whitening then takes it away: a
   /// line that is no whole order like one that rings, a step, or of few readings anything slow,
@@ -242,7 +247,8 @@ class StepwiseSearch::Engine {
       const Weighed weighed = weigh(h, beside, f.places[i], f.equations.count());
       const double gain = score(beside, f.places[i]).gain;
       if (problem_.resolution.sparse) sum -= shared_width(beside, f.places[i], weighed);
-      sum += weighed.criterion + choice_of(h, weighed.mean) + (h.effect ? 0.0 : catalogue_first) -
+      sum += weighed.criterion + choice_of(h, weighed.mean) +
+             (h.effect || h.largest_mm > 0.0 ? 0.0 : catalogue_first) -
              static_cast<double>(f.equations.count() - beside.rank) *
                  std::log(std::max(1.0 - gain / beside.rss, 1e-12));
       sizes.push_back(weighed);
@@ -285,6 +291,7 @@ class StepwiseSearch::Engine {
   bool swap(Model& model, bool patterns) {
     bool changed = false;
     for (std::size_t i = 0; i < model.terms.size(); ++i) {
+      if (is_kept(model.terms[i])) continue;
       Model other = model;
       other.terms = without(model.terms, i);
       changed |= replace(model, std::move(other), patterns);
@@ -293,7 +300,9 @@ class StepwiseSearch::Engine {
       if (splits(model.terms[i])) changed |= split(model, i);
     for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
       for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
-        if (angular_order(model.terms[i]) != angular_order(model.terms[j])) continue;
+        if (angular_order(model.terms[i]) != angular_order(model.terms[j]) ||
+            is_kept(model.terms[i]) || is_kept(model.terms[j]))
+          continue;
         Model other = model;
         other.terms = without(without(model.terms, j), i);
         if (!replace(model, std::move(other), patterns)) continue;
@@ -365,7 +374,7 @@ class StepwiseSearch::Engine {
 StepwiseSearch::StepwiseSearch(Proposer& proposer) : engine_(std::make_unique<Engine>(proposer)) {}
 StepwiseSearch::~StepwiseSearch() = default;
 
-void StepwiseSearch::take_local_forms(bool wanted) { engine_->local_forms = wanted; }
+void StepwiseSearch::take_local_forms(LocalFormsTaken which) { engine_->local_forms = which; }
 
 Model StepwiseSearch::run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first) {
   return engine_->run(patterns, pattern_was_better, std::move(first));

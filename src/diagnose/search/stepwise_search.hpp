@@ -8,14 +8,17 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// Which local forms a model may have: any, none, or those it is begun with, which stay.
+enum class LocalFormsTaken { any, none, given };
+
 /// Terms taken, dropped and exchanged one by one until nothing changes (docs/theory.md, §8.2).
 class StepwiseSearch {
  public:
   explicit StepwiseSearch(Proposer& proposer);
   ~StepwiseSearch();
 
-  /// Whether a local form may be taken; it may at first.
-  void take_local_forms(bool wanted);
+  /// Any at first.
+  void take_local_forms(LocalFormsTaken which);
 
   /// @param patterns whether a pattern may be taken while a cause still passes
   /// @param[out] pattern_was_better set where one did better than every cause on the way
