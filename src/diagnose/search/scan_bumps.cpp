@@ -13,8 +13,10 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
                                    std::span<const double> remainder_mm, double& tests) {
   const LinearisationPoint& point = equations.point();
   const ObservationMask& mask = equations.mask();
-  const std::vector<double> g = weighted(equations, remainder_mm);
+  const std::vector<double> g = weighted(equations, {remainder_mm.begin(), remainder_mm.end()});
   std::vector<Hypothesis> best;
+  PointRoom room;
+  const PointPart all = point.all(room);
   tests = 0.0;
   // Of few readings a form has few; of many the smallest windows would be chances among very many.
   // Three quarters of the least make a form: (1 − 1/n)² is left of n equal ones without one.
@@ -28,10 +30,10 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
       std::vector<double> sum(sectors * lengths, 0.0);
       std::vector<std::size_t> count(sectors * lengths, 0);
       const auto place = [&](std::size_t i) {
-        double turn = point.theta[i] / two_pi;
+        double turn = all.theta[i] / two_pi;
         turn -= std::floor(turn);
         const double u =
-            std::clamp(0.5 + 0.5 * (point.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999);
+            std::clamp(0.5 + 0.5 * (all.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999);
         const auto a =
             std::min(sectors - 1, static_cast<std::size_t>(turn * static_cast<double>(sectors)));
         return a * lengths +
@@ -41,7 +43,7 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
       for (std::size_t i = 0; i < point.size(); ++i) {
         if (!mask.used[i]) continue;
         const std::size_t at = place(i);
-        const double value = point.rear[i] ? -g[i] : g[i];
+        const double value = all.rear[i] ? -g[i] : g[i];
         sum[at] += value;
         ++count[at];
         if (std::abs(value) > std::abs(largest[at])) largest[at] = value;
