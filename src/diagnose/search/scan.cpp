@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <utility>
 
 #include "base/threads.hpp"
@@ -21,6 +22,7 @@ using Column = std::vector<double>;
 
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
+constexpr std::size_t near_bins = 5;  // two cells: a peak's own
 constexpr double finer = 4.0;
 constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
 
@@ -87,6 +89,20 @@ void pattern_of_line(const LinearisationPoint& point, const Resolution& resoluti
                           line.step * two_pi / std::abs(lead), std::abs(frequency)});
 }
 
+/// The highest of a band, none beside another.
+std::vector<Top> highest(Column& gain, std::size_t first_bin, std::size_t most) {
+  std::vector<Top> out;
+  while (out.size() < most) {
+    const auto top = std::ranges::max_element(gain);
+    if (top == gain.end() || !(*top > 0.0)) break;
+    const auto k = static_cast<std::size_t>(top - gain.begin());
+    out.push_back({first_bin + k, *top});
+    std::fill(gain.begin() + static_cast<long>(k - std::min(k, near_bins)),
+              gain.begin() + static_cast<long>(std::min(gain.size(), k + near_bins + 1)), 0.0);
+  }
+  return out;
+}
+
 /// What lies in `within` beside some intervals of it.
 std::vector<Extent> beside(const std::vector<Extent>& intervals, Extent within) {
   std::vector<Extent> out;
@@ -113,7 +129,7 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 /// A range of frequencies of a scan, at most most_bins of them, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
-  std::size_t bins = 0;
+  std::size_t bins = 0, first_bin = 0;      ///< the latter counted through all bands
   std::shared_ptr<const FourierSums> plan;  ///< made where it is wanted, and kept of few readings
 };
 
@@ -126,6 +142,19 @@ struct LineScanner::Job {
   bool fringes = false;
   bool sieved = false;  ///< more lie in the bands than are counted
 
+  std::size_t kept() const { return fringes ? fringes_kept : peaks_kept; }
+  std::size_t bins() const {
+    return bands.empty() ? 0 : bands.back().first_bin + bands.back().bins;
+  }
+  /// Leaves of a band what is looked at.
+  void sieve(const Band& band, Column& gain) const {
+    auto interval = counted.begin();
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      const double f = band.low + band.df * static_cast<double>(k);
+      while (interval != counted.end() && interval->high < f) ++interval;
+      if (interval == counted.end() || interval->low > f) gain[k] = 0.0;
+    }
+  }
   /// Of a bin, counted through all bands.
   double frequency(std::size_t bin) const {
     auto band = bands.begin();
@@ -178,7 +207,7 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
       const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
       for (std::size_t from = 0; from < bins; from += most_bins)
         job.bands.push_back({band.low + df * static_cast<double>(from), df,
-                             std::min(most_bins, bins - from), nullptr});
+                             std::min(most_bins, bins - from), job.bins(), nullptr});
     }
     jobs_.push_back(std::move(job));
   }
@@ -187,32 +216,25 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
 Scans LineScanner::operator()(const NormalEquations& equations, std::vector<double> remainder_mm) {
   const LinearisationPoint& point = problem_.point;
   const std::vector<double> left = weighted(equations, std::move(remainder_mm));
-  std::vector<std::vector<Gains>> gains(jobs_.size());  // of every band of every job
+  std::vector<std::vector<Tops>> tops(jobs_.size());  // of every band of every job
   std::vector<std::pair<std::size_t, std::size_t>> bands;
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
-    gains[j].resize(jobs_[j].bands.size());
-    for (std::size_t b = 0; b < gains[j].size(); ++b) bands.emplace_back(j, b);
+    tops[j].resize(jobs_[j].bands.size());
+    for (std::size_t b = 0; b < tops[j].size(); ++b) bands.emplace_back(j, b);
   }
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
-    gains[j][b] = gains_of(jobs_[j], jobs_[j].bands[b], equations, left);
+    tops[j][b] = tops_of(jobs_[j], jobs_[j].bands[b], equations, left);
   });
-  std::vector<Scans> found(jobs_.size());
-  for_each_index(jobs_.size(), threads,
-                 [&](std::size_t j) { found[j] = peaks_of(jobs_[j], std::move(gains[j])); });
   Scans out;
-  for (Scans& one : found) {
-    std::ranges::move(one.causes, std::back_inserter(out.causes));
-    std::ranges::move(one.patterns, std::back_inserter(out.patterns));
-  }
+  for (std::size_t j = 0; j < jobs_.size(); ++j) add_peaks(jobs_[j], tops[j], out);
   out.bandwidth = bandwidth_;
   return out;
 }
 
-LineScanner::Gains LineScanner::gains_of(const Job& job, Band& band,
-                                         const NormalEquations& equations,
-                                         const Column& left) const {
+LineScanner::Tops LineScanner::tops_of(const Job& job, Band& band, const NormalEquations& equations,
+                                       const Column& left) const {
   const LinearisationPoint& point = problem_.point;
   const PointColumn x = job.scans.front().x;
   const LineNorms norms(equations, x, problem_.means);
@@ -222,55 +244,45 @@ LineScanner::Gains LineScanner::gains_of(const Job& job, Band& band,
   const std::shared_ptr<const FourierSums> plan = band.plan;
   if (is_condensed(point)) band.plan = nullptr;
   TurnedSums turned;
-  Gains gains(job.scans.size());
-  for (std::size_t s = 0; s < job.scans.size(); ++s) {
-    const Scan& scan = job.scans[s];
+  Tops tops;
+  for (const Scan& scan : job.scans) {
     if (!turned.serves(scan)) turned = turned_sums(*plan, point, scan, left);
     // Σ g exp(−i(2πfx − turns θ))
-    std::vector<std::complex<double>> sums = turned.cosine;
     const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
-    for (std::size_t k = 0; k < turned.sine.size(); ++k) sums[k] += turn * turned.sine[k];
-    const Column norm2 = norms.of(scan, band.low, band.df, band.bins);
-    for (std::size_t k = 0; k < band.bins; ++k)
-      gains[s].push_back(std::norm(sums[k]) / norm2[k]);  // of cos and of sin: norm2 each
+    Column gain = norms.of(scan, band.low, band.df, band.bins);
+    for (std::size_t k = 0; k < band.bins; ++k) {
+      std::complex<double> sum = turned.cosine[k];
+      if (!turned.sine.empty()) sum += turn * turned.sine[k];
+      gain[k] = std::norm(sum) / gain[k];  // of cos and of sin: norm2 each
+    }
+    if (job.sieved) job.sieve(band, gain);
+    tops.push_back(highest(gain, band.first_bin, job.kept()));
   }
-  return gains;
+  return tops;
 }
 
-Scans LineScanner::peaks_of(const Job& job, std::vector<Gains> of_bands) const {
-  const LinearisationPoint& point = problem_.point;
-  Scans out;
+void LineScanner::add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const {
   for (std::size_t s = 0; s < job.scans.size(); ++s) {
-    std::vector<double> gain;
-    std::size_t bins = 0;
-    for (const Band& band : job.bands) bins += band.bins;
-    gain.reserve(bins);
-    for (Gains& of_band : of_bands) {
-      const std::vector<double> own = std::move(of_band[s]);
-      gain.insert(gain.end(), own.begin(), own.end());
-    }
-    std::size_t interval = 0;
-    for (std::size_t k = 0; job.sieved && k < gain.size(); ++k) {
-      const double f = job.frequency(k);
-      while (interval < job.counted.size() && job.counted[interval].high < f) ++interval;
-      if (interval == job.counted.size() || job.counted[interval].low > f) gain[k] = 0.0;
-    }
     const Scan& scan = job.scans[s];
-    for (std::size_t taken = 0; taken < (job.fringes ? fringes_kept : peaks_kept); ++taken) {
-      const auto top = std::ranges::max_element(gain);
-      if (top == gain.end() || !(*top > 0.0)) break;
-      const auto k = static_cast<std::size_t>(top - gain.begin());
-      const double f = job.frequency(k);
-      Peak peak{scan.make(f), *top, job.bands.front().df, f};
+    std::vector<Top> all;
+    for (const Tops& of_band : of_bands)
+      all.insert(all.end(), of_band[s].begin(), of_band[s].end());
+    std::ranges::stable_sort(all, std::greater<>(), &Top::gain);
+    std::vector<Top> taken;
+    for (const Top& top : all) {
+      const auto is_near = [&](const Top& other) {
+        return std::max(top.bin, other.bin) - std::min(top.bin, other.bin) <= near_bins;
+      };
+      if (taken.size() == job.kept()) break;
+      if (std::ranges::any_of(taken, is_near)) continue;
+      taken.push_back(top);
+      const double f = job.frequency(top.bin);
+      Peak peak{scan.make(f), top.gain, job.bands.front().df, f};
       if (problem_.resolution.one_variable && scan.x == &PointPart::c)
-        pattern_of_line(point, problem_.resolution, peak, out);
+        pattern_of_line(problem_.point, problem_.resolution, peak, out);
       (scan.pattern ? out.patterns : out.causes).push_back(std::move(peak));
-      const std::size_t near = static_cast<std::size_t>(2.0 * oversampling);
-      std::fill(gain.begin() + static_cast<long>(k - std::min(k, near)),
-                gain.begin() + static_cast<long>(std::min(gain.size(), k + near + 1)), 0.0);
     }
   }
-  return out;
 }
 
 std::vector<double> weighted(const NormalEquations& equations, std::vector<double> remainder_mm) {

@@ -24,6 +24,12 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+/// A bin of a scan, and what its line takes off the sum of squares.
+struct Top {
+  std::size_t bin;
+  double gain;
+};
+
 /// Scans of the readings of a problem, which outlives it; of means only lines that they keep.
 /// Eq. 72.
 class LineScanner {
@@ -40,11 +46,10 @@ class LineScanner {
  private:
   struct Band;
   struct Job;
-  /// What lines take off the sum of squares, scan by scan, frequency by frequency.
-  using Gains = std::vector<std::vector<double>>;
-  Gains gains_of(const Job& job, Band& band, const NormalEquations& equations,
-                 const std::vector<double>& left) const;
-  Scans peaks_of(const Job& job, std::vector<Gains> of_bands) const;
+  using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
+  Tops tops_of(const Job& job, Band& band, const NormalEquations& equations,
+               const std::vector<double>& left) const;
+  void add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const;
 
   const Problem& problem_;
   std::vector<Job> jobs_;
