@@ -21,6 +21,7 @@ using namespace diagnose_detail;
 namespace {
 
 Diagnosis not_diagnosable(Diagnosis out) {
+  out.named = out.extended = out.baseline;
   out.noise.note =
       out.baseline.surface == SurfaceKind::own
           ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
@@ -84,7 +85,6 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   Diagnosis out;
   out.false_alarm = options.false_alarm;
   out.baseline = fit(stream, options.fit);
-  out.named = out.extended = out.baseline;
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
   const IdealModel ideal(stream, options, out.baseline);
@@ -102,8 +102,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
   AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
                                       out.baseline, search.model.others);
-  out.named = refit->named();
   out.extended = refit->shifted(average.shift, average.within, average.between);
+  out.named = refit->take_named();
   out.shares = std::move(average.shares);
   out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
   out.effect_mm = refit->effect_mm();

@@ -34,11 +34,11 @@ std::string unused_position(const ProbeStream& stream) {
 /// C in radians under a header that says degrees, or the other way round.
 std::string unit_of_angle(const ProbeStream& stream) {
   const auto [low, high] = range_of(stream.c_rad);
-  std::vector<double> steps;
+  std::size_t long_steps = 0;
   for (std::size_t i = 1; i < stream.size(); ++i)
-    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
+    long_steps += std::abs(stream.c_rad[i] - stream.c_rad[i - 1]) > 0.5 * two_pi;
   const double turns = (high - low) / two_pi;
-  if (!steps.empty() && median(steps) > 0.5 * two_pi) {
+  if (stream.size() > 1 && 2 * long_steps >= stream.size() - 1) {
     return fmt::format(
         "C runs over {:.4g} turns in {} readings, mostly more than half a turn from one to the "
         "next: where it is in degrees, write C[deg]",

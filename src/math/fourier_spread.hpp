@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,6 +12,12 @@ namespace trueaxis {
 inline constexpr std::size_t spread_width = 12;
 /// 2.3 times the width for a grid twice as fine as needed (Barnett, Magland, af Klinteberg 2019).
 inline constexpr double spread_beta = 2.3 * spread_width;
+
+/// φ at the grid points as polynomials of the distance d of the first of them, in v = 2 (d +
+/// width/2) − 1, to 1e-12: coefficient of v^k at grid point l.
+inline constexpr std::size_t spread_degree = 15;
+using SpreadPolynomials = std::array<std::array<double, spread_width>, spread_degree + 1>;
+const SpreadPolynomials& spread_polynomials();
 
 /// Values to spread: each has its first grid point, the distance of that point from the abscissa,
 /// −width/2 … 1 − width/2 in steps of the grid, and a phase factor.

@@ -18,10 +18,32 @@ namespace {
 
 constexpr std::size_t most_orders = std::size_t{1} << 28;  // grid points are 32 bits
 constexpr std::size_t grid_cache = 48 * 1024;              // numbers that stay in the second cache
+constexpr std::size_t few_readings = 40000;                // whose places are kept
+constexpr std::size_t part_rows = 4096;                    // placed at a time
 constexpr long double turns_per_rad = 0.5L / std::numbers::pi_v<long double>;
 
 // Turns less whole turns, −1/2 … 1/2: the extended format keeps what a double of many turns loses.
 double part_of_turn(long double turns) { return static_cast<double>(turns - std::rint(turns)); }
+
+ColumnSource columns_of(std::span<const std::span<const double>> from) {
+  return [from](std::size_t begin, std::size_t size, std::span<double* const> columns) {
+    for (std::size_t k = 0; k < from.size(); ++k)
+      std::ranges::copy(from[k].subspan(begin, size), columns[k]);
+  };
+}
+
+ColumnSource column_of(std::span<const double> t) {
+  expects(std::ranges::all_of(t, [](double v) { return std::isfinite(v); }), "finite abscissae");
+  return [t](std::size_t begin, std::size_t size, std::span<double* const> columns) {
+    std::ranges::copy(t.subspan(begin, size), columns[0]);
+  };
+}
+
+double middle_of(std::span<const double> t) {
+  if (t.empty()) return 0.0;
+  const auto [low, high] = std::ranges::minmax(t);
+  return 0.5 * low + 0.5 * high;
+}
 
 // ∫ φ(2x/width) cos(2π x f) dx over the kernel, f = 0 … 1/4 per step of the grid.
 std::vector<double> kernel_transform(std::size_t modes, std::size_t grid) {
@@ -42,52 +64,83 @@ std::vector<double> kernel_transform(std::size_t modes, std::size_t grid) {
 
 }  // namespace
 
-struct FourierSums::Spreading {
-  Spreading(std::span<const double> t, double w0, double dw, std::size_t K);
-  void place(std::span<const double> t, double middle, double w0, double dw);
-  void correct(double middle, double w0, double dw);
-  Sums sums_of(const SpreadColumn& column, FastFourier::Workspace& workspace) const;
-
-  std::size_t orders;
-  FastFourier transform;
+/// Where some readings in a row are spread to.
+struct FourierSums::Places {
   std::vector<std::uint32_t> first;
   std::vector<double> distance, cosine, sine;
+};
+
+struct FourierSums::Spreading {
+  Spreading(ColumnSource t, std::size_t size, double middle, double w0, double dw, std::size_t K);
+  void place(std::size_t begin, std::size_t end, Places& out) const;
+  /// Calls work(begin, end, places) for all readings, some at a time.
+  template <typename Work>
+  void for_each_part(const Work& work) const;
+  void correct();
+  Sums sums_of(const SpreadColumn& column, FastFourier::Workspace& workspace) const;
+
+  ColumnSource abscissae;
+  std::size_t size;
+  double middle, w0, dw;
+  std::size_t orders;
+  FastFourier transform;
+  std::vector<Places> kept;                  ///< part by part, of few readings
   std::vector<std::complex<double>> factor;  ///< of order k: of the middle of t, of the kernel
 };
 
-FourierSums::Spreading::Spreading(std::span<const double> t, double w0, double dw, std::size_t K)
-    : orders(K), transform(smooth_even_size(std::max(2 * K, 2 * spread_width))) {
-  double middle = 0.0;
-  if (!t.empty()) {
-    const auto [low, high] = std::minmax_element(t.begin(), t.end());
-    middle = 0.5 * *low + 0.5 * *high;
+FourierSums::Spreading::Spreading(ColumnSource t, std::size_t size_of_t, double middle_of_t,
+                                  double first, double step, std::size_t K)
+    : abscissae(std::move(t)),
+      size(size_of_t),
+      middle(middle_of_t),
+      w0(first),
+      dw(step),
+      orders(K),
+      transform(smooth_even_size(std::max(2 * K, 2 * spread_width))) {
+  std::vector<Places> made;
+  if (size <= few_readings) {
+    for_each_part([&](std::size_t, std::size_t, const Places& of) { made.push_back(of); });
   }
-  place(t, middle, w0, dw);
-  correct(middle, w0, dw);
+  kept = std::move(made);
+  correct();
+}
+
+template <typename Work>
+void FourierSums::Spreading::for_each_part(const Work& work) const {
+  Places made;
+  for (std::size_t begin = 0, k = 0; begin < size; begin += part_rows, ++k) {
+    const std::size_t end = std::min(begin + part_rows, size);
+    if (kept.empty()) place(begin, end, made);
+    work(begin, end, kept.empty() ? made : kept[k]);
+  }
 }
 
 // Orders are counted from the middle one, abscissae from the middle of t.
-void FourierSums::Spreading::place(std::span<const double> t, double middle, double w0, double dw) {
+void FourierSums::Spreading::place(std::size_t begin, std::size_t end, Places& out) const {
   const auto grid = static_cast<long double>(transform.size());
   const long double turns = turns_per_rad * dw;
   const long double middle_turns = turns_per_rad * (w0 + static_cast<long double>(orders / 2) * dw);
-  std::vector<double> angle(t.size());
-  first.resize(t.size()), distance.resize(t.size());
-  cosine.resize(t.size()), sine.resize(t.size());
-  for (std::size_t i = 0; i < t.size(); ++i) {
+  const std::size_t count = end - begin;
+  std::vector<double> t(count), angle(count);
+  double* const column = t.data();
+  abscissae(begin, count, {&column, 1});
+  out.first.resize(count), out.distance.resize(count);
+  out.cosine.resize(count), out.sine.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
     const long double from_middle = static_cast<long double>(t[i]) - middle;
     angle[i] = -two_pi * part_of_turn(middle_turns * from_middle);
     const long double part = turns * from_middle;
     const long double at = (part - std::rint(part)) * grid;  // −n/2 … n/2
-    const double begin =
+    const double first =
         std::ceil(static_cast<double>(at) - 0.5 * static_cast<double>(spread_width));
-    distance[i] = static_cast<double>(begin - at);
-    first[i] = static_cast<std::uint32_t>(begin < 0.0 ? begin + static_cast<double>(grid) : begin);
+    out.distance[i] = static_cast<double>(first - at);
+    out.first[i] =
+        static_cast<std::uint32_t>(first < 0.0 ? first + static_cast<double>(grid) : first);
   }
-  sincos(angle, sine, cosine);
+  sincos(angle, out.sine, out.cosine);
 }
 
-void FourierSums::Spreading::correct(double middle, double w0, double dw) {
+void FourierSums::Spreading::correct() {
   const std::size_t half = orders / 2;
   const std::vector<double> kernel = kernel_transform(half + 1, transform.size());
   std::vector<double> angle(orders), sine_of(orders), cosine_of(orders);
@@ -103,13 +156,15 @@ void FourierSums::Spreading::correct(double middle, double w0, double dw) {
   }
 }
 
-FourierSums::FourierSums(std::span<const double> t, double w0, double dw, std::size_t K) {
+FourierSums::FourierSums(ColumnSource t, std::size_t size, double middle, double w0, double dw,
+                         std::size_t K) {
   expects(K >= 1 && K <= most_orders, "1 to 2^28 orders");
   expects(std::isfinite(w0) && std::isfinite(dw), "finite frequencies");
-  expects(std::all_of(t.begin(), t.end(), [](double v) { return std::isfinite(v); }),
-          "finite abscissae");
-  spreading_ = std::make_shared<const Spreading>(t, w0, dw, K);
+  spreading_ = std::make_shared<const Spreading>(std::move(t), size, middle, w0, dw, K);
 }
+
+FourierSums::FourierSums(std::span<const double> t, double w0, double dw, std::size_t K)
+    : FourierSums(column_of(t), t.size(), middle_of(t), w0, dw, K) {}
 
 std::size_t FourierSums::orders() const { return spreading_->orders; }
 
@@ -132,28 +187,38 @@ FourierSums::Sums FourierSums::Spreading::sums_of(const SpreadColumn& column,
   return result;
 }
 
-std::vector<FourierSums::Sums> FourierSums::of(std::span<const std::span<const double>> w) const {
+std::vector<FourierSums::Sums> FourierSums::of(const ColumnSource& w, std::size_t count) const {
   const Spreading& spreading = *spreading_;
   const std::size_t length = spreading.transform.size() + spread_width;
-  // Columns spread at a time: their grids stay in the second cache.
-  const std::size_t most = std::clamp(grid_cache / length, std::size_t{1}, w.size() + 1);
+  // Columns spread at a time: their grids stay in the second cache; or two, which share the places.
+  const std::size_t most = std::clamp(grid_cache / length, std::size_t{2}, count + 2);
   FastFourier::Workspace workspace = spreading.transform.workspace();
   std::vector<Sums> result;
-  std::vector<double> grids;
-  for (std::size_t from = 0; from < w.size(); from += most) {
-    const auto part = w.subspan(from, std::min(most, w.size() - from));
-    grids.assign(2 * part.size() * length, 0.0);
+  std::vector<double> grids, values(count * part_rows);
+  std::vector<double*> value;
+  for (std::size_t k = 0; k < count; ++k) value.push_back(values.data() + k * part_rows);
+  for (std::size_t from = 0; from < count; from += most) {
+    const std::size_t to = std::min(from + most, count);
+    grids.assign(2 * (to - from) * length, 0.0);
     std::vector<SpreadColumn> columns;
-    for (const std::span<const double> values : part) {
-      expects(values.size() == spreading.first.size(), "a value an abscissa");
+    for (std::size_t k = from; k < to; ++k) {
       double* real = grids.data() + 2 * columns.size() * length;
-      columns.push_back({values.data(), real, real + length});
+      columns.push_back({value[k], real, real + length});
     }
-    spread({spreading.first, spreading.distance, spreading.cosine, spreading.sine}, columns);
+    spreading.for_each_part([&](std::size_t begin, std::size_t end, const Places& at) {
+      w(begin, end - begin, value);
+      spread({at.first, at.distance, at.cosine, at.sine}, columns);
+    });
     for (const SpreadColumn& column : columns)
       result.push_back(spreading.sums_of(column, workspace));
   }
   return result;
+}
+
+std::vector<FourierSums::Sums> FourierSums::of(std::span<const std::span<const double>> w) const {
+  for (const std::span<const double> values : w)
+    expects(values.size() == spreading_->size, "a value an abscissa");
+  return of(columns_of(w), w.size());
 }
 
 FourierSums::Sums FourierSums::of(std::span<const double> w) const {

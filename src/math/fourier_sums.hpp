@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "math/column_source.hpp"
+
 namespace trueaxis {
 
 /// Fourier sums of values at irregular abscissae t,
@@ -17,15 +19,19 @@ namespace trueaxis {
 /// Error of F_k: at most 1e-9 Σ|w_i|, for phases (w0 + k dw) t below 1e9 rad. The units of t and
 /// w0, dw are free but inverse to each other.
 ///
-/// The object keeps what depends on t alone: 28 bytes a reading and 16 an order k; `of` works with
-/// about 110 bytes an order. Fastest for t nearly in order. Copies share it; `of` may be
-/// called from several threads.
+/// The object keeps 16 bytes an order k, and of few readings what depends on t alone; of many it is
+/// made anew, some thousands at a time. `of` works with about 110 bytes an order. Fastest for t
+/// nearly in order. Copies share it; `of` may be called from several threads.
 class FourierSums {
  public:
   using Sums = std::vector<std::complex<double>>;
 
+  /// @param t outlives this
   /// @throws ContractViolation unless 1 ≤ K ≤ 2^28 and everything is finite.
   FourierSums(std::span<const double> t, double w0, double dw, std::size_t K);
+  /// @param t of `size` readings, all finite
+  /// @param middle about that of t: what it is counted from
+  FourierSums(ColumnSource t, std::size_t size, double middle, double w0, double dw, std::size_t K);
 
   std::size_t orders() const;
 
@@ -33,8 +39,11 @@ class FourierSums {
   Sums of(std::span<const double> w) const;
   /// Of several columns over the same t, each with the bits it has alone; cheaper together.
   std::vector<Sums> of(std::span<const std::span<const double>> w) const;
+  /// The same of `count` columns that are made where they are asked for.
+  std::vector<Sums> of(const ColumnSource& w, std::size_t count) const;
 
  private:
+  struct Places;
   struct Spreading;
   std::shared_ptr<const Spreading> spreading_;
 };

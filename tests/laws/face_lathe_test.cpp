@@ -35,8 +35,9 @@ class FaceLathe : public ::testing::TestWithParam<FaceBench> {
 TEST_P(FaceLathe, StartsFromTheSameReadings) {
   const ProbeStream stream = virtual_lathe::simulate(bench().scenario());
   const diagnose_detail::LinearisationPoint point = bench().point(stream);
+  const std::vector<double> x = point.column(&diagnose_detail::PointPart::x);
   for (std::size_t i = 0; i < stream.size(); ++i)
-    ASSERT_NEAR(stream.reading_mm[i], point.x[i], 10.0 * reading_mm);
+    ASSERT_NEAR(stream.reading_mm[i], x[i], 10.0 * reading_mm);
   EXPECT_EQ(point.two_sided, bench().across);
 }
 
@@ -46,6 +47,7 @@ TEST_P(FaceLathe, StartsFromTheSameReadings) {
 TEST_P(FaceLathe, ColumnsAreTheLimitOfTheLathe) {
   const ProbeStream stream = virtual_lathe::simulate(bench().scenario());
   const diagnose_detail::LinearisationPoint point = bench().point(stream);
+  diagnose_detail::PointRoom room;
   for (const LatheCase& one : bench().cases()) {
     // Through the centre a form about the axis is not smooth: a ball rests on its flanks.
     if (bench().ball_mm > 0.0 && one.id.starts_with("part.") && one.id != "part.seat_slip")
@@ -57,7 +59,7 @@ TEST_P(FaceLathe, ColumnsAreTheLimitOfTheLathe) {
     std::vector<std::vector<double>> columns(count, std::vector<double>(stream.size()));
     std::vector<double*> rows;
     for (auto& column : columns) rows.push_back(column.data());
-    fill_columns(term, point.context(0, stream.size()), one.shape, rows);
+    fill_columns(term, point.context(point.all(room)), one.shape, rows);
     std::vector<double> expected(stream.size(), 0.0);
     for (std::size_t j = 0; j < count; ++j)
       for (std::size_t i = 0; i < expected.size(); ++i)
@@ -86,7 +88,8 @@ TEST_P(FaceLathe, BaseColumnsAreTheFacePutElsewhere) {
   std::vector<std::vector<double>> columns(count, std::vector<double>(stream.size()));
   std::vector<double*> rows;
   for (auto& column : columns) rows.push_back(column.data());
-  point.fill_base(0, stream.size(), rows);
+  diagnose_detail::PointRoom room;
+  point.fill_base(point.all(room), rows);
   const double step = 1e-6;
   const std::function<void(diagnose_detail::Clamping&)> moves[] = {
       [&](diagnose_detail::Clamping& c) { c.shape.axis.slope_x += step; },

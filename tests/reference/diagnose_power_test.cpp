@@ -37,8 +37,9 @@ struct Bench {
                                   seed + 100003u * static_cast<std::uint64_t>(stream));
     // Along the normal: on a cone of tan α = 0.1 the probe sees secα of it.
     const double along = std::sqrt(1.01);
+    const std::vector<double> theta = point.column(&PointPart::theta);
     for (std::size_t i = 0; i < y.size(); ++i)
-      y[i] += along * amplitude_mm * std::cos(3.0 * point.theta[i] - phase);
+      y[i] += along * amplitude_mm * std::cos(3.0 * theta[i] - phase);
     return y;
   }
 };

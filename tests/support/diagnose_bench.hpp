@@ -82,20 +82,19 @@ inline Eigen::MatrixXd explicit_columns(const diagnose_detail::LinearisationPoin
   const std::size_t base = point.base.columns();
   Eigen::MatrixXd out(static_cast<Eigen::Index>(point.size()),
                       static_cast<Eigen::Index>(base + diagnose_detail::columns_of(list)));
-  for (std::size_t begin = 0; begin < point.size();) {
-    std::size_t end = begin + 1;
-    while (end < point.size() && point.rear[end] == point.rear[begin]) ++end;
+  diagnose_detail::PointRoom room;
+  const auto fill_side = [&](const diagnose_detail::PointPart& side) {
     std::vector<double*> column;
     for (Eigen::Index j = 0; j < out.cols(); ++j)
-      column.push_back(out.col(j).data() + static_cast<long>(begin));
-    point.fill_base(begin, end, {column.data(), base});
+      column.push_back(out.col(j).data() + static_cast<long>(side.begin));
+    point.fill_base(side, {column.data(), base});
     std::size_t next = base;
     for (const diagnose_detail::Hypothesis& h : list) {
-      fill(h, point, begin, end, {column.data() + next, h.columns()});
+      fill(h, point, side, {column.data() + next, h.columns()});
       next += h.columns();
     }
-    begin = end;
-  }
+  };
+  for_each_side(point.all(room), fill_side);
   return out;
 }
 

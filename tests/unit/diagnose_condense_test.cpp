@@ -108,7 +108,7 @@ TEST_P(Condense, SaysWhichLinesItKeeps) {
   const Scene scene(GetParam());
   const Means means = scene.means();
   const Extent within{0.35 / two_pi, 11.0 / two_pi};
-  const std::vector<Extent> kept = means.kept(scene.point, scene.point.c, 0.0, within);
+  const std::vector<Extent> kept = means.kept(scene.point, &PointPart::c, 0.0, within);
   const auto keeps = [&](double order) {
     return std::ranges::any_of(
         kept, [&](const Extent& e) { return e.low <= order / two_pi && order / two_pi <= e.high; });

@@ -120,6 +120,8 @@ TEST_P(SceneOf, BaseColumnsAreDifferencesOfTheIntersection) {
 TEST_P(SceneOf, ContactsAreInThePartsFrame) {
   const Bench b = bench();
   const LinearisationPoint point = b.point();
+  PointRoom room;
+  const PointPart all = point.all(room);
   for (std::size_t i = 0; i < point.size(); i += 7) {
     const Clamping& clamping = b.of(i);
     const Axis& axis = clamping.shape.axis;
@@ -130,15 +132,15 @@ TEST_P(SceneOf, ContactsAreInThePartsFrame) {
         Eigen::Quaterniond::FromTwoVectors(along, Eigen::Vector3d::UnitZ()) *
         (contact - Eigen::Vector3d(axis.x_mm, axis.y_mm, 0.0));
     const double theta = std::atan2(own.y(), own.x());
-    EXPECT_NEAR(std::remainder(point.chuck[i] - theta, two_pi), 0.0, 1e-12);
-    EXPECT_NEAR(std::remainder(point.theta[i] - theta - clamping.reindex_rad, two_pi), 0.0, 1e-12);
-    EXPECT_NEAR(point.s[i], own.z() - clamping.z_shift_mm, 1e-11);
+    EXPECT_NEAR(std::remainder(all.chuck[i] - theta, two_pi), 0.0, 1e-12);
+    EXPECT_NEAR(std::remainder(all.theta[i] - theta - clamping.reindex_rad, two_pi), 0.0, 1e-12);
+    EXPECT_NEAR(all.s[i], own.z() - clamping.z_shift_mm, 1e-11);
     EXPECT_NEAR(own.head<2>().norm(),
                 clamping.shape.radius_mm + clamping.shape.tan_half_angle * own.z(), 1e-10);
-    EXPECT_NEAR(point.sensed[i], x - clamping.x_jog_mm, 1e-12);
-    EXPECT_EQ(point.clamp[i], clamping.clamp_force_ratio);
-    EXPECT_EQ(point.rear[i] != 0, clamping.root == Root::rear);
-    EXPECT_GT(point.rear[i] ? -x : x, 0.0);
+    EXPECT_NEAR(all.sensed[i], x - clamping.x_jog_mm, 1e-12);
+    EXPECT_EQ(all.clamp[i], clamping.clamp_force_ratio);
+    EXPECT_EQ(all.rear[i] != 0, clamping.root == Root::rear);
+    EXPECT_GT(all.rear[i] ? -x : x, 0.0);
   }
 }
 
@@ -146,13 +148,15 @@ TEST_P(SceneOf, ContactsAreInThePartsFrame) {
 TEST_P(SceneOf, MotionIsThatOfThePlan) {
   const Bench b = bench();
   const LinearisationPoint point = b.point();
+  PointRoom room;
+  const PointPart all = point.all(room);
   EXPECT_TRUE(point.reindexed && point.jogged && point.shifted && point.reclamped);
   EXPECT_EQ(point.two_sided, b.first_side != b.second_side);
   const double feed = 60.0 * 23.7 / 100.0;
-  EXPECT_NEAR(point.speed[50], two_pi, 1e-9 * two_pi);
-  EXPECT_NEAR(point.speed[150], 151.0 / 60.0 * two_pi, 1e-9 * two_pi);
-  EXPECT_NEAR(point.velocity[50], feed, 1e-9 * feed);
-  EXPECT_NEAR(point.velocity[150], -feed * 151.0 / 60.0, 1e-9 * feed);
+  EXPECT_NEAR(all.speed[50], two_pi, 1e-9 * two_pi);
+  EXPECT_NEAR(all.speed[150], 151.0 / 60.0 * two_pi, 1e-9 * two_pi);
+  EXPECT_NEAR(all.velocity[50], feed, 1e-9 * feed);
+  EXPECT_NEAR(all.velocity[150], -feed * 151.0 / 60.0, 1e-9 * feed);
 }
 
 INSTANTIATE_TEST_SUITE_P(SidesAndAngles, SceneOf,

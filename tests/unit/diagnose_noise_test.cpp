@@ -26,8 +26,9 @@ struct Bench {
 
   /// Noise with three lobes of fifty times its size.
   std::vector<double> with_lobes(std::vector<double> noise) const {
+    const std::vector<double> theta = point.column(&PointPart::theta);
     for (std::size_t i = 0; i < noise.size(); ++i)
-      noise[i] += 50.0 * sigma_mm * std::cos(3.0 * point.theta[i] - 0.4);
+      noise[i] += 50.0 * sigma_mm * std::cos(3.0 * theta[i] - 0.4);
     return noise;
   }
 };
@@ -121,8 +122,9 @@ TEST(MaskOutliers, KeepsALocalDent) {
   const Bench b;
   std::vector<double> y = testing::white_noise(b.point.size(), sigma_mm, seed);
   std::size_t touched = 0;
+  const std::vector<double> theta = b.point.column(&PointPart::theta);
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const double v = std::remainder(b.point.theta[i] - 1.0, two_pi) / 0.15;
+    const double v = std::remainder(theta[i] - 1.0, two_pi) / 0.15;
     const double w = (b.point.z[i] - 30.0) / 4.0;
     const double dent = 4.5 * sigma_mm * std::exp(-0.5 * (v * v + w * w));
     touched += dent > sigma_mm;

@@ -52,7 +52,7 @@ struct Bench {
     for (std::size_t i = readings / 2; i < stream.size(); ++i) stream.time_s[i] += 7.0;
     std::vector<Clamping> clampings(2, testing::bench_clamping(0.1));
     clampings[1].number = 2, clampings[1].root = Root::rear;
-    point = linearise_at(stream, clampings, testing::bench_base(0.1), false);
+    point = linearise_at(ProbeStream(stream), clampings, testing::bench_base(0.1), false);
     mask = make_observation_mask(point);
     for (const std::size_t i : {std::size_t{0}, readings / 3, readings / 3 + 2, readings + 1})
       mask.mask(i);

@@ -22,7 +22,8 @@ LinearisationPoint passes_one_way(std::size_t readings, int passes) {
       all.reading_mm.push_back(0.0);
     }
   }
-  return linearise_at(all, {testing::bench_clamping(0.1)}, testing::bench_base(0.1), false);
+  return linearise_at(std::move(all), {testing::bench_clamping(0.1)}, testing::bench_base(0.1),
+                      false);
 }
 
 // However little Z moves from one reading to the next, a helix is no section: its blocks are of

@@ -20,8 +20,8 @@ constexpr std::uint64_t seed = 4;
 struct LineCase {
   const char* id;  ///< nullptr: a pattern
   Pattern pattern;
-  double frequency;                                ///< cycles per rad of C, s, mm
-  std::vector<double> LinearisationPoint::*along;  ///< what it is periodic in
+  double frequency;   ///< cycles per rad of C, s, mm
+  PointColumn along;  ///< what it is periodic in
 };
 
 void PrintTo(const LineCase& c, std::ostream* out) { *out << (c.id ? c.id : "pattern"); }
@@ -103,7 +103,7 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
     if (same && (!best || p.gain > best->gain)) best = &p;
   }
   ASSERT_NE(best, nullptr);
-  const auto [low, high] = std::ranges::minmax(b.point.*c.along);
+  const auto [low, high] = b.point.range(c.along);
   const double cell = 1.0 / (high - low);
   EXPECT_NEAR(frequency_of(best->hypothesis), c.frequency, 0.5 * cell);
   EXPECT_NEAR(best->frequency, frequency_of(best->hypothesis), 1e-12);
@@ -117,21 +117,20 @@ TEST_P(ScannedLine, IsFoundWithItsGain) {
 INSTANTIATE_TEST_SUITE_P(
     Lines, ScannedLine,
     ::testing::Combine(
-        ::testing::Values(
-            LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &LinearisationPoint::c},
-            LineCase{"environment.vibration", {}, 7.31, &LinearisationPoint::time},
-            LineCase{"part.waviness", {}, 1.0 / 7.3, &LinearisationPoint::s},
-            LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &LinearisationPoint::z},
-            LineCase{"probe.cyclic", {}, 20.0, &LinearisationPoint::sensed},
-            LineCase{"part.feed_marks", {}, 1.0 / 0.87, &LinearisationPoint::s},
-            LineCase{nullptr,
-                     {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
-                     0.057,
-                     &LinearisationPoint::s},
-            LineCase{nullptr,
-                     {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
-                     0.083,
-                     &LinearisationPoint::s}),
+        ::testing::Values(LineCase{"spindle.asynchronous", {}, 0.42 / two_pi, &PointPart::c},
+                          LineCase{"environment.vibration", {}, 7.31, &PointPart::time},
+                          LineCase{"part.waviness", {}, 1.0 / 7.3, &PointPart::s},
+                          LineCase{"slide.leadscrew_periodic", {}, 1.0 / 8.1, &PointPart::z},
+                          LineCase{"probe.cyclic", {}, 20.0, &PointPart::sensed},
+                          LineCase{"part.feed_marks", {}, 1.0 / 0.87, &PointPart::s},
+                          LineCase{nullptr,
+                                   {.kind = Pattern::Kind::line, .order = 4.0, .frequency = 0.057},
+                                   0.057,
+                                   &PointPart::s},
+                          LineCase{nullptr,
+                                   {.kind = Pattern::Kind::line, .order = 2.0, .frequency = -0.083},
+                                   0.083,
+                                   &PointPart::s}),
         ::testing::Values(0.0, 0.5)));
 
 // Σ W over the scans that count, W = Δf √(4π var x): of one pass C, Z and t are one variable and

@@ -245,7 +245,7 @@ std::vector<CandidateMeasurement> candidate_measurements(const ProbeStream& stre
   if (along && !face) {
     double shift = wave_mm > 0.0 ? 0.5 * wave_mm : 0.4 * point.z_half_mm;
     // The other way where a cone's apex would come near the probed length.
-    const auto [least_x, most_x] = range_of(point.x);
+    const auto [least_x, most_x] = point.x_mm;
     const double thinnest = std::min(std::abs(least_x), std::abs(most_x));
     if (now.shape.tan_half_angle * shift > 0.5 * thinnest) shift = -shift;
     add("OZ",

@@ -100,7 +100,9 @@ std::vector<SpectrumBin> spectrum_of(const LinearisationPoint& point, const Reso
   const double step = std::max(highest / most_bins, std::min(1.0, 0.5 / resolution.turns));
   const auto bins = static_cast<std::size_t>(highest / step) + 1;
   const FourierSums plan(point.c, 0.0, step, bins);
-  const auto before = plan.of(before_mm), after = plan.of(after_mm);
+  const std::span<const double> both[] = {before_mm, after_mm};
+  const std::vector<FourierSums::Sums> sums = plan.of(both);
+  const auto &before = sums[0], &after = sums[1];
   std::vector<SpectrumBin> out;
   for (std::size_t k = 0; k < bins; ++k) {
     const double factor = (k == 0 ? 1.0 : 2.0) / static_cast<double>(point.size());

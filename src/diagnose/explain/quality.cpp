@@ -108,13 +108,16 @@ void find_gaps(const LinearisationPoint& point, const ObservationMask& mask, Noi
   constexpr std::size_t sectors = 36;
   std::size_t used[sectors] = {}, all[sectors] = {};
   std::size_t first[sectors] = {};
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    double turn = point.theta[i] / two_pi;
-    turn -= std::floor(turn);
-    const auto k = std::min(sectors - 1, static_cast<std::size_t>(turn * sectors));
-    used[k] += mask.used[i] != 0;
-    if (all[k]++ == 0 || (!mask.used[i] && mask.used[first[k]])) first[k] = i;
-  }
+  point.for_each_part([&](const PointPart& at) {
+    for (std::size_t j = 0; j < at.size(); ++j) {
+      double turn = at.theta[j] / two_pi;
+      turn -= std::floor(turn);
+      const auto k = std::min(sectors - 1, static_cast<std::size_t>(turn * sectors));
+      const std::size_t i = at.begin + j;
+      used[k] += mask.used[i] != 0;
+      if (all[k]++ == 0 || (!mask.used[i] && mask.used[first[k]])) first[k] = i;
+    }
+  });
   if (point.size() < 8 * sectors) return;
   const auto describe = [&](std::size_t from, std::size_t count) {
     return fmt::format("{}° to {}° of the part", from * 10, (from + count) * 10);
@@ -261,13 +264,15 @@ std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& 
              fmt::format("{} sectors are far off on every turn", noise.interruptions.size())));
   // Variance against tan² of the angle between probe and normal, in units of the mean variance.
   double sum_t = 0.0, sum_v = 0.0, sum_tt = 0.0, sum_tv = 0.0, n = 0.0;
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    if (!mask.used[i]) continue;
-    const double dx_dy = point.dx_dy[i];
-    const double t = dx_dy * dx_dy + point.dx_dz[i] * point.dx_dz[i],
-                 v = residual_mm[i] * residual_mm[i];
-    sum_t += t, sum_v += v, sum_tt += t * t, sum_tv += t * v, n += 1.0;
-  }
+  point.for_each_part([&](const PointPart& at) {
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const std::size_t i = at.begin + k;
+      if (!mask.used[i]) continue;
+      const double t = at.dx_dy[k] * at.dx_dy[k] + at.dx_dz[k] * at.dx_dz[k],
+                   v = residual_mm[i] * residual_mm[i];
+      sum_t += t, sum_v += v, sum_tt += t * t, sum_tv += t * v, n += 1.0;
+    }
+  });
   const double mean = sum_v / n, spread = sum_tt - sum_t * sum_t / n;
   const double slope = spread > 0.0 ? (sum_tv - sum_t * sum_v / n) / spread / mean : 0.0;
   const double u = spread > 0.0 ? std::sqrt(2.0 / spread) : 0.0;  // Gaussian: var(v) = 2 mean²
@@ -289,10 +294,12 @@ std::vector<std::string> off_centre_remark(const Problem& problem, const Model& 
   const LinearisationPoint& point = problem.point;
   if (point.base.face) return {};
   double e2 = 0.0, radius = 0.0;
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    e2 += 2.0 * point.d2x_dc2[i] * point.d2x_dc2[i];
-    radius += std::abs(point.x[i]);
-  }
+  point.for_each_part([&](const PointPart& at) {
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      e2 += 2.0 * at.d2x_dc2[k] * at.d2x_dc2[k];
+      radius += std::abs(at.x[k]);
+    }
+  });
   const double second = e2 / (4.0 * radius);
   for (const Hypothesis& h : model.terms) {
     const auto* harmonic = h.effect ? std::get_if<Harmonic>(&h.effect->term) : nullptr;

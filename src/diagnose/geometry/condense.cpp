@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "diagnose/geometry/contacts.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t few_readings = 40000;
 constexpr double sectors_wanted = 40.0;  // order 12 keeps 86 % of its amplitude
 constexpr double turns_wanted = 500.0;
 constexpr double least_readings = 8.0;  // of a mean, so that all are nearly of one weight
@@ -62,6 +62,12 @@ class Condensing {
              Means& out)
       : whole_(whole), mask_(mask), left_(left), out_(out) {}
 
+  std::size_t size() const { return c_.size(); }
+  void give_columns() {
+    out_.point.c = SharedColumn(std::move(c_)), out_.point.z = SharedColumn(std::move(z_));
+    out_.point.time = SharedColumn(std::move(time_));
+  }
+
   /// Turns of C: means over sectors of `slabs` groups of turns.
   void turning(const Run& run, std::size_t slabs, std::size_t sectors) {
     const double c0 = whole_.c[run.begin], travel = whole_.c[run.end - 1] - c0;
@@ -69,17 +75,22 @@ class Condensing {
     const auto count = static_cast<double>(sectors);
     std::vector<Cell> cells(slabs * sectors);
     std::vector<std::size_t> first(slabs, run.end), last(slabs, run.begin);
-    for (std::size_t i = run.begin; i < run.end; ++i) {
-      const double along = std::clamp((whole_.c[i] - c0) / width, 0.0, count_less(slabs));
-      const auto slab = static_cast<std::size_t>(along);
-      first[slab] = std::min(first[slab], i), last[slab] = std::max(last[slab], i);
-      const double turn =
-          sign * (whole_.c[i] - (c0 + middle(slab) * width)) / two_pi - shift(slab) / count;
-      const double part = turn - std::floor(turn + 0.5) + 0.5;
-      const auto sector = std::min(sectors - 1, static_cast<std::size_t>(part * count));
-      cells[slab * sectors + sector].add(left_[i], part - middle(sector) / count, whole_.sensed[i],
-                                         mask_.used[i]);
-    }
+    whole_.for_each_part(
+        [&](const PointPart& at) {
+          for (std::size_t k = 0; k < at.size(); ++k) {
+            const std::size_t i = at.begin + k;
+            const double along = std::clamp((whole_.c[i] - c0) / width, 0.0, count_less(slabs));
+            const auto slab = static_cast<std::size_t>(along);
+            first[slab] = std::min(first[slab], i), last[slab] = std::max(last[slab], i);
+            const double turn =
+                sign * (whole_.c[i] - (c0 + middle(slab) * width)) / two_pi - shift(slab) / count;
+            const double part = turn - std::floor(turn + 0.5) + 0.5;
+            const auto sector = std::min(sectors - 1, static_cast<std::size_t>(part * count));
+            cells[slab * sectors + sector].add(left_[i], part - middle(sector) / count,
+                                               at.sensed[k], mask_.used[i]);
+          }
+        },
+        run.begin, run.end);
     for (std::size_t slab = 0; slab < slabs; ++slab) {
       if (first[slab] > last[slab]) continue;
       const double from = whole_.c[first[slab]];
@@ -102,10 +113,14 @@ class Condensing {
       const std::size_t end = std::min(begin + neighbours, run.end);
       Cell cell;
       double c = 0.0, z = 0.0, time = 0.0;
-      for (std::size_t i = begin; i < end; ++i) {
-        cell.add(left_[i], 0.0, whole_.sensed[i], mask_.used[i]);
-        c += whole_.c[i], z += whole_.z[i], time += whole_.time[i];
-      }
+      whole_.for_each_part(
+          [&](const PointPart& at) {
+            for (std::size_t k = 0; k < at.size(); ++k) {
+              cell.add(left_[at.begin + k], 0.0, at.sensed[k], mask_.used[at.begin + k]);
+              c += at.c[k], z += at.z[k], time += at.time[k];
+            }
+          },
+          begin, end);
       const auto size = static_cast<double>(end - begin);
       push(cell, c / size, z / size, time / size, begin);
     }
@@ -119,19 +134,17 @@ class Condensing {
     return std::fmod(golden * static_cast<double>(slab), 1.0);
   }
   static double count_less(std::size_t slabs) { return static_cast<double>(slabs) - 1e-9; }
-  static double between(const Column& x, std::size_t first, std::size_t last, double share) {
+  static double between(std::span<const double> x, std::size_t first, std::size_t last,
+                        double share) {
     return x[first] + share * (x[last] - x[first]);
   }
 
   void push(const Cell& cell, double c, double z, double time, std::size_t reading) {
-    LinearisationPoint& point = out_.point;
     const auto fold = static_cast<std::size_t>(std::ranges::upper_bound(mask_.fold_begin, reading) -
                                                mask_.fold_begin.begin());
-    if (fold != fold_) out_.mask.fold_begin.push_back(point.c.size());
+    if (fold != fold_) out_.mask.fold_begin.push_back(c_.size());
     fold_ = fold;
-    point.c.push_back(c), point.z.push_back(z), point.time.push_back(time);
-    point.speed.push_back(whole_.speed[reading]);
-    point.velocity.push_back(whole_.velocity[reading]);
+    c_.push_back(c), z_.push_back(z), time_.push_back(time);
     const auto used = static_cast<double>(cell.used);
     out_.deviation_mm.push_back(cell.used > 0 ? cell.deviation / used : 0.0);
     out_.mask.used.push_back(2 * cell.used > cell.all);
@@ -143,6 +156,7 @@ class Condensing {
   const Column& left_;
   Means& out_;
   std::size_t fold_ = 0;
+  Column c_, z_, time_;
 };
 
 /// What two sorted lists of intervals have in common.
@@ -158,7 +172,9 @@ std::vector<Extent> common(const std::vector<Extent>& a, const std::vector<Exten
 
 }  // namespace
 
-bool is_condensed(const LinearisationPoint& point) { return point.size() >= few_readings; }
+bool is_condensed(const LinearisationPoint& point) {
+  return point.size() >= LinearisationPoint::few_readings;
+}
 
 Means condense(const LinearisationPoint& point, const ObservationMask& mask,
                std::span<const double> deviation_mm, std::span<const Hypothesis> known,
@@ -178,7 +194,7 @@ Means condense(const LinearisationPoint& point, const ObservationMask& mask,
   std::size_t pass = point.passes.size();
   for (const Run& run : runs_of(point, mask, sections)) {
     const Pass& of = point.passes[run.pass];
-    const std::size_t begin = out.point.c.size();
+    const std::size_t begin = condensing.size();
     const double own = turns_of(point, run.begin, run.end);
     Means::Of averaged;
     if (of.c_sign == 0 || !(own > 0.0)) {
@@ -199,13 +215,15 @@ Means condense(const LinearisationPoint& point, const ObservationMask& mask,
     }
     if (run.pass != pass) {
       out.point.passes.push_back(of);
+      out.point.velocity.push_back(point.velocity[run.pass]);
       out.point.passes.back().begin = begin;
       out.of_pass.push_back(averaged);
     }
     pass = run.pass;
-    out.point.passes.back().end = out.point.c.size();
+    out.point.passes.back().end = condensing.size();
   }
-  fill_contacts(out.point, 1);
+  condensing.give_columns();
+  fill_contacts(out.point);
   out.mask.fold_begin.push_back(out.point.size());
   out.mask.find_runs(out.point);
   if (!known.empty()) {
@@ -215,16 +233,16 @@ Means condense(const LinearisationPoint& point, const ObservationMask& mask,
   return out;
 }
 
-std::vector<Extent> Means::kept(const LinearisationPoint& whole, const std::vector<double>& x,
-                                double turns, Extent within) const {
-  if (&x == &whole.sensed)
+std::vector<Extent> Means::kept(const LinearisationPoint& whole, PointColumn x, double turns,
+                                Extent within) const {
+  if (x == &PointPart::sensed)
     return common({within}, {{within.low, tenth_lost / std::max(sensed_mm, 1e-12)}});
   std::vector<Extent> out{within};
   for (std::size_t p = 0; p < of_pass.size(); ++p) {
     const Pass& pass = whole.passes[p];
     const Of& of = of_pass[p];
     if (pass.end - pass.begin < 2) continue;
-    const double travel = x[pass.end - 1] - x[pass.begin];
+    const double travel = whole.at(x, pass.end - 1) - whole.at(x, pass.begin);
     std::vector<Extent> own;
     if (of.turns == 0.0) {
       const double step = std::abs(travel) / static_cast<double>(pass.end - pass.begin - 1) *

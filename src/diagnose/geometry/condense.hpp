@@ -27,9 +27,9 @@ struct Means {
   double sensed_mm = 0.0;  ///< farthest that what is sensed goes within a mean
 
   /// The frequencies in [low, high] of lines cos(2π f x − turns θ) of which a mean keeps 90 %.
-  /// @param x of every reading of the whole stream
-  std::vector<Extent> kept(const LinearisationPoint& whole, const std::vector<double>& x,
-                           double turns, Extent within) const;
+  /// @param x column of the whole stream
+  std::vector<Extent> kept(const LinearisationPoint& whole, PointColumn x, double turns,
+                           Extent within) const;
 };
 
 /// Whether a search over means is worth its while: from 40 000 readings on.

@@ -17,7 +17,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 constexpr std::size_t most_parameters = 8;
-constexpr std::size_t chunk = 512, part = 64 * chunk;  // of a thread
+constexpr std::size_t chunk = 512, part_rows = 64 * chunk;  // of a thread
 constexpr double nothing_left = 80.0;  // a bump 9 widths away is below the rounding of its top
 
 /// An angle of few turns in −π … π.
@@ -37,34 +37,31 @@ double legendre(int degree, double u) {
   return now;
 }
 
-void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_t begin,
-                  std::size_t end, std::span<double* const> columns) {
+void fill_pattern(const Pattern& of, const LinearisationPoint& point, const PointPart& at,
+                  std::span<double* const> columns) {
   const double first = point.time.front(), lasted = point.time.back() - first;
-  const std::size_t count = end - begin;
+  const std::size_t count = at.size();
   std::vector<double> angle(count), sine(count), cosine(count);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = begin + k;
-    angle[k] = of.order * (of.spindle ? point.c[i] : point.theta[i]);
+    angle[k] = of.order * (of.spindle ? at.c[k] : at.theta[k]);
     if (of.kind == Pattern::Kind::line)
-      angle[k] -= two_pi * of.frequency * (of.in_time ? point.time[i] : point.s[i]);
+      angle[k] -= two_pi * of.frequency * (of.in_time ? at.time[k] : at.s[k]);
   }
   if (of.kind != Pattern::Kind::bump) sincos(angle, sine, cosine);
   for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = begin + k;
-    double size = of.spindle ? 1.0 : point.dx_dnormal[i];
+    double size = of.spindle ? 1.0 : at.dx_dnormal[k];
     if (of.kind == Pattern::Kind::bump) {
-      const double v = wrapped(point.theta[i] - of.angle_rad) / of.width_rad;
+      const double v = wrapped(at.theta[k] - of.angle_rad) / of.width_rad;
       const double w = point.has_position && of.length_mm > 0.0
-                           ? (point.s[i] - of.position_mm) / of.length_mm
+                           ? (at.s[k] - of.position_mm) / of.length_mm
                            : 0.0;
       const double away = v * v + w * w;
       columns[0][k] = away < nothing_left ? size * std::exp(-0.5 * away) : 0.0;
       continue;
     }
     if (of.kind == Pattern::Kind::fourier_legendre) {
-      const double u = of.in_time
-                           ? (lasted > 0.0 ? 2.0 * (point.time[i] - first) / lasted - 1.0 : 0.0)
-                           : (point.s[i] - point.z_mid_mm) / point.z_half_mm;
+      const double u = of.in_time ? (lasted > 0.0 ? 2.0 * (at.time[k] - first) / lasted - 1.0 : 0.0)
+                                  : (at.s[k] - point.z_mid_mm) / point.z_half_mm;
       size *= legendre(of.degree, u);
     }
     columns[0][k] = size * cosine[k];
@@ -74,31 +71,28 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, std::size_
 
 }  // namespace
 
-void raise_degree(const Hypothesis& function, const LinearisationPoint& point, std::size_t begin,
-                  std::size_t end, std::span<const double* const> constant,
-                  std::span<double* const> columns) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const double u = (point.s[i] - point.z_mid_mm) / point.z_half_mm;
+void raise_degree(const Hypothesis& function, const LinearisationPoint& point, const PointPart& at,
+                  std::span<const double* const> constant, std::span<double* const> columns) {
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double u = (at.s[k] - point.z_mid_mm) / point.z_half_mm;
     const double size = legendre(function.pattern.degree, u);
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      columns[j][i - begin] = size * constant[j][i - begin];
+    for (std::size_t j = 0; j < columns.size(); ++j) columns[j][k] = size * constant[j][k];
   }
 }
 
-void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
-          std::size_t end, std::span<double* const> columns) {
-  if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, begin, end, columns);
+void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const PointPart& part,
+          std::span<double* const> columns) {
+  if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, part, columns);
   const Term& term = hypothesis.effect->term;
-  if (hypothesis.free.empty()) {
-    return fill_columns(term, point.context(begin, end), hypothesis.shape, columns);
-  }
+  if (hypothesis.free.empty())
+    return fill_columns(term, point.context(part), hypothesis.shape, columns);
   const std::size_t all = linear_parameters(term, hypothesis.shape).size();
   expects(all <= most_parameters, "a term has a few linear parameters");
-  std::vector<double> spare((end - begin) * all);
+  std::vector<double> spare(part.size() * all);
   double* target[most_parameters];
-  for (std::size_t j = 0; j < all; ++j) target[j] = spare.data() + j * (end - begin);
+  for (std::size_t j = 0; j < all; ++j) target[j] = spare.data() + j * part.size();
   for (std::size_t j = 0; j < hypothesis.free.size(); ++j) target[hypothesis.free[j]] = columns[j];
-  fill_columns(term, point.context(begin, end), hypothesis.shape, {target, all});
+  fill_columns(term, point.context(part), hypothesis.shape, {target, all});
 }
 
 Hypothesis of_effect(const Effect& effect, TermShape shape, std::vector<std::size_t> free,
@@ -146,28 +140,24 @@ std::vector<double> contribution(const LinearisationPoint& point, std::span<cons
   std::vector<double> out(point.size(), 0.0);
   const std::size_t count = columns_of(terms);
   if (count == 0) return out;
-  const auto add_chunk = [&](std::size_t begin, std::size_t end, std::span<double* const> column) {
+  const auto add_part = [&](const PointPart& at, std::span<double* const> column) {
     std::size_t next = 0;
     for (const Hypothesis& h : terms) {
-      fill(h, point, begin, end, column.subspan(next, h.columns()));
+      fill(h, point, at, column.subspan(next, h.columns()));
       next += h.columns();
     }
-    for (std::size_t j = 0; j < count; ++j) {
-      const double c = linear[j];
-      for (std::size_t i = begin; i < end; ++i) out[i] += c * column[j][i - begin];
-    }
+    for (std::size_t j = 0; j < count; ++j)
+      for (std::size_t k = 0; k < at.size(); ++k) out[at.begin + k] += linear[j] * column[j][k];
   };
-  for_each_index((point.size() + part - 1) / part, threads, [&](std::size_t p) {
+  for_each_index((point.size() + part_rows - 1) / part_rows, threads, [&](std::size_t p) {
     std::vector<double> buffer(count * chunk);
     std::vector<double*> column(count);
     for (std::size_t j = 0; j < count; ++j) column[j] = buffer.data() + j * chunk;
-    const std::size_t last = std::min((p + 1) * part, point.size());
-    for (std::size_t begin = p * part; begin < last;) {
-      std::size_t end = std::min(begin + chunk, last);
-      for (std::size_t i = begin + 1; i < end; ++i)
-        if (point.rear[i] != point.rear[begin]) end = i;
-      add_chunk(begin, end, column);
-      begin = end;
+    PointRoom room;
+    const std::size_t last = std::min((p + 1) * part_rows, point.size());
+    for (std::size_t begin = p * part_rows; begin < last; begin += chunk) {
+      const PointPart at = point.part(begin, std::min(begin + chunk, last), room);
+      for_each_side(at, [&](const PointPart& side) { add_part(side, column); });
     }
   });
   return out;

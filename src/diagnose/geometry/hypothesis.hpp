@@ -22,13 +22,13 @@ struct Hypothesis : TermValue {
 bool same(const Hypothesis& a, const Hypothesis& b);
 bool same(std::span<const Hypothesis> a, std::span<const Hypothesis> b);
 
-/// ∂X/∂(linear parameter) over readings [begin, end) of one set-up.
-void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, std::size_t begin,
-          std::size_t end, std::span<double* const> columns);
+/// ∂X/∂(linear parameter) over a part of the point, of one set-up.
+void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const PointPart& part,
+          std::span<double* const> columns);
 
 /// The columns of a Fourier-Legendre function of a degree along s from those of its degree 0.
-void raise_degree(const Hypothesis& function, const LinearisationPoint& point, std::size_t begin,
-                  std::size_t end, std::span<const double* const> constant,
+void raise_degree(const Hypothesis& function, const LinearisationPoint& point,
+                  const PointPart& part, std::span<const double* const> constant,
                   std::span<double* const> columns);
 
 Hypothesis of_effect(const Effect& effect, TermShape shape, std::vector<std::size_t> free = {},

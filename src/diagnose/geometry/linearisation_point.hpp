@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "diagnose/geometry/point_part.hpp"
+#include "math/column_source.hpp"
+#include "math/statistics.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/fit.hpp"
@@ -44,6 +48,8 @@ struct LinearisationFacts {
   double z_mid_mm = 0.0, z_half_mm = 1.0, s_ref_mm = 0.0;
   double tan_half_angle = 0.0;
   double reference_x_mm = 0.0, range_x_mm = 1.0;  ///< middle of what is sensed, and how far it goes
+  Extent x_mm{0.0, 0.0};
+  Extent outward_mm{0.0, 0.0};  ///< of what is sensed as the gauge sees it, turned round behind
   bool bore = false;
   bool has_time = false, has_position = true, reindexed = false, jogged = false, shifted = false,
        two_sided = false, reclamped = false;
@@ -52,38 +58,58 @@ struct LinearisationFacts {
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
 
-/// The geometry of every reading about the fitted surface: what terms and base columns are made of.
-/// Columns of one entry a reading; mm, rad, s.
+/// Readings about the fitted surface. C, Z and time are at hand; all else is kept of few readings,
+/// and of many made anew, part by part, where it is asked for.
 struct LinearisationPoint : LinearisationFacts {
-  std::vector<double> c, z, time, speed, velocity, x, sensed, dx_dc, dx_dz, d2x_dc2, theta, chuck,
-      s, clamp;
-  std::vector<double> dx_dnormal;   ///< of form along the normal
-  std::vector<double> dx_dy;        ///< across the probe
-  std::vector<std::uint32_t> axis;  ///< of every reading
-  std::vector<char> rear;           ///< of every reading
+  SharedColumn c, z, time;
   std::vector<Pass> passes;
+  std::vector<double> velocity;  ///< of every pass, mm/s along Z
+  double swing_mm = 0.0;  ///< of what is sensed, on the side where it is larger: from side to side
+                          ///< nothing is read
 
   std::size_t size() const { return c.size(); }
-  /// What is sensed as the gauge sees it, which behind is turned round.
-  std::vector<double> outward_mm() const;
-  /// Views of [begin, end); `rear` is that of the first reading: ask set-up by set-up.
-  TermContext context(std::size_t begin, std::size_t end) const;
+  /// Readings [begin, end), made in `room` where they are not kept; valid as long as both.
+  PointPart part(std::size_t begin, std::size_t end, PointRoom& room) const;
+  PointPart all(PointRoom& room) const { return part(0, size(), room); }
+  /// Calls work(part) for all readings, some thousands at a time and in order.
+  template <typename Work>
+  void for_each_part(const Work& work, std::size_t begin, std::size_t end) const {
+    PointRoom room;
+    for (; begin < end; begin += part_rows)
+      work(part(begin, std::min(begin + part_rows, end), room));
+  }
+  template <typename Work>
+  void for_each_part(const Work& work) const {
+    for_each_part(work, 0, size());
+  }
+  double at(PointColumn column, std::size_t reading) const;
+  Extent range(PointColumn column) const;
+  std::vector<double> column(PointColumn which) const;  ///< all of it
+
+  /// What terms are told of a part; its `rear` is that of the first reading: ask set-up by set-up.
+  TermContext context(const PointPart& part) const;
   /// ∂X/∂(base parameter): x, y, slopes of each axis at mid length; radius or offset; tan of the
   /// half angle. Rigid motions of the part: exact to first order (Eqs. 55–57). Of a face slopes of
   /// the axis and height (Eq. 133).
-  void fill_base(std::size_t begin, std::size_t end, std::span<double* const> columns) const;
+  void fill_base(const PointPart& part, std::span<double* const> columns) const;
+
+  static constexpr std::size_t part_rows = 4096, few_readings = 40000;
+  std::shared_ptr<const PointRoom> kept;  ///< of all readings, of which there are few
 };
+
+/// A column made part by part: what a sum over all readings takes it from. The point outlives it.
+ColumnSource source_of(const LinearisationPoint& point, PointColumn column);
 
 /// Whether the probe line of every reading meets the surface as it is clamped then: beyond a cone's
 /// apex, or beside a thin part, none does. A face is met everywhere.
 bool every_line_meets(const ProbeStream& stream, const std::vector<Clamping>& clampings);
 
-/// @param stream columns C, Z, t, set-up; its readings are not used.
+/// @param stream columns C, Z, t, set-up, which outlive the point; its readings are not used.
 LinearisationPoint linearise_at(const ProbeStream& stream, const std::vector<Clamping>& clampings,
                                 const BaseKind& base, bool bore, int threads = 1);
-
-/// Fills what follows from the surface at C and Z of every reading; passes and clampings are there.
-void fill_contacts(LinearisationPoint& point, int threads);
+/// The same of a stream whose columns the point takes.
+LinearisationPoint linearise_at(ProbeStream&& stream, const std::vector<Clamping>& clampings,
+                                const BaseKind& base, bool bore, int threads = 1);
 
 /// A fit that ended short of a minimum, or a profile of one's own, has no point to diagnose.
 bool is_diagnosable(const FitResult& fit);

@@ -12,11 +12,13 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-/// The stream without masked readings, less the contribution of the terms.
+/// What a fit takes of the stream without masked readings, less the contribution of the terms.
 ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
-                    const std::vector<double>& effect_mm) {
+                    std::vector<double> effect_mm) {
   ProbeStream out = stream;
+  out.time_s = {}, out.pass = {};  // no fit takes them
   for (std::size_t i = 0; i < stream.size(); ++i) out.reading_mm[i] -= effect_mm[i];
+  effect_mm = {};
   const auto keep = [&](auto& column) {
     if (column.empty()) return;
     std::size_t to = 0;
@@ -24,8 +26,7 @@ ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
       if (mask.used[i]) column[to++] = column[i];
     column.resize(to);
   };
-  keep(out.reading_mm), keep(out.c_rad), keep(out.position_mm), keep(out.time_s);
-  keep(out.pass), keep(out.setup);
+  keep(out.reading_mm), keep(out.c_rad), keep(out.position_mm), keep(out.setup);
   return out;
 }
 
@@ -44,16 +45,18 @@ Eigen::RowVectorXd derived_slope(const std::string& name, const Axis& axis) {
 }  // namespace
 
 CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
-                       const std::vector<double>& effect_mm, const ObservationMask& mask,
+                       std::vector<double> effect_mm, const ObservationMask& mask,
                        const std::vector<Rejected>& masked, const FitResult* ideal) {
   const bool same = ideal != nullptr && masked.empty() &&
                     std::ranges::all_of(effect_mm, [](double e) { return e == 0.0; });
-  const ProbeStream clean = same ? ProbeStream{} : cleaned(stream, mask, effect_mm);
+  const ProbeStream clean = same ? ProbeStream{} : cleaned(stream, mask, std::move(effect_mm));
   const ProbeStream& fitted = same ? stream : clean;
   CleanedFit out{same ? *ideal : fit(fitted, options), {}, {}};
   FitOptions bare = options;
   bare.influences.clear();
-  const FitResult noise_only = options.influences.empty() ? out.fit : fit(fitted, bare);
+  std::optional<FitResult> of_noise;
+  if (!options.influences.empty()) of_noise = fit(fitted, bare);
+  const FitResult& noise_only = of_noise ? *of_noise : out.fit;
   out.noise_covariance = noise_only.covariance;
   out.axis_noise_covariance.assign(noise_only.axis.covariance.begin(),
                                    noise_only.axis.covariance.end());

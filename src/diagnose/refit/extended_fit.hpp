@@ -20,7 +20,7 @@ struct CleanedFit {
 /// @param masked readings that do not count, by row, and why
 /// @param ideal the fit of the stream itself: taken where nothing is taken off and nothing masked
 CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
-                       const std::vector<double>& effect_mm, const ObservationMask& mask,
+                       std::vector<double> effect_mm, const ObservationMask& mask,
                        const std::vector<Rejected>& masked, const FitResult* ideal = nullptr);
 
 /// What is known of the base of a model.

@@ -85,11 +85,12 @@ void look_about(const ProbeStream& stream, const Linearised& at, EffectOnAxis& o
   }
   out.left = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
   out.z_mid_mm = at.point.z_mid_mm, out.z_half_mm = at.point.z_half_mm;
-  const auto [least, most] = std::ranges::minmax(at.point.outward_mm());
-  out.sensed_mid_mm = 0.5 * (least + most);
-  for (std::size_t i = 0; i < stream.size(); ++i)
-    out.indication_mm +=
-        (stream.reading_mm[i] - at.point.x[i]) / static_cast<double>(stream.size());
+  out.sensed_mid_mm = 0.5 * (at.point.outward_mm.low + at.point.outward_mm.high);
+  at.point.for_each_part([&](const PointPart& part) {
+    for (std::size_t k = 0; k < part.size(); ++k)
+      out.indication_mm +=
+          (stream.reading_mm[part.begin + k] - part.x[k]) / static_cast<double>(stream.size());
+  });
   out.separable = joint.solution.rank == joint.solution.columns.size();
   out.u_ratio = axis_uncertainty(at.point, joint.solution.inverse.topLeftCorner(n, n)).u_mm /
                 axis_uncertainty(at.point, without.inverse).u_mm;

@@ -21,10 +21,10 @@ bool turns(const Hypothesis& h) {
 }
 
 /// By how much, per unit of the term.
-double turn_per_unit(const Hypothesis& h, const LinearisationPoint& recorded, std::size_t reading) {
+double turn_per_unit(const Hypothesis& h, double speed_rad_per_s) {
   const auto* shift = std::get_if<ArgumentShift>(&h.effect->term);
   const bool constant = shift != nullptr && shift->by == ArgumentShift::By::angle;
-  return constant ? 1.0 : -recorded.speed[reading];
+  return constant ? 1.0 : -speed_rad_per_s;
 }
 
 void add(std::vector<double>& to, const std::vector<double>& values, double factor = 1.0) {
@@ -45,7 +45,8 @@ void subtract_base(std::vector<double>& from, const LinearisationPoint& point,
     Eigen::MatrixXd columns(static_cast<Eigen::Index>(end - begin), shift.size());
     std::vector<double*> places;
     for (Eigen::Index j = 0; j < shift.size(); ++j) places.push_back(columns.col(j).data());
-    point.fill_base(begin, end, places);
+    PointRoom room;
+    point.fill_base(point.part(begin, end, room), places);
     for (Eigen::Index j = 0; j < shift.size(); ++j)
       for (std::size_t i = begin; i < end; ++i)
         from[i] -= shift(j) * columns(static_cast<Eigen::Index>(i - begin), j);
@@ -66,14 +67,20 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   const auto count = static_cast<Eigen::Index>(columns_of(terms_));
   effect_mm_ = contribution(problem_->point, terms_,
                             span_of(joint_->solution.coefficients.tail(count)), first.threads);
-  taken_off_mm_ = effect_mm_;
-  if (!known_mm_.empty()) add(taken_off_mm_, known_mm_, -1.0);
   if (moved_) add(effect_mm_, turned_mm_);
-  cleaned_ = cleaned(taken_off_mm_);
+  cleaned_ = cleaned(taken_off_mm());
 }
 
-CleanedFit RelinearisedFit::cleaned(const std::vector<double>& taken_off_mm) const {
-  return fit_cleaned(moved_ ? *moved_ : ideal_.stream, ideal_.fit_options, taken_off_mm,
+/// Of the readings, for the surface.
+std::vector<double> RelinearisedFit::taken_off_mm() const {
+  std::vector<double> out = effect_mm_;
+  if (moved_) add(out, turned_mm_, -1.0);
+  if (!known_mm_.empty()) add(out, known_mm_, -1.0);
+  return out;
+}
+
+CleanedFit RelinearisedFit::cleaned(std::vector<double> taken_off_mm) const {
+  return fit_cleaned(moved_ ? *moved_ : ideal_.stream, ideal_.fit_options, std::move(taken_off_mm),
                      ideal_.problem.mask, ideal_.masked, moved_ ? nullptr : &ideal_.fit);
 }
 
@@ -84,9 +91,9 @@ FitResult RelinearisedFit::shifted(const Eigen::VectorXd& shift, const Eigen::Ma
   base.within = within, base.between = between;
   if (shift.isZero(0.0)) return extended_fit(cleaned_, point, base);
   // Readings of which the surface with that base is the best one.
-  std::vector<double> moved = taken_off_mm_;
+  std::vector<double> moved = taken_off_mm();
   subtract_base(moved, point, shift, problem_->threads);
-  return extended_fit(cleaned(moved), point, base);
+  return extended_fit(cleaned(std::move(moved)), point, base);
 }
 
 std::vector<double> RelinearisedFit::residual_mm() const {
@@ -126,14 +133,17 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   for (Hypothesis& h : terms_) {
     const double by = found(at);
     if (is_lag(h)) h.shape.time_constant_s = by;
-    for (std::size_t i = 0; turns(h) && i < first.size(); ++i)
-      moved_->c_rad[i] += by * turn_per_unit(h, first, i);
+    for (std::size_t p = 0; turns(h) && p < first.passes.size(); ++p) {
+      const Pass& pass = first.passes[p];
+      for (std::size_t i = pass.begin; i < pass.end; ++i)
+        moved_->c_rad[i] += by * turn_per_unit(h, pass.speed_rad_per_s);
+    }
     at += static_cast<Eigen::Index>(h.columns());
   }
   const LinearisationPoint recorded = point_of(ideal_.stream);
   point_ = point_of(*moved_);
-  turned_mm_ = point_->x;
-  add(turned_mm_, recorded.x, -1.0);
+  turned_mm_ = point_->column(&PointPart::x);
+  add(turned_mm_, recorded.column(&PointPart::x), -1.0);
   known_mm_.assign(first.size(), 0.0);
   at = 0;
   for (const Hypothesis& h : terms_) {
@@ -144,8 +154,14 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
       add(known_mm_, timing_mm(h, h.shape.time_constant_s, recorded), -1.0);
       add(known_mm_, turned_mm_);
     } else if (turns(h)) {
-      for (std::size_t i = 0; i < first.size(); ++i)
-        known_mm_[i] += by(0) * turn_per_unit(h, first, i) * point_->dx_dc[i];
+      for (const Pass& pass : first.passes) {
+        const double per_rad = by(0) * turn_per_unit(h, pass.speed_rad_per_s);
+        const auto work = [&](const PointPart& at) {
+          for (std::size_t k = 0; k < at.size(); ++k)
+            known_mm_[at.begin + k] += per_rad * at.dx_dc[k];
+        };
+        point_->for_each_part(work, pass.begin, pass.end);
+      }
     }
   }
 }

@@ -28,9 +28,9 @@ class RelinearisedFit {
   const std::vector<double>& effect_mm() const { return effect_mm_; }
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;
-  /// The surface of the model that is named.
-  FitResult named() const {
-    return extended_fit(cleaned_, problem_->point, uncertainty_of(*joint_));
+  /// The surface of the model that is named; asked for once, and last.
+  FitResult take_named() {
+    return extended_fit(std::move(cleaned_), problem_->point, uncertainty_of(*joint_));
   }
   /// The surface whose base is off that of the named model, with covariances of its own.
   FitResult shifted(const Eigen::VectorXd& shift, const Eigen::MatrixXd& within,
@@ -38,7 +38,8 @@ class RelinearisedFit {
 
  private:
   void relinearise(const Model& model);
-  CleanedFit cleaned(const std::vector<double>& taken_off_mm) const;
+  std::vector<double> taken_off_mm() const;
+  CleanedFit cleaned(std::vector<double> taken_off_mm) const;
   void turn(const Eigen::VectorXd& found, const std::vector<Clamping>& clampings);
 
   const IdealModel& ideal_;
@@ -50,7 +51,7 @@ class RelinearisedFit {
   std::vector<double> deviation_mm_;
   std::optional<Problem> problem_;
   std::optional<Joint> joint_;
-  std::vector<double> effect_mm_, taken_off_mm_;  ///< the latter of the readings, for the surface
+  std::vector<double> effect_mm_;
   CleanedFit cleaned_;
 };
 

@@ -22,14 +22,16 @@ std::vector<double> timing_mm(const Hypothesis& h, double seconds,
                               const LinearisationPoint& point) {
   expects(is_lag(h) || is_delay(h), "a lag or a delay");
   std::vector<double> out(point.size());
-  for (std::size_t i = 0; i < point.size(); ++i) {
-    const double angle = point.speed[i] * seconds;
-    const double kept = 1.0 / (1.0 + angle * angle);
-    const double turned = is_lag(h) ? -angle * kept : -std::sin(angle);
-    const double bent = is_lag(h) ? angle * angle * kept : 1.0 - std::cos(angle);
-    out[i] = turned * point.dx_dc[i] + bent * point.d2x_dc2[i] -
-             seconds * point.velocity[i] * point.dx_dz[i];
-  }
+  point.for_each_part([&](const PointPart& at) {
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const double angle = at.speed[k] * seconds;
+      const double kept = 1.0 / (1.0 + angle * angle);
+      const double turned = is_lag(h) ? -angle * kept : -std::sin(angle);
+      const double bent = is_lag(h) ? angle * angle * kept : 1.0 - std::cos(angle);
+      out[at.begin + k] =
+          turned * at.dx_dc[k] + bent * at.d2x_dc2[k] - seconds * at.velocity[k] * at.dx_dz[k];
+    }
+  });
   return out;
 }
 

@@ -19,10 +19,35 @@ using Matrix = Eigen::MatrixXd;
 
 constexpr double far_out = 8.0;  // MAD σ; a real local form peaks at 4.5 σ
 constexpr double clings = 3.0;   // beside a reading far out
-constexpr std::size_t chunk = most_rows;
+constexpr std::size_t chunk = 512;
 constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matters
 constexpr std::size_t least_rows = 200;
 constexpr double least_freedom = 20.0;  // readings beyond the columns: u(φ) is 0.2 of white noise
+
+/// A stretch of readings.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// Readings enough for the noise. A block of a long stream is cut: whole blocks would be more than
+/// enough; short ones in a row are one stretch.
+std::vector<Stretch> stretches(const ObservationMask& mask) {
+  constexpr std::size_t most = enough_rows / 4;
+  std::size_t available = 0;
+  for (std::size_t f = 0; f < mask.folds(); ++f)
+    available += std::min(mask.fold_begin[f + 1] - mask.fold_begin[f], most);
+  const std::size_t stride = 1 + available / (2 * enough_rows);
+  std::vector<Stretch> out;
+  for (std::size_t f = 0; f < mask.folds(); f += stride) {
+    const std::size_t begin = mask.fold_begin[f],
+                      end = std::min(mask.fold_begin[f + 1], begin + most);
+    if (!out.empty() && out.back().end == begin && end - out.back().begin <= most)
+      out.back().end = end;
+    else
+      out.push_back({begin, end});
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -36,19 +61,17 @@ Eigen::MatrixXd columns_of_rows(const LinearisationPoint& point, std::span<const
     column[j] = out.data() + static_cast<Eigen::Index>(j) * out.rows();
   std::copy(deviation.begin() + static_cast<long>(begin),
             deviation.begin() + static_cast<long>(end), column[0]);
-  for (std::size_t from = begin; from < end;) {
-    std::size_t to = from + 1;
-    while (to < end && point.rear[to] == point.rear[from]) ++to;
+  PointRoom room;
+  for_each_side(point.part(begin, end, room), [&](const PointPart& side) {
     std::vector<double*> here(column);
-    for (double*& c : here) c += from - begin;
-    point.fill_base(from, to, {here.data() + 1, base});
+    for (double*& c : here) c += side.begin - begin;
+    point.fill_base(side, {here.data() + 1, base});
     std::size_t next = 1 + base;
     for (const Hypothesis& h : terms) {
-      fill(h, point, from, to, {here.data() + next, h.columns()});
+      fill(h, point, side, {here.data() + next, h.columns()});
       next += h.columns();
     }
-    from = to;
-  }
+  });
   return out;
 }
 
@@ -113,14 +136,7 @@ Autoregression autoregression(const LinearisationPoint& point, const Observation
                               std::span<const double> deviation_mm,
                               std::span<const Hypothesis> terms) {
   LaggedGram lagged(static_cast<Eigen::Index>(1 + point.base.columns() + columns_of(terms)));
-  std::size_t available = 0;
-  for (std::size_t f = 0; f < mask.folds(); ++f)
-    available += std::min(mask.fold_begin[f + 1] - mask.fold_begin[f], enough_rows / 4);
-  const std::size_t stride = 1 + available / (2 * enough_rows);
-  for (std::size_t f = 0; f < mask.folds(); f += stride) {
-    // A block of a long stream is cut: whole blocks would be more than enough.
-    const std::size_t begin = mask.fold_begin[f];
-    const std::size_t end = std::min(mask.fold_begin[f + 1], begin + enough_rows / 4);
+  for (const auto& [begin, end] : stretches(mask)) {
     const std::size_t from = begin - std::min<std::size_t>(begin, 2);  // the two before its first
     std::array<std::vector<Eigen::Index>, 3> rows;  // first and second of a run, behind them
     for (std::size_t i = begin; i < end; ++i)

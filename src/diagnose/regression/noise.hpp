@@ -10,11 +10,10 @@
 
 namespace trueaxis::diagnose_detail {
 
-/// Columns [deviation | base | terms] of readings [begin, end), most_rows of them at most.
+/// Columns [deviation | base | terms] of readings [begin, end).
 Eigen::MatrixXd columns_of_rows(const LinearisationPoint& point, std::span<const double> deviation,
                                 std::span<const Hypothesis> terms, std::size_t begin,
                                 std::size_t end);
-constexpr std::size_t most_rows = 512;
 
 /// Deviation minus base and terms at a solution; the solution's columns are in the order base,
 /// terms.

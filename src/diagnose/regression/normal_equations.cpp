@@ -28,9 +28,9 @@ using Matrix = Eigen::MatrixXd;
 /// Columns of some readings as computed and as whitened, in aligned memory padded with zeros.
 class Chunk {
  public:
-  Chunk(std::size_t columns, std::size_t history)
+  Chunk(std::size_t columns, std::size_t history, std::size_t rows)
       : history_(history),
-        stride_((chunk_rows + history + 7) / 8 * 8),
+        stride_((rows + history + 7) / 8 * 8),
         raw_(columns * stride_ + 8),
         white_(history > 0 ? columns * stride_ + 8 : 0) {
     for (std::size_t j = 0; j < columns; ++j) {
@@ -163,11 +163,10 @@ void NormalEquations::shrink(std::size_t columns) {
   for (Matrix& fold : folds_) fold.conservativeResize(size, size);
 }
 
-void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t begin,
-                               std::size_t end, std::span<double* const> columns) const {
-  std::copy(deviation_.begin() + static_cast<long>(begin),
-            deviation_.begin() + static_cast<long>(end), columns[0]);
-  point_->fill_base(begin, end, columns.subspan(1, base_.size()));
+void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, const PointPart& part,
+                               std::span<double* const> columns) const {
+  std::ranges::copy(deviation_.subspan(part.begin, part.size()), columns[0]);
+  point_->fill_base(part, columns.subspan(1, base_.size()));
   std::size_t next = 1 + base_.size();
   for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
     const Hypothesis* constant = nullptr;  // the cell of degree 0 whose order the next ones share
@@ -176,10 +175,10 @@ void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, std::size_t be
       const std::span<double* const> own = columns.subspan(next, h.columns());
       next += own.size();
       if (h.pattern.degree > 0 && constant != nullptr && same_order(*constant, h)) {
-        raise_degree(h, *point_, begin, end, constant_columns, own);
+        raise_degree(h, *point_, part, constant_columns, own);
         continue;
       }
-      fill(h, *point_, begin, end, own);
+      fill(h, *point_, part, own);
       constant = same_order(h, h) && h.pattern.degree == 0 ? &h : nullptr;
       if (constant != nullptr) constant_columns.assign(own.begin(), own.end());
     }
@@ -204,17 +203,20 @@ GramSums NormalEquations::sums_of(std::size_t part, std::span<const Hypothesis> 
                                   const Appended& appended) const {
   const LinearisationPoint& point = *point_;
   const std::size_t history = autoregression_.size();
-  Chunk chunk(appended.columns(), history);
+  Chunk chunk(appended.columns(), history,
+              std::min(chunk_rows, part_begin_[part + 1] - part_begin_[part]));
   GramSums out(appended);
+  PointRoom room;
   for (std::size_t begin = part_begin_[part]; begin < part_begin_[part + 1];) {
-    std::size_t end = std::min(begin + chunk_rows, part_begin_[part + 1]);
-    for (std::size_t i = begin + 1; i < end; ++i) {
-      if (point.rear[i] != point.rear[begin]) end = i;
-    }
+    const std::size_t before = begin - std::min(begin, history);
+    PointPart at = point.part(before, std::min(begin + chunk_rows, part_begin_[part + 1]), room);
     // Where the side changes a pass begins: nothing before it is then read.
-    std::size_t start = begin - std::min(begin, history);
-    if (point.rear[start] != point.rear[begin]) start = begin;
-    fill_raw(fresh, start, end, chunk.raw());
+    const auto own = at.rear.begin() + static_cast<long>(begin - before);
+    const auto side = std::find_if(own, at.rear.end(), [&](char rear) { return rear != *own; });
+    const std::size_t skipped = at.rear[0] != *own ? begin - before : 0;
+    at = at.part(skipped, static_cast<std::size_t>(side - at.rear.begin()));
+    const std::size_t start = at.begin, end = start + at.size();
+    fill_raw(fresh, at, chunk.raw());
     chunk.whiten(autoregression_, begin - start, end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       if (!mask_->used[i])

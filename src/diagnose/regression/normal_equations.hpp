@@ -97,7 +97,7 @@ class NormalEquations {
   GramSums sums_of(std::size_t part, std::span<const Hypothesis> fresh,
                    const Appended& appended) const;
   std::size_t counted(std::size_t begin, std::size_t end) const;
-  void fill_raw(std::span<const Hypothesis> fresh, std::size_t begin, std::size_t end,
+  void fill_raw(std::span<const Hypothesis> fresh, const PointPart& part,
                 std::span<double* const> columns) const;
 
   const LinearisationPoint* point_;

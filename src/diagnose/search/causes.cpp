@@ -15,7 +15,7 @@ constexpr double no_motion = 1e-9;
 constexpr int rounding_harmonics = 3;  // the next is 1/4 of the first, and σ takes it away
 
 bool both_ways(const LinearisationPoint& point) {
-  const Extent v = range_of(point.velocity);
+  const Extent v = range_of(point.velocity);  // of the passes
   return v.low < -no_motion && v.high > no_motion;
 }
 
@@ -28,7 +28,7 @@ bool can_show(const Requirement& needs, const Problem& problem) {
 
 /// Whether the stream has what the values are written in.
 bool can_start(const ShapeValues& starts, const Problem& problem) {
-  const bool seen = sensed_swing(problem.point) > least_swing_mm && !problem.resolution.sections;
+  const bool seen = problem.point.swing_mm > least_swing_mm && !problem.resolution.sections;
   return starts.in != ShapeValues::In::per_swing || seen;
 }
 
@@ -47,7 +47,8 @@ std::vector<std::size_t> visible(const Effect& effect, const Form& form, const T
                                  const Problem& problem) {
   if (!problem.resolution.half_seen || shape.order != problem.resolution.half_seen)
     return form.free;
-  const bool cosine = std::abs(std::cos(shape.order * problem.point.theta.front())) > 0.5;
+  const bool cosine =
+      std::abs(std::cos(shape.order * problem.point.at(&PointPart::theta, 0))) > 0.5;
   const auto names = linear_parameters(effect.term, shape);
   std::vector<std::size_t> out;
   for (std::size_t j = 0; j < names.size(); ++j) {
@@ -112,19 +113,6 @@ double orders_of(const Effect& effect, const Resolution& resolution) {
 
 }  // namespace
 
-double sensed_swing(const LinearisationPoint& point) {
-  double swing = 0.0;
-  for (const char side : {0, 1}) {
-    double low = 1e300, high = -1e300;
-    for (std::size_t i = 0; i < point.size(); ++i) {
-      if (point.rear[i] != side) continue;
-      low = std::min(low, point.sensed[i]), high = std::max(high, point.sensed[i]);
-    }
-    swing = std::max(swing, high - low);
-  }
-  return swing;
-}
-
 double value_in(ShapeValues::In in, double value, const LinearisationPoint& point) {
   switch (in) {
     case ShapeValues::In::half_lengths:
@@ -132,7 +120,7 @@ double value_in(ShapeValues::In in, double value, const LinearisationPoint& poin
     case ShapeValues::In::per_length:
       return 2.0 * point.z_half_mm / value;
     case ShapeValues::In::per_swing:
-      return std::max(sensed_swing(point), least_swing_mm) / value;
+      return std::max(point.swing_mm, least_swing_mm) / value;
     case ShapeValues::In::duration:
       return value * range_of(point.time).length();
     case ShapeValues::In::instant:
@@ -155,8 +143,7 @@ TermShape typical_shape(const Effect& effect, const LinearisationPoint& point) {
 bool is_rounding(const Hypothesis& h, const LinearisationPoint& point, double step_mm) {
   if (!(step_mm > 0.0) || !is_of_scale(h.effect)) return false;
   const double harmonic = step_mm / h.shape.period_mm;
-  return harmonic > 0.5 &&
-         std::abs(harmonic - std::round(harmonic)) * sensed_swing(point) < step_mm;
+  return harmonic > 0.5 && std::abs(harmonic - std::round(harmonic)) * point.swing_mm < step_mm;
 }
 
 std::vector<Hypothesis> preset_causes(const Problem& problem) {

@@ -26,10 +26,7 @@ TermShape typical_shape(const Effect& effect, const LinearisationPoint& point);
 /// A value of a parameter of the shape in its own unit.
 double value_in(ShapeValues::In in, double value, const LinearisationPoint& point);
 
-/// The range of what the probe has sensed, on the side where it is larger: from side to side
-/// nothing is read.
-double sensed_swing(const LinearisationPoint& point);
-constexpr double least_swing_mm = 0.02;  ///< below it no period of the scale is seen
+constexpr double least_swing_mm = 0.02;  ///< sensed: below it no period of the scale is seen
 constexpr double least_tangent = 1e-3;   ///< of the half angle: below it a cone is a cylinder
 
 /// Neighbours of a hypothesis in its continuous shape (by the effect's Refinement; of a bump, its

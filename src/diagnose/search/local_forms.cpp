@@ -79,6 +79,8 @@ LocalForms::LocalForms(const Problem& problem) : problem_(problem) {
     if (mask.used[i]) used_.push_back(i);
   const auto angles = static_cast<std::size_t>(std::lround(problem.resolution.per_turn));
   const auto [step_rad, step_mm] = spacing_of(problem);
+  PointRoom room;
+  const PointPart all = point.all(room);
   for (const double width : widths) {
     if (!forms_.empty() && forms_.back().pattern.width_rad >= widest_rad) break;
     const double width_rad = std::min(width * step_rad, widest_rad);
@@ -88,9 +90,9 @@ LocalForms::LocalForms(const Problem& problem) : problem_(problem) {
           Hypothesis h;
           h.pattern.kind = Pattern::Kind::bump;
           h.pattern.angle_rad = std::remainder(
-              point.theta.front() + 0.5 * step_rad * static_cast<double>(half), two_pi);
+              all.theta.front() + 0.5 * step_rad * static_cast<double>(half), two_pi);
           h.pattern.width_rad = width_rad;
-          h.pattern.position_mm = l < 0 ? point.z_mid_mm : point.s[mask.fold_begin[f]];
+          h.pattern.position_mm = l < 0 ? point.z_mid_mm : all.s[mask.fold_begin[f]];
           h.pattern.length_mm = l < 0 ? 0.0 : lengths[l] * step_mm;
           forms_.push_back(std::move(h));
           size_.push_back(sizes_);
@@ -117,10 +119,12 @@ Eigen::MatrixXd LocalForms::rows_of(const std::vector<Hypothesis>& terms, bool w
   std::vector<double*> places;
   for (Eigen::Index j = 0; j < all.cols(); ++j) places.push_back(all.col(j).data());
   const std::span<double* const> list(places);
-  if (with_base) point.fill_base(0, point.size(), list.first(base));
+  PointRoom room;
+  const PointPart at = point.all(room);
+  if (with_base) point.fill_base(at, list.first(base));
   std::size_t next = base;
   for (const Hypothesis& h : terms) {
-    fill(h, point, 0, point.size(), list.subspan(next, h.columns()));
+    fill(h, point, at, list.subspan(next, h.columns()));
     next += h.columns();
   }
   return all(used_, Eigen::all);

@@ -106,7 +106,7 @@ std::vector<Hypothesis> variants(const Hypothesis& h, const Problem& problem, do
 /// Half a resolution cell of a line in its own variable.
 double half_cell(const Hypothesis& line, const LinearisationPoint& point) {
   const bool spatial = line.effect && line.effect->line->in == Line::In::slide;
-  return 0.4 / range_of(spatial ? point.s : variable_of(line, point)).length();
+  return 0.4 / point.range(spatial ? &PointPart::s : variable_of(line)).length();
 }
 
 /// Peaks that are not far behind the tallest, as hypotheses.

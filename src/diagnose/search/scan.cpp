@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <numeric>
+#include <functional>
+#include <utility>
 
 #include "base/threads.hpp"
+#include "diagnose/search/line_norms.hpp"
 #include "diagnose/search/scan_list.hpp"
 #include "math/fourier_sums.hpp"
 #include "math/sincos.hpp"
@@ -20,81 +22,54 @@ using Column = std::vector<double>;
 
 constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of a peak is missed
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
+constexpr std::size_t near_bins = 5;  // two cells: a peak's own
 constexpr double finer = 4.0;
 constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
 
-double variance(const Column& x) {
+double variance(const LinearisationPoint& point, PointColumn column) {
   double mean = 0.0, sum = 0.0;
-  for (const double v : x) mean += v;
-  mean /= static_cast<double>(x.size());
-  for (const double v : x) sum += (v - mean) * (v - mean);
-  return sum / static_cast<double>(x.size());
-}
-
-/// ½ Σ |A|² over the passes: the square of a whitened line's columns, A the transfer of the filter
-/// at the line's angle from reading to reading.
-double line_norm2(const NormalEquations& equations, const std::vector<double>& used_of_pass,
-                  const std::vector<double>& x_step, const std::vector<double>& turn_step,
-                  double frequency, double turns) {
-  const auto& phi = equations.autoregression();
-  double sum = 0.0;
-  for (std::size_t p = 0; p < used_of_pass.size(); ++p) {
-    const double angle = two_pi * frequency * x_step[p] - turns * turn_step[p];
-    std::complex<double> transfer = 1.0;
-    const std::complex<double> step = std::polar(1.0, -angle);
-    std::complex<double> turned = 1.0;
-    for (const double factor : phi) transfer -= factor * (turned *= step);
-    sum += 0.5 * used_of_pass[p] * std::norm(transfer);
-  }
-  return sum;
-}
-
-/// The same of lines cos(2π f x − turns θ), f = low, low + df …, where x goes by another step from
-/// reading to reading, as the part's own length and what is sensed do of a part that is tilted or
-/// off centre: |A|² is a sum of the cosines of one step and of two, summed over the readings.
-Column norm2_by_step(const NormalEquations& equations, const Column& x, const Column& angle,
-                     double turns, double low, double df, std::size_t bins) {
-  const auto& phi = equations.autoregression();
-  const ObservationMask& mask = equations.mask();
-  Column factor{1.0};
-  for (const double p : phi) factor.push_back(-p);
-  const double flat = std::inner_product(factor.begin(), factor.end(), factor.begin(), 0.0);
-  Column norm2(bins, 0.5 * static_cast<double>(equations.count()) * flat);
-  for (std::size_t lag = 1; lag < factor.size(); ++lag) {
-    const double both = std::inner_product(factor.begin() + static_cast<long>(lag), factor.end(),
-                                           factor.begin(), 0.0);
-    Column step, turned;
-    for (std::size_t i = lag; i < x.size(); ++i) {
-      if (!mask.used[i] || mask.run[i] < phi.size()) continue;
-      step.push_back(x[i] - x[i - lag]);
-      turned.push_back(turns * (angle[i] - angle[i - lag]));
-    }
-    Column sine(step.size()), cosine(step.size());
-    sincos(turned, sine, cosine);
-    for (std::size_t i = 0; i < step.size(); ++i) sine[i] *= both, cosine[i] *= both;
-    const std::span<const double> parts[] = {cosine, sine};
-    const auto sums = FourierSums(step, two_pi * low, two_pi * df, bins).of(parts);
-    for (std::size_t k = 0; k < bins; ++k) norm2[k] += sums[0][k].real() - sums[1][k].imag();
-  }
-  return norm2;
+  point.for_each_part([&](const PointPart& at) {
+    for (const double v : at.*column) mean += v;
+  });
+  mean /= static_cast<double>(point.size());
+  point.for_each_part([&](const PointPart& at) {
+    for (const double v : at.*column) sum += (v - mean) * (v - mean);
+  });
+  return sum / static_cast<double>(point.size());
 }
 
 /// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
 struct TurnedSums {
-  const FourierSums* plan = nullptr;
   double order = 0.0;
+  bool spindle = false, form = false;
   FourierSums::Sums cosine, sine;
+
+  bool serves(const Scan& scan) const {
+    return !cosine.empty() && order == std::abs(scan.turns) && form == scan.form &&
+           (order == 0.0 || spindle == scan.spindle);
+  }
 };
 
-TurnedSums turned_sums(const FourierSums& plan, double order, const Column& angle,
-                       const Column& g) {
-  Column phase(g.size()), sine(g.size()), cosine(g.size());
-  for (std::size_t i = 0; i < g.size(); ++i) phase[i] = order * angle[i];
-  sincos(phase, sine, cosine);
-  for (std::size_t i = 0; i < g.size(); ++i) cosine[i] *= g[i], sine[i] *= g[i];
-  const std::span<const double> both[] = {cosine, sine};
-  std::vector<FourierSums::Sums> sums = plan.of(both);
-  return {&plan, order, std::move(sums[0]), std::move(sums[1])};
+/// @param left of every reading, of a form to be turned round behind
+TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point, const Scan& scan,
+                       const Column& left) {
+  const double order = std::abs(scan.turns);
+  const auto columns = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
+    PointRoom room;
+    const PointPart at = point.part(begin, begin + size, room);
+    Column phase(size),
+        g(left.begin() + static_cast<long>(begin), left.begin() + static_cast<long>(begin + size));
+    for (std::size_t i = 0; i < size; ++i) {
+      phase[i] = order * (scan.spindle ? at.c[i] : at.theta[i]);
+      if (scan.form && at.rear[i]) g[i] = -g[i];
+    }
+    if (order == 0.0) return void(std::ranges::copy(g, out[0]));
+    sincos(phase, {out[1], size}, {out[0], size});
+    for (std::size_t i = 0; i < size; ++i) out[0][i] *= g[i], out[1][i] *= g[i];
+  };
+  std::vector<FourierSums::Sums> sums = plan.of(columns, order == 0.0 ? 1 : 2);
+  sums.resize(2);
+  return {order, scan.spindle, scan.form, std::move(sums[0]), std::move(sums[1])};
 }
 
 /// Of a single pass at constant feed a line of C is also one of an order along Z.
@@ -103,13 +78,29 @@ void pattern_of_line(const LinearisationPoint& point, const Resolution& resoluti
   const Pass& pass =
       *std::ranges::max_element(point.passes, {}, [](const Pass& p) { return p.end - p.begin; });
   const double turns = (point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
-  const double lead = (point.s[pass.end - 1] - point.s[pass.begin]) / turns;  // a turn of +C
+  const double lead =
+      (point.at(&PointPart::s, pass.end - 1) - point.at(&PointPart::s, pass.begin)) /
+      turns;  // a turn of +C
   const double order = std::round(line.frequency * two_pi);
   const double frequency = (order - line.frequency * two_pi) / lead;
   if (order < 1.0 || order > resolution.harmonics || !(std::abs(frequency * lead * turns) > 0.75))
     return;
   out.patterns.push_back({pattern_line(order, false, frequency), line.gain,
                           line.step * two_pi / std::abs(lead), std::abs(frequency)});
+}
+
+/// The highest of a band, none beside another.
+std::vector<Top> highest(Column& gain, std::size_t first_bin, std::size_t most) {
+  std::vector<Top> out;
+  while (out.size() < most) {
+    const auto top = std::ranges::max_element(gain);
+    if (top == gain.end() || !(*top > 0.0)) break;
+    const auto k = static_cast<std::size_t>(top - gain.begin());
+    out.push_back({first_bin + k, *top});
+    std::fill(gain.begin() + static_cast<long>(k - std::min(k, near_bins)),
+              gain.begin() + static_cast<long>(std::min(gain.size(), k + near_bins + 1)), 0.0);
+  }
+  return out;
 }
 
 /// What lies in `within` beside some intervals of it.
@@ -138,7 +129,7 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 /// A range of frequencies of a scan, at most most_bins of them, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
-  std::size_t bins = 0;
+  std::size_t bins = 0, first_bin = 0;      ///< the latter counted through all bands
   std::shared_ptr<const FourierSums> plan;  ///< made where it is wanted, and kept of few readings
 };
 
@@ -147,9 +138,23 @@ struct LineScanner::Job {
   std::vector<Scan> scans;
   std::vector<Band> bands;
   std::vector<Extent> counted;  ///< frequencies that are looked at
+  double middle = 0.0;          ///< of the variable
   bool fringes = false;
   bool sieved = false;  ///< more lie in the bands than are counted
 
+  std::size_t kept() const { return fringes ? fringes_kept : peaks_kept; }
+  std::size_t bins() const {
+    return bands.empty() ? 0 : bands.back().first_bin + bands.back().bins;
+  }
+  /// Leaves of a band what is looked at.
+  void sieve(const Band& band, Column& gain) const {
+    auto interval = counted.begin();
+    for (std::size_t k = 0; k < gain.size(); ++k) {
+      const double f = band.low + band.df * static_cast<double>(k);
+      while (interval != counted.end() && interval->high < f) ++interval;
+      if (interval == counted.end() || interval->low > f) gain[k] = 0.0;
+    }
+  }
   /// Of a bin, counted through all bands.
   double frequency(std::size_t bin) const {
     auto band = bands.begin();
@@ -169,7 +174,7 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     const Extent all{scan.low, scan.high};
     std::vector<Extent> bands{all}, counted{all};
     if (const Means* means = problem.means ? problem.means : fast) {
-      counted = means->kept(whole, whole.*scan.x, scan.turns, all);
+      counted = means->kept(whole, scan.x, scan.turns, all);
       if (problem.means)
         bands = counted;
       else
@@ -179,7 +184,7 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     double width = 0.0;
     for (const Extent& e : counted) width += e.length();
     if (!(width > 0.0)) continue;
-    if (scan.counts) bandwidth_ += width * std::sqrt(2.0 * two_pi * variance(point.*scan.x));
+    if (scan.counts) bandwidth_ += width * std::sqrt(2.0 * two_pi * variance(point, scan.x));
     const bool same = last && last->x == scan.x && last->low == scan.low &&
                       last->high == scan.high && !jobs_.empty() &&
                       std::ranges::equal(jobs_.back().counted, counted, [](auto a, auto b) {
@@ -194,179 +199,114 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     job.sieved = bands.size() != counted.size() || bands[0].low != counted[0].low ||
                  bands.back().high != counted.back().high;
     // From both sides a period of the scale makes fringes, told apart only by a fine scan.
-    job.fringes = scan.x == &LinearisationPoint::sensed && point.two_sided;
-    const double df =
-        1.0 / ((job.fringes ? finer : 1.0) * oversampling * range_of(point.*scan.x).length());
+    job.fringes = scan.x == &PointPart::sensed && point.two_sided;
+    const Extent range = point.range(scan.x);
+    job.middle = 0.5 * range.low + 0.5 * range.high;
+    const double df = 1.0 / ((job.fringes ? finer : 1.0) * oversampling * range.length());
     for (const Extent& band : bands) {
       const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
       for (std::size_t from = 0; from < bins; from += most_bins)
         job.bands.push_back({band.low + df * static_cast<double>(from), df,
-                             std::min(most_bins, bins - from), nullptr});
+                             std::min(most_bins, bins - from), job.bins(), nullptr});
     }
     jobs_.push_back(std::move(job));
   }
 }
 
-Scans LineScanner::operator()(const NormalEquations& equations,
-                              std::span<const double> remainder_mm) {
+Scans LineScanner::operator()(const NormalEquations& equations, std::vector<double> remainder_mm) {
   const LinearisationPoint& point = problem_.point;
-  const std::vector<double> plain = weighted(equations, remainder_mm);
-  std::vector<double> outward = plain;  // of what lies along the normal
-  for (std::size_t i = 0; i < outward.size(); ++i)
-    if (point.rear[i]) outward[i] = -outward[i];
-  std::vector<std::vector<Gains>> gains(jobs_.size());  // of every band of every job
+  const std::vector<double> left = weighted(equations, std::move(remainder_mm));
+  std::vector<std::vector<Tops>> tops(jobs_.size());  // of every band of every job
   std::vector<std::pair<std::size_t, std::size_t>> bands;
   for (std::size_t j = 0; j < jobs_.size(); ++j) {
-    gains[j].resize(jobs_[j].bands.size());
-    for (std::size_t b = 0; b < gains[j].size(); ++b) bands.emplace_back(j, b);
+    tops[j].resize(jobs_[j].bands.size());
+    for (std::size_t b = 0; b < tops[j].size(); ++b) bands.emplace_back(j, b);
   }
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
-    gains[j][b] = gains_of(jobs_[j], jobs_[j].bands[b], equations, plain, outward);
+    tops[j][b] = tops_of(jobs_[j], jobs_[j].bands[b], equations, left);
   });
-  std::vector<Scans> found(jobs_.size());
-  for_each_index(jobs_.size(), threads,
-                 [&](std::size_t j) { found[j] = peaks_of(jobs_[j], std::move(gains[j])); });
   Scans out;
-  for (Scans& one : found) {
-    std::ranges::move(one.causes, std::back_inserter(out.causes));
-    std::ranges::move(one.patterns, std::back_inserter(out.patterns));
-  }
+  for (std::size_t j = 0; j < jobs_.size(); ++j) add_peaks(jobs_[j], tops[j], out);
   out.bandwidth = bandwidth_;
   return out;
 }
 
-/// Of every reading that counts, pass by pass.
-struct LineScanner::Steps {
-  std::vector<double> used, c, x;
-
-  Steps(const NormalEquations& equations, const Column& along, const Means* means) {
-    const LinearisationPoint& point = equations.point();
-    const ObservationMask& mask = equations.mask();
-    for (std::size_t p = 0; p < point.passes.size(); ++p) {
-      const Pass& pass = point.passes[p];
-      double count = 0.0;
-      for (std::size_t i = pass.begin; i < pass.end; ++i)
-        count += mask.used[i] && mask.run[i] >= equations.autoregression().size();
-      used.push_back(count);
-      // Means follow each other within a turn, and then leave some turns out.
-      std::size_t last = pass.end - 1;
-      if (means && means->of_pass[p].turns > 0.0)
-        last = std::min(last, pass.begin + static_cast<std::size_t>(means->of_pass[p].sectors) - 1);
-      const auto step = [&](const Column& of) {
-        return last > pass.begin
-                   ? (of[last] - of[pass.begin]) / static_cast<double>(last - pass.begin)
-                   : 0.0;
-      };
-      c.push_back(step(point.c)), x.push_back(step(along));
-    }
-  }
-};
-
-LineScanner::Gains LineScanner::gains_of(const Job& job, Band& band,
-                                         const NormalEquations& equations, const Column& plain,
-                                         const Column& outward) const {
+LineScanner::Tops LineScanner::tops_of(const Job& job, Band& band, const NormalEquations& equations,
+                                       const Column& left) const {
   const LinearisationPoint& point = problem_.point;
-  const Column& x = point.*job.scans.front().x;
-  const Steps steps(equations, x, problem_.means);
-  const bool white = equations.autoregression().empty();
-  const bool swings = !white && (job.scans.front().x == &LinearisationPoint::sensed ||
-                                 job.scans.front().x == &LinearisationPoint::s);
-  std::shared_ptr<const FourierSums> plan = band.plan;
-  if (!plan)
-    plan = std::make_shared<FourierSums>(x, two_pi * band.low, two_pi * band.df, band.bins);
-  if (!is_condensed(point)) band.plan = plan;
+  const PointColumn x = job.scans.front().x;
+  const LineNorms norms(equations, x, problem_.means);
+  if (!band.plan)
+    band.plan = std::make_shared<FourierSums>(source_of(point, x), point.size(), job.middle,
+                                              two_pi * band.low, two_pi * band.df, band.bins);
+  const std::shared_ptr<const FourierSums> plan = band.plan;
+  if (is_condensed(point)) band.plan = nullptr;
   TurnedSums turned;
-  Gains gains(job.scans.size());
-  for (std::size_t s = 0; s < job.scans.size(); ++s) {
-    const Scan& scan = job.scans[s];
-    const std::vector<double>& g = scan.form ? outward : plain;
-    const Column& angle = scan.spindle ? point.c : point.theta;
-    std::vector<std::complex<double>> sums;
-    if (scan.turns == 0.0) {
-      sums = plan->of(g);
-    } else {
-      const double n = std::abs(scan.turns);
-      if (turned.plan == nullptr || turned.order != n) turned = turned_sums(*plan, n, angle, g);
-      // Σ g exp(−i(2πfx − turns θ))
-      sums = turned.cosine;
-      const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
-      for (std::size_t k = 0; k < band.bins; ++k) sums[k] += turn * turned.sine[k];
-    }
-    const double flat = line_norm2(equations, steps.used, steps.x, steps.c, band.low, scan.turns);
-    Column by_step;
-    if (swings && !scan.pattern)  // a pattern is of few cycles
-      by_step = norm2_by_step(equations, x, angle, scan.turns, band.low, band.df, band.bins);
+  Tops tops;
+  for (const Scan& scan : job.scans) {
+    if (!turned.serves(scan)) turned = turned_sums(*plan, point, scan, left);
+    // Σ g exp(−i(2πfx − turns θ))
+    const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
+    Column gain = norms.of(scan, band.low, band.df, band.bins);
     for (std::size_t k = 0; k < band.bins; ++k) {
-      const double f = band.low + band.df * static_cast<double>(k);
-      const double norm2 = white ? flat
-                           : !by_step.empty()
-                               ? by_step[k]
-                               : line_norm2(equations, steps.used, steps.x, steps.c, f, scan.turns);
-      gains[s].push_back(std::norm(sums[k]) / norm2);  // of cos and of sin: norm2 each
+      std::complex<double> sum = turned.cosine[k];
+      if (!turned.sine.empty()) sum += turn * turned.sine[k];
+      gain[k] = std::norm(sum) / gain[k];  // of cos and of sin: norm2 each
     }
+    if (job.sieved) job.sieve(band, gain);
+    tops.push_back(highest(gain, band.first_bin, job.kept()));
   }
-  return gains;
+  return tops;
 }
 
-Scans LineScanner::peaks_of(const Job& job, std::vector<Gains> of_bands) const {
-  const LinearisationPoint& point = problem_.point;
-  Scans out;
+void LineScanner::add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const {
   for (std::size_t s = 0; s < job.scans.size(); ++s) {
-    std::vector<double> gain = std::move(of_bands.front()[s]);
-    for (std::size_t b = 1; b < of_bands.size(); ++b)
-      gain.insert(gain.end(), of_bands[b][s].begin(), of_bands[b][s].end());
-    std::size_t interval = 0;
-    for (std::size_t k = 0; job.sieved && k < gain.size(); ++k) {
-      const double f = job.frequency(k);
-      while (interval < job.counted.size() && job.counted[interval].high < f) ++interval;
-      if (interval == job.counted.size() || job.counted[interval].low > f) gain[k] = 0.0;
-    }
     const Scan& scan = job.scans[s];
-    for (std::size_t taken = 0; taken < (job.fringes ? fringes_kept : peaks_kept); ++taken) {
-      const auto top = std::ranges::max_element(gain);
-      if (top == gain.end() || !(*top > 0.0)) break;
-      const auto k = static_cast<std::size_t>(top - gain.begin());
-      const double f = job.frequency(k);
-      Peak peak{scan.make(f), *top, job.bands.front().df, f};
-      if (problem_.resolution.one_variable && scan.x == &LinearisationPoint::c)
-        pattern_of_line(point, problem_.resolution, peak, out);
+    std::vector<Top> all;
+    for (const Tops& of_band : of_bands)
+      all.insert(all.end(), of_band[s].begin(), of_band[s].end());
+    std::ranges::stable_sort(all, std::greater<>(), &Top::gain);
+    std::vector<Top> taken;
+    for (const Top& top : all) {
+      const auto is_near = [&](const Top& other) {
+        return std::max(top.bin, other.bin) - std::min(top.bin, other.bin) <= near_bins;
+      };
+      if (taken.size() == job.kept()) break;
+      if (std::ranges::any_of(taken, is_near)) continue;
+      taken.push_back(top);
+      const double f = job.frequency(top.bin);
+      Peak peak{scan.make(f), top.gain, job.bands.front().df, f};
+      if (problem_.resolution.one_variable && scan.x == &PointPart::c)
+        pattern_of_line(problem_.point, problem_.resolution, peak, out);
       (scan.pattern ? out.patterns : out.causes).push_back(std::move(peak));
-      const std::size_t near = static_cast<std::size_t>(2.0 * oversampling);
-      std::fill(gain.begin() + static_cast<long>(k - std::min(k, near)),
-                gain.begin() + static_cast<long>(std::min(gain.size(), k + near + 1)), 0.0);
     }
   }
-  return out;
 }
 
-std::vector<double> weighted(const NormalEquations& equations,
-                             std::span<const double> remainder_mm) {
+std::vector<double> weighted(const NormalEquations& equations, std::vector<double> remainder_mm) {
   const auto& phi = equations.autoregression();
   const ObservationMask& mask = equations.mask();
-  const std::size_t n = remainder_mm.size(), p = phi.size();
-  std::vector<double> white(n, 0.0), out(n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!mask.used[i] || mask.run[i] < p) continue;
-    white[i] = remainder_mm[i];
-    for (std::size_t j = 0; j < p; ++j) white[i] -= phi[j] * remainder_mm[i - j - 1];
+  std::vector<double>& e = remainder_mm;  // in place: W from the last on, then Wᵀ from the first
+  const std::size_t n = e.size(), p = phi.size();
+  for (std::size_t i = n; i-- > 0;) {
+    const bool counts = mask.used[i] && mask.run[i] >= p;
+    if (!counts) e[i] = 0.0;
+    for (std::size_t j = 0; counts && j < p; ++j) e[i] -= phi[j] * e[i - j - 1];
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] += white[i];
-    for (std::size_t j = 0; j < p; ++j)
-      if (white[i] != 0.0) out[i - j - 1] -= phi[j] * white[i];
-  }
-  return out;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < p && i + j + 1 < n; ++j) e[i] -= phi[j] * e[i + j + 1];
+  return remainder_mm;
 }
 
 bool is_line(const Hypothesis& h) {
   return h.effect ? h.effect->line.has_value() : h.pattern.kind == Pattern::Kind::line;
 }
 
-const std::vector<double>& variable_of(const Hypothesis& line, const LinearisationPoint& point) {
-  if (!line.effect) return line.pattern.in_time ? point.time : point.s;
-  return point.*column_of(line.effect->line->in);
+PointColumn variable_of(const Hypothesis& line) {
+  if (!line.effect) return line.pattern.in_time ? &PointPart::time : &PointPart::s;
+  return column_of(line.effect->line->in);
 }
 
 Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {

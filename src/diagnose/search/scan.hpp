@@ -24,6 +24,12 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+/// A bin of a scan, and what its line takes off the sum of squares.
+struct Top {
+  std::size_t bin;
+  double gain;
+};
+
 /// Scans of the readings of a problem, which outlives it; of means only lines that they keep.
 /// Eq. 72.
 class LineScanner {
@@ -34,18 +40,16 @@ class LineScanner {
 
   /// @param equations of the readings of the problem
   /// @param remainder_mm deviation minus base and terms, not whitened
-  Scans operator()(const NormalEquations& equations, std::span<const double> remainder_mm);
+  Scans operator()(const NormalEquations& equations, std::vector<double> remainder_mm);
   double bandwidth() const { return bandwidth_; }  ///< see Scans
 
  private:
   struct Band;
   struct Job;
-  struct Steps;
-  /// What lines take off the sum of squares, scan by scan, frequency by frequency.
-  using Gains = std::vector<std::vector<double>>;
-  Gains gains_of(const Job& job, Band& band, const NormalEquations& equations,
-                 const std::vector<double>& plain, const std::vector<double>& outward) const;
-  Scans peaks_of(const Job& job, std::vector<Gains> of_bands) const;
+  using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
+  Tops tops_of(const Job& job, Band& band, const NormalEquations& equations,
+               const std::vector<double>& left) const;
+  void add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const;
 
   const Problem& problem_;
   std::vector<Job> jobs_;
@@ -57,12 +61,11 @@ Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency);
 double frequency_of(const Hypothesis& hypothesis);
 /// Whether the hypothesis has a frequency that a scan has found.
 bool is_line(const Hypothesis& hypothesis);
-/// What a line is periodic in, of every reading.
-const std::vector<double>& variable_of(const Hypothesis& line, const LinearisationPoint& point);
+/// What a line is periodic in.
+PointColumn variable_of(const Hypothesis& line);
 
 /// Σ⁻¹ times what is left, up to the innovation's variance: WᵀW e; 0 where a row does not count.
 /// Eq. 66.
-std::vector<double> weighted(const NormalEquations& equations,
-                             std::span<const double> remainder_mm);
+std::vector<double> weighted(const NormalEquations& equations, std::vector<double> remainder_mm);
 
 }  // namespace trueaxis::diagnose_detail

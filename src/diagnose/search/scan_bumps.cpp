@@ -26,8 +26,10 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
                                    std::span<const double> remainder_mm, double& tests) {
   const LinearisationPoint& point = equations.point();
   const ObservationMask& mask = equations.mask();
-  const std::vector<double> g = weighted(equations, remainder_mm);
+  const std::vector<double> g = weighted(equations, {remainder_mm.begin(), remainder_mm.end()});
   std::vector<Hypothesis> best;
+  PointRoom room;
+  const PointPart all = point.all(room);
   tests = 0.0;
   // Of few readings a form has few; of many the smallest windows would be chances among very many.
   // Three quarters of the least make a form: (1 − 1/n)² is left of n equal ones without one.
@@ -44,15 +46,15 @@ std::vector<Hypothesis> scan_bumps(const NormalEquations& equations,
       std::vector<Extent> around(sum.size(), nowhere), along(sum.size(), nowhere);
       for (std::size_t i = 0; i < point.size(); ++i) {
         if (!mask.used[i]) continue;
-        const double turn = (point.theta[i] / two_pi - std::floor(point.theta[i] / two_pi)) *
+        const double turn = (all.theta[i] / two_pi - std::floor(all.theta[i] / two_pi)) *
                             static_cast<double>(sectors);
         const double u =
-            std::clamp(0.5 + 0.5 * (point.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999) *
+            std::clamp(0.5 + 0.5 * (all.s[i] - point.z_mid_mm) / point.z_half_mm, 0.0, 0.999999) *
             static_cast<double>(lengths);
         const auto sector = std::min(sectors - 1, static_cast<std::size_t>(turn));
         const std::size_t at = sector * lengths + static_cast<std::size_t>(u);
         widen(around[at], turn), widen(along[at], u);
-        const double value = point.rear[i] ? -g[i] : g[i];
+        const double value = all.rear[i] ? -g[i] : g[i];
         sum[at] += value;
         ++count[at];
         if (std::abs(value) > std::abs(largest[at])) largest[at] = value;

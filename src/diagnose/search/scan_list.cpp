@@ -12,20 +12,23 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-using Column = std::vector<double>;
-
 constexpr double shortest_mm = 1.0;  // of a length that a wave along Z is seen over
 constexpr double fewest_turns = 2.5;
 constexpr double fewest_cycles = 0.75;  // fewer are a slope and a curvature, and no line
 constexpr double most_cycles = 250.0;   // of a pattern: what 500 means of a long stream resolve
 
+/// From the first reading of a pass to its last.
+double travel(const LinearisationPoint& point, PointColumn x, const Pass& pass) {
+  return point.at(x, pass.end - 1) - point.at(x, pass.begin);
+}
+
 /// Steps of an abscissa within passes: the median is its sampling, for the highest line seen.
-double sampling(const LinearisationPoint& point, const Column& x) {
+double sampling(const LinearisationPoint& point, PointColumn x) {
   double finest = 0.0;
   for (const Pass& pass : point.passes) {
     if (pass.end - pass.begin < 8) continue;
     const double step =
-        std::abs(x[pass.end - 1] - x[pass.begin]) / static_cast<double>(pass.end - pass.begin - 1);
+        std::abs(travel(point, x, pass)) / static_cast<double>(pass.end - pass.begin - 1);
     if (step > 0.0 && (finest == 0.0 || step < finest)) finest = step;
   }
   return finest;
@@ -44,21 +47,21 @@ Sampled sampled(Line::In in, const LinearisationPoint& point, const Resolution& 
   if (resolution.sections) return out;
   const bool several = !resolution.one_variable;
   if (in == Line::In::angle) {
-    const double step = sampling(point, point.c) / two_pi;
+    const double step = sampling(point, &PointPart::c) / two_pi;
     return {resolution.turns > fewest_turns && step > 0.0, resolution.turns, 0.5 / step};
   }
   if (in == Line::In::time) {
-    const double step = point.has_time ? sampling(point, point.time) : 0.0;
+    const double step = point.has_time ? sampling(point, &PointPart::time) : 0.0;
     return {step > 0.0, range_of(point.time).length(), 0.5 / step, several};
   }
   if (in == Line::In::sensed) {
-    const double swing = sensed_swing(point);
+    const double swing = point.swing_mm;
     return {swing > least_swing_mm, swing, static_cast<double>(point.size()) / (3.0 * swing)};
   }
-  out.extent = point.has_position ? range_of(point.s).length() : 0.0;
+  out.extent = point.has_position ? point.range(&PointPart::s).length() : 0.0;
   out.seen = out.extent > shortest_mm;
   // A spiral that is finer than the sampling is seen as another, and as none else.
-  if (in != Line::In::spiral) out.highest = 0.5 / sampling(point, point.s);
+  if (in != Line::In::spiral) out.highest = 0.5 / sampling(point, &PointPart::s);
   out.another = in == Line::In::slide ? point.shifted : several;
   return out;
 }
@@ -82,11 +85,11 @@ Scan scan_of(const Effect& effect, const Sampled& of, const LinearisationPoint& 
 }
 
 /// Half a cycle in a turn: what turns faster along x is, pass by pass, nearer to another order.
-double half_a_cycle(const LinearisationPoint& point, const Column& x) {
+double half_a_cycle(const LinearisationPoint& point, PointColumn x) {
   double most = 0.0;
   for (const Pass& pass : point.passes) {
     const double turns = std::abs(point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
-    const double along = std::abs(x[pass.end - 1] - x[pass.begin]);
+    const double along = std::abs(travel(point, x, pass));
     if (turns > fewest_turns && along > 0.0) most = std::max(most, 0.5 * turns / along);
   }
   return most;
@@ -95,10 +98,10 @@ double half_a_cycle(const LinearisationPoint& point, const Column& x) {
 /// Of an order n either way round, of few cycles and more up to half a cycle in a turn.
 void add_patterns(const LinearisationPoint& point, const Sampled& of, bool in_time, bool counts,
                   int harmonics, std::vector<Scan>& list) {
-  Column LinearisationPoint::*x = in_time ? &LinearisationPoint::time : &LinearisationPoint::s;
+  const PointColumn x = in_time ? &PointPart::time : &PointPart::s;
   const double low = fewest_cycles / of.extent,
                high = std::max((in_time ? 30.0 : 20.0) / of.extent,
-                               std::min(half_a_cycle(point, point.*x), most_cycles / of.extent));
+                               std::min(half_a_cycle(point, x), most_cycles / of.extent));
   for (int n = 1; n <= harmonics; ++n) {
     for (const double sign : {1.0, -1.0}) {
       list.push_back({x, sign * n, in_time, low, high,
@@ -120,21 +123,21 @@ Hypothesis pattern_line(double order, bool in_time, double frequency) {
   return h;
 }
 
-std::vector<double> LinearisationPoint::*column_of(Line::In in) {
+PointColumn column_of(Line::In in) {
   switch (in) {
     case Line::In::angle:
-      return &LinearisationPoint::c;
+      return &PointPart::c;
     case Line::In::time:
-      return &LinearisationPoint::time;
+      return &PointPart::time;
     case Line::In::slide:
-      return &LinearisationPoint::z;
+      return &PointPart::z;
     case Line::In::sensed:
-      return &LinearisationPoint::sensed;
+      return &PointPart::sensed;
     case Line::In::length:
     case Line::In::spiral:
       break;
   }
-  return &LinearisationPoint::s;
+  return &PointPart::s;
 }
 
 Extent slow_spirals(const Problem& problem) {
@@ -142,7 +145,7 @@ Extent slow_spirals(const Problem& problem) {
   if (!problem.resolution.one_variable || !point.has_position) return {0.0, 0.0};
   const Pass& pass =
       *std::ranges::max_element(point.passes, {}, [](const Pass& p) { return p.end - p.begin; });
-  const double along = point.s[pass.end - 1] - point.s[pass.begin];
+  const double along = travel(point, &PointPart::s, pass);
   const double turns = (point.c[pass.end - 1] - point.c[pass.begin]) / two_pi;
   if (!(turns * along > 0.0)) return {0.0, 0.0};
   const double of_lead = turns / along, slow = fewest_cycles / std::abs(along);
@@ -165,8 +168,7 @@ std::vector<Scan> scans_of(const Problem& problem) {
       if (in == spiral) list.back().left_out = slow_spirals(problem);
     }
     // Of one variable, the lines of C are these too.
-    const bool same =
-        resolution.one_variable && !list.empty() && list[0].x == &LinearisationPoint::c;
+    const bool same = resolution.one_variable && !list.empty() && list[0].x == &PointPart::c;
     if (in == spiral && of.seen && !same)
       add_patterns(point, of, false, of.another, resolution.harmonics, list);
   }

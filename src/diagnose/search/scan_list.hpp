@@ -11,7 +11,7 @@ namespace trueaxis::diagnose_detail {
 
 /// One scan: cos, sin (2π f x − turns θ).
 struct Scan {
-  std::vector<double> LinearisationPoint::*x = nullptr;  ///< column
+  PointColumn x = nullptr;
   double turns = 0.0;
   bool spindle = false;  ///< turns are of C
   double low = 0.0, high = 0.0;
@@ -34,6 +34,6 @@ std::vector<Scan> scans_of(const Problem& problem);
 Hypothesis pattern_line(double order, bool in_time, double frequency);
 
 /// What a line is periodic in.
-std::vector<double> LinearisationPoint::*column_of(Line::In in);
+PointColumn column_of(Line::In in);
 
 }  // namespace trueaxis::diagnose_detail

@@ -33,14 +33,7 @@ struct Rows {
 Rows rows_of(const Problem& problem, const std::vector<double>& phi,
              const std::vector<Hypothesis>& columns) {
   Rows out;
-  const std::size_t size = problem.point.size();
-  out.raw.resize(static_cast<Index>(size),
-                 static_cast<Index>(1 + problem.point.base.columns() + columns_of(columns)));
-  for (std::size_t begin = 0; begin < size; begin += most_rows) {
-    const std::size_t end = std::min(begin + most_rows, size);
-    out.raw.middleRows(static_cast<Index>(begin), static_cast<Index>(end - begin)) =
-        columns_of_rows(problem.point, problem.deviation_mm, columns, begin, end);
-  }
+  out.raw = columns_of_rows(problem.point, problem.deviation_mm, columns, 0, problem.point.size());
   out.white = Matrix::Zero(out.raw.rows(), out.raw.cols());
   for (Index i = 0; i < out.raw.rows(); ++i) {
     if (!counts(problem.mask, static_cast<std::size_t>(i), phi.size())) continue;
@@ -71,7 +64,7 @@ struct Date {
 /// Steps between any two readings that have enough on both sides.
 std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
                            const Matrix& taken, const Eigen::VectorXd& left) {
-  const std::vector<double>& time = problem.point.time;
+  const std::span<const double> time = problem.point.time;
   const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
   const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
   struct Sums {
@@ -145,7 +138,7 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
 /// Dates one effect.
 std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>& phi,
                               const std::vector<Hypothesis>& terms, const Effect& effect) {
-  const std::vector<double>& time = problem.point.time;
+  const std::span<const double> time = problem.point.time;
   TermShape shape = typical_shape(effect, problem.point);
   shape.onset_s = 1e300;
   std::vector<Hypothesis> all(terms);

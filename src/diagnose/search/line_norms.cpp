@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/search/line_norms.hpp"
+
+#include <algorithm>
+#include <complex>
+#include <numeric>
+
+#include "math/fourier_sums.hpp"
+#include "math/sincos.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+LineNorms::LineNorms(const NormalEquations& equations, PointColumn x, const Means* means)
+    : equations_(equations), x_(x) {
+  const LinearisationPoint& point = equations.point();
+  const ObservationMask& mask = equations.mask();
+  for (std::size_t p = 0; p < point.passes.size(); ++p) {
+    const Pass& pass = point.passes[p];
+    double count = 0.0;
+    for (std::size_t i = pass.begin; i < pass.end; ++i)
+      count += mask.used[i] && mask.run[i] >= equations.autoregression().size();
+    used_.push_back(count);
+    // Means follow each other within a turn, and then leave some turns out.
+    std::size_t last = pass.end - 1;
+    if (means && means->of_pass[p].turns > 0.0)
+      last = std::min(last, pass.begin + static_cast<std::size_t>(means->of_pass[p].sectors) - 1);
+    const auto step = [&](PointColumn of) {
+      return last > pass.begin ? (point.at(of, last) - point.at(of, pass.begin)) /
+                                     static_cast<double>(last - pass.begin)
+                               : 0.0;
+    };
+    c_step_.push_back(step(&PointPart::c)), x_step_.push_back(step(x));
+  }
+}
+
+std::vector<double> LineNorms::of(const Scan& scan, double low, double df, std::size_t bins) const {
+  const bool white = equations_.autoregression().empty();
+  if (white) return std::vector<double>(bins, by_mean_step(low, scan.turns));
+  const bool swings = x_ == &PointPart::sensed || x_ == &PointPart::s;
+  if (swings && !scan.pattern) return by_every_step(scan, low, df, bins);
+  std::vector<double> out(bins);  // a pattern is of few cycles
+  for (std::size_t k = 0; k < bins; ++k)
+    out[k] = by_mean_step(low + df * static_cast<double>(k), scan.turns);
+  return out;
+}
+
+/// ½ Σ |A|² over the passes, A the transfer of the filter at the line's angle from reading to
+/// reading.
+double LineNorms::by_mean_step(double frequency, double turns) const {
+  double sum = 0.0;
+  for (std::size_t p = 0; p < used_.size(); ++p) {
+    const double angle = two_pi * frequency * x_step_[p] - turns * c_step_[p];
+    std::complex<double> transfer = 1.0;
+    const std::complex<double> step = std::polar(1.0, -angle);
+    std::complex<double> turned = 1.0;
+    for (const double factor : equations_.autoregression()) transfer -= factor * (turned *= step);
+    sum += 0.5 * used_[p] * std::norm(transfer);
+  }
+  return sum;
+}
+
+/// The same where x goes by another step from reading to reading, as the part's own length and what
+/// is sensed do of a part that is tilted or off centre: |A|² is a sum of the cosines of one step
+/// and of two, summed over the readings.
+std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, double df,
+                                             std::size_t bins) const {
+  const LinearisationPoint& point = equations_.point();
+  const ObservationMask& mask = equations_.mask();
+  const auto& phi = equations_.autoregression();
+  std::vector<double> factor{1.0};
+  for (const double p : phi) factor.push_back(-p);
+  const double flat = std::inner_product(factor.begin(), factor.end(), factor.begin(), 0.0);
+  std::vector<double> norm2(bins, 0.5 * static_cast<double>(equations_.count()) * flat);
+  for (std::size_t lag = 1; lag < factor.size(); ++lag) {
+    const double both = std::inner_product(factor.begin() + static_cast<long>(lag), factor.end(),
+                                           factor.begin(), 0.0);
+    const auto counts = [&](std::size_t i) {
+      return i >= lag && mask.used[i] && mask.run[i] >= phi.size();
+    };
+    // Of readings from `begin` on, from that before by the lag; 0 where one does not count.
+    const auto steps_of = [&](PointColumn column, std::size_t begin, std::size_t size,
+                              double* out) {
+      const std::size_t start = begin - std::min(begin, lag);
+      PointRoom room;
+      const PointPart at = point.part(start, begin + size, room);
+      const std::span<const double> x = at.*column;
+      for (std::size_t i = begin; i < begin + size; ++i)
+        out[i - begin] = counts(i) ? x[i - start] - x[i - start - lag] : 0.0;
+    };
+    const auto steps = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
+      steps_of(x_, begin, size, out[0]);
+    };
+    const auto waves = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
+      std::vector<double> turned(size);
+      steps_of(scan.spindle ? &PointPart::c : &PointPart::theta, begin, size, turned.data());
+      for (double& angle : turned) angle *= scan.turns;
+      sincos(turned, {out[1], size}, {out[0], size});
+      for (std::size_t i = 0; i < size; ++i) {
+        const double weight = counts(begin + i) ? both : 0.0;
+        out[0][i] *= weight, out[1][i] *= weight;
+      }
+    };
+    const auto sums =
+        FourierSums(steps, point.size(), 0.0, two_pi * low, two_pi * df, bins).of(waves, 2);
+    for (std::size_t k = 0; k < bins; ++k) norm2[k] += sums[0][k].real() - sums[1][k].imag();
+  }
+  return norm2;
+}
+
+}  // namespace trueaxis::diagnose_detail

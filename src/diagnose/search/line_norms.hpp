@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/search/scan_list.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// Squares of the whitened columns of the lines in one variable.
+class LineNorms {
+ public:
+  /// @param equations outlive this
+  /// @param means where the readings are such
+  LineNorms(const NormalEquations& equations, PointColumn x, const Means* means);
+
+  /// Of cos as of sin (2π f x − turns θ), f = low, low + df …
+  std::vector<double> of(const Scan& scan, double low, double df, std::size_t bins) const;
+
+ private:
+  double by_mean_step(double frequency, double turns) const;
+  std::vector<double> by_every_step(const Scan& scan, double low, double df,
+                                    std::size_t bins) const;
+
+  const NormalEquations& equations_;
+  PointColumn x_;
+  /// Of each pass: readings that count, and the mean step of C and x from one to the next.
+  std::vector<double> used_, c_step_, x_step_;
+};
+
+}  // namespace trueaxis::diagnose_detail
