@@ -13,6 +13,7 @@ namespace trueaxis::diagnose_detail {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
+using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Index = Eigen::Index;
 using Three = Eigen::Matrix3d;
 
@@ -35,17 +36,20 @@ Rows rows_of(const Problem& problem, const std::vector<double>& phi,
   Rows out;
   out.raw = columns_of_rows(problem.point, problem.deviation_mm, columns, 0, problem.point.size());
   out.white = Matrix::Zero(out.raw.rows(), out.raw.cols());
-  for (Index i = 0; i < out.raw.rows(); ++i) {
-    if (!counts(problem.mask, static_cast<std::size_t>(i), phi.size())) continue;
-    out.white.row(i) = out.raw.row(i);
-    for (std::size_t j = 0; j < phi.size(); ++j)
-      out.white.row(i) -= phi[j] * out.raw.row(i - static_cast<Index>(j) - 1);
+  for (Index c = 0; c < out.raw.cols(); ++c) {
+    for (Index i = 0; i < out.raw.rows(); ++i) {
+      if (!counts(problem.mask, static_cast<std::size_t>(i), phi.size())) continue;
+      double value = out.raw(i, c);
+      for (std::size_t j = 0; j < phi.size(); ++j)
+        value -= phi[j] * out.raw(i - static_cast<Index>(j) - 1, c);
+      out.white(i, c) = value;
+    }
   }
   return out;
 }
 
 /// An orthonormal basis of some columns.
-Matrix orthonormal(const Matrix& columns) {
+ByRows orthonormal(const Matrix& columns) {
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const Matrix unit = scale.asDiagonal() * (columns.transpose() * columns) * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(unit);
@@ -63,7 +67,7 @@ struct Date {
 
 /// Steps between any two readings that have enough on both sides.
 std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
-                           const Matrix& taken, const Eigen::VectorXd& left) {
+                           const ByRows& taken, const Eigen::VectorXd& left) {
   const std::span<const double> time = problem.point.time;
   const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
   const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
@@ -78,21 +82,22 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     to.right += own * left(row);
   };
   std::vector<Date> out;
-  Sums before;
+  Sums before, with_after;
   before.cross = Matrix::Zero(3, taken.cols());
   for (Index k = 1; k + least_readings <= size; ++k) {
     const auto reading = static_cast<std::size_t>(k);
     add(k - 1, step.row(k - 1), before);
     if (k < least_readings || !(time[reading] > time[reading - 1])) continue;
-    Sums sums = before;
+    if (lags > 0) with_after = before;
     // Readings just after the step are predicted from those before it.
     for (Index row = k; row < std::min(size, k + lags); ++row) {
       if (!counts(problem.mask, static_cast<std::size_t>(row), phi.size())) continue;
       Eigen::Vector3d own = Eigen::Vector3d::Zero();
       for (Index lag = row - k + 1; lag <= lags; ++lag)
         own -= phi[static_cast<std::size_t>(lag - 1)] * step_raw.row(row - lag).transpose();
-      add(row, own, sums);
+      add(row, own, with_after);
     }
+    const Sums& sums = lags > 0 ? with_after : before;
     out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
                    sums.gram.diagonal()});
   }
@@ -144,7 +149,7 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
   std::vector<Hypothesis> all(terms);
   all.push_back(of_effect(effect, shape));
   const Rows rows = rows_of(problem, phi, all);
-  const Matrix taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 4));
+  const ByRows taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 4));
   const Eigen::VectorXd left = rows.white.col(0) - taken * (taken.transpose() * rows.white.col(0));
   const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left);
   std::vector<Hypothesis> out;
