@@ -20,6 +20,7 @@ using Three = Eigen::Matrix3d;
 constexpr Index least_readings = 4;  // before and after a step: fewer are outliers
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
+constexpr double seen = 24.0;  // σ² of the sum of squares: less is no step among so many tests
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
@@ -126,8 +127,10 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
   std::vector<double> gains;
   for (const Date& date : dates) gains.push_back(gain_of(form, date));
   if (gains.empty()) return nullptr;
-  const double most = std::ranges::max(gains);
-  const double near = most - as_likely * std::max(rss - most, 0.0) / freedom;
+  const auto top = std::ranges::max_element(gains);
+  const double variance = std::max(rss - *top, 0.0) / freedom;
+  if (*top < seen * variance) return &dates[static_cast<std::size_t>(top - gains.begin())];
+  const double near = *top - as_likely * variance;
   const Date* best = nullptr;
   double least = 1e300;
   for (std::size_t i = 0; i < dates.size(); ++i) {
