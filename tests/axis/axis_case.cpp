@@ -95,20 +95,6 @@ void draw_noise(Draw& draw, Case& out) {
   out.scenario.seed = draw.random();
 }
 
-/// Sizes as the catalogue has them: each between the ends of its range, as likely in every octave.
-Effect sized(Effect effect, Draw& draw) {
-  const trueaxis::Effect* entry = find_effect(effect.id);
-  double share = 1.0;
-  for (const EffectParameter& p : entry->parameters)
-    if (p.low > 0.0 && p.high > p.low && !p.of.ends_with("_mm") && p.name != "order" &&
-        p.name != "frequency") {
-      share = draw.log_between(p.low, p.high) / p.high;
-      break;
-    }
-  effect = blind::scaled(std::move(effect), share);
-  return effect;
-}
-
 void fit_to(const Case& of, Effect& effect) {
   auto& p = effect.parameters;
   if (effect.id == "part.bow") {
@@ -189,7 +175,7 @@ void draw_effects(Draw& draw, Case& out) {
       continue;
     Effect largest = blind::draw_effect(family.id, bench, draw.random);
     fit_to(out, largest);
-    Effect effect = sized(largest, draw);
+    Effect effect = blind::of_typical_size(largest, [&] { return draw.unit(); });
     if (out.group == Group::absorbed || shows(bench, effect, largest, sigma))
       list.push_back(std::move(effect));
   }

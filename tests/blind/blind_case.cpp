@@ -17,6 +17,7 @@ namespace {
 using virtual_lathe::Noise;
 
 constexpr int most_draws = 400;
+constexpr double least_seen = 15.0;  // λ that one search in seven finds
 
 double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11U) * 0x1p-53; }
 
@@ -100,6 +101,8 @@ class Maker {
         return add_unknown();
       case Kind::absorbed:
         return add_absorbed();
+      case Kind::typical:
+        return add_typical();
     }
   }
 
@@ -191,6 +194,20 @@ class Maker {
     throw std::runtime_error(out_.id + ": this plan absorbs nothing");
   }
 
+  // One cause of the size that the catalogue expects of it, where it is not far too small to be
+  // seen: what the probabilities of a class are stated for.
+  void add_typical() {
+    for (int draw = 0; draw < most_draws; ++draw) {
+      const Effect sized = of_typical_size(drawn_cause(), [this] { return unit(random_); });
+      const double seen = at(sized);
+      if (seen < least_seen) continue;
+      out_.scenario.effects = {sized};
+      out_.lambdas = {seen};
+      return;
+    }
+    throw std::runtime_error(out_.id + ": this plan shows nothing");
+  }
+
   const Wanted& wanted_;
   BlindCase& out_;
   std::mt19937_64 random_;
@@ -198,7 +215,8 @@ class Maker {
   double sigma_mm_ = 0.0;
 };
 
-constexpr const char* names[] = {"null", "one", "two", "three", "unknown", "absorbed", "gaps"};
+constexpr const char* names[] = {"null", "one", "two", "three", "unknown", "absorbed", "gaps",
+                                 "typical"};
 
 }  // namespace
 
@@ -209,8 +227,8 @@ std::vector<Kind> all_kinds() {
 }
 
 Kind kind_from(std::string_view text) {
-  for (const Kind kind : all_kinds()) {
-    if (to_string(kind) == text) return kind;
+  for (std::size_t i = 0; i < std::size(names); ++i) {
+    if (names[i] == text) return static_cast<Kind>(i);
   }
   throw std::invalid_argument("no kind `" + std::string(text) + '`');
 }

@@ -14,11 +14,11 @@
 
 namespace trueaxis::blind {
 
-enum class Kind { null, one, two, three, unknown, absorbed, gaps };
+enum class Kind { null, one, two, three, unknown, absorbed, gaps, typical };
 
 std::string to_string(Kind kind);
 Kind kind_from(std::string_view text);  ///< @throws std::invalid_argument
-std::vector<Kind> all_kinds();
+std::vector<Kind> all_kinds();          ///< those with a goal: all but `typical`
 
 /// What a null case's noise is: "white", "AR(1) 0.5", "AR(1) 0.8", "Student t 4", "outliers".
 std::vector<std::string> null_noises();

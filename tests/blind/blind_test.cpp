@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "blind/detection.hpp"
@@ -64,6 +65,31 @@ TEST_P(Blind, ReachesTheGoal) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Blind, ::testing::ValuesIn(shares),
                          [](const auto& at) { return to_string(at.param.kind); });
+
+/// Of sizes as the catalogue expects them, a cause that is stated to be true with p > 1/2 is that in
+/// p of all: their sum against its own binomial spread, at the level of the other goals.
+TEST(BlindProbabilities, AreThoseOfTheTruth) {
+  constexpr std::size_t cases = 240;
+  Selection selection;
+  selection.kinds = {Kind::typical};
+  selection.cases = cases;
+  selection.seed = seed + 2;
+  std::cout << "seed " << selection.seed << '\n';
+  StudyOptions options = options_of("typical");
+  options.progress = nullptr;
+  const Tally all = tally(run_study(select(selection), options));
+  double stated = 0.0, variance = 0.0, members = 0.0, found = 0.0;
+  for (std::size_t k = 5; k < all.reliability.size(); ++k) {
+    const Tally::Stated& bin = all.reliability[k];
+    const auto n = static_cast<double>(bin.members);
+    if (bin.members == 0) continue;
+    stated += bin.sum, members += n, found += static_cast<double>(bin.true_ones);
+    variance += bin.sum * (1.0 - bin.sum / n);
+  }
+  std::cout << found << " true of " << members << ", stated " << stated << '\n';
+  EXPECT_GE(members, 50.0) << "too few to tell";
+  EXPECT_NEAR(found, stated, 3.3 * std::sqrt(variance)) << "beyond one chance in a thousand";
+}
 
 TEST(BlindDetection, PowerIsTheNoncentralF) {
   constexpr std::size_t cases = 30;

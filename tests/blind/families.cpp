@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "trueaxis/effect.hpp"
+
 namespace trueaxis::blind {
 namespace {
 
@@ -103,6 +105,17 @@ Effect scaled(Effect effect, double factor) {
     if (found != effect.parameters.end()) found->second *= factor;
   }
   return effect;
+}
+
+Effect of_typical_size(Effect largest, const std::function<double()>& unit) {
+  const trueaxis::Effect* entry = find_effect(largest.id);
+  if (!entry) return largest;
+  for (const EffectParameter& p : entry->parameters) {
+    if (p.low > 0.0 && p.high > p.low && !p.of.ends_with("_mm") && p.name != "order" &&
+        p.name != "frequency")
+      return scaled(std::move(largest), p.low * std::pow(p.high / p.low, unit()) / p.high);
+  }
+  return largest;
 }
 
 double over_typical(const Effect& effect) {

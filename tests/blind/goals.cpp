@@ -17,6 +17,8 @@ double goal(Kind kind, PlanId plan) {
       return 0.95;
     case Kind::absorbed:
       return 0.98;
+    case Kind::typical:  // too small to be named as often as none
+      return 0.0;
     case Kind::three:  // given for one pass, P3 and P8; the plans between are taken as P3
       return plan == PlanId::p1 || plan == PlanId::p8 ? 0.93 : 0.88;
   }

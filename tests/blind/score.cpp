@@ -128,6 +128,7 @@ Score score(const BlindCase& blind_case, const Sealed& truth, const Answer& answ
     case Kind::two:
     case Kind::three:
     case Kind::gaps:
+    case Kind::typical:
       out.outcome = judge_names(blind_case, truth, answer, out);
       break;
   }

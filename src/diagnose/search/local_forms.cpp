@@ -13,7 +13,8 @@ namespace {
 // Standard deviations in steps from angle to angle and from section to section: of what meets one
 // reading, of what its neighbours see too, and of what several do.
 constexpr double widths[] = {0.4, 0.9, 2.0, 3.0}, lengths[] = {0.4, 1.2, 3.0};
-constexpr double widest_rad = 0.5, least_width = 0.3;   // beyond it is lobes; of the steps
+constexpr double widest_rad = two_pi / 12.0;            // a sixth of a turn: beyond it is lobes
+constexpr double least_width = 0.3;                     // of the steps
 constexpr double left_over = 1e-6;                      // share of a column that must be left
 constexpr double smallest_mm = 1e-3, largest_mm = 0.2;  // of dents, flats, burrs
 constexpr double odds_against = 4.0;  // before the data: one part in five, as of any effect
@@ -30,8 +31,10 @@ Spacing spacing_of(const Problem& problem) {
 }  // namespace
 
 void keep_local(const Problem& problem, Hypothesis& form) {
-  const Spacing step = spacing_of(problem);
   Pattern& p = form.pattern;
+  p.width_rad = std::min(p.width_rad, widest_rad);
+  if (!problem.resolution.sparse) return;
+  const Spacing step = spacing_of(problem);
   p.width_rad = std::clamp(p.width_rad, std::min(least_width * step.rad, widest_rad), widest_rad);
   const double half = problem.point.z_half_mm, mid = problem.point.z_mid_mm;
   p.position_mm = std::clamp(p.position_mm, mid - half, mid + half);

@@ -13,8 +13,8 @@ inline bool is_local(const TermValue& h) {
   return !h.effect && h.pattern.kind == Pattern::Kind::bump;
 }
 
-/// Makes a form no wider than a local one is, no finer than the readings, and one of the part.
-/// @param problem sparse
+/// Makes a form no wider than a local one is; of a sparse problem also no finer than the readings,
+/// and one of the part.
 void keep_local(const Problem& problem, Hypothesis& form);
 
 /// −2 ln of the share of all places, widths and lengths that explain the readings as well as a form

@@ -224,7 +224,7 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
       const Hypothesis& h = best[i].hypothesis;
       const double cell = is_line(h) ? half_cell(h, judge.problem().point) : 0.0;
       for (Hypothesis& v : variants(h, judge.problem(), step, 0.5 * shrink * cell)) {
-        if (judge.problem().resolution.sparse && is_local(v)) keep_local(judge.problem(), v);
+        if (is_local(v)) keep_local(judge.problem(), v);
         tried.push_back(std::move(v));
         owner.push_back(i);
       }

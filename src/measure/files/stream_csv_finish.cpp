@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "math/statistics.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -67,6 +71,50 @@ void take_set_ups(const CsvHeader& header, const CsvKnownMetadata& known, ProbeS
   }
 }
 
+/// What a unit that was taken for another makes of a speed: `factor` is that of C over t.
+struct MistakenUnit {
+  double factor;
+  CsvRole column;
+  const char* advice;
+};
+constexpr MistakenUnit mistaken_units[] = {
+    {rad_per_deg, CsvRole::angle, "C looks like radians: write C[rad]"},
+    {1.0 / rad_per_deg, CsvRole::angle, "C looks like degrees: write C[deg]"},
+    {rad_per_deg / two_pi, CsvRole::angle, "C looks like turns: write C[rev]"},
+    {two_pi / rad_per_deg, CsvRole::angle, "C looks like degrees: write C[deg]"},
+    {1.0 / two_pi, CsvRole::angle, "C looks like turns: write C[rev]"},
+    {two_pi, CsvRole::angle, "C looks like radians: write C[rad]"},
+    {1e-3, CsvRole::time, "t looks like milliseconds: write t[ms]"},
+    {1e3, CsvRole::time, "t looks like seconds: write t[s]"}};
+
+/// The speed that C and t give is that of `spindle_rpm` times what one unit is in another: one of
+/// them is not what its header says. The usual step tells, so that neither a dwell nor a second
+/// speed does.
+void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
+                          CsvDiagnostics& diagnostics) {
+  constexpr double alike = 0.02;               // a spindle keeps its speed to 2 %
+  constexpr std::size_t enough_steps = 10000;  // for a median
+  if (!stream.spindle_rpm || *stream.spindle_rpm == 0.0 || stream.time_s.empty()) return;
+  std::vector<double> speeds_rad_per_s;
+  for (std::size_t i = 1; i < stream.size(); i += 1 + stream.size() / enough_steps) {
+    const double turned_rad = std::abs(stream.c_rad[i] - stream.c_rad[i - 1]);
+    const double passed_s = stream.time_s[i] - stream.time_s[i - 1];
+    if (turned_rad > 0.0 && passed_s > 0.0) speeds_rad_per_s.push_back(turned_rad / passed_s);
+  }
+  if (speeds_rad_per_s.empty()) return;
+  const double rpm = median(std::move(speeds_rad_per_s)) * 60.0 / two_pi;
+  const double said_rpm = std::abs(*stream.spindle_rpm);
+  for (const auto& [factor, column, advice] : mistaken_units) {
+    if (std::abs(rpm / said_rpm / factor - 1.0) > alike) continue;
+    diagnostics.add(
+        header.line, header.find(column)->character,
+        fmt::format("C and t give {:.4g} turns a minute, where spindle_rpm says {:.4g}: "
+                    "{}, or correct spindle_rpm",
+                    rpm, said_rpm, advice));
+    return;
+  }
+}
+
 }  // namespace
 
 bool csv_is_wrapped(const std::vector<double>& c, double turn) {
@@ -120,6 +168,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   stream.sensor_noise_mm = known.sensor_noise_mm;
   stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
+  refuse_mistaken_unit(header, stream, diagnostics);
   stream.metadata = metadata.metadata;
   take_set_ups(header, known, stream, diagnostics);
 }
