@@ -215,8 +215,8 @@ class Maker {
   double sigma_mm_ = 0.0;
 };
 
-constexpr const char* names[] = {"null", "one", "two", "three", "unknown", "absorbed", "gaps",
-                                 "typical"};
+constexpr const char* names[] = {"null",    "one",      "two",  "three",
+                                 "unknown", "absorbed", "gaps", "typical"};
 
 }  // namespace
 

@@ -25,7 +25,8 @@ struct Arguments {
 void declare(CLI::App& app, Arguments& to) {
   app.add_option("--cases", to.cases, "how many, kinds x plans x surfaces in turn");
   app.add_option("--seed", to.seed, "of the study; printed");
-  app.add_option("--kinds", to.kinds, "null one two three unknown absorbed gaps typical")->delimiter(',');
+  app.add_option("--kinds", to.kinds, "null one two three unknown absorbed gaps typical")
+      ->delimiter(',');
   app.add_option("--plans", to.plans, "P1 ... P8")->delimiter(',');
   app.add_option("--surfaces", to.surfaces, "cone cylinder")->delimiter(',');
   app.add_option("--detection", to.detection, "cases per point of the detection curve");

@@ -38,8 +38,8 @@ const Family& family(std::string_view id);
 /// All sizes times `factor`.
 Effect scaled(Effect effect, double factor);
 
-/// The effect whose sizes are at the upper end of their range, of a size between the ends that is as
-/// likely in every octave; `unit` draws from [0, 1), where the catalogue gives both ends.
+/// The effect whose sizes are at the upper end of their range, of a size between the ends that is
+/// as likely in every octave; `unit` draws from [0, 1), where the catalogue gives both ends.
 Effect of_typical_size(Effect largest, const std::function<double()>& unit);
 
 /// Largest size over the upper end of its typical range.
