@@ -2,7 +2,10 @@
 #include "diagnose/search/line_norms.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <complex>
+#include <functional>
 #include <numeric>
 
 #include "math/fourier_sums.hpp"
@@ -10,6 +13,43 @@
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
+namespace {
+
+// A sum of cosines of steps goes through a cycle only once in the inverse of the longest: of 32
+// places a cycle the polynomial through six leaves (2π/32)⁶ · 225/64/6! = 3e-7 of it.
+constexpr double places_a_cycle = 32.0;
+constexpr std::size_t taps = 6;
+constexpr std::size_t rows_at_once = 4096;
+constexpr double before = 2.0;  // of the taps, those below the interval
+
+std::size_t stride_of(double longest, double df) {
+  const double stride = 1.0 / (places_a_cycle * longest * df);
+  return longest > 0.0 && stride < 1.0 ? 1 : static_cast<std::size_t>(std::min(stride, 1e6));
+}
+
+/// Adds to `fine` what stands at every `stride`th place, by the polynomial through six places.
+void add_between(const std::vector<double>& coarse, std::size_t stride, std::vector<double>& fine) {
+  if (stride == 1) {
+    std::ranges::transform(fine, coarse, fine.begin(), std::plus<>());
+    return;
+  }
+  std::array<double, taps> weight{};
+  for (std::size_t r = 0; r < std::min(stride, fine.size()); ++r) {
+    const double t = before + static_cast<double>(r) / static_cast<double>(stride);
+    for (std::size_t i = 0; i < taps; ++i) {
+      weight[i] = 1.0;
+      for (std::size_t j = 0; j < taps; ++j) {
+        const auto to = static_cast<double>(i), from = static_cast<double>(j);
+        if (j != i) weight[i] *= (t - from) / (to - from);
+      }
+    }
+    for (std::size_t k = r, at = 0; k < fine.size(); k += stride, ++at)
+      fine[k] += std::inner_product(weight.begin(), weight.end(),
+                                    coarse.begin() + static_cast<std::ptrdiff_t>(at), 0.0);
+  }
+}
+
+}  // namespace
 
 LineNorms::LineNorms(const NormalEquations& equations, PointColumn x, const Means* means)
     : equations_(equations), x_(x) {
@@ -88,6 +128,13 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
       for (std::size_t i = begin; i < begin + size; ++i)
         out[i - begin] = counts(i) ? x[i - start] - x[i - start - lag] : 0.0;
     };
+    double longest = 0.0;
+    std::vector<double> some(std::min(point.size(), rows_at_once));
+    for (std::size_t begin = 0; begin < point.size(); begin += some.size()) {
+      const std::size_t size = std::min(some.size(), point.size() - begin);
+      steps_of(x_, begin, size, some.data());
+      for (std::size_t i = 0; i < size; ++i) longest = std::max(longest, std::abs(some[i]));
+    }
     const auto steps = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
       steps_of(x_, begin, size, out[0]);
     };
@@ -101,9 +148,15 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
         out[0][i] *= weight, out[1][i] *= weight;
       }
     };
-    const auto sums =
-        FourierSums(steps, point.size(), 0.0, two_pi * low, two_pi * df, bins).of(waves, 2);
-    for (std::size_t k = 0; k < bins; ++k) norm2[k] += sums[0][k].real() - sums[1][k].imag();
+    const std::size_t stride = stride_of(longest, df);
+    const std::size_t coarse = stride > 1 ? bins / stride + taps + 1 : bins;
+    const double first = stride > 1 ? low - before * static_cast<double>(stride) * df : low;
+    const auto sums = FourierSums(steps, point.size(), 0.0, two_pi * first,
+                                  two_pi * df * static_cast<double>(stride), coarse)
+                          .of(waves, 2);
+    std::vector<double> cosines(coarse);
+    for (std::size_t k = 0; k < coarse; ++k) cosines[k] = sums[0][k].real() - sums[1][k].imag();
+    add_between(cosines, stride, norm2);
   }
   return norm2;
 }
