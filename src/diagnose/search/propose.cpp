@@ -67,6 +67,7 @@ class Judge {
         equations_(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
         taken_(equations_.base()) {
     append_columns(taken_, equations_.append(terms));
+    equations_.keep_columns();
   }
   std::vector<Candidate> operator()(const std::vector<Hypothesis>& list) {
     const auto columns = static_cast<std::size_t>(equations_.total().rows());
