@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "math/autoregression.hpp"
 
-#include <hwy/aligned_allocator.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -99,45 +97,91 @@ LaggedGram::LaggedGram(Eigen::Index columns) {
     for (auto& line : *of) line.fill(Matrix::Zero(columns, columns));
 }
 
-double LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows, std::size_t lags,
-                       Lags& to) {
-  // The columns of all lags beside each other, padded with zeros as of a WideBlock.
-  const auto columns = static_cast<std::size_t>(x.cols());
-  const std::size_t n = rows.size(), stride = (n + 7) / 8 * 8;
-  const auto memory = hwy::MakeUniqueAlignedArray<double>(lags * columns * stride + 1);
-  std::fill_n(memory.get(), lags * columns * stride, 0.0);
-  std::vector<const double*> column;
+LaggedColumns::LaggedColumns(const Matrix& x, std::span<const Eigen::Index> rows, std::size_t lags)
+    : rows_(rows.size()), lags_(lags) {
+  const std::size_t stride = (rows_ + 7) / 8 * 8, columns = static_cast<std::size_t>(x.cols());
+  memory_ = hwy::AllocateAligned<double>(lags * columns * stride + 1);
   for (std::size_t lag = 0; lag < lags; ++lag) {
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
-      double* own = memory.get() + column.size() * stride;
-      for (std::size_t i = 0; i < n; ++i) own[i] = x(rows[i] - static_cast<Eigen::Index>(lag), j);
-      column.push_back(own);
+      double* own = memory_.get() + column_.size() * stride;
+      for (std::size_t i = 0; i < rows_; ++i)
+        own[i] = x(rows[i] - static_cast<Eigen::Index>(lag), j);
+      std::fill(own + rows_, own + stride, 0.0);
+      column_.push_back(own);
     }
   }
-  std::vector<double> lower(gram_size(column.size()), 0.0);
-  add_wide_products({column, n}, lower);
-  for (std::size_t a = 0; a < lags; ++a) {
-    for (std::size_t b = a; b < lags; ++b) {
-      for (std::size_t i = 0; i < columns; ++i) {
-        for (std::size_t j = 0; j < columns; ++j) {
-          const std::size_t one = a * columns + i, other = b * columns + j;
-          to[a][b](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) +=
+}
+
+/// Products of columns with each other, into those of the columns from `at` on.
+void LaggedGram::add(const LaggedColumns& x, std::size_t at, Lags& to) {
+  std::vector<double> lower(gram_size(x.all().size()), 0.0);
+  add_wide_products({x.all(), x.rows()}, lower);
+  for (std::size_t a = 0; a < x.lags(); ++a) {
+    for (std::size_t b = a; b < x.lags(); ++b) {
+      for (std::size_t i = 0; i < x.count(); ++i) {
+        for (std::size_t j = 0; j < x.count(); ++j) {
+          const std::size_t one = a * x.count() + i, other = b * x.count() + j;
+          to[a][b](static_cast<Eigen::Index>(at + i), static_cast<Eigen::Index>(at + j)) +=
               lower[gram_index(std::max(one, other), std::min(one, other))];
         }
       }
     }
   }
-  return static_cast<double>(n);
+}
+
+void LaggedGram::add_cross(const LaggedColumns& before, const LaggedColumns& last, Lags& to) {
+  const std::size_t there = before.count(), columns = before.all().size();
+  std::vector<double> cross(last.all().size() * columns, 0.0);
+  add_cross_products({last.all(), last.rows()}, {before.all(), before.rows()}, cross);
+  const auto product = [&](std::size_t lag, std::size_t i, std::size_t lag_before, std::size_t j) {
+    return cross[(lag * last.count() + i) * columns + lag_before * there + j];
+  };
+  for (std::size_t a = 0; a < last.lags(); ++a) {
+    for (std::size_t b = a; b < last.lags(); ++b) {
+      for (std::size_t i = 0; i < last.count(); ++i) {
+        for (std::size_t j = 0; j < there; ++j) {
+          const auto row = static_cast<Eigen::Index>(there + i),
+                     column = static_cast<Eigen::Index>(j);
+          to[a][b](row, column) += product(a, i, b, j);
+          to[a][b](column, row) += product(b, i, a, j);
+        }
+      }
+    }
+  }
+  add(last, there, to);
 }
 
 void LaggedGram::add(const Matrix& x, std::span<const Eigen::Index> rows) {
-  rows_ += add(x, rows, 3, gram_);
+  add(LaggedColumns(x, rows, 3), 0, gram_);
+  rows_ += static_cast<double>(rows.size());
 }
 
-void LaggedGram::add_starts(const Matrix& x, std::span<const Eigen::Index> first,
-                            std::span<const Eigen::Index> second) {
-  first_rows_ += add(x, first, 1, first_);
-  second_rows_ += add(x, second, 2, second_);
+void LaggedGram::add(const LaggedRows& rows) {
+  add(rows.later, 0, gram_), add(rows.first, 0, first_), add(rows.second, 0, second_);
+  rows_ += static_cast<double>(rows.later.rows());
+  first_rows_ += static_cast<double>(rows.first.rows());
+  second_rows_ += static_cast<double>(rows.second.rows());
+}
+
+void LaggedGram::add(const LaggedGram& other) {
+  change(other, [](Matrix& to, const Matrix& from) { to += from; });
+  rows_ += other.rows_;
+  first_rows_ += other.first_rows_, second_rows_ += other.second_rows_;
+}
+
+LaggedGram LaggedGram::widened(Eigen::Index columns) const {
+  LaggedGram out(columns);
+  out.change(*this, [](Matrix& to, const Matrix& from) {
+    to.topLeftCorner(from.rows(), from.cols()) = from;
+  });
+  out.rows_ = rows_, out.first_rows_ = first_rows_, out.second_rows_ = second_rows_;
+  return out;
+}
+
+void LaggedGram::add_columns(const LaggedRows& before, const LaggedRows& last) {
+  add_cross(before.later, last.later, gram_);
+  add_cross(before.first, last.first, first_);
+  add_cross(before.second, last.second, second_);
 }
 
 template <typename Change>

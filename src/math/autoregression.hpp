@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include <Eigen/Dense>
 #include <array>
 #include <functional>
@@ -17,6 +19,30 @@ struct Autoregression {
   double freedom = 0.0;  ///< of it: readings beyond the columns
 };
 
+/// Columns of some rows, and of those one and more before each of them: aligned and padded as of a
+/// WideBlock.
+class LaggedColumns {
+ public:
+  /// @param lags how many: 1 the rows alone
+  LaggedColumns(const Eigen::MatrixXd& x, std::span<const Eigen::Index> rows, std::size_t lags);
+
+  std::size_t rows() const { return rows_; }
+  std::size_t lags() const { return lags_; }
+  std::size_t count() const { return column_.size() / lags_; }    ///< columns of each lag
+  std::span<const double* const> all() const { return column_; }  ///< lag by lag
+
+ private:
+  std::size_t rows_, lags_;
+  hwy::AlignedFreeUniquePtr<double[]> memory_;
+  std::vector<const double*> column_;
+};
+
+/// Readings that show the noise together: rows with two others before them, rows where a run of
+/// readings begins, and rows that are the second of theirs.
+struct LaggedRows {
+  LaggedColumns later, first, second;
+};
+
 /// Products of columns with those one and two readings earlier, all over the same readings. The
 /// first column is what shows the noise, the others are those of the model beside it.
 class LaggedGram {
@@ -25,9 +51,15 @@ class LaggedGram {
 
   /// Adds rows of `x`; the two rows before each of them are those of the two readings before.
   void add(const Eigen::MatrixXd& x, std::span<const Eigen::Index> rows);
-  /// Adds rows where runs of readings begin, and rows that are the second of theirs.
-  void add_starts(const Eigen::MatrixXd& x, std::span<const Eigen::Index> first,
-                  std::span<const Eigen::Index> second);
+  /// Adds readings.
+  void add(const LaggedRows& rows);
+  /// Adds the products of more readings.
+  void add(const LaggedGram& other);
+  /// The same readings with room for more columns behind.
+  LaggedGram widened(Eigen::Index columns) const;
+  /// Adds the products of columns that are last with each other and with those before them, of
+  /// readings whose products those before have already.
+  void add_columns(const LaggedRows& before, const LaggedRows& last);
   /// Adds the products of x · t for x whose products are `other`.
   void add_transformed(const LaggedGram& other, const Eigen::MatrixXd& t);
 
@@ -42,8 +74,8 @@ class LaggedGram {
 
  private:
   using Lags = std::array<std::array<Eigen::MatrixXd, 3>, 3>;  ///< products of the lags a ≤ b
-  static double add(const Eigen::MatrixXd& x, std::span<const Eigen::Index> rows, std::size_t lags,
-                    Lags& to);
+  static void add(const LaggedColumns& x, std::size_t at, Lags& to);
+  static void add_cross(const LaggedColumns& before, const LaggedColumns& last, Lags& to);
   /// by(own, the other's) for all products.
   template <typename Change>
   void change(const LaggedGram& other, const Change& by);

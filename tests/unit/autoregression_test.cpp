@@ -70,8 +70,7 @@ TEST(Autoregression, IsTheMostLikelyOfAllReadings) {
       std::vector<Eigen::Index> first, second, others;
       for (Eigen::Index i = 0; i < readings; ++i)
         (i % in_a_run == 0 ? first : i % in_a_run == 1 ? second : others).push_back(i);
-      gram.add(all, others);
-      gram.add_starts(all, first, second);
+      gram.add(LaggedRows{{all, others, 3}, {all, first, 1}, {all, second, 2}});
       const Autoregression found = find_autoregression(gram, [](double, double) { return true; });
       if (found.phi.empty()) continue;
       ++told;

@@ -84,16 +84,16 @@ void make_part(const LinearisationPoint& point, std::size_t begin, std::size_t e
   }
 }
 
-void Reach::add(const PointPart& at, std::span<const double> position) {
+void Reach::add(const PointPart& at) {
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double sensed = at.sensed[i];
     widen(side[at.rear[i] != 0], {sensed, sensed});
     outward += at.rear[i] ? -sensed : sensed;
   }
-  widen(x, range_of(at.x)), widen(along, range_of(position));
+  widen(x, range_of(at.x)), widen(s, range_of(at.s));
 }
 void Reach::add(const Reach& other) {
-  widen(x, other.x), widen(along, other.along);
+  widen(x, other.x), widen(s, other.s);
   for (const std::size_t k : {0u, 1u}) widen(side[k], other.side[k]);
   outward += other.outward;
 }
@@ -104,9 +104,8 @@ Reach reach_of(const LinearisationPoint& point, int threads) {
   constexpr std::size_t rows = 4 * LinearisationPoint::part_rows;
   std::vector<Reach> parts((point.size() + rows - 1) / rows);
   for_each_index(parts.size(), threads, [&](std::size_t k) {
-    point.for_each_part(
-        [&](const PointPart& at) { parts[k].add(at, point.base.face ? at.z : at.s); }, k * rows,
-        std::min((k + 1) * rows, point.size()));
+    point.for_each_part([&](const PointPart& at) { parts[k].add(at); }, k * rows,
+                        std::min((k + 1) * rows, point.size()));
   });
   Reach out;
   for (const Reach& part : parts) out.add(part);
@@ -123,6 +122,8 @@ Reach fill_contacts(LinearisationPoint& point, int threads) {
   }
   const Reach reach = reach_of(point, threads);
   point.swing_mm = std::max({0.0, reach.side[0].length(), reach.side[1].length()});
+  point.s_mm = reach.s, point.sensed_mm = reach.side[0];
+  widen(point.sensed_mm, reach.side[1]);
   return reach;
 }
 

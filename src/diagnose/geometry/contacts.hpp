@@ -24,10 +24,10 @@ inline void widen(Extent& range, const Extent& by) {
 
 /// How far the readings go.
 struct Reach {
-  Extent x = nowhere, along = nowhere, side[2] = {nowhere, nowhere};  ///< of what is sensed
-  double outward = 0.0;                                               ///< sum
+  Extent x = nowhere, s = nowhere, side[2] = {nowhere, nowhere};  ///< of what is sensed
+  double outward = 0.0;                                           ///< sum
 
-  void add(const PointPart& at, std::span<const double> position);
+  void add(const PointPart& at);
   void add(const Reach& other);
 };
 

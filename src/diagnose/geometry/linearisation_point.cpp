@@ -60,7 +60,7 @@ LinearisationPoint linearised(const ProbeStream& stream, LinearisationPoint poin
   fill_motion(point);
   point.clampings = clampings;
   const Reach reach = fill_contacts(point, threads);
-  const auto [low, high] = reach.along;
+  const auto [low, high] = base.face ? range_of(point.z) : reach.s;
   point.z_mid_mm = 0.5 * (low + high);
   point.z_half_mm = std::max(0.5 * (high - low), 1e-9);
   if (!point.has_position || point.z_half_mm < 1e-3) point.z_half_mm = 1.0;
@@ -109,15 +109,22 @@ double LinearisationPoint::at(PointColumn column, std::size_t reading) const {
 }
 
 Extent LinearisationPoint::range(PointColumn column) const {
+  if (column == &PointPart::c) return range_of(c);
+  if (column == &PointPart::z) return range_of(z);
+  if (column == &PointPart::time) return range_of(time);
+  if (column == &PointPart::s) return s_mm;
+  if (column == &PointPart::sensed) return sensed_mm;
   Extent out = nowhere;
   for_each_part([&](const PointPart& at) { widen(out, range_of(at.*column)); });
   return out;
 }
 
-std::vector<double> LinearisationPoint::column(PointColumn which) const {
-  std::vector<double> out;
-  for_each_part(
-      [&](const PointPart& at) { out.insert(out.end(), (at.*which).begin(), (at.*which).end()); });
+std::vector<double> LinearisationPoint::column(PointColumn which, int threads) const {
+  std::vector<double> out(size());
+  const auto copy = [&](const PointPart& at) {
+    std::ranges::copy(at.*which, out.begin() + static_cast<long>(at.begin));
+  };
+  for_each_part_on(threads, copy);
   return out;
 }
 
@@ -240,9 +247,10 @@ BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
   return base;
 }
 
-std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point) {
+std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point,
+                                   int threads) {
   std::vector<double> out(point.size());
-  point.for_each_part([&](const PointPart& at) {
+  point.for_each_part_on(threads, [&](const PointPart& at) {
     for (std::size_t k = 0; k < at.size(); ++k)
       out[at.begin + k] = stream.reading_mm[at.begin + k] - at.x[k];
   });

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/threads.hpp"
 #include "diagnose/geometry/point_part.hpp"
 #include "math/column_source.hpp"
 #include "math/statistics.hpp"
@@ -66,6 +67,7 @@ struct LinearisationPoint : LinearisationFacts {
   std::vector<double> velocity;  ///< of every pass, mm/s along Z
   double swing_mm = 0.0;  ///< of what is sensed, on the side where it is larger: from side to side
                           ///< nothing is read
+  Extent s_mm{0.0, 0.0}, sensed_mm{0.0, 0.0};  ///< how far they go
 
   std::size_t size() const { return c.size(); }
   /// Readings [begin, end), made in `room` where they are not kept; valid as long as both.
@@ -82,9 +84,17 @@ struct LinearisationPoint : LinearisationFacts {
   void for_each_part(const Work& work) const {
     for_each_part(work, 0, size());
   }
+  /// The same on threads and in any order.
+  template <typename Work>
+  void for_each_part_on(int threads, const Work& work) const {
+    constexpr std::size_t rows = 4 * part_rows;
+    for_each_index((size() + rows - 1) / rows, threads, [&](std::size_t k) {
+      for_each_part(work, k * rows, std::min((k + 1) * rows, size()));
+    });
+  }
   double at(PointColumn column, std::size_t reading) const;
   Extent range(PointColumn column) const;
-  std::vector<double> column(PointColumn which) const;  ///< all of it
+  std::vector<double> column(PointColumn which, int threads = 1) const;  ///< all of it
 
   /// What terms are told of a part; its `rear` is that of the first reading: ask set-up by set-up.
   TermContext context(const PointPart& part) const;
@@ -122,6 +132,7 @@ BaseKind base_of(const ProbeStream& stream, const FitResult& fit,
                  const std::vector<Clamping>& clampings);
 
 /// Readings minus the point's surface, of a gauge less its zero, which the base takes out anyway.
-std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point);
+std::vector<double> deviation_from(const ProbeStream& stream, const LinearisationPoint& point,
+                                   int threads = 1);
 
 }  // namespace trueaxis::diagnose_detail

@@ -60,7 +60,7 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
     : ideal_(ideal), terms_(model.terms) {
   const Problem& first = ideal.problem;
   if (!terms_.empty()) relinearise(model);
-  deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point);
+  deviation_mm_ = deviation_from(ideal.stream, point_ ? *point_ : first.point, first.threads);
   if (!known_mm_.empty()) add(deviation_mm_, known_mm_);
   problem_.emplace(first.about(point_ ? *point_ : first.point, deviation_mm_));
   joint_.emplace(*problem_, model.phi, terms_, terms_.size());

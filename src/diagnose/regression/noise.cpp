@@ -5,8 +5,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <optional>
 
 #include "base/threads.hpp"
 #include "math/statistics.hpp"
@@ -24,29 +24,20 @@ constexpr std::size_t enough_rows = 6000;  // φ to 0.013, a tenth of what matte
 constexpr std::size_t least_rows = 200;
 constexpr double least_freedom = 20.0;  // readings beyond the columns: u(φ) is 0.2 of white noise
 
-/// A stretch of readings.
-struct Stretch {
-  std::size_t begin, end;
-};
-
-/// Readings enough for the noise. A block of a long stream is cut: whole blocks would be more than
-/// enough; short ones in a row are one stretch.
-std::vector<Stretch> stretches(const ObservationMask& mask) {
-  constexpr std::size_t most = enough_rows / 4;
-  std::size_t available = 0;
-  for (std::size_t f = 0; f < mask.folds(); ++f)
-    available += std::min(mask.fold_begin[f + 1] - mask.fold_begin[f], most);
-  const std::size_t stride = 1 + available / (2 * enough_rows);
-  std::vector<Stretch> out;
-  for (std::size_t f = 0; f < mask.folds(); f += stride) {
-    const std::size_t begin = mask.fold_begin[f],
-                      end = std::min(mask.fold_begin[f + 1], begin + most);
-    if (!out.empty() && out.back().end == begin && end - out.back().begin <= most)
-      out.back().end = end;
-    else
-      out.push_back({begin, end});
-  }
-  return out;
+/// Columns of terms of as many readings as `out` has rows, from `begin` on.
+void fill_rows(const LinearisationPoint& point, std::span<const Hypothesis> terms,
+               std::size_t begin, Eigen::Ref<Matrix> out) {
+  PointRoom room;
+  const std::size_t end = begin + static_cast<std::size_t>(out.rows());
+  for_each_side(point.part(begin, end, room), [&](const PointPart& side) {
+    Eigen::Index next = 0;
+    for (const Hypothesis& h : terms) {
+      std::vector<double*> own(h.columns());
+      for (double*& column : own)
+        column = &out(static_cast<Eigen::Index>(side.begin - begin), next++);
+      fill(h, point, side, own);
+    }
+  });
 }
 
 }  // namespace
@@ -132,24 +123,77 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
   return list;
 }
 
+/// Readings enough for the noise. A block of a long stream is cut: whole blocks would be more than
+/// enough; short ones in a row are one stretch.
+std::vector<NoiseEstimator::Stretch> NoiseEstimator::stretches_of(
+    const ObservationMask& mask) const {
+  constexpr std::size_t most = enough_rows / 4;
+  std::size_t available = 0;
+  for (std::size_t f = 0; f < mask.folds(); ++f)
+    available += std::min(mask.fold_begin[f + 1] - mask.fold_begin[f], most);
+  const std::size_t stride = 1 + available / (2 * enough_rows);
+  std::vector<Stretch> out;
+  for (std::size_t f = 0; f < mask.folds(); f += stride) {
+    const std::size_t begin = mask.fold_begin[f],
+                      end = std::min(mask.fold_begin[f + 1], begin + most);
+    if (!out.empty() && out.back().end == begin && end - out.back().begin <= most)
+      out.back().end = end;
+    else
+      out.push_back({begin, end, {}, {}, {}});
+  }
+  for (Stretch& s : out) {
+    const std::size_t from = s.begin - std::min<std::size_t>(s.begin, 2);  // those before its first
+    for (std::size_t i = s.begin; i < s.end; ++i)
+      if (mask.used[i])
+        (mask.run[i] == 0   ? s.first
+         : mask.run[i] == 1 ? s.second
+                            : s.later)
+            .push_back(static_cast<Eigen::Index>(i - from));
+    s.begin = from;
+  }
+  return out;
+}
+
+LaggedRows NoiseEstimator::Stretch::rows_of(const Eigen::MatrixXd& columns) const {
+  return {{columns, later, 3}, {columns, first, 1}, {columns, second, 2}};
+}
+
+NoiseEstimator::NoiseEstimator(const LinearisationPoint& point, const ObservationMask& mask,
+                               std::span<const double> deviation_mm,
+                               std::span<const Hypothesis> basis, int threads)
+    : point_(&point),
+      threads_(threads),
+      stretches_(stretches_of(mask)),
+      gram_(static_cast<Eigen::Index>(1 + point.base.columns() + columns_of(basis))) {
+  std::vector<std::optional<LaggedRows>> rows(stretches_.size());
+  std::vector<LaggedGram> grams(stretches_.size(), gram_);
+  for_each_index(stretches_.size(), threads_, [&](std::size_t k) {
+    const Stretch& s = stretches_[k];
+    rows[k].emplace(s.rows_of(columns_of_rows(point, deviation_mm, basis, s.begin, s.end)));
+    grams[k].add(*rows[k]);
+  });
+  for (std::optional<LaggedRows>& of : rows) rows_.push_back(std::move(*of));
+  for (const LaggedGram& of : grams) gram_.add(of);
+}
+
+Autoregression NoiseEstimator::operator()(std::span<const Hypothesis> terms) const {
+  const auto fresh = static_cast<Eigen::Index>(columns_of(terms)), there = gram_.at(0, 0).rows();
+  if (gram_.rows() < static_cast<double>(there + fresh - 1) + least_freedom) return {};
+  LaggedGram gram = gram_.widened(there + fresh);
+  for (std::size_t k = 0; k < stretches_.size() && fresh > 0; ++k) {
+    const Stretch& s = stretches_[k];
+    Matrix columns(static_cast<Eigen::Index>(s.end - s.begin), fresh);
+    fill_rows(*point_, terms, s.begin, columns);
+    gram.add_columns(rows_[k], s.rows_of(columns));
+  }
+  return find_autoregression(
+      gram, [&](double phi1, double phi2) { return rings_with_spindle(phi1, phi2, point_->c); });
+}
+
 Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,
                               std::span<const double> deviation_mm,
-                              std::span<const Hypothesis> terms) {
-  LaggedGram lagged(static_cast<Eigen::Index>(1 + point.base.columns() + columns_of(terms)));
-  for (const auto& [begin, end] : stretches(mask)) {
-    const std::size_t from = begin - std::min<std::size_t>(begin, 2);  // the two before its first
-    std::array<std::vector<Eigen::Index>, 3> rows;  // first and second of a run, behind them
-    for (std::size_t i = begin; i < end; ++i)
-      if (mask.used[i])
-        rows[std::min<std::size_t>(mask.run[i], 2)].push_back(static_cast<Eigen::Index>(i - from));
-    const Matrix columns = columns_of_rows(point, deviation_mm, terms, from, end);
-    lagged.add(columns, rows[2]);
-    lagged.add_starts(columns, rows[0], rows[1]);
-  }
-  const auto columns = static_cast<double>(point.base.columns() + columns_of(terms));
-  if (lagged.rows() < columns + least_freedom) return {};
-  return find_autoregression(
-      lagged, [&](double phi1, double phi2) { return rings_with_spindle(phi1, phi2, point.c); });
+                              std::span<const Hypothesis> terms, int threads) {
+  return NoiseEstimator(point, mask, deviation_mm, terms, threads)({});
 }
 
 }  // namespace trueaxis::diagnose_detail

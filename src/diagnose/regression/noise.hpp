@@ -28,11 +28,38 @@ std::vector<Rejected> mask_outliers(const LinearisationPoint& point,
                                     std::span<const double> deviation_mm, ObservationMask& mask,
                                     int threads = 1);
 
-/// Autoregression of the noise beside base and terms by restricted maximum likelihood (the terms'
-/// columns are integrated out, so that fitting them does not hide correlation); order 0, 1 or 2,
-/// each one only where the likelihood ratio passes 5 %. Few readings: none (Eqs. 64, 65).
+/// Autoregressions of the noise beside base, basis and terms, whose products without the terms are
+/// made once. By restricted maximum likelihood (the columns are integrated out, so that fitting
+/// them does not hide correlation); order 0, 1 or 2, each one only where the likelihood ratio
+/// passes 5 %. Few readings: none (Eqs. 64, 65).
+class NoiseEstimator {
+ public:
+  /// @param point outlives this
+  NoiseEstimator(const LinearisationPoint& point, const ObservationMask& mask,
+                 std::span<const double> deviation_mm, std::span<const Hypothesis> basis,
+                 int threads = 1);
+
+  Autoregression operator()(std::span<const Hypothesis> terms) const;
+
+ private:
+  /// Readings in a row, and which of them show the noise.
+  struct Stretch {
+    std::size_t begin, end;
+    std::vector<Eigen::Index> later, first, second;
+    LaggedRows rows_of(const Eigen::MatrixXd& columns) const;
+  };
+  std::vector<Stretch> stretches_of(const ObservationMask& mask) const;
+
+  const LinearisationPoint* point_;
+  int threads_;
+  std::vector<Stretch> stretches_;
+  std::vector<LaggedRows> rows_;  ///< of the deviation, base and basis, stretch by stretch
+  LaggedGram gram_;
+};
+
+/// The same beside one list of terms.
 Autoregression autoregression(const LinearisationPoint& point, const ObservationMask& mask,
                               std::span<const double> deviation_mm,
-                              std::span<const Hypothesis> terms);
+                              std::span<const Hypothesis> terms, int threads = 1);
 
 }  // namespace trueaxis::diagnose_detail

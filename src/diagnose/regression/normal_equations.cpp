@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -24,65 +23,6 @@ constexpr double least_floor_mm = 1e-6, second_order = 5e-4;
 constexpr double undetermined = 1e-11;
 
 using Matrix = Eigen::MatrixXd;
-
-/// Columns of some readings as computed and as whitened, in aligned memory padded with zeros.
-class Chunk {
- public:
-  Chunk(std::size_t columns, std::size_t history, std::size_t rows)
-      : history_(history),
-        stride_((rows + history + 7) / 8 * 8),
-        raw_(columns * stride_ + 8),
-        white_(history > 0 ? columns * stride_ + 8 : 0) {
-    for (std::size_t j = 0; j < columns; ++j) {
-      raw_column_.push_back(aligned(raw_) + j * stride_);
-      white_column_.push_back(history > 0 ? aligned(white_) + j * stride_ : raw_column_.back());
-    }
-    view_.assign(white_column_.begin(), white_column_.end());
-  }
-
-  std::span<double* const> raw() const { return raw_column_; }
-  /// y_i − Σ φ_j y_{i−j} of `rows` rows, the first of them behind `lead` others.
-  void whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows) {
-    for (std::size_t c = 0; c < raw_column_.size() && history_ > 0; ++c) {
-      const double* from = raw_column_[c] + lead;
-      double* to = white_column_[c];
-      std::copy(from, from + rows, to);
-      for (std::size_t lag = 1; lag <= phi.size(); ++lag) {
-        const std::size_t skip = lag > lead ? lag - lead : 0;
-        for (std::size_t i = skip; i < rows; ++i)
-          to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
-      }
-    }
-  }
-  /// A row that is the first or second of its run.
-  void begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
-                 std::size_t run) {
-    const RunStart start(phi);
-    for (std::size_t c = 0; c < raw_column_.size(); ++c) {
-      const double* from = raw_column_[c] + lead + row;
-      white_column_[c][row] =
-          run == 0 ? start.first * from[0] : start.second * (from[0] - start.partial * from[-1]);
-    }
-  }
-  void drop(std::size_t row) {
-    for (double* column : white_column_) column[row] = 0.0;
-  }
-  std::span<const double* const> white(std::size_t rows) {
-    for (std::size_t row = rows; row < (rows + 7) / 8 * 8; ++row) drop(row);
-    return view_;
-  }
-
- private:
-  static double* aligned(std::vector<double>& memory) {
-    void* at = memory.data();
-    std::size_t room = memory.size() * sizeof(double);
-    return memory.empty() ? nullptr : static_cast<double*>(std::align(64, 8, at, room));
-  }
-  std::size_t history_, stride_;
-  std::vector<double> raw_, white_;
-  std::vector<double*> raw_column_, white_column_;
-  std::vector<const double*> view_;
-};
 
 /// Beginnings of parts that threads share, at most 64.
 std::vector<std::size_t> parts_of(std::size_t size) {
@@ -105,6 +45,12 @@ bool same_order(const Hypothesis& a, const Hypothesis& b) {
 }
 
 }  // namespace
+
+/// Whitened columns: the deviation, the base and the first terms.
+struct NormalEquations::Kept {
+  std::size_t terms, columns;
+  std::vector<std::vector<WhiteColumns>> blocks;  ///< of every part
+};
 
 NormalEquations::NormalEquations(const LinearisationPoint& point, const ObservationMask& mask,
                                  std::span<const double> deviation_mm,
@@ -165,10 +111,14 @@ void NormalEquations::shrink(std::size_t columns) {
 
 void NormalEquations::fill_raw(std::span<const Hypothesis> fresh, const PointPart& part,
                                std::span<double* const> columns) const {
-  std::ranges::copy(deviation_.subspan(part.begin, part.size()), columns[0]);
-  point_->fill_base(part, columns.subspan(1, base_.size()));
-  std::size_t next = 1 + base_.size();
-  for (const std::span<const Hypothesis> some : {std::span<const Hypothesis>(list_), fresh}) {
+  std::size_t next = 0;
+  if (!kept_) {
+    std::ranges::copy(deviation_.subspan(part.begin, part.size()), columns[0]);
+    point_->fill_base(part, columns.subspan(1, base_.size()));
+    next = 1 + base_.size();
+  }
+  const std::span<const Hypothesis> there = std::span(list_).subspan(kept_ ? kept_->terms : 0);
+  for (const std::span<const Hypothesis> some : {there, fresh}) {
     const Hypothesis* constant = nullptr;  // the cell of degree 0 whose order the next ones share
     std::vector<const double*> constant_columns;
     for (const Hypothesis& h : some) {
@@ -199,34 +149,73 @@ Appended NormalEquations::appended(std::span<const Hypothesis> fresh, std::size_
   return out;
 }
 
-GramSums NormalEquations::sums_of(std::size_t part, std::span<const Hypothesis> fresh,
-                                  const Appended& appended) const {
-  const LinearisationPoint& point = *point_;
-  const std::size_t history = autoregression_.size();
-  Chunk chunk(appended.columns(), history,
-              std::min(chunk_rows, part_begin_[part + 1] - part_begin_[part]));
-  GramSums out(appended);
+template <typename Work>
+void NormalEquations::for_each_block(std::size_t part, const Work& work) const {
   PointRoom room;
-  for (std::size_t begin = part_begin_[part]; begin < part_begin_[part + 1];) {
-    const std::size_t before = begin - std::min(begin, history);
-    PointPart at = point.part(before, std::min(begin + chunk_rows, part_begin_[part + 1]), room);
+  std::size_t number = 0;
+  for (std::size_t begin = part_begin_[part]; begin < part_begin_[part + 1]; ++number) {
+    const std::size_t before = begin - std::min(begin, autoregression_.size());
+    PointPart at = point_->part(before, std::min(begin + chunk_rows, part_begin_[part + 1]), room);
     // Where the side changes a pass begins: nothing before it is then read.
     const auto own = at.rear.begin() + static_cast<long>(begin - before);
     const auto side = std::find_if(own, at.rear.end(), [&](char rear) { return rear != *own; });
     const std::size_t skipped = at.rear[0] != *own ? begin - before : 0;
     at = at.part(skipped, static_cast<std::size_t>(side - at.rear.begin()));
-    const std::size_t start = at.begin, end = start + at.size();
-    fill_raw(fresh, at, chunk.raw());
-    chunk.whiten(autoregression_, begin - start, end - begin);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (!mask_->used[i])
-        chunk.drop(i - begin);
-      else if (mask_->run[i] < history)
-        chunk.begin_run(autoregression_, begin - start, i - begin, mask_->run[i]);
-    }
-    out.add(chunk.white(end - begin), end - begin);
-    begin = end;
+    work(at, begin, number);
+    begin = at.begin + at.size();
   }
+}
+
+void NormalEquations::fill_white(std::span<const Hypothesis> fresh, const PointPart& at,
+                                 std::size_t begin, WhiteColumns& out) const {
+  const std::size_t lead = begin - at.begin, end = at.begin + at.size();
+  fill_raw(fresh, at, out.raw());
+  out.whiten(autoregression_, lead, end - begin);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!mask_->used[i])
+      out.drop(i - begin);
+    else if (mask_->run[i] < autoregression_.size())
+      out.begin_run(autoregression_, lead, i - begin, mask_->run[i]);
+  }
+}
+
+void NormalEquations::keep_columns() {
+  if (!point_->kept) return;
+  kept_ = nullptr;
+  auto kept = std::make_shared<Kept>();
+  kept->terms = list_.size(), kept->columns = static_cast<std::size_t>(total_.rows());
+  kept->blocks.resize(part_begin_.size() - 1);
+  for_each_index(kept->blocks.size(), threads_for_columns(kept->columns), [&](std::size_t part) {
+    for_each_block(part, [&](const PointPart& at, std::size_t begin, std::size_t) {
+      WhiteColumns& own = kept->blocks[part].emplace_back(kept->columns, autoregression_.size(),
+                                                          at.begin + at.size() - begin);
+      fill_white({}, at, begin, own);
+      own.white(at.begin + at.size() - begin);
+      own.forget_raw();
+    });
+  });
+  kept_ = std::move(kept);
+}
+
+/// A thread costs more than it saves where there is little to do.
+int NormalEquations::threads_for_columns(std::size_t columns) const {
+  return point_->size() * columns < 200'000 ? 1 : threads_;
+}
+
+GramSums NormalEquations::sums_of(std::size_t part, std::span<const Hypothesis> fresh,
+                                  const Appended& appended) const {
+  const std::size_t kept = kept_ ? kept_->columns : 0;
+  WhiteColumns made(appended.columns() - kept, autoregression_.size(),
+                    std::min(chunk_rows, part_begin_[part + 1] - part_begin_[part]));
+  GramSums out(appended);
+  std::vector<const double*> columns(appended.columns());
+  for_each_block(part, [&](const PointPart& at, std::size_t begin, std::size_t block) {
+    const std::size_t rows = at.begin + at.size() - begin;
+    fill_white(fresh, at, begin, made);
+    if (kept_) std::ranges::copy(kept_->blocks[part][block].white(), columns.begin());
+    std::ranges::copy(made.white(rows), columns.begin() + static_cast<long>(kept));
+    out.add(columns, rows);
+  });
   return out;
 }
 
@@ -234,8 +223,7 @@ void NormalEquations::pass(std::span<const Hypothesis> fresh, std::size_t togeth
   const Appended appended = this->appended(fresh, together);
   const bool first = appended.before == 0;
   std::vector<std::optional<GramSums>> sums(part_begin_.size() - 1);
-  const bool small = point_->size() * appended.columns() < 200'000;  // a thread costs more
-  for_each_index(sums.size(), small ? 1 : threads_,
+  for_each_index(sums.size(), threads_for_columns(appended.columns()),
                  [&](std::size_t p) { sums[p].emplace(sums_of(p, fresh, appended)); });
 
   list_.insert(list_.end(), fresh.begin(), fresh.end());

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "diagnose/geometry/hypothesis.hpp"
 #include "diagnose/geometry/observation_mask.hpp"
 #include "diagnose/regression/gram_sums.hpp"
+#include "diagnose/regression/white_columns.hpp"
 
 namespace trueaxis::diagnose_detail {
 /// Whether streams of a kind have an effect.
@@ -90,15 +92,27 @@ class NormalEquations {
   int threads() const { return threads_; }
   /// Drops all columns from `columns` on.
   void shrink(std::size_t columns);
+  /// Of few readings keeps the columns that are there, whitened, for all that is appended later;
+  /// these are not dropped again.
+  void keep_columns();
 
  private:
+  struct Kept;
+  /// Calls work(readings with those that predict them, the first that counts here, number) for
+  /// the blocks of a part.
+  template <typename Work>
+  void for_each_block(std::size_t part, const Work& work) const;
   void pass(std::span<const Hypothesis> fresh, std::size_t together);
   Appended appended(std::span<const Hypothesis> fresh, std::size_t together) const;
   GramSums sums_of(std::size_t part, std::span<const Hypothesis> fresh,
                    const Appended& appended) const;
   std::size_t counted(std::size_t begin, std::size_t end) const;
+  int threads_for_columns(std::size_t columns) const;
   void fill_raw(std::span<const Hypothesis> fresh, const PointPart& part,
                 std::span<double* const> columns) const;
+  /// Columns that are not kept, and fresh ones, of readings from `begin` on.
+  void fill_white(std::span<const Hypothesis> fresh, const PointPart& at, std::size_t begin,
+                  WhiteColumns& out) const;
 
   const LinearisationPoint* point_;
   const ObservationMask* mask_;
@@ -113,6 +127,7 @@ class NormalEquations {
   Eigen::MatrixXd total_;
   std::vector<std::size_t> part_begin_;  ///< of what one Gram matrix sums over
   std::vector<Eigen::MatrixXd> folds_;
+  std::shared_ptr<const Kept> kept_;  ///< copies share it
 };
 
 inline std::span<const double> span_of(const Eigen::VectorXd& values) {

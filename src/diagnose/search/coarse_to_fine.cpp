@@ -22,7 +22,7 @@ constexpr double steps_of_line[] = {1.0, 0.25, 0.05};  // of half a resolution c
 std::vector<double> noise_beside(const Problem& whole, const std::vector<Hypothesis>& terms) {
   std::vector<Hypothesis> all = small_fourier_legendre_basis(whole.point, whole.resolution);
   all.insert(all.end(), terms.begin(), terms.end());
-  return autoregression(whole.point, whole.mask, whole.deviation_mm, all).phi;
+  return autoregression(whole.point, whole.mask, whole.deviation_mm, all, whole.threads).phi;
 }
 
 /// The line at the frequency where it takes most beside the terms: the top of parabolas through

@@ -208,6 +208,7 @@ std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
     out->preset_places.push_back(shared[i] ? *shared[i]
                                            : subset(places[carrier[i]], out->presets[i]));
   }
+  out->equations.keep_columns();
   out->columns = static_cast<std::size_t>(out->equations.total().rows());
   out->noise_freedom =
       static_cast<double>(out->equations.count()) -

@@ -39,7 +39,7 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
       point(about(measured, ideal, ball_mm, threads_of(options, measured))),
       mask(make_observation_mask(point)),
       resolution(resolution_of(point, mask)),
-      deviation_mm(deviation_from(measured, point)),
+      deviation_mm(deviation_from(measured, point, threads_of(options, measured))),
       masked(mask_outliers(point, small_fourier_legendre_basis(point, resolution), deviation_mm,
                            mask, threads_of(options, measured))),
       problem{point,

@@ -9,7 +9,6 @@
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
-#include "diagnose/search/scan_bumps.hpp"
 #include "diagnose/search/scan_list.hpp"
 #include "diagnose/search/scan_steps.hpp"
 #include "math/statistics.hpp"
@@ -68,6 +67,7 @@ class Judge {
         equations_(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
         taken_(equations_.base()) {
     append_columns(taken_, equations_.append(terms));
+    equations_.keep_columns();
   }
   std::vector<Candidate> operator()(const std::vector<Hypothesis>& list) {
     const auto columns = static_cast<std::size_t>(equations_.total().rows());
@@ -284,21 +284,31 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   out.basis.assign(judged.begin() + presets, judged.end());
   std::ranges::stable_sort(out.presets, better);
   std::ranges::stable_sort(out.basis, better);
-  out.scans = scanner_(equations, left);
-  double bumps_tested = 0.0;
-  if (local_forms_) {
-    out.bumps = local_forms_->beside(terms, best_refined, true);
-    bumps_tested = local_forms_->tests();
-  } else {
-    out.bumps = scan_bumps(equations, left, bumps_tested);
-    for (Hypothesis& h : out.bumps) h.tests = bumps_tested;
-  }
-  double steps_tested = 0.0;
-  out.steps = scan_steps(problem_, phi, terms, steps_tested);
+  // Three looks that know nothing of each other.
+  double bumps_tested = 0.0, steps_tested = 0.0;
+  for_each_index(3, problem_.threads, [&](std::size_t look) {
+    if (look == 0) out.scans = scanner_(equations, left);
+    if (look == 1) out.steps = scan_steps(problem_, phi, terms, steps_tested);
+    if (look == 2) out.bumps = bumps(equations, left, terms, bumps_tested);
+  });
   for (const Candidate& c : judged) out.family.single += c.rank > 0;
   out.family.single += bumps_tested + steps_tested;
   out.family.bandwidth = out.scans.bandwidth + problem_.fast_bandwidth;
   out.line_choice = std::max(1.0, line_tests * out.family.bandwidth);
+  return out;
+}
+
+std::vector<Hypothesis> Proposer::bumps(const NormalEquations& equations,
+                                        std::span<const double> left_mm,
+                                        const std::vector<Hypothesis>& terms, double& tests) {
+  if (local_forms_) {
+    tests = local_forms_->tests();
+    return local_forms_->beside(terms, best_refined, true);
+  }
+  if (!bump_scanner_) bump_scanner_.emplace(problem_.point, problem_.mask);
+  std::vector<Hypothesis> out = (*bump_scanner_)(equations, left_mm);
+  tests = bump_scanner_->tests();
+  for (Hypothesis& h : out) h.tests = tests;
   return out;
 }
 

@@ -4,11 +4,13 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "diagnose/search/dictionary.hpp"
 #include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/scan.hpp"
+#include "diagnose/search/scan_bumps.hpp"
 #include "diagnose/search/statistic.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -59,11 +61,15 @@ class Proposer {
   };
   Proposal propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
   Step step(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
+  /// Local forms that may be left, and how many were looked at.
+  std::vector<Hypothesis> bumps(const NormalEquations& equations, std::span<const double> left_mm,
+                                const std::vector<Hypothesis>& terms, double& tests);
   std::vector<Hypothesis> shortlist(const Step& of, std::size_t presets) const;
 
   const Problem& problem_;
   LineScanner scanner_;
-  std::optional<LocalForms> local_forms_;  ///< of a sparse design
+  std::optional<LocalForms> local_forms_;    ///< of a sparse design
+  std::optional<BumpScanner> bump_scanner_;  ///< of any other
   std::unique_ptr<Dictionary> dictionary_;
   std::deque<Asked> asked_;
 };

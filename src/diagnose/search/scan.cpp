@@ -26,16 +26,13 @@ constexpr std::size_t near_bins = 5;  // two cells: a peak's own
 constexpr double finer = 4.0;
 constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
 
-double variance(const LinearisationPoint& point, PointColumn column) {
+double variance(const LinearisationPoint& point, PointColumn column, int threads) {
+  const std::vector<double> all = point.column(column, threads);
   double mean = 0.0, sum = 0.0;
-  point.for_each_part([&](const PointPart& at) {
-    for (const double v : at.*column) mean += v;
-  });
-  mean /= static_cast<double>(point.size());
-  point.for_each_part([&](const PointPart& at) {
-    for (const double v : at.*column) sum += (v - mean) * (v - mean);
-  });
-  return sum / static_cast<double>(point.size());
+  for (const double v : all) mean += v;
+  mean /= static_cast<double>(all.size());
+  for (const double v : all) sum += (v - mean) * (v - mean);
+  return sum / static_cast<double>(all.size());
 }
 
 /// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
@@ -184,7 +181,8 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     double width = 0.0;
     for (const Extent& e : counted) width += e.length();
     if (!(width > 0.0)) continue;
-    if (scan.counts) bandwidth_ += width * std::sqrt(2.0 * two_pi * variance(point, scan.x));
+    if (scan.counts)
+      bandwidth_ += width * std::sqrt(2.0 * two_pi * variance(point, scan.x, problem.threads));
     const bool same = last && last->x == scan.x && last->low == scan.low &&
                       last->high == scan.high && !jobs_.empty() &&
                       std::ranges::equal(jobs_.back().counted, counted, [](auto a, auto b) {

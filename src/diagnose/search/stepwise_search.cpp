@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -46,11 +47,14 @@ class StepwiseSearch::Engine {
   explicit Engine(Proposer& proposer)
       : proposer_(proposer),
         problem_(proposer.problem()),
-        basis_(small_fourier_legendre_basis(problem_.point, problem_.resolution)) {}
+        noise_(problem_.point, problem_.mask, problem_.deviation_mm,
+               small_fourier_legendre_basis(problem_.point, problem_.resolution),
+               problem_.threads) {}
 
   Model run(bool patterns, bool& pattern_was_better, std::vector<Hypothesis> first) {
     Model model;
-    model.phi = first_noise();
+    if (!first_noise_) first_noise_ = first_noise();
+    model.phi = *first_noise_;
     model.terms = std::move(first);
     forward(model, patterns, pattern_was_better);
     for (int round = 0; round < 3; ++round) {
@@ -81,7 +85,7 @@ class StepwiseSearch::Engine {
   /// noise is taken.
   std::vector<double> first_noise() {
     if (problem_.resolution.sparse) return {};
-    Autoregression best = noise({});
+    Autoregression best = noise_({});
     std::vector<Hypothesis> terms;
     while (std::ranges::any_of(best.phi, [](double p) { return std::abs(p) > hides_a_term; }) &&
            terms.size() < problem_.most_terms) {
@@ -91,19 +95,13 @@ class StepwiseSearch::Engine {
         if (!list->empty() && (!term || list->front().gain > term->gain)) term = &list->front();
       if (!term) break;
       terms.push_back(term->hypothesis);
-      Autoregression with = noise(terms);
+      Autoregression with = noise_(terms);
       const double log_p =
           log_p_value(best.rss - with.rss, best.freedom - with.freedom, best.rss, best.freedom);
       if (!(p.family.p_value(std::exp(log_p)) < problem_.false_alarm)) break;
       best = std::move(with);
     }
     return best.phi;
-  }
-
-  Autoregression noise(const std::vector<Hypothesis>& terms) const {
-    std::vector<Hypothesis> all(basis_);
-    all.insert(all.end(), terms.begin(), terms.end());
-    return autoregression(problem_.point, problem_.mask, problem_.deviation_mm, all);
   }
 
   /// Whether the other terms leave all its columns: else their sizes would share one between them.
@@ -146,7 +144,7 @@ class StepwiseSearch::Engine {
   // A strong slow effect looks like autocorrelation, until it is a term.
   void renew_noise(Model& model) const {
     if (model.phi.empty()) return;
-    std::vector<double> phi = noise(model.terms).phi;
+    std::vector<double> phi = noise_(model.terms).phi;
     if (moved(phi, model.phi)) model.phi = std::move(phi);
   }
 
@@ -367,7 +365,8 @@ class StepwiseSearch::Engine {
 
   Proposer& proposer_;
   const Problem& problem_;
-  std::vector<Hypothesis> basis_;
+  NoiseEstimator noise_;
+  std::optional<std::vector<double>> first_noise_;
   std::deque<Fitted> fitted_;
 };
 

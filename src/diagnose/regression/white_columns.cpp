@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/regression/white_columns.hpp"
+
+#include <algorithm>
+
+#include "math/autoregression.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+WhiteColumns::WhiteColumns(std::size_t columns, std::size_t history, std::size_t rows)
+    : history_(history) {
+  const std::size_t stride = (rows + history + 7) / 8 * 8;
+  raw_ = hwy::AllocateAligned<double>(columns * stride + 8);
+  if (history > 0) white_ = hwy::AllocateAligned<double>(columns * stride + 8);
+  for (std::size_t j = 0; j < columns; ++j) {
+    raw_column_.push_back(raw_.get() + j * stride);
+    white_column_.push_back(history > 0 ? white_.get() + j * stride : raw_column_.back());
+  }
+  view_.assign(white_column_.begin(), white_column_.end());
+}
+
+void WhiteColumns::whiten(const std::vector<double>& phi, std::size_t lead, std::size_t rows) {
+  for (std::size_t c = 0; c < raw_column_.size() && history_ > 0; ++c) {
+    const double* from = raw_column_[c] + lead;
+    double* to = white_column_[c];
+    std::copy(from, from + rows, to);
+    for (std::size_t lag = 1; lag <= phi.size(); ++lag) {
+      const std::size_t skip = lag > lead ? lag - lead : 0;
+      for (std::size_t i = skip; i < rows; ++i)
+        to[i] -= phi[lag - 1] * from[static_cast<long>(i) - static_cast<long>(lag)];
+    }
+  }
+}
+
+void WhiteColumns::begin_run(const std::vector<double>& phi, std::size_t lead, std::size_t row,
+                             std::size_t run) {
+  const RunStart start(phi);
+  for (std::size_t c = 0; c < raw_column_.size(); ++c) {
+    const double* from = raw_column_[c] + lead + row;
+    white_column_[c][row] =
+        run == 0 ? start.first * from[0] : start.second * (from[0] - start.partial * from[-1]);
+  }
+}
+
+void WhiteColumns::drop(std::size_t row) {
+  for (double* column : white_column_) column[row] = 0.0;
+}
+
+std::span<const double* const> WhiteColumns::white(std::size_t rows) {
+  for (std::size_t row = rows; row < (rows + 7) / 8 * 8; ++row) drop(row);
+  return view_;
+}
+
+void WhiteColumns::forget_raw() {
+  if (history_ > 0) raw_ = nullptr;
+  raw_column_.clear();
+}
+
+}  // namespace trueaxis::diagnose_detail
