@@ -9,6 +9,7 @@
 
 #include "base/threads.hpp"
 #include "diagnose/search/line_norms.hpp"
+#include "diagnose/search/scan_fringes.hpp"
 #include "diagnose/search/scan_list.hpp"
 #include "math/fourier_sums.hpp"
 #include "math/sincos.hpp"
@@ -223,12 +224,35 @@ Scans LineScanner::operator()(const NormalEquations& equations, std::vector<doub
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
-    tops[j][b] = tops_of(jobs_[j], jobs_[j].bands[b], equations, left);
+    Job& job = jobs_[j];
+    tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], equations, left)
+                             : tops_of(job, job.bands[b], equations, left);
   });
   Scans out;
   for (std::size_t j = 0; j < jobs_.size(); ++j) add_peaks(jobs_[j], tops[j], out);
   out.bandwidth = bandwidth_;
   return out;
+}
+
+LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, Band& band,
+                                               const NormalEquations& equations,
+                                               const Column& left) const {
+  const std::vector<FringeCell> cells =
+      job.scans.size() > 1
+          ? std::vector<FringeCell>{}
+          : fringe_cells(equations, job.scans[0], left, band.low, band.df, band.bins);
+  if (cells.empty()) return tops_of(job, band, equations, left);
+  Tops tops(1);
+  std::vector<Top>& best = tops.front();
+  for (const FringeCell& cell : cells) {
+    if (best.size() >= job.kept() && cell.most < best[job.kept() - 1].gain) break;
+    Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
+              band.first_bin + cell.first, nullptr};
+    const Tops more = tops_of(job, part, equations, left);
+    best.insert(best.end(), more.front().begin(), more.front().end());
+    std::ranges::stable_sort(best, std::greater<>(), &Top::gain);
+  }
+  return tops;
 }
 
 LineScanner::Tops LineScanner::tops_of(const Job& job, Band& band, const NormalEquations& equations,

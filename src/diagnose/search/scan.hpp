@@ -49,6 +49,9 @@ class LineScanner {
   using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
   Tops tops_of(const Job& job, Band& band, const NormalEquations& equations,
                const std::vector<double>& left) const;
+  /// The same of a band of fringes, looked at cell by cell.
+  Tops tops_of_fringes(const Job& job, Band& band, const NormalEquations& equations,
+                       const std::vector<double>& left) const;
   void add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const;
 
   const Problem& problem_;
