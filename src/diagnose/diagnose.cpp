@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.hpp"
 #include "diagnose/advise/advise.hpp"
 #include "diagnose/explain/averaged_axis.hpp"
 #include "diagnose/explain/explanation.hpp"
@@ -19,6 +20,13 @@ namespace trueaxis {
 using namespace diagnose_detail;
 
 namespace {
+
+constexpr std::size_t very_many = 4'000'000;  // readings: memory counts more than time there
+
+/// Threads for work side by side that takes memory for every reading.
+int threads_beside(const ProbeStream& stream, const DiagnoseOptions& options) {
+  return stream.size() < very_many ? options.threads : 1;
+}
 
 Diagnosis not_diagnosable(Diagnosis out) {
   out.named = out.extended = out.baseline;
@@ -49,6 +57,21 @@ void add_advice(const IdealModel& ideal, const RelinearisedFit& refit, const Mod
   out.plans = std::move(advice.plans);
 }
 
+std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
+                                    const Model& model) {
+  std::vector<std::string> out = off_centre_remark(problem, model);
+  if (model.impossible)
+    out.push_back(
+        fmt::format("{} ({}) would fit the readings best, but at a size that cannot be, and "
+                    "nothing is taken in "
+                    "its place: see whether set-ups, units and passes belong together",
+                    model.impossible->id, model.impossible->title));
+  for (std::string& remark : form_class_remark(problem, joint, model.others))
+    out.push_back(std::move(remark));
+  for (std::string& remark : alias_remark(problem.resolution)) out.push_back(std::move(remark));
+  return out;
+}
+
 /// How sure all of it is: noise, checks of the data, gain, tests made.
 void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const Model& model,
                   const AveragedAxis& average, Diagnosis& out) {
@@ -56,24 +79,17 @@ void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const M
   const Joint& joint = refit.joint();
   out.noise = report_noise(ideal.stream, joint, out.residual_after_mm, ideal.masked,
                            ideal.fit_options.noise_mm);
-  out.checks = check_quality(ideal.stream, joint, out.residual_after_mm, out.noise);
-  out.remarks = off_centre_remark(problem, model);
-  if (model.impossible)
-    out.remarks.push_back(
-        fmt::format("{} ({}) would fit the readings best, but at a size that cannot be, and "
-                    "nothing is taken in "
-                    "its place: see whether set-ups, units and passes belong together",
-                    model.impossible->id, model.impossible->title));
-  for (std::string& remark : form_class_remark(problem, joint, model.others))
-    out.remarks.push_back(std::move(remark));
-  for (std::string& remark : alias_remark(problem.resolution))
-    out.remarks.push_back(std::move(remark));
-  out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
+  for_each_index(4, problem.threads, [&](std::size_t k) {
+    if (k == 0) out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
+    if (k == 1) out.checks = check_quality(ideal, joint, out.residual_after_mm, out.noise);
+    if (k == 2)
+      out.spectrum = spectrum_of(problem.point, ideal.resolution, out.residual_before_mm,
+                                 out.residual_after_mm);
+    if (k == 3) out.remarks = remarks_on(problem, joint, model);
+  });
   out.hypotheses = static_cast<std::size_t>(model.family.single + model.family.bandwidth);
   out.threshold = model.family.threshold(out.false_alarm);
   out.effective_hypotheses = out.false_alarm / std::exp(-0.5 * out.threshold);
-  out.spectrum =
-      spectrum_of(problem.point, ideal.resolution, out.residual_before_mm, out.residual_after_mm);
 }
 
 }  // namespace
@@ -84,14 +100,23 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     expects(find_effect(own.id) == nullptr, "an effect of one's own has an id of its own");
   Diagnosis out;
   out.false_alarm = options.false_alarm;
-  out.baseline = fit(stream, options.fit);
+  const int threads = threads_beside(stream, options);
+  DistinctValues indicated;
+  for_each_index(2, threads, [&](std::size_t k) {
+    if (k == 0) out.baseline = fit(stream, options.fit);
+    if (k == 1) indicated = distinct_values(stream.reading_mm);
+  });
   if (!is_diagnosable(out.baseline)) return not_diagnosable(std::move(out));
 
-  const IdealModel ideal(stream, options, out.baseline);
+  const IdealModel ideal(stream, options, out.baseline, indicated);
   CoarseToFineSearch search(ideal.problem);
   std::optional<Timing> timing;
   const std::unique_ptr<RelinearisedFit> refit = relinearise(ideal, search.model, timing);
-  Explanation explanation = explain(search, *refit, timing);
+  Explanation explanation;
+  for_each_index(2, threads, [&](std::size_t k) {
+    if (k == 0) refit->fit_surface();
+    if (k == 1) explanation = explain(search, *refit, timing);
+  });
 
   out.findings = std::move(explanation.findings);
   out.unexplained = std::move(explanation.unexplained);
@@ -100,22 +125,28 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
                                          : DiagnosisVerdict::ideal;
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
-  AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
-                                      out.baseline, search.model.others);
-  out.extended = refit->shifted(average.shift, average.within, average.between);
-  out.named = refit->take_named();
-  out.shares = std::move(average.shares);
+  const AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
+                                            out.baseline, search.model.others);
+  out.shares = average.shares;
   out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
   out.effect_mm = refit->effect_mm();
   out.residual_before_mm = out.baseline.residual_mm;
-  out.residual_after_mm = refit->residual_mm();
+  for_each_index(2, threads, [&](std::size_t k) {
+    if (k == 0) {
+      out.extended = refit->shifted(average.shift, average.within, average.between);
+      out.named = refit->take_named();
+    }
+    if (k == 1) {
+      out.residual_after_mm = refit->residual_mm();
+      add_evidence(ideal, *refit, search.model, average, out);
+    }
+  });
   const LinearisationPoint& point = refit->problem().point;
   out.z_mid_mm = point.z_mid_mm, out.z_half_mm = point.z_half_mm;
   add_advice(ideal, *refit, search.model, explanation.ambiguous, hidden, out);
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });
-  add_evidence(ideal, *refit, search.model, average, out);
   if (out.slip())
     out.remarks.push_back("the part slipped: the axis is that of the part as it now stands");
   return out;

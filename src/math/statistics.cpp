@@ -27,18 +27,22 @@ double neighbour_correlation(std::span<const double> residuals, double clip) {
   return square > 0.0 ? (clipped.head(n - 1) * clipped.tail(n - 1)).sum() / square : 0.0;
 }
 
-double step_of(std::vector<double> values) {
+DistinctValues distinct_values(std::vector<double> values) {
   constexpr double same = 1e-9, off = 0.02;  // below rounding of the values; of a step
+  DistinctValues out;
+  if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) return out;
   std::ranges::sort(values);
   double step = 0.0;
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double d = values[i] - values[i - 1];
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double d = i > 0 ? values[i] - values[i - 1] : 0.0;
+    out.count += i == 0 || d != 0.0;
     if (d > same && (step == 0.0 || d < step)) step = d;
   }
-  if (step == 0.0) return 0.0;
+  if (step == 0.0) return out;
   const auto on = std::ranges::count_if(
       values, [&](double v) { return std::abs(std::remainder(v - values[0], step)) < off * step; });
-  return static_cast<std::size_t>(on) * 100 > 95 * values.size() ? step : 0.0;
+  if (static_cast<std::size_t>(on) * 100 > 95 * values.size()) out.step = step;
+  return out;
 }
 
 Extent range_of(std::span<const double> values) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -17,9 +18,14 @@ double neighbour_correlation(std::span<const double> residuals, double clip);
 /// The upper of the two middle values of a column that is not empty.
 double median(std::vector<double> values);
 
-/// The smallest difference of two values where 95 % of all are multiples of it off the least, as of
-/// what was rounded; 0: there is none.
-double step_of(std::vector<double> values);
+/// What the values of an indication are.
+struct DistinctValues {
+  std::size_t count = 0;
+  /// The smallest difference of two values where 95 % of all are multiples of it off the least, as
+  /// of what was rounded; 0: there is none.
+  double step = 0.0;
+};
+DistinctValues distinct_values(std::vector<double> values);
 
 /// Smallest and largest of a column that is not empty.
 struct Extent {

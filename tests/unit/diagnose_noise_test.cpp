@@ -33,6 +33,28 @@ struct Bench {
   }
 };
 
+// A basis whose products are made once, and terms beside it: the same numbers in the same order as
+// of all at once, on one thread and on three.
+TEST(NoiseEstimator, IsThatOfAllColumnsToTheLastBit) {
+  const Bench b;
+  const std::vector<Hypothesis> basis = small_fourier_legendre_basis(b.point, b.resolution);
+  const auto y = b.with_lobes(testing::correlated_noise(b.point.size(), sigma_mm, 0.6, seed));
+  const std::vector<Hypothesis> terms{of_effect("spindle.asynchronous", {.order = 0.42}),
+                                      of_effect("probe.gain", {.reference_x_mm = 40.0})};
+  std::vector<Hypothesis> all = basis;
+  all.insert(all.end(), terms.begin(), terms.end());
+  const Autoregression at_once = autoregression(b.point, b.mask, y, all);
+  ASSERT_FALSE(at_once.phi.empty());
+  for (const int threads : {1, 3}) {
+    const NoiseEstimator estimator(b.point, b.mask, y, basis, threads);
+    EXPECT_EQ(estimator({}).phi, autoregression(b.point, b.mask, y, basis).phi);
+    const Autoregression found = estimator(terms);
+    EXPECT_EQ(found.phi, at_once.phi);
+    EXPECT_EQ(found.rss, at_once.rss);
+    EXPECT_EQ(found.freedom, at_once.freedom);
+  }
+}
+
 // √((1 − ρ²)/N) is the standard error of one stream (Box and Jenkins); the mean of M has 1/√M of
 // it, to which the bias of an AR(1) beside p columns adds at most (1 + 3ρ)/N.
 class Correlation : public ::testing::TestWithParam<double> {};

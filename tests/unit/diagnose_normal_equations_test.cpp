@@ -135,6 +135,27 @@ TEST_P(NormalEquationsOf, IsTheGramOfTheExplicitMatrix) {
   expect_same_gram(alone.total(), all, "the sum alone");
 }
 
+// Whether columns are kept or made anew, the products are of the same numbers in the same order.
+TEST_P(NormalEquationsOf, KeepsColumnsToTheLastBit) {
+  const Bench b(1301);
+  const std::vector<Hypothesis> list = some_hypotheses();
+  const std::span<const Hypothesis> all(list);
+  for (const bool blocks : {sum_alone, with_blocks}) {
+    NormalEquations made(b.point, b.mask, b.deviation, GetParam(), 1, blocks);
+    made.append(all.first(2));
+    NormalEquations kept = made;
+    kept.keep_columns();
+    const NormalEquations copy = kept;
+    const auto columns = static_cast<std::size_t>(made.total().rows());
+    for (int time = 0; time < 2; ++time) {
+      EXPECT_EQ(kept.append(all.subspan(2), 1), made.append(all.subspan(2), 1));
+      EXPECT_EQ(kept.total(), made.total());
+      kept.shrink(columns), made.shrink(columns);
+    }
+    EXPECT_EQ(copy.total(), made.total());
+  }
+}
+
 TEST_P(NormalEquationsOf, AppendsAndShrinks) {
   const Bench b(700);
   const std::vector<Hypothesis> list = some_hypotheses();

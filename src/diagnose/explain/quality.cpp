@@ -151,22 +151,18 @@ QualityCheck result(Check check, bool found, std::string text) {
 }
 
 /// Readings at the very extreme, more than noise puts there.
-QualityCheck saturation(const ProbeStream& stream) {
+QualityCheck saturation(const ProbeStream& stream, const DistinctValues& indication) {
   const auto [low, high] = range_of(stream.reading_mm);
   const auto top = std::ranges::count(stream.reading_mm, high);
   const auto bottom = std::ranges::count(stream.reading_mm, low);
-  std::vector<double> sorted(stream.reading_mm);
-  std::ranges::sort(sorted);
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  const double repeats = static_cast<double>(stream.size()) / static_cast<double>(sorted.size());
+  const double repeats = static_cast<double>(stream.size()) / static_cast<double>(indication.count);
   const bool found = static_cast<double>(std::max(top, bottom)) > std::max(5.0, 12.0 * repeats);
   return result(Check::saturation, found,
                 fmt::format("{} readings at the largest value, {} at the smallest", top, bottom));
 }
 
 /// The step of a rounded indication, and whether its error was found as a period of the reading.
-QualityCheck quantisation(const ProbeStream& stream, const Joint& joint, double sigma) {
-  const double step = step_of(stream.reading_mm);
+QualityCheck quantisation(double step, const Joint& joint, double sigma) {
   std::string text =
       fmt::format("smallest step {:.3g} µm, σ {:.3g} µm", step / mm_per_um, sigma / mm_per_um);
   const bool taken = std::ranges::any_of(joint.terms, [&](const Hypothesis& h) {
@@ -248,12 +244,14 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
   return out;
 }
 
-std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,
+std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& joint,
                                         const std::vector<double>& residual_mm,
                                         const NoiseReport& noise) {
   const LinearisationPoint& point = joint.equations.point();
   const ObservationMask& mask = joint.equations.mask();
-  std::vector<QualityCheck> list{saturation(stream), quantisation(stream, joint, noise.sigma_mm)};
+  const ProbeStream& stream = ideal.stream;
+  std::vector<QualityCheck> list{saturation(stream, ideal.indication),
+                                 quantisation(ideal.indication.step, joint, noise.sigma_mm)};
   list.push_back(result(
       Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
       fmt::format(

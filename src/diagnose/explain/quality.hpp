@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "diagnose/regression/joint.hpp"
+#include "diagnose/search/ideal_model.hpp"
 #include "diagnose/search/search.hpp"
 #include "trueaxis/diagnosis.hpp"
 
@@ -18,7 +19,7 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
                          const std::optional<double>& stated_mm);
 
 /// The checks of the catalogue.
-std::vector<QualityCheck> check_quality(const ProbeStream& stream, const Joint& joint,
+std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& joint,
                                         const std::vector<double>& residual_mm,
                                         const NoiseReport& noise);
 

@@ -68,7 +68,6 @@ RelinearisedFit::RelinearisedFit(const IdealModel& ideal, const Model& model)
   effect_mm_ = contribution(problem_->point, terms_,
                             span_of(joint_->solution.coefficients.tail(count)), first.threads);
   if (moved_) add(effect_mm_, turned_mm_);
-  cleaned_ = cleaned(taken_off_mm());
 }
 
 /// Of the readings, for the surface.

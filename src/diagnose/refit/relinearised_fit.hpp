@@ -28,6 +28,8 @@ class RelinearisedFit {
   const std::vector<double>& effect_mm() const { return effect_mm_; }
   /// Readings minus surface and terms, one a reading, mm.
   std::vector<double> residual_mm() const;
+  /// Fits the surface without the terms: before `take_named` and `shifted`.
+  void fit_surface() { cleaned_ = cleaned(taken_off_mm()); }
   /// The surface of the model that is named; asked for once, and last.
   FitResult take_named() {
     return extended_fit(std::move(cleaned_), problem_->point, uncertainty_of(*joint_));

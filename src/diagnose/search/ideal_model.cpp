@@ -23,18 +23,18 @@ int threads_of(const DiagnoseOptions& options, const ProbeStream& stream) {
 
 /// A step below the σ of the noise is drowned: its first harmonic keeps exp(−2π²) = 3e-9 of its
 /// size.
-double rounding_that_shows(const ProbeStream& stream, std::span<const double> deviation_mm) {
-  const double step = step_of(stream.reading_mm);
-  return step > mad_sigma(deviation_mm) ? step : 0.0;
+double rounding_that_shows(double step_mm, std::span<const double> deviation_mm) {
+  return step_mm > 0.0 && step_mm > mad_sigma(deviation_mm) ? step_mm : 0.0;
 }
 
 }  // namespace
 
 IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& options,
-                       const FitResult& ideal)
+                       const FitResult& ideal, const DistinctValues& indicated)
     : stream(measured),
       fit_options(options.fit),
       fit(ideal),
+      indication(indicated),
       ball_mm(std::max(measured.ball_radius_mm.value_or(0.0), options.fit.ball_radius_mm)),
       point(about(measured, ideal, ball_mm, threads_of(options, measured))),
       mask(make_observation_mask(point)),
@@ -50,6 +50,6 @@ IdealModel::IdealModel(const ProbeStream& measured, const DiagnoseOptions& optio
               threads_of(options, measured),
               static_cast<std::size_t>(options.max_findings),
               possible_causes(point.base, options.own_effects),
-              rounding_that_shows(measured, deviation_mm)} {}
+              rounding_that_shows(indicated.step, deviation_mm)} {}
 
 }  // namespace trueaxis::diagnose_detail

@@ -13,13 +13,16 @@ namespace trueaxis::diagnose_detail {
 class IdealModel {
  public:
   /// Stream, options and fit outlive this. @param ideal is_diagnosable()
-  IdealModel(const ProbeStream& measured, const DiagnoseOptions& options, const FitResult& ideal);
+  /// @param indicated distinct_values() of the readings
+  IdealModel(const ProbeStream& measured, const DiagnoseOptions& options, const FitResult& ideal,
+             const DistinctValues& indicated);
   IdealModel(const IdealModel&) = delete;
   IdealModel& operator=(const IdealModel&) = delete;
 
   const ProbeStream& stream;
   const FitOptions& fit_options;
   const FitResult& fit;
+  const DistinctValues indication;
   const double ball_mm;
   const LinearisationPoint point;
   ObservationMask mask;
