@@ -39,11 +39,11 @@ int run(int argc, char** argv) {
 }
 
 /// Columns of 10⁶ readings are taken from memory that is there already: else each is mapped anew,
-/// page by page, and given back, which is a twentieth of a diagnosis.
+/// page by page, and given back. (Both are where glibc's own limits end up in a stream of 10⁷.)
 void keep_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 128 << 20);
+  mallopt(M_TRIM_THRESHOLD, 64 << 20);
 #endif
 }
 

@@ -10,6 +10,8 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
+constexpr std::size_t very_many = 4'000'000;  // readings: memory counts more than time there
+
 Hypothesis function_of(int order, int degree, bool spindle = false, bool in_time = false) {
   Hypothesis h;
   h.pattern = {.order = static_cast<double>(order),
@@ -208,7 +210,7 @@ std::unique_ptr<Dictionary> make_dictionary(const Problem& problem,
     out->preset_places.push_back(shared[i] ? *shared[i]
                                            : subset(places[carrier[i]], out->presets[i]));
   }
-  out->equations.keep_columns();
+  if (!problem.whole || problem.whole->point.size() < very_many) out->equations.keep_columns();
   out->columns = static_cast<std::size_t>(out->equations.total().rows());
   out->noise_freedom =
       static_cast<double>(out->equations.count()) -
