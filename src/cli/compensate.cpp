@@ -15,6 +15,7 @@
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/machine_toml.hpp"
+#include "nc/skeleton.hpp"
 #include "trueaxis/compensation.hpp"
 #include "trueaxis/error.hpp"
 
@@ -29,15 +30,17 @@ struct Options {
   bool force = false;
 };
 
-/// A program cannot say that TrueAxis wrote it, for all its bytes are the user's.
-void expect_no_other_program(const std::string& path, bool force) {
+/// A program cannot say that TrueAxis wrote it, for all its bytes are the user's: what may be this
+/// one, compensated before, is replaced.
+void expect_no_other_program(const std::string& path, const std::string& program, bool force) {
   std::error_code error;
   if (force || is_standard_output(path) || !std::filesystem::is_regular_file(path, error) ||
-      std::filesystem::file_size(path, error) == 0)
+      std::filesystem::file_size(path, error) == 0 ||
+      nc::differ_in_axis_words_only(read_file(path), program))
     return;
   throw InputError(path,
-                   "is there, and a program does not say who wrote it: name another place for the "
-                   "result, or let it be replaced with --force");
+                   "is there and is another program: name another place for the result, or let it "
+                   "be replaced with --force");
 }
 
 std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
@@ -57,10 +60,10 @@ int execute(const Options& options) {
   outputs.may_write(options.output, "");
   outputs.may_write(options.json, "trueaxis.compensation");
   outputs.check();
-  expect_no_other_program(options.output, options.force);
   const MachineFile machine = read_machine_toml(options.machine);
   const MachineModel model(machine.machine, read_errors(options.errors, machine));
   std::string text = read_file(options.program);
+  expect_no_other_program(options.output, text, options.force);
   const std::vector<CompensationInput> inputs = inputs_of(options, text);
   CompensationOptions task = options.compensation;
   if (options.method == "differential") task.method = CompensationMethod::differential;

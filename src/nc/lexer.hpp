@@ -10,6 +10,8 @@
 
 namespace trueaxis::nc {
 
+inline bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
 /// A letter and its number, as they stand in the text: `letter_at` is the place of the letter,
 /// [number_begin, end) that of the number with its sign.
 struct Word {

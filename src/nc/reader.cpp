@@ -150,7 +150,9 @@ class Reader {
     const Word& first = circle ? *centre_word() : first_axis_word();
     const bool away =
         block_.has_g(g_home) || block_.has_g(g_second_home) || block_.has_g(g_machine);
-    if (state_.incremental) {
+    if (block_.refused) {
+      // What it does is not known; its words are taken, so that the blocks after it are read.
+    } else if (state_.incremental) {
       complain_once(first, told_incremental_, "axis words under G91: write them under G90");
     } else if (state_.motion == Motion::none && !away) {
       complain_once(first, told_motion_, "axis words before G0 or G1: say how to move");
@@ -187,7 +189,7 @@ class Reader {
                           unknown_since_ + "): give it in this block");
       told_ = missing;
     }
-    if (missing != 0 || block_.refused) return;
+    if (missing != 0) return;
     Move made;
     made.line = static_cast<std::uint32_t>(line_);
     made.modal = state_;

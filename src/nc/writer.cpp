@@ -55,6 +55,8 @@ class Writer {
       complain(line,
                "is to be cut in pieces and has an M code that may be carried out once only: "
                "give it a block of its own");
+    if (positions.size() > 1 && move.modal.feed_mode == FeedMode::inverse_time && !has_feed(line))
+      complain(line, "is to be cut in pieces and has no F, which G93 asks for in every block");
     for (std::size_t k = 0; k + 1 < positions.size(); ++k) write_piece(line, positions[k], k == 0);
     const std::size_t begin = out_.text.size();
     rewrite(line, positions.back());
@@ -96,6 +98,10 @@ class Writer {
       separate(line);
       append_word(word, move);
     }
+  }
+
+  bool has_feed(const Line& line) const {
+    return std::ranges::find(words_of(line), 'F', &Word::letter) != words_of(line).end();
   }
 
   void append_feed_word(const Line& line) {

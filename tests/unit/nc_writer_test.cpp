@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "nc/number_text.hpp"
+#include "nc/skeleton.hpp"
 #include "nc/writer.hpp"
 #include "support/nc_programs.hpp"
 #include "trueaxis/error.hpp"
@@ -129,6 +130,17 @@ TEST(NcWriter, LinesStayBelow256Characters) {
 
 TEST(NcWriter, BlocksWithCodesThatMayRunOnceAreNotSplit) {
   EXPECT_THROW(split("G1 X0 Y0 Z0 A0 C0\nX1 M62 P1\n", 2), InputError);
+  EXPECT_THROW(split("G93 G1 X0 Y0 Z0 A0 C0 F1\nX1\n", 2), InputError);
+}
+
+TEST(NcWriter, ACompensatedProgramIsKnownByWhatIsNoAxisWord) {
+  const std::string source = "%\nN1 G1 X1 Y2 Z3 A4 C5 F9 (a)\nX3\nN2 Y3 M8\n";
+  EXPECT_TRUE(differ_in_axis_words_only(moved(source, {0.1, 0.2, 0, 0, 0.3, 0}), source));
+  EXPECT_TRUE(differ_in_axis_words_only(
+      "%\nN1 G1 X1 Y2 Z3 A4 C5 F9 (a)\nX3\n/X2 Z4\nN2 Y3 X5.5 M8\n", source));
+  EXPECT_FALSE(differ_in_axis_words_only("%\nN1 G1 X1 Y2 Z3 A4 C5 F9 (b)\nX3\nN2 Y3 M8\n", source));
+  EXPECT_FALSE(differ_in_axis_words_only("(a letter to Grandmother)\n", source));
+  EXPECT_FALSE(differ_in_axis_words_only("", ""));
 }
 
 }  // namespace
