@@ -129,6 +129,7 @@ class Writer {
   void append_feed(const Word& word) {
     const int decimals = word.decimals;
     append_number(out_.text, rounded(word.number * pieces_, decimals), decimals);
+    if (decimals == 0 && source_[word.end - 1] == '.') out_.text += '.';
   }
 
   void append(char letter, const NewNumber& now) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <regex>
 #include <sstream>
@@ -202,6 +203,42 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
     return list;
   };
   EXPECT_EQ(not_feeds(pieces), not_feeds(source));
+}
+
+TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
+  if (shell("/usr/bin/python3 -c 'import gcode'").exit_code != 0)
+    GTEST_SKIP() << "Python's gcode (linuxcnc) is not installed";
+  const std::string source =
+      "G90 G21\nG0 X0 Y0 Z0 A0 C0\nG1 X100. Y-50. F500\nZ30.\nG20 X3.5\nG21 A-35. C70.\nM2\n";
+  ASSERT_EQ(compensate("p.nc", source, with_errors + "-o out.nc --decimals 12 --angle-decimals 12")
+                .exit_code,
+            0);
+  const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + TRUEAXIS_SOURCE +
+                          "/tests/e2e/linuxcnc_moves.py out.nc x.var 2>/dev/null");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  std::istringstream moves(done.output), lines(read_text(folder_ / "out.nc"));
+  std::array<double, 6> words{};
+  int compared = 0;
+  double factor = 1.0;
+  for (std::string line; std::getline(lines, line);) {
+    if (contains(line, "G20")) factor = 25.4;
+    if (contains(line, "G21")) factor = 1.0;
+    bool is_move = false;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::size_t at = line.find("XYZABC"[k]);
+      if (at == std::string::npos) continue;
+      words[k] = std::stod(line.substr(at + 1)) * (k < 3 ? factor : 1.0);
+      is_move = true;
+    }
+    if (!is_move) continue;
+    for (std::size_t k = 0; k < 6; ++k) {
+      double end = 0.0;
+      ASSERT_TRUE(moves >> end) << done.output;
+      EXPECT_NEAR(end, words[k], 1e-9) << line << " axis " << k;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, 5);
 }
 
 }  // namespace

@@ -109,6 +109,7 @@ TEST(NcWriter, PiecesAreLinesOfAxisWords) {
 TEST(NcWriter, PiecesUnderInverseTimeShareTheTime) {
   EXPECT_EQ(split("G93\nG1 X0 Y0 Z0 A0 C0 F2\nN20 X3 F2.5\n", 3),
             "G93\nG1 X0 Y0 Z0 A0 C0 F2\nX1.0000 F7.5\nX2.0000 F7.5\nN20 X3 F7.5\n");
+  EXPECT_EQ(split("G93 G1 X0Y0Z0A0C0F2\nX2F4.\n", 2), "G93 G1 X0Y0Z0A0C0F2\nX1.0000F8.\nX2F8.\n");
 }
 
 TEST(NcWriter, ArcsBecomeChords) {
