@@ -8,13 +8,12 @@
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/machine_options.hpp"
 #include "cli/options.hpp"
 #include "compensate/files/compensation_json.hpp"
 #include "compensate/files/compensation_text.hpp"
-#include "compensate/files/error_files.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/machine_toml.hpp"
 #include "nc/skeleton.hpp"
 #include "trueaxis/compensation.hpp"
 #include "trueaxis/error.hpp"
@@ -23,8 +22,8 @@ namespace trueaxis::cli {
 namespace {
 
 struct Options {
-  std::string program, machine, output, json, method = "exact";
-  std::vector<std::string> errors;
+  std::string program, output, json, method = "exact";
+  MachineOptions machine;
   std::optional<double> tolerance_um, arcs_mm;
   CompensationOptions compensation;
   bool force = false;
@@ -46,8 +45,8 @@ void expect_no_other_program(const std::string& path, const std::string& program
 std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
   std::vector<CompensationInput> inputs{
       {options.program, content_hash(program)},
-      {options.machine, content_hash(read_file(options.machine))}};
-  for (const std::string& path : options.errors)
+      {options.machine.machine, content_hash(read_file(options.machine.machine))}};
+  for (const std::string& path : options.machine.errors)
     inputs.push_back({path, content_hash(read_file(path))});
   return inputs;
 }
@@ -55,13 +54,13 @@ std::vector<CompensationInput> inputs_of(const Options& options, const std::stri
 int execute(const Options& options) {
   Outputs outputs(options.force);
   outputs.reads(options.program);
-  outputs.reads(options.machine);
-  for (const std::string& path : options.errors) outputs.reads(path);
+  outputs.reads(options.machine.machine);
+  for (const std::string& path : options.machine.errors) outputs.reads(path);
   outputs.may_write(options.output, "");
   outputs.may_write(options.json, "trueaxis.compensation");
   outputs.check();
-  const MachineFile machine = read_machine_toml(options.machine);
-  const MachineModel model(machine.machine, read_errors(options.errors, machine));
+  const MachineFile machine = options.machine.read_machine();
+  const MachineModel model(machine.machine, options.machine.read_errors_of(machine));
   std::string text = read_file(options.program);
   expect_no_other_program(options.output, text, options.force);
   const std::vector<CompensationInput> inputs = inputs_of(options, text);
@@ -112,8 +111,8 @@ void add_compensate(CLI::App& app, int& exit_code) {
       "rewrites a program for a machine with errors, byte for byte but for positions");
   auto options = std::make_shared<Options>();
   command->add_option("program", options->program, "a program of ISO 6983 words")->required();
-  command->add_option("--machine", options->machine, "the machine (TOML)")->required();
-  command->add_option("--errors", options->errors, "its errors (TOML); files add");
+  command->add_option("--machine", options->machine.machine, "the machine (TOML)")->required();
+  options->machine.add_errors_to(*command);
   command->add_option("-o,--output", options->output, "the new program")
       ->required()
       ->check(a_place());
