@@ -41,7 +41,7 @@ AxisPositions BlockPath::between(const AxisPositions& from, const AxisPositions&
   if (task_.axes.mode(move_.modal) == ProgramMode::axes) return axes;
   const Vector3 tip =
       mix(task_.model.nominal(from, setting_).tip_mm, task_.model.nominal(to, setting_).tip_mm, s);
-  return axes_for_tip(task_.model.machine(), tip, axes, setting_).value_or(axes);
+  return axes_for_tip(task_.model, tip, axes, setting_).value_or(axes);
 }
 
 double BlockPath::distance_mm(const Vector3& tip) const {
@@ -77,7 +77,7 @@ BlockPath::Pieces BlockPath::cut(std::size_t count, Tally& tally) const {
     const double s = static_cast<double>(j) / static_cast<double>(count);
     const AxisPositions even = mix(from_.commanded, to_.commanded, s);
     const AxisPositions nominal =
-        axes_for_tip(task_.model.machine(), tip_at(s), even, setting_).value_or(even);
+        axes_for_tip(task_.model, tip_at(s), even, setting_).value_or(even);
     const CompensatedPosition position = compensate_position(task_, nominal, setting_);
     if (!is_reached(position, task_.line_of(move_), tally)) return {{}, 0.0, false};
     pieces.words.push_back(

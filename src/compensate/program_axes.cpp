@@ -67,7 +67,7 @@ std::optional<AxisPositions> ProgramAxes::positions(const nc::AxisValues& words,
   for (std::size_t k = 0; k < axis_count; ++k)
     if (nc::has(axes_, k)) axes[k] = words[k] + zero[k];
   if (mode(modal) == ProgramMode::tip)
-    return axes_for_tip(machine_, {words[0], words[1], words[2]}, axes, setting(modal));
+    return axes_for_tip(nominal_, {words[0], words[1], words[2]}, axes, setting(modal));
   if (modal.length == nc::LengthOffset::along_axis && length_axis_ < axis_count)
     axes[length_axis_] += length_sign_ * length_mm(modal);
   return axes;
