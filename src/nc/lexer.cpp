@@ -136,7 +136,7 @@ class LineReader {
   }
 
   static bool begins_value(char c) { return c == '#' || c == '[' || c == '=' || c == '<'; }
-  static std::string name_of(const Word& word) { return {1, word.letter}; }
+  static std::string name_of(const Word& word) { return std::string(1, word.letter); }
 
   void skip_value() {
     int open = 0;
