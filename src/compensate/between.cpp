@@ -57,18 +57,21 @@ double BlockPath::distance_mm(const Vector3& tip) const {
   return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
 }
 
-double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to) const {
-  double largest = 0.0;
-  for (const double s : {0.25, 0.5, 0.75})
-    largest =
-        std::max(largest, distance_mm(task_.model.actual(between(from, to, s), setting_).tip_mm));
-  return largest;
+double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to,
+                               double of_interest_mm) const {
+  const auto at = [&](double s) {
+    return distance_mm(task_.model.actual(between(from, to, s), setting_).tip_mm);
+  };
+  const double middle = at(0.5);
+  return middle < of_interest_mm ? middle : std::max({at(0.25), middle, at(0.75)});
 }
 
-double BlockPath::deviation_before_mm() const {
-  return deviation_mm(from_.commanded, to_.commanded);
+double BlockPath::deviation_before_mm(double of_interest_mm) const {
+  return deviation_mm(from_.commanded, to_.commanded, of_interest_mm);
 }
-double BlockPath::deviation_after_mm() const { return deviation_mm(from_.written, to_.written); }
+double BlockPath::deviation_after_mm(double of_interest_mm) const {
+  return deviation_mm(from_.written, to_.written, of_interest_mm);
+}
 
 BlockPath::Pieces BlockPath::cut(std::size_t count, Tally& tally) const {
   Pieces pieces;

@@ -15,9 +15,10 @@ class BlockPath {
             const BlockEnd& to);
 
   /// Largest distance, at quarters of the way, of the actual tip from the line between the nominal
-  /// ends: of the program as it was read, and as it is written in one piece.
-  double deviation_before_mm() const;
-  double deviation_after_mm() const;
+  /// ends: of the program as it was read, and as it is written in one piece. Where the middle is
+  /// below `of_interest_mm` it stands for the quarters, which an even curve has below it.
+  double deviation_before_mm(double of_interest_mm) const;
+  double deviation_after_mm(double of_interest_mm) const;
 
   /// The positions (words, rounded by whoever writes them) that cut the block in equal pieces, as
   /// few as keep the tolerance, and the deviation that is left. What cannot be reached or kept is
@@ -31,7 +32,8 @@ class BlockPath {
     bool reached = true;
   };
   Pieces cut(std::size_t count, Tally& tally) const;
-  double deviation_mm(const AxisPositions& from, const AxisPositions& to) const;
+  double deviation_mm(const AxisPositions& from, const AxisPositions& to,
+                      double of_interest_mm = 0.0) const;
   double distance_mm(const Vector3& tip) const;
   AxisPositions between(const AxisPositions& from, const AxisPositions& to, double s) const;
   Vector3 tip_at(double s) const;

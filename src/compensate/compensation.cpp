@@ -77,13 +77,14 @@ class NewProgram {
     if (!move.continues || move.modal.motion == nc::Motion::rapid) return;
     const BlockPath path(task_, move, ends_[i - 1], ends_[i]);
     const std::size_t line = task_.line_of(move);
-    take(tally.sums.between_before, path.deviation_before_mm(), line);
-    double deviation_mm = path.deviation_after_mm();
-    if (task_.options.tolerance_mm)
-      for (const nc::AxisValues& words :
-           path.split(*task_.options.tolerance_mm, deviation_mm, tally))
+    LargestInProgram &before = tally.sums.between_before, &after = tally.sums.between_after;
+    take(before, path.deviation_before_mm(before.value), line);
+    const auto& tolerance_mm = task_.options.tolerance_mm;
+    double deviation_mm = path.deviation_after_mm(tolerance_mm ? 0.0 : after.value);
+    if (tolerance_mm)
+      for (const nc::AxisValues& words : path.split(*tolerance_mm, deviation_mm, tally))
         pieces.push_back({static_cast<std::uint32_t>(i), true, words});
-    take(tally.sums.between_after, deviation_mm, line);
+    take(after, deviation_mm, line);
   }
 
   void rank(ProgramCompensation& out, const Tally& tally) const {

@@ -214,7 +214,7 @@ TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
                 .exit_code,
             0);
   const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + TRUEAXIS_SOURCE +
-                          "/tests/e2e/linuxcnc_moves.py out.nc x.var > moves.txt");
+                          "/tests/e2e/linuxcnc_moves.py out.nc x.var moves.txt");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   std::istringstream moves(read_text(folder_ / "moves.txt")), lines(read_text(folder_ / "out.nc"));
   std::array<double, 6> words{};

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the end points of a program's straight moves as LinuxCNC's interpreter reads them.
+"""Writes the end points of a program's straight moves as LinuxCNC's interpreter reads them.
+
+    linuxcnc_moves.py PROGRAM PARAMETERS MOVES
 
 X Y Z in mm, A B C in degrees, a line a move, with all digits of a double.
 """
@@ -23,7 +25,7 @@ class Canon:
 
     @staticmethod
     def show(ends):
-        print(*(repr(25.4 * end if k < 3 else end) for k, end in enumerate(ends[:6])))
+        print(*(repr(25.4 * end if k < 3 else end) for k, end in enumerate(ends[:6])), file=moves)
 
     def get_axis_mask(self):
         return 63
@@ -47,6 +49,7 @@ class Canon:
         pass
 
 
+moves = open(sys.argv[3], "w", buffering=1)
 result, line = gcode.parse(sys.argv[1], Canon(sys.argv[2]), "G21", "")
 if result > gcode.MIN_ERROR:
     sys.exit(f"{sys.argv[1]}:{line}: {gcode.strerror(result)}")
