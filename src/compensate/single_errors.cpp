@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "machine/component_errors.hpp"
@@ -10,6 +11,19 @@
 namespace trueaxis {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// |E p − p| and |E⁻¹ p − p| of one component error: a shift, or a turn about the pivot, whose
+/// chord is 2 r sin(φ/2) at the distance r from its axis.
+double moved_by(const Joint& joint, const ComponentErrors& errors, const Vector3d& point) {
+  const double angle = errors.rotation.norm();
+  if (angle == 0.0) return errors.shift.norm();
+  const double radius = errors.rotation.cross(point - joint.pivot).norm() / angle;
+  return 2.0 * radius * std::sin(0.5 * angle);
+}
+
+}  // namespace
 
 SingleErrors SingleErrors::of_names(const MachineModel& model) {
   SingleErrors out(model);
@@ -69,8 +83,8 @@ void SingleErrors::tip_mm(const AxisPositions& axes, const Setting& setting,
       const Joint& joint = alone.joints[one.joint];
       const double position = joint.position(axes);
       if (one.component) {
-        const Vector3d& at = joint.errors_first ? near[one.joint] : far[one.joint];
-        out[i] = (component_errors(joint, position).motion(joint) * at - at).norm();
+        out[i] = moved_by(joint, component_errors(joint, position),
+                          joint.errors_first ? near[one.joint] : far[one.joint]);
       } else {
         out[i] = (joint.actual(position) * far[one.joint] - near[one.joint]).norm();
       }
