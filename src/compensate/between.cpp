@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace trueaxis {
 namespace {
@@ -73,52 +74,94 @@ double BlockPath::deviation_after_mm(double of_interest_mm) const {
   return deviation_mm(from_.written, to_.written, of_interest_mm);
 }
 
-BlockPath::Pieces BlockPath::cut(std::size_t count, Tally& tally) const {
+BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, Tally& tally) const {
   Pieces pieces;
   AxisPositions last = from_.written;
-  for (std::size_t j = 1; j < count; ++j) {
-    const double s = static_cast<double>(j) / static_cast<double>(count);
+  double last_off_mm = 0.0;
+  for (const double s : ends) {
+    if (s >= 1.0) break;
     const AxisPositions even = mix(from_.commanded, to_.commanded, s);
     const AxisPositions nominal =
         axes_for_tip(task_.model, tip_at(s), even, setting_).value_or(even);
     const CompensatedPosition position = compensate_position(task_, nominal, setting_);
-    if (!is_reached(position, task_.line_of(move_), tally)) return {{}, 0.0, false};
+    if (!is_reached(position, task_.line_of(move_), tally)) return {{}, {}, false};
     pieces.words.push_back(
         task_.axes.words(move_.words, to_.commanded, position.axes, move_.modal));
     const AxisPositions written =
         task_.axes.positions(nc::as_written(move_, pieces.words.back(), task_.write), move_.modal)
             .value_or(position.axes);
-    pieces.deviation_mm = std::max({pieces.deviation_mm, deviation_mm(last, written),
-                                    distance_mm(task_.model.actual(written, setting_).tip_mm)});
+    const double off_mm = distance_mm(task_.model.actual(written, setting_).tip_mm);
+    pieces.deviation_mm.push_back(std::max({deviation_mm(last, written), last_off_mm, off_mm}));
     last = written;
+    last_off_mm = off_mm;
   }
-  pieces.deviation_mm = std::max(pieces.deviation_mm, deviation_mm(last, to_.written));
+  pieces.deviation_mm.push_back(std::max(deviation_mm(last, to_.written), last_off_mm));
   return pieces;
 }
 
+bool BlockPath::ends_within(double tolerance_mm) const {
+  return std::max(distance_mm(task_.model.actual(from_.written, setting_).tip_mm),
+                  distance_mm(task_.model.actual(to_.written, setting_).tip_mm)) <= tolerance_mm;
+}
+
+namespace {
+
+/// Ends of pieces so that each gets the same share of Σ √deviation, where `deviation_mm` is that of
+/// pieces that end at `ends`: the deviation of a piece goes with the square of its length.
+std::vector<double> evened(const std::vector<double>& ends, const std::vector<double>& deviation_mm,
+                           std::size_t count) {
+  std::vector<double> reached(ends.size());
+  double sum = 0.0;
+  const double least = 1e-3 * std::sqrt(*std::ranges::max_element(deviation_mm));
+  for (std::size_t j = 0; j < ends.size(); ++j)
+    reached[j] = sum += std::max(std::sqrt(deviation_mm[j]), least);
+  std::vector<double> out;
+  std::size_t j = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    const double share = sum * static_cast<double>(k) / static_cast<double>(count);
+    while (reached[j] < share) ++j;
+    const double from = j == 0 ? 0.0 : ends[j - 1], before = j == 0 ? 0.0 : reached[j - 1];
+    out.push_back(from + (ends[j] - from) * (share - before) / (reached[j] - before));
+  }
+  out.push_back(1.0);
+  return out;
+}
+
+std::vector<double> equal(std::size_t count) {
+  std::vector<double> out;
+  for (std::size_t k = 1; k <= count; ++k)
+    out.push_back(static_cast<double>(k) / static_cast<double>(count));
+  return out;
+}
+
+}  // namespace
+
 std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviation_mm,
                                              Tally& tally) const {
-  // The deviation of an even curve falls with the square of the number of pieces.
-  std::size_t count = 1;
-  while (deviation_mm > tolerance_mm) {
-    const double factor = std::sqrt(deviation_mm / tolerance_mm);
-    const auto more = static_cast<std::size_t>(std::ceil(factor * static_cast<double>(count)));
-    count = std::max(count + 1, more);
-    if (count > most_pieces) {
-      tally.sums.unreachable.push_back(
-          {task_.line_of(move_),
-           "the tip stays " + std::to_string(1e3 * deviation_mm) +
-               " um off the line between the block's ends however often it is cut: ask for a "
-               "larger tolerance or more decimals"});
-      return {};
-    }
+  if (deviation_mm <= tolerance_mm) return {};
+  const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
+  std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
+  // More than the deviations ask, by as much as they were wrong before.
+  for (double reserve = 1.0; ends_within(tolerance_mm); reserve *= 1.1) {
+    double asked = 0.0;
+    for (const double one : deviations_mm)
+      asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
+    const auto count = static_cast<std::size_t>(std::ceil(reserve * asked));
+    if (count > most_pieces) break;
+    ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
     Tally of_pieces;
-    Pieces pieces = cut(count, of_pieces);
-    deviation_mm = pieces.deviation_mm;
-    if (pieces.reached && deviation_mm > tolerance_mm) continue;
-    tally.add(of_pieces);
-    return std::move(pieces.words);
+    Pieces pieces = cut(ends, of_pieces);
+    if (pieces.reached) deviation_mm = *std::ranges::max_element(pieces.deviation_mm);
+    if (!pieces.reached || deviation_mm <= tolerance_mm) {
+      tally.add(of_pieces);
+      return std::move(pieces.words);
+    }
+    deviations_mm = std::move(pieces.deviation_mm);
   }
+  tally.sums.unreachable.push_back(
+      {task_.line_of(move_), "the tip stays " + std::to_string(1e3 * deviation_mm) +
+                                 " um off the line between the block's ends however often it is "
+                                 "cut: ask for a larger tolerance or more decimals"});
   return {};
 }
 

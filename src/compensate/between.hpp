@@ -20,18 +20,20 @@ class BlockPath {
   double deviation_before_mm(double of_interest_mm) const;
   double deviation_after_mm(double of_interest_mm) const;
 
-  /// The positions (words, rounded by whoever writes them) that cut the block in equal pieces, as
-  /// few as keep the tolerance, and the deviation that is left. What cannot be reached or kept is
-  /// noted.
+  /// The positions (words, rounded by whoever writes them) that cut the block in pieces, few more
+  /// than its curvature asks for the tolerance, and the deviation that is left. Pieces are equal
+  /// under G93, where each takes its share of the time, and else shorter where the way is more
+  /// curved. What cannot be reached or kept is noted.
   std::vector<nc::AxisValues> split(double tolerance_mm, double& deviation_mm, Tally& tally) const;
 
  private:
   struct Pieces {
-    std::vector<nc::AxisValues> words;
-    double deviation_mm = 0.0;
+    std::vector<nc::AxisValues> words;  ///< at the ends of all but the last
+    std::vector<double> deviation_mm;   ///< of each
     bool reached = true;
   };
-  Pieces cut(std::size_t count, Tally& tally) const;
+  Pieces cut(const std::vector<double>& ends, Tally& tally) const;
+  bool ends_within(double tolerance_mm) const;
   double deviation_mm(const AxisPositions& from, const AxisPositions& to,
                       double of_interest_mm = 0.0) const;
   double distance_mm(const Vector3& tip) const;
