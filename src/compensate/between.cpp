@@ -11,6 +11,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t most_pieces = 10000;
+constexpr int most_rounds = 50;
 
 Vector3 mix(const Vector3& a, const Vector3& b, double s) {
   return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
@@ -99,9 +100,9 @@ BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, Tally& tally) 
   return pieces;
 }
 
-bool BlockPath::ends_within(double tolerance_mm) const {
+double BlockPath::off_at_ends_mm() const {
   return std::max(distance_mm(task_.model.actual(from_.written, setting_).tip_mm),
-                  distance_mm(task_.model.actual(to_.written, setting_).tip_mm)) <= tolerance_mm;
+                  distance_mm(task_.model.actual(to_.written, setting_).tip_mm));
 }
 
 namespace {
@@ -140,13 +141,14 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
                                              Tally& tally) const {
   if (deviation_mm <= tolerance_mm) return {};
   const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
+  const double off_at_ends_mm = this->off_at_ends_mm();
   std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
-  // More than the deviations ask, by as much as they were wrong before.
-  for (double reserve = 1.0; ends_within(tolerance_mm); reserve *= 1.1) {
+  for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
     double asked = 0.0;
     for (const double one : deviations_mm)
       asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
-    const auto count = static_cast<std::size_t>(std::ceil(reserve * asked));
+    // Deviations of pieces of another size are a guess: a little more in each round.
+    const auto count = static_cast<std::size_t>(std::ceil((1.0 + 0.01 * i) * asked));
     if (count > most_pieces) break;
     ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
     Tally of_pieces;
@@ -159,9 +161,12 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
     deviations_mm = std::move(pieces.deviation_mm);
   }
   tally.sums.unreachable.push_back(
-      {task_.line_of(move_), "the tip stays " + std::to_string(1e3 * deviation_mm) +
-                                 " um off the line between the block's ends however often it is "
-                                 "cut: ask for a larger tolerance or more decimals"});
+      {task_.line_of(move_),
+       off_at_ends_mm > tolerance_mm
+           ? "the tip is " + std::to_string(1e3 * off_at_ends_mm) +
+                 " um off at an end of the block, more than the tolerance: ask for more decimals"
+           : "more pieces than " + std::to_string(most_pieces) +
+                 " would be needed for the tolerance"});
   return {};
 }
 

@@ -33,7 +33,7 @@ class BlockPath {
     bool reached = true;
   };
   Pieces cut(const std::vector<double>& ends, Tally& tally) const;
-  bool ends_within(double tolerance_mm) const;
+  double off_at_ends_mm() const;
   double deviation_mm(const AxisPositions& from, const AxisPositions& to,
                       double of_interest_mm = 0.0) const;
   double distance_mm(const Vector3& tip) const;
