@@ -32,6 +32,7 @@ nc::ReadOptions ProgramAxes::read_options(std::optional<double> arc_tolerance_mm
       std::ranges::none_of(machine_.work_offsets, [](const auto& one) { return one.has_value(); });
   for (std::size_t i = 0; i < work_offset_count; ++i)
     options.work_offsets[i] = machine_.work_offsets[i].has_value() || (none && i == 0);
+  for (std::size_t i = 0; i < work_offset_count; ++i) options.zeros[i] = offsets_[i].zero;
   for (const auto& [number, length] : machine_.tool_lengths_mm) options.tools.push_back(number);
   options.start = machine_.start;
   options.arc_tolerance_mm = arc_tolerance_mm;

@@ -35,6 +35,8 @@ double rounded(double value, int decimals) {
   return out + 0.0;
 }
 
+double half_of(int decimals) { return 0.5 * std::pow(10.0, -decimals); }
+
 void append_number(std::string& text, double value, int decimals) {
   Digits digits;
   text.append(digits.data(), print(digits, value, decimals));

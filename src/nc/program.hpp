@@ -21,7 +21,8 @@ struct ReadOptions {
   PositionMode mode = PositionMode::axes;  ///< while G43.4 is off
   std::size_t length_axis = 2;             ///< the linear axis along which G43 adds the length
   std::array<bool, 6> work_offsets{true, true, true, true, true, true};  ///< G54 … G59 are known
-  std::vector<int> tools;  ///< whose lengths are known; empty: one for all
+  std::array<AxisValues, 6> zeros{};  ///< of the work offsets: axis positions where words are 0
+  std::vector<int> tools;             ///< whose lengths are known; empty: one for all
   /// Words in force before the first block (mm, rad); no value: not known.
   std::array<std::optional<double>, axis_count> start{};
   /// How far chords may be from an arc; not given: arcs are refused.
@@ -48,8 +49,9 @@ struct Program {
   std::vector<Line> lines;
   std::vector<Word> words;
   std::vector<Move> moves;
-  AxisValues start_words{};  ///< ReadOptions::start; NaN where it is not known
-  std::size_t blocks = 0;    ///< lines with a word
+  std::array<AxisValues, 6> zeros{};  ///< ReadOptions::zeros
+  AxisValues start_words{};           ///< ReadOptions::start; NaN where it is not known
+  std::size_t blocks = 0;             ///< lines with a word
 
   std::string_view text_of(const Line& line) const {
     return std::string_view(text).substr(line.begin, line.end - line.begin);
@@ -59,8 +61,10 @@ struct Program {
 /// Reads a program of ISO 6983 words. Read are N G M F S T H O, axis words, comments, `/` and `%`;
 /// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80 G90 G91 G93-G95, G2 and G3 with
 /// an arc tolerance. A position is known when every axis of the machine has a word in force; none
-/// has after G28, G30, G53 and the end of a program, all must be given again after another work
-/// offset, and the axes that the tool's length moves after G43, G43.4 and G49.
+/// has after G28, G30, G53 and the end of a program, and the axes that the tool's length moves must
+/// be given again after G43, G43.4 and G49. After another work offset the machine stands where it
+/// stood, so that the words in force are others by the difference of the zeros; a tip must then be
+/// given again.
 /// @throws InputError with everything that is not read, each with its line and column
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 

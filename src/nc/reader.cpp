@@ -103,22 +103,24 @@ class Reader {
   void put_in_force() {
     const ModalState before = state_;
     before_ = before;
-    const bool moves = std::ranges::any_of(
-        block_.g_tenths, [](int code) { return group_of(code) == Group::motion; });
-    for (const int code : block_.g_tenths) {
-      apply_g(state_, code);
-      if (group_of(code) == Group::cycle && !moves) state_.motion = Motion::none;
-    }
+    for (const int code : block_.g_tenths) apply_g(state_, code);
     if (const Word* feed = block_.word('F')) state_.feed = feed->number;
     if (state_.length != before.length)
       forget(length_axes(before, state_), "the tool's length was switched");
     if (state_.work_offset != before.work_offset) {
-      forget(all_axes, "the work offset was changed");
+      shift_words(before.work_offset);
       check_work_offset();
     } else if (block_.has_g(540 + 10 * state_.work_offset)) {
       check_work_offset();
     }
     if (const Word* number = block_.word('H')) check_length_number(*number);
+  }
+
+  void shift_words(std::size_t from) {
+    for (std::size_t k = 0; k < axis_count; ++k)
+      words_[k] += options_.zeros[from][k] - options_.zeros[state_.work_offset][k];
+    if (options_.mode == PositionMode::tip || state_.length == LengthOffset::tip)
+      forget(linear_axes, "the work offset was changed");
   }
 
   void check_work_offset() {
@@ -297,6 +299,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   Program program;
   program.text = std::move(text);
   program.file = file;
+  program.zeros = options.zeros;
   std::vector<Diagnostic> wrong;
   Lexed lexed = lex(program.text, file, wrong);
   program.lines = std::move(lexed.lines);

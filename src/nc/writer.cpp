@@ -51,6 +51,7 @@ class Writer {
   void write_block(const Line& line, std::span<const NewPosition> positions) {
     pieces_ = static_cast<double>(positions.size());
     const Move& move = program_.moves[positions.back().move];
+    change_work_offset(move.modal.work_offset);
     if (positions.size() > 1 && !move.may_be_split)
       complain(line,
                "is to be cut in pieces and has an M code that may be carried out once only: "
@@ -65,6 +66,13 @@ class Writer {
     if (now == program_.text_of(line)) return;
     ++out_.rewritten;
     check_length(line, now.size());
+  }
+
+  /// The machine stands where it stood, which other words say.
+  void change_work_offset(std::size_t to) {
+    for (std::size_t k = 0; k < axis_count; ++k)
+      in_force_[k] += program_.zeros[work_offset_][k] - program_.zeros[to][k];
+    work_offset_ = to;
   }
 
   /// A line for a position on the way of a block.
@@ -235,7 +243,7 @@ class Writer {
   AxisValues in_force_;  ///< words of the new program
   Written out_;
   std::vector<Diagnostic> wrong_;
-  std::size_t copied_ = 0;
+  std::size_t copied_ = 0, work_offset_ = 0;
   double pieces_ = 1.0;
   int words_ = 0;  ///< of the line that is made
 };
@@ -250,10 +258,12 @@ NewNumber new_number(const Move& move, std::size_t axis, double value,
       is_rotary(axis) ? options.angle_decimals : options.linear_decimals + (inch ? 2 : 0);
   NewNumber out;
   out.decimals = std::max<int>(move.decimals[axis], least);
-  const double before = move.words[axis] / factor;
-  out.number = rounded(before + (value - move.words[axis]) / factor, out.decimals);
-  out.stays = std::abs(out.number - before) <=
-              8.0 * std::numeric_limits<double>::epsilon() * std::abs(before);
+  const double before = move.words[axis] / factor, change = (value - move.words[axis]) / factor;
+  out.number = rounded(before + change, out.decimals);
+  // Half of the last decimal, less the rounding of the conversion.
+  out.stays = std::abs(change) < half_of(out.decimals) ||
+              std::abs(out.number - before) <=
+                  8.0 * std::numeric_limits<double>::epsilon() * std::abs(before);
   out.value = out.stays ? move.words[axis] : out.number * factor;
   return out;
 }

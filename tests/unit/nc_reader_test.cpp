@@ -73,10 +73,11 @@ INSTANTIATE_TEST_SUITE_P(
     Positions, NcRefused,
     ::testing::Values(RefusedCase{"G28 Z0\nX1\nX2\nX1 Y1 Z1 A1 C1\nG30\nG1 A1\n", "3:1 7:4"},
                       RefusedCase{"G53 G0 Z0\nG0 X1 Y1\n", "3:4"},
-                      RefusedCase{"G80\nX1\nX2\n", "3:1"},
+
                       RefusedCase{"G43 H1\nX1\nZ1\nX2\n", "3:1"},
-                      RefusedCase{"G55\nX1 Y1 Z1\n", "3:1"}, RefusedCase{"G43.4 H1\nZ5\n", "3:1"},
-                      RefusedCase{"M30\nX1\n", "3:1"}, RefusedCase{"O2\nG0 X1\n", "3:4"}));
+                      RefusedCase{"G43.4 X1 Y1 Z1\nG55\nX1 Y1\nC3\n", "4:1"},
+                      RefusedCase{"G43.4 H1\nZ5\n", "3:1"}, RefusedCase{"M30\nX1\n", "3:1"},
+                      RefusedCase{"O2\nG0 X1\n", "3:4"}));
 
 TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
   EXPECT_EQ(places("X1 Y1 Z1 A1 C1\n"), "1:1");
@@ -112,6 +113,22 @@ TEST(NcReader, WordsInForceInMmAndRad) {
   EXPECT_FALSE(program.moves[0].continues);
   EXPECT_TRUE(program.moves[1].continues);
   EXPECT_FALSE(program.moves[3].continues) << "after a tool change";
+}
+
+// The machine stays where it is: its axes are word + zero before and after.
+TEST(NcReader, AnotherWorkOffsetLeavesTheMachineWhereItIs) {
+  ReadOptions options = xyzac();
+  options.zeros[0] = {1.0, 2.0, 3.0, 0.1, 0.0, 0.2};
+  options.zeros[1] = {10.5, 20.25, 30.0, 0.4, 0.0, 0.8};
+  const Program program = read_program("G0 X1 Y2 Z3 A4 C5\nG55 X7\nG80\nG54 C1\n", "p.nc", options);
+  ASSERT_EQ(program.moves.size(), 3u);
+  const AxisValues &first = program.moves[0].words, &second = program.moves[1].words,
+                   &third = program.moves[2].words;
+  EXPECT_EQ(second[0], 7.0);
+  for (const std::size_t k : {1, 2, 3, 5})
+    EXPECT_NEAR(second[k] + options.zeros[1][k], first[k] + options.zeros[0][k], 1e-14) << k;
+  EXPECT_NEAR(third[0] + options.zeros[0][0], 7.0 + options.zeros[1][0], 1e-14);
+  EXPECT_EQ(third[5], 1.0 * rad_per_deg);
 }
 
 TEST(NcReader, BehindTheSecondPercentIsNoProgram) {

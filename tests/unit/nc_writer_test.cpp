@@ -90,6 +90,15 @@ TEST(NcWriter, AxesWhoseOutputChangedAreAdded) {
             first + "F100 Z4 X1.0010 C4.99000\n(a) C9 (b)\nY2.5\nA5Y3X1.0000Z4.1000\n");
 }
 
+TEST(NcWriter, AnotherWorkOffsetAddsNoWords) {
+  ReadOptions read = xyzac();
+  read.zeros[1] = {0.1234567, 0.7654321, 0, 0.0123456, 0, 0};
+  const std::string text = "G1 X1 Y2 Z3 A4 C5\nG55 X3\nY1\nG54 Z3\n";
+  EXPECT_EQ(moved(text, {}, read), text);
+  EXPECT_EQ(moved(text, {0.00001, 0.00001, 0.5, 0, 0, 0}, read),
+            "G1 X1 Y2 Z3.5000 A4 C5\nG55 X3\nY1\nG54 Z3.5000\n");
+}
+
 TEST(NcWriter, InchesAreNoCoarserThanMillimetres) {
   EXPECT_EQ(moved("G20 G1 X1 Y1 Z1 A1 C1\n", {0.0254, 0, 0, 0, 0, 0}),
             "G20 G1 X1.001000 Y1 Z1 A1 C1\n");
