@@ -109,10 +109,13 @@ Solution solve(const Problem& problem) {
   Solution best = newton(problem, {});
   Left left = left_of(problem.machine, best.tool, problem.target);
   if (!corrects_direction(problem.machine.machine) || direction_met(left)) return best;
-  const std::size_t weakest = best.weakest_rotary;
-  for (const double side : {1.0, -1.0}) {
-    AxisPositions start{};
-    start[weakest] = side * problem.machine.machine.max_rotary_change_rad;
+  const Solution first = best;
+  const std::size_t weakest = first.weakest_rotary;
+  const double largest_rad = problem.machine.machine.max_rotary_change_rad;
+  for (const double end : {largest_rad, -largest_rad}) {
+    AxisPositions start = first.change;
+    if (std::abs(start[weakest] - end) < 0.5 * largest_rad) continue;  // this is that valley
+    start[weakest] = end;
     const Solution other = newton(problem, start);
     const Left of_other = left_of(problem.machine, other.tool, problem.target);
     if (of_other.tip.norm() > exact_tip_mm ||
