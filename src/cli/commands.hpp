@@ -16,6 +16,7 @@ void add_sweep(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_spindle(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
+void add_compensate(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
 void add_pose(CLI::App& app, int& exit_code);
 void add_axes(CLI::App& app, int& exit_code);
