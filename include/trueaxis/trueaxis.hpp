@@ -11,6 +11,7 @@
 #include "trueaxis/error.hpp"          // InputError, ContractViolation
 #include "trueaxis/fit.hpp"            // association of a surface
 #include "trueaxis/job.hpp"            // streams in, verdict and table out
+#include "trueaxis/machine.hpp"        // a machine of several axes, its errors, compensation
 #include "trueaxis/probe_stream.hpp"   // the readings
 #include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
 #include "trueaxis/spindle.hpp"        // part and spindle separated

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine/screw.hpp"
+
+#include "machine/component_errors.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Eigen::Vector3d;
+using rigid::Motion;
+using Compiled = MachineModel::Compiled;
+
+const Vector3d none = Vector3d::Zero();
+
+Motion program_from_bed(const Setting& setting) {
+  return rigid::motion(setting.bed_from_program).inverse();
+}
+
+/// The screw of a line's own motion, seen in `frame`.
+Screw line_screw(const Motion& frame, bool rotary, const Vector3d& direction,
+                 const Vector3d& point) {
+  return rotary ? screw_in(frame, point, none, direction) : screw_in(frame, none, direction, none);
+}
+
+/// Location errors of an axis, to first order: its line exp(ξ′(q + δ)) against exp(ξ q).
+Screw location_screw(const Motion& before, const Joint& joint, double position) {
+  const Vector3d& u = joint.direction;
+  if (!joint.rotary) {
+    const Vector3d shift = joint.offset * u + position * joint.tilt.cross(u);
+    return screw_in(before, none, shift, none);
+  }
+  const Eigen::Matrix3d R = rigid::turn(u, position);
+  return screw_in(before, joint.point, joint.shift - R * joint.shift,
+                  joint.offset * u + joint.tilt - R * joint.tilt);
+}
+
+Screw of_errors(const Motion& frame, const Joint& joint, const Vector3d& pivot,
+                const ComponentErrors& errors) {
+  const double sign = joint.inverted ? -1.0 : 1.0;
+  return screw_in(frame, pivot, sign * errors.shift, sign * errors.rotation);
+}
+
+}  // namespace
+
+Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
+  Motion frame = program_from_bed(setting);
+  for (const Joint& joint : machine.joints) frame = frame * joint.nominal(joint.position(axes));
+  return {frame.R, frame * machine.tip(setting)};
+}
+
+Motion actual_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
+  Motion frame = machine.workpiece.inverse() * program_from_bed(setting);
+  for (const Joint& joint : machine.joints) {
+    const double position = joint.position(axes);
+    const Motion along = joint.actual(position);
+    if (joint.components.empty()) {
+      frame = frame * along;
+      continue;
+    }
+    const Motion errors = component_errors(joint, position).motion(joint);
+    frame = joint.errors_first ? frame * errors * along : frame * along * errors;
+  }
+  frame = frame * machine.spindle;
+  return {frame.R, frame * machine.tip(setting)};
+}
+
+ToolMotion nominal_motion(const Compiled& machine, const AxisPositions& axes,
+                          const Setting& setting) {
+  ToolMotion out;
+  Motion frame = program_from_bed(setting);
+  for (const Joint& joint : machine.joints) {
+    out.axes[joint.axis] = line_screw(frame, joint.rotary, joint.direction, joint.point);
+    frame = frame * joint.nominal(joint.position(axes));
+  }
+  out.tool = {frame.R, frame * machine.tip(setting)};
+  return out;
+}
+
+ToolMotion actual_motion(const Compiled& machine, const AxisPositions& axes,
+                         const Setting& setting) {
+  ToolMotion out;
+  Motion frame = machine.workpiece.inverse() * program_from_bed(setting);
+  for (const Joint& joint : machine.joints) {
+    const double position = joint.position(axes);
+    const auto [errors, slopes] = component_errors_and_slopes(joint, position);
+    const Motion along = joint.actual(position), off = errors.motion(joint);
+    Screw& screw = out.axes[joint.axis];
+    const Motion between = frame * (joint.errors_first ? off : along);
+    const Motion &before_line = joint.errors_first ? between : frame,
+                 &before_errors = joint.errors_first ? frame : between;
+    screw = line_screw(before_line, joint.rotary, joint.actual_direction, joint.actual_point);
+    screw += of_errors(before_errors, joint, joint.actual_pivot, slopes);
+    frame = between * (joint.errors_first ? along : off);
+  }
+  frame = frame * machine.spindle;
+  out.tool = {frame.R, frame * machine.tip(setting)};
+  return out;
+}
+
+Screw linear_error_screw(const Compiled& machine, const AxisPositions& axes,
+                         const Setting& setting) {
+  Motion frame = program_from_bed(setting);
+  Screw sum{-machine.workpiece_shift, -machine.workpiece_turn};
+  for (const Joint& joint : machine.joints) {
+    const double position = joint.position(axes);
+    const Motion after = frame * joint.nominal(position);
+    sum += location_screw(frame, joint, position);
+    sum += of_errors(joint.errors_first ? frame : after, joint, joint.pivot,
+                     component_errors(joint, position));
+    frame = after;
+  }
+  sum += screw_in(frame, machine.gauge_point, machine.spindle_shift, machine.spindle_turn);
+  return sum;
+}
+
+}  // namespace trueaxis
