@@ -19,5 +19,9 @@ void add_locate(CLI::App& app, int& exit_code);
 void add_datum(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
+void add_pose(CLI::App& app, int& exit_code);
+void add_axes(CLI::App& app, int& exit_code);
+void add_machine(CLI::App& app, int& exit_code);
+void add_errors(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli
