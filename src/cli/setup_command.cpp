@@ -43,7 +43,7 @@ void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code)
   auto options = std::make_shared<Options>();
   command->add_option("file", options->path, which.file)->required();
   command
-      ->add_option("-o,--errors", options->errors,
+      ->add_option("-o,--output", options->errors,
                    "write it as errors of the workpiece, X0W … C0W, here (TOML), '-' prints them")
       ->check(a_place());
   command->add_option("--json", options->json, "write the result here (JSON), '-' prints it")
