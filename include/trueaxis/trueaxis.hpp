@@ -5,6 +5,7 @@
 // radius; results for people (FitParameter) are in mm, deg and 1, each with its unit. Files and the
 // report belong to the command.
 
+#include "trueaxis/compensation.hpp"   // a program rewritten for a machine with errors
 #include "trueaxis/correction.hpp"     // target axis, correction table, actuator
 #include "trueaxis/diagnosis.hpp"      // what the ideal surface misses
 #include "trueaxis/effect.hpp"         // the catalogue of effects

@@ -18,6 +18,7 @@ void add_spindle(CLI::App& app, int& exit_code);
 void add_locate(CLI::App& app, int& exit_code);
 void add_datum(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
+void add_compensate(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
 void add_pose(CLI::App& app, int& exit_code);
 void add_axes(CLI::App& app, int& exit_code);

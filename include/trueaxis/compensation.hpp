@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trueaxis/machine.hpp"
+
+/// A program of a control rewritten so that a machine with errors moves the tool where a machine
+/// without would (docs/nc.md).
+namespace trueaxis {
+
+enum class CompensationMethod {
+  exact,        ///< compensate_exactly
+  differential  ///< compensate_by_differential
+};
+
+struct CompensationOptions {
+  CompensationMethod method = CompensationMethod::exact;
+  /// How far the actual tip may be from the line between the nominal ends of a G1 block, which is
+  /// cut in pieces for it; not given: blocks stay whole.
+  std::optional<double> tolerance_mm{};
+  /// How far the chords that G2 and G3 are replaced by may be from the arc; not given: refused.
+  std::optional<double> arc_tolerance_mm{};
+  int decimals = 4, angle_decimals = 5;  ///< of changed words, where the source has not more
+  int threads = 0;                       ///< 0: as many as there are; the result is the same
+  /// @throws ContractViolation
+  void validate() const;
+};
+
+/// The largest of something in a program, and the line of its block (1-based; 0: there is none).
+struct LargestInProgram {
+  double value = 0.0;  ///< mm or rad
+  std::size_t line = 0;
+};
+
+/// Of tip and direction, against those of the program as it was read on a machine without errors.
+struct LargestToolError {
+  LargestInProgram position, direction;
+};
+
+struct SingularBlock {
+  std::size_t line = 0;
+  double direction_left_rad = 0.0;
+};
+
+struct UnreachableBlock {
+  std::size_t line = 0;
+  std::string why;
+};
+
+/// What one error alone does to the tip.
+struct ErrorAlone {
+  std::string name;
+  LargestInProgram tip;
+};
+
+struct ProgramCompensation {
+  std::string text;  ///< the new program; of one with unreachable blocks empty
+  std::size_t blocks_read = 0, blocks_moved = 0, blocks_rewritten = 0, blocks_inserted = 0;
+  std::array<LargestInProgram, axis_count> largest_change{};  ///< of the words of an axis
+  LargestToolError before, after;                             ///< at the ends of blocks, as written
+  /// Of the actual tip from the line between the nominal ends of G1 blocks.
+  LargestInProgram between_before, between_after;
+  LargestInProgram about_tool_axis;  ///< left about the tool's own axis
+  std::array<LargestInProgram, axis_count> exact_minus_differential{};
+  LargestToolError rounding;  ///< what the decimals cost
+  std::vector<SingularBlock> singular;
+  std::vector<UnreachableBlock> unreachable;
+  std::vector<ErrorAlone> by_error;       ///< the largest first
+  std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
+};
+
+/// Reads the program `text` (called `file` in diagnostics) and compensates every position.
+/// @throws InputError with all that is refused in it, each with its line and column
+ProgramCompensation compensate_program(const MachineModel& model, std::string text,
+                                       const std::string& file, const CompensationOptions& options);
+
+}  // namespace trueaxis

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/machine_options.hpp"
+#include "cli/options.hpp"
+#include "compensate/files/compensation_json.hpp"
+#include "compensate/files/compensation_text.hpp"
+#include "format/file.hpp"
+#include "format/outputs.hpp"
+#include "nc/skeleton.hpp"
+#include "trueaxis/compensation.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  std::string program, output, json, method = "exact";
+  MachineOptions machine;
+  std::optional<double> tolerance_um, arcs_mm;
+  CompensationOptions compensation;
+  bool force = false;
+};
+
+/// A program cannot say that TrueAxis wrote it, for all its bytes are the user's: what may be this
+/// one, compensated before, is replaced.
+void expect_no_other_program(const std::string& path, const std::string& program, bool force) {
+  std::error_code error;
+  if (force || is_standard_output(path) || !std::filesystem::is_regular_file(path, error) ||
+      std::filesystem::file_size(path, error) == 0 ||
+      nc::differ_in_axis_words_only(read_file(path), program))
+    return;
+  throw InputError(path,
+                   "is there and is another program: name another place for the result, or let it "
+                   "be replaced with --force");
+}
+
+std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
+  std::vector<CompensationInput> inputs{
+      {options.program, content_hash(program)},
+      {options.machine.machine, content_hash(read_file(options.machine.machine))}};
+  for (const std::string& path : options.machine.errors)
+    inputs.push_back({path, content_hash(read_file(path))});
+  return inputs;
+}
+
+int execute(const Options& options) {
+  Outputs outputs(options.force);
+  outputs.reads(options.program);
+  outputs.reads(options.machine.machine);
+  for (const std::string& path : options.machine.errors) outputs.reads(path);
+  outputs.may_write(options.output, "");
+  outputs.may_write(options.json, "trueaxis.compensation");
+  outputs.check();
+  const MachineFile machine = options.machine.read_machine();
+  const MachineModel model(machine.machine, options.machine.read_errors_of(machine));
+  std::string text = read_file(options.program);
+  expect_no_other_program(options.output, text, options.force);
+  const std::vector<CompensationInput> inputs = inputs_of(options, text);
+  CompensationOptions task = options.compensation;
+  if (options.method == "differential") task.method = CompensationMethod::differential;
+  if (options.tolerance_um) task.tolerance_mm = *options.tolerance_um * mm_per_um;
+  task.arc_tolerance_mm = options.arcs_mm;
+  const ProgramCompensation result =
+      compensate_program(model, std::move(text), options.program, task);
+  if (!options.json.empty()) outputs.write(options.json, compensation_json(result, task, inputs));
+  if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
+  outputs.commit();
+  if (!result.unreachable.empty()) throw Refusal(unreachable_text(result, options.program));
+  if (options.json != "-" && !is_standard_output(options.output))
+    std::cout << compensation_text(result);
+  return done;
+}
+
+void add_accuracy(CLI::App& command, Options& options) {
+  command.add_option("--method", options.method, "exact, or differential: Δq = -J⁻¹ L (exact)")
+      ->check(CLI::IsMember({"exact", "differential"}));
+  command
+      .add_option(
+          "--tolerance-um", options.tolerance_um,
+          "cut G1 blocks in pieces: how far the tip may be from the line between their ends")
+      ->check(number_in(0.0, true, 1e4, "a length above 0, up to 10000 um"));
+  command
+      .add_option("--arcs", options.arcs_mm,
+                  "replace G2 and G3 by chords: how far these may be from the arc, in mm")
+      ->check(number_in(0.0, true, 1.0, "a length above 0, up to 1 mm"));
+  command
+      .add_option("--decimals", options.compensation.decimals,
+                  "of changed X Y Z, where the program has not more; two more under G20 (4)")
+      ->check(CLI::Range(0, 15));
+  command
+      .add_option("--angle-decimals", options.compensation.angle_decimals,
+                  "of changed A B C, where the program has not more (5)")
+      ->check(CLI::Range(0, 15));
+  command.add_option("--threads", options.compensation.threads, "0: as many as there are (0)")
+      ->check(CLI::Range(0, 1024));
+}
+
+}  // namespace
+
+void add_compensate(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "compensate",
+      "rewrites a program for a machine with errors, byte for byte but for positions");
+  auto options = std::make_shared<Options>();
+  command->add_option("program", options->program, "a program of ISO 6983 words")->required();
+  command->add_option("--machine", options->machine.machine, "the machine (TOML)")->required();
+  options->machine.add_errors_to(*command);
+  command->add_option("-o,--output", options->output, "the new program")
+      ->required()
+      ->check(a_place());
+  command->add_option("--json", options->json, "write the result here (JSON), '-' prints it")
+      ->check(a_place());
+  add_accuracy(*command, *options);
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] {
+    if (options->json == options->output)
+      throw CLI::ValidationError("--json", "cannot go where the program goes");
+    exit_code = execute(*options);
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compensate/between.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t most_pieces = 10000;
+constexpr int most_rounds = 50;
+
+Vector3 mix(const Vector3& a, const Vector3& b, double s) {
+  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double s) {
+  AxisPositions out;
+  for (std::size_t k = 0; k < axis_count; ++k) out[k] = a[k] + s * (b[k] - a[k]);
+  return out;
+}
+
+}  // namespace
+
+BlockPath::BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
+                     const BlockEnd& to)
+    : task_(task),
+      move_(move),
+      from_(from),
+      to_(to),
+      setting_(task.axes.setting(move.modal)),
+      start_mm_(task.model.nominal(from.commanded, setting_).tip_mm),
+      end_mm_(to.tip_mm) {}
+
+Vector3 BlockPath::tip_at(double s) const { return mix(start_mm_, end_mm_, s); }
+
+/// Where a control is on the way: its axes go evenly, or the tip and the rotary axes do.
+AxisPositions BlockPath::between(const AxisPositions& from, const AxisPositions& to,
+                                 double s) const {
+  const AxisPositions axes = mix(from, to, s);
+  if (task_.axes.mode(move_.modal) == ProgramMode::axes) return axes;
+  const Vector3 tip =
+      mix(task_.model.nominal(from, setting_).tip_mm, task_.model.nominal(to, setting_).tip_mm, s);
+  return axes_for_tip(task_.model, tip, axes, setting_).value_or(axes);
+}
+
+double BlockPath::distance_mm(const Vector3& tip) const {
+  Vector3 along, off;
+  double length = 0.0, projected = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    along[i] = end_mm_[i] - start_mm_[i];
+    off[i] = tip[i] - start_mm_[i];
+    length += along[i] * along[i];
+    projected += along[i] * off[i];
+  }
+  const double s = length > 0.0 ? std::clamp(projected / length, 0.0, 1.0) : 0.0;
+  return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
+}
+
+double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to,
+                               double of_interest_mm) const {
+  const auto at = [&](double s) {
+    return distance_mm(task_.model.actual(between(from, to, s), setting_).tip_mm);
+  };
+  const double middle = at(0.5);
+  return middle < of_interest_mm ? middle : std::max({at(0.25), middle, at(0.75)});
+}
+
+double BlockPath::deviation_before_mm(double of_interest_mm) const {
+  return deviation_mm(from_.commanded, to_.commanded, of_interest_mm);
+}
+double BlockPath::deviation_after_mm(double of_interest_mm) const {
+  return deviation_mm(from_.written, to_.written, of_interest_mm);
+}
+
+BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, Tally& tally) const {
+  Pieces pieces;
+  AxisPositions last = from_.written;
+  double last_off_mm = 0.0;
+  for (const double s : ends) {
+    if (s >= 1.0) break;
+    const AxisPositions even = mix(from_.commanded, to_.commanded, s);
+    const AxisPositions nominal =
+        axes_for_tip(task_.model, tip_at(s), even, setting_).value_or(even);
+    const CompensatedPosition position = compensate_position(task_, nominal, setting_);
+    if (!is_reached(position, task_.line_of(move_), tally)) return {{}, {}, false};
+    pieces.words.push_back(
+        task_.axes.words(move_.words, to_.commanded, position.axes, move_.modal));
+    const AxisPositions written =
+        task_.axes.positions(nc::as_written(move_, pieces.words.back(), task_.write), move_.modal)
+            .value_or(position.axes);
+    const double off_mm = distance_mm(task_.model.actual(written, setting_).tip_mm);
+    pieces.deviation_mm.push_back(std::max({deviation_mm(last, written), last_off_mm, off_mm}));
+    last = written;
+    last_off_mm = off_mm;
+  }
+  pieces.deviation_mm.push_back(std::max(deviation_mm(last, to_.written), last_off_mm));
+  return pieces;
+}
+
+double BlockPath::off_at_ends_mm() const {
+  return std::max(distance_mm(task_.model.actual(from_.written, setting_).tip_mm),
+                  distance_mm(task_.model.actual(to_.written, setting_).tip_mm));
+}
+
+namespace {
+
+/// Ends of pieces so that each gets the same share of Σ √deviation, where `deviation_mm` is that of
+/// pieces that end at `ends`: the deviation of a piece goes with the square of its length.
+std::vector<double> evened(const std::vector<double>& ends, const std::vector<double>& deviation_mm,
+                           std::size_t count) {
+  std::vector<double> reached(ends.size());
+  double sum = 0.0;
+  const double least = 1e-3 * std::sqrt(*std::ranges::max_element(deviation_mm));
+  for (std::size_t j = 0; j < ends.size(); ++j)
+    reached[j] = sum += std::max(std::sqrt(deviation_mm[j]), least);
+  std::vector<double> out;
+  std::size_t j = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    const double share = sum * static_cast<double>(k) / static_cast<double>(count);
+    while (reached[j] < share) ++j;
+    const double from = j == 0 ? 0.0 : ends[j - 1], before = j == 0 ? 0.0 : reached[j - 1];
+    out.push_back(from + (ends[j] - from) * (share - before) / (reached[j] - before));
+  }
+  out.push_back(1.0);
+  return out;
+}
+
+std::vector<double> equal(std::size_t count) {
+  std::vector<double> out;
+  for (std::size_t k = 1; k <= count; ++k)
+    out.push_back(static_cast<double>(k) / static_cast<double>(count));
+  return out;
+}
+
+}  // namespace
+
+std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviation_mm,
+                                             Tally& tally) const {
+  if (deviation_mm <= tolerance_mm) return {};
+  const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
+  const double off_at_ends_mm = this->off_at_ends_mm();
+  std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
+  for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
+    double asked = 0.0;
+    for (const double one : deviations_mm)
+      asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
+    // Deviations of pieces of another size are a guess: a little more in each round.
+    const auto count = static_cast<std::size_t>(std::ceil((1.0 + 0.01 * i) * asked));
+    if (count > most_pieces) break;
+    ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
+    Tally of_pieces;
+    Pieces pieces = cut(ends, of_pieces);
+    if (pieces.reached) deviation_mm = *std::ranges::max_element(pieces.deviation_mm);
+    if (!pieces.reached || deviation_mm <= tolerance_mm) {
+      tally.add(of_pieces);
+      return std::move(pieces.words);
+    }
+    deviations_mm = std::move(pieces.deviation_mm);
+  }
+  tally.sums.unreachable.push_back(
+      {task_.line_of(move_),
+       off_at_ends_mm > tolerance_mm
+           ? "the tip is " + std::to_string(1e3 * off_at_ends_mm) +
+                 " um off at an end of the block, more than the tolerance: ask for more decimals"
+           : "more pieces than " + std::to_string(most_pieces) +
+                 " would be needed for the tolerance"});
+  return {};
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compensate/block_end.hpp"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace trueaxis {
+
+CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
+                                   const CompensationOptions& options_of,
+                                   const ProgramAxes& axes_of)
+    : model(model_of),
+      program(program_of),
+      options(options_of),
+      axes(axes_of),
+      write{options_of.decimals, options_of.angle_decimals, axes_of.axes()},
+      by_error(SingleErrors::of_names(model_of)),
+      uncertainties(SingleErrors::of_uncertainties(model_of)) {}
+
+namespace {
+
+void take_single_errors(const CompensationTask& task, const AxisPositions& axes,
+                        const Setting& setting, std::size_t line, Tally& tally) {
+  thread_local std::vector<double> tip_mm;
+  tip_mm.resize(task.by_error.names().size());
+  tally.by_error.resize(tip_mm.size());
+  task.by_error.tip_mm(axes, setting, tip_mm);
+  for (std::size_t i = 0; i < tip_mm.size(); ++i) take(tally.by_error[i], tip_mm[i], line);
+  if (task.uncertainties.names().empty()) return;
+  tip_mm.resize(task.uncertainties.names().size());
+  task.uncertainties.tip_mm(axes, setting, tip_mm);
+  double square = 0.0;
+  for (const double one : tip_mm) square += one * one;
+  take(tally.u_tip, std::sqrt(square), line);
+}
+
+}  // namespace
+
+CompensatedPosition compensate_position(const CompensationTask& task, const AxisPositions& axes,
+                                        const Setting& setting) {
+  return task.options.method == CompensationMethod::exact
+             ? compensate_exactly(task.model, axes, setting)
+             : compensate_by_differential(task.model, axes, setting);
+}
+
+bool is_reached(const CompensatedPosition& position, std::size_t line, Tally& tally) {
+  if (position.status == CompensationStatus::singular)
+    tally.sums.singular.push_back({line, position.direction_left_rad});
+  const bool reached = position.status == CompensationStatus::compensated ||
+                       position.status == CompensationStatus::singular;
+  if (!reached) tally.sums.unreachable.push_back({line, position.why});
+  return reached;
+}
+
+BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tally& tally) {
+  const std::size_t line = task.line_of(move);
+  const Setting setting = task.axes.setting(move.modal);
+  BlockEnd end;
+  const auto commanded = task.axes.positions(move.words, move.modal);
+  if (!commanded) {
+    tally.sums.unreachable.push_back({line, "the linear axes cannot put the tip there"});
+    return end;
+  }
+  end.commanded = *commanded;
+  const ToolPose target = task.model.nominal(end.commanded, setting);
+  end.tip_mm = target.tip_mm;
+  const bool exactly = task.options.method == CompensationMethod::exact;
+  const auto position = compensate_position(task, end.commanded, setting);
+  const auto other = exactly ? compensate_by_differential(task.model, end.commanded, setting)
+                             : compensate_exactly(task.model, end.commanded, setting);
+  const ToolPose before = task.model.actual(end.commanded, setting);
+  take(tally.sums.before, before, target, line);
+  take_single_errors(task, end.commanded, setting, line, tally);
+  end.reached = is_reached(position, line, tally);
+  if (!end.reached) return end;
+  end.words = task.axes.words(move.words, end.commanded, position.axes, move.modal);
+  const auto written = task.axes.positions(nc::as_written(move, end.words, task.write), move.modal);
+  end.written = written.value_or(position.axes);
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    if (!nc::has(task.axes.axes(), k)) continue;
+    take(tally.sums.largest_change[k], end.words[k] - move.words[k], line);
+    take(tally.sums.exact_minus_differential[k], position.axes[k] - other.axes[k], line);
+  }
+  const ToolPose after = task.model.actual(end.written, setting);
+  take(tally.sums.after, after, target, line);
+  take(tally.sums.rounding, after, task.model.actual(position.axes, setting), line);
+  take(tally.sums.about_tool_axis, position.about_tool_axis_rad, line);
+  return end;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "compensate/program_axes.hpp"
+#include "compensate/single_errors.hpp"
+#include "compensate/tally.hpp"
+#include "nc/writer.hpp"
+
+namespace trueaxis {
+
+/// What compensation needs of machine and program, shared by its steps and its threads.
+struct CompensationTask {
+  const MachineModel& model;
+  const nc::Program& program;
+  const CompensationOptions& options;
+  ProgramAxes axes;
+  nc::WriteOptions write;
+  SingleErrors by_error, uncertainties;
+
+  CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
+                   const CompensationOptions& options_of, const ProgramAxes& axes_of);
+  std::size_t line_of(const nc::Move& move) const { return move.line + std::size_t{1}; }
+};
+
+/// The end of a move, in the program that was read and in the new one.
+struct BlockEnd {
+  AxisPositions commanded{};  ///< by the source
+  AxisPositions written{};    ///< by the new program, with its decimals
+  nc::AxisValues words{};     ///< of the new program, before they are rounded
+  Vector3 tip_mm{};           ///< nominal, at `commanded`
+  bool reached = false;
+};
+
+/// Compensates the position at which a move ends.
+BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tally& tally);
+
+/// One position by the method that was asked for.
+CompensatedPosition compensate_position(const CompensationTask& task, const AxisPositions& axes,
+                                        const Setting& setting);
+
+/// Whether the position can be commanded; if not, it is noted.
+bool is_reached(const CompensatedPosition& position, std::size_t line, Tally& tally);
+
+}  // namespace trueaxis

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/compensation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/threads.hpp"
+#include "compensate/between.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t moves_a_run = 512;  // that a thread takes at a time
+
+/// Runs of moves on all threads; what they add up to is the same on any number of them.
+template <class OfRun>
+Tally in_runs(std::size_t moves, int threads, const OfRun& of_run) {
+  std::vector<Tally> tallies((moves + moves_a_run - 1) / moves_a_run);
+  for_each_index(tallies.size(), threads, [&](std::size_t run) {
+    const std::size_t end = std::min(moves, (run + 1) * moves_a_run);
+    for (std::size_t i = run * moves_a_run; i < end; ++i) of_run(run, i, tallies[run]);
+  });
+  Tally sum;
+  for (const Tally& tally : tallies) sum.add(tally);
+  return sum;
+}
+
+void expect_length_axis(const nc::Program& program, const ProgramAxes& axes) {
+  std::vector<Diagnostic> wrong;
+  for (const nc::Move& move : program.moves)
+    if (axes.length_without_axis(move.modal) && wrong.empty())
+      wrong.push_back({program.file, move.line + std::size_t{1}, 1,
+                       "G43 adds the tool's length along the tool, and no linear axis of the "
+                       "machine lies along it: use G43.4 or mode = \"tip\""});
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+/// Every move in the order of the program with its pieces before it.
+class NewProgram {
+ public:
+  explicit NewProgram(const CompensationTask& task) : task_(task), moves_(task.program.moves) {}
+
+  ProgramCompensation make() {
+    Tally tally = compensate_ends();
+    if (tally.sums.unreachable.empty()) tally.add(compensate_ways());
+    ProgramCompensation out = std::move(tally.sums);
+    out.blocks_read = task_.program.blocks;
+    out.blocks_moved =
+        static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
+    rank(out, tally);
+    if (out.unreachable.empty()) write(out);
+    return out;
+  }
+
+ private:
+  Tally compensate_ends() {
+    ends_.resize(moves_.size());
+    return in_runs(moves_.size(), task_.options.threads,
+                   [&](std::size_t, std::size_t i, Tally& tally) {
+                     ends_[i] = compensate_end(task_, moves_[i], tally);
+                   });
+  }
+
+  Tally compensate_ways() {
+    pieces_.resize((moves_.size() + moves_a_run - 1) / moves_a_run);
+    return in_runs(moves_.size(), task_.options.threads,
+                   [&](std::size_t run, std::size_t i, Tally& tally) {
+                     take_way(i, pieces_[run], tally);
+                     pieces_[run].push_back(
+                         {static_cast<std::uint32_t>(i), moves_[i].inserted, ends_[i].words});
+                   });
+  }
+
+  void take_way(std::size_t i, std::vector<nc::NewPosition>& pieces, Tally& tally) const {
+    const nc::Move& move = moves_[i];
+    if (!move.continues || move.modal.motion == nc::Motion::rapid) return;
+    const BlockPath path(task_, move, ends_[i - 1], ends_[i]);
+    const std::size_t line = task_.line_of(move);
+    LargestInProgram &before = tally.sums.between_before, &after = tally.sums.between_after;
+    take(before, path.deviation_before_mm(before.value), line);
+    const auto& tolerance_mm = task_.options.tolerance_mm;
+    double deviation_mm = path.deviation_after_mm(tolerance_mm ? 0.0 : after.value);
+    if (tolerance_mm)
+      for (const nc::AxisValues& words : path.split(*tolerance_mm, deviation_mm, tally))
+        pieces.push_back({static_cast<std::uint32_t>(i), true, words});
+    take(after, deviation_mm, line);
+  }
+
+  void rank(ProgramCompensation& out, const Tally& tally) const {
+    for (std::size_t i = 0; i < tally.by_error.size(); ++i)
+      out.by_error.push_back({task_.by_error.names()[i], tally.by_error[i]});
+    std::ranges::stable_sort(out.by_error, std::ranges::greater{},
+                             [](const ErrorAlone& one) { return one.tip.value; });
+    if (!task_.uncertainties.names().empty()) out.u_tip = tally.u_tip;
+  }
+
+  void write(ProgramCompensation& out) {
+    std::vector<nc::NewPosition> positions;
+    positions.reserve(moves_.size());
+    for (const auto& run : pieces_) positions.insert(positions.end(), run.begin(), run.end());
+    nc::Written written = nc::write_program(task_.program, positions, task_.write);
+    out.text = std::move(written.text);
+    out.blocks_rewritten = written.rewritten;
+    out.blocks_inserted = written.inserted;
+  }
+
+  const CompensationTask& task_;
+  const std::vector<nc::Move>& moves_;
+  std::vector<BlockEnd> ends_;
+  std::vector<std::vector<nc::NewPosition>> pieces_;  ///< by run
+};
+
+}  // namespace
+
+void CompensationOptions::validate() const {
+  expects(!tolerance_mm || *tolerance_mm > 0.0, "a tolerance above 0");
+  expects(!arc_tolerance_mm || *arc_tolerance_mm > 0.0, "a tolerance of arcs above 0");
+  expects(decimals >= 0 && decimals <= 15 && angle_decimals >= 0 && angle_decimals <= 15,
+          "0 to 15 decimals");
+}
+
+ProgramCompensation compensate_program(const MachineModel& model, std::string text,
+                                       const std::string& file,
+                                       const CompensationOptions& options) {
+  options.validate();
+  const ProgramAxes axes(model.machine());
+  const nc::Program program =
+      nc::read_program(std::move(text), file, axes.read_options(options.arc_tolerance_mm));
+  expect_length_axis(program, axes);
+  const CompensationTask task(model, program, options, axes);
+  return NewProgram(task).make();
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compensate/files/compensation_json.hpp"
+
+#include "format/json.hpp"
+
+namespace trueaxis {
+namespace {
+
+Json largest_json(const LargestInProgram& largest, bool angle) {
+  Json json =
+      angle ? with_unit(largest.value / rad_per_deg, "deg") : with_unit(largest.value, "mm");
+  json["line"] = largest.line == 0 ? Json(nullptr) : Json(largest.line);
+  return json;
+}
+
+Json tool_json(const LargestToolError& largest) {
+  return {{"position", largest_json(largest.position, false)},
+          {"direction", largest_json(largest.direction, true)}};
+}
+
+Json axes_json(const std::array<LargestInProgram, axis_count>& axes) {
+  Json json = Json::object();
+  for (std::size_t k = 0; k < axis_count; ++k)
+    if (axes[k].line != 0)
+      json[std::string(1, "XYZABC"[k])] =
+          largest_json(axes[k], is_rotary(static_cast<AxisName>(k)));
+  return json;
+}
+
+Json singular_json(const std::vector<SingularBlock>& blocks) {
+  Json list = Json::array();
+  for (const SingularBlock& one : blocks)
+    list.push_back({{"line", one.line},
+                    {"direction_left", with_unit(one.direction_left_rad / rad_per_deg, "deg")}});
+  return list;
+}
+
+Json unreachable_json(const std::vector<UnreachableBlock>& blocks) {
+  Json list = Json::array();
+  for (const UnreachableBlock& one : blocks) list.push_back({{"line", one.line}, {"why", one.why}});
+  return list;
+}
+
+Json by_error_json(const std::vector<ErrorAlone>& errors) {
+  Json list = Json::array();
+  for (const ErrorAlone& one : errors)
+    list.push_back({{"name", one.name},
+                    {"tip", with_unit(one.tip.value, "mm")},
+                    {"line", one.tip.line == 0 ? Json(nullptr) : Json(one.tip.line)}});
+  return list;
+}
+
+}  // namespace
+
+std::string compensation_json(const ProgramCompensation& result, const CompensationOptions& options,
+                              const std::vector<CompensationInput>& inputs) {
+  Json files = Json::array();
+  for (const CompensationInput& input : inputs)
+    files.push_back({{"file", input.file}, {"hash", input.hash}});
+  Json json{{"schema", "trueaxis.compensation/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"inputs", std::move(files)},
+            {"method", options.method == CompensationMethod::exact ? "exact" : "differential"},
+            {"decimals", options.decimals},
+            {"angle_decimals", options.angle_decimals},
+            {"blocks",
+             {{"read", result.blocks_read},
+              {"moved", result.blocks_moved},
+              {"rewritten", result.blocks_rewritten},
+              {"inserted", result.blocks_inserted}}}};
+  if (options.tolerance_mm) json["tolerance"] = with_unit(*options.tolerance_mm, "mm");
+  if (options.arc_tolerance_mm) json["arc_tolerance"] = with_unit(*options.arc_tolerance_mm, "mm");
+  json["largest_change"] = axes_json(result.largest_change);
+  json["error_before"] = tool_json(result.before);
+  json["error_after"] = tool_json(result.after);
+  json["between_blocks"] = {{"before", largest_json(result.between_before, false)},
+                            {"after", largest_json(result.between_after, false)}};
+  json["about_tool_axis"] = largest_json(result.about_tool_axis, true);
+  json["singular"] = singular_json(result.singular);
+  json["unreachable"] = unreachable_json(result.unreachable);
+  json["exact_minus_differential"] = axes_json(result.exact_minus_differential);
+  json["rounding"] = tool_json(result.rounding);
+  json["by_error"] = by_error_json(result.by_error);
+  if (result.u_tip) {
+    LargestInProgram expanded = *result.u_tip;
+    expanded.value *= 2.0;
+    json["U"] = largest_json(expanded, false);
+    json["U"]["coverage_factor"] = 2;
+  }
+  return json_text(json);
+}
+
+}  // namespace trueaxis

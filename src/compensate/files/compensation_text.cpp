@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compensate/files/compensation_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using fmt::format;
+
+constexpr std::size_t most_shown = 10;
+
+std::string in_line(const LargestInProgram& largest) {
+  return largest.line == 0 ? "" : format(" (line {})", largest.line);
+}
+std::string length(const LargestInProgram& largest) {
+  return layout::um(largest.value) + in_line(largest);
+}
+std::string angle(const LargestInProgram& largest) {
+  return format("{:.3g} deg", largest.value / rad_per_deg) + in_line(largest);
+}
+std::string row(const std::string& name, const std::string& text) {
+  return "  " + layout::padded(name, 16) + text + '\n';
+}
+
+std::string changes(const ProgramCompensation& result) {
+  std::string text;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const LargestInProgram& one = result.largest_change[k];
+    if (one.line == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(1, "XYZABC"[k]) + ' ';
+    text += is_rotary(static_cast<AxisName>(k)) ? angle(one) : length(one);
+  }
+  return text;
+}
+
+std::string largest_errors(const ProgramCompensation& result) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, result.by_error.size()); ++i) {
+    const ErrorAlone& one = result.by_error[i];
+    text += (i == 0 ? "" : ", ") + one.name + ' ' + layout::um(one.tip.value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string compensation_text(const ProgramCompensation& result) {
+  std::string text =
+      format("{} blocks read, {} move, {} rewritten, {} inserted\n", result.blocks_read,
+             result.blocks_moved, result.blocks_rewritten, result.blocks_inserted);
+  if (result.blocks_moved == 0) return text;
+  text +=
+      row("tip off by", length(result.before.position) + ", now " + length(result.after.position));
+  text +=
+      row("direction", angle(result.before.direction) + ", now " + angle(result.after.direction));
+  text += row("between blocks",
+              length(result.between_before) + ", now " + length(result.between_after));
+  text += row("largest change", changes(result));
+  if (!result.by_error.empty()) text += row("errors alone", largest_errors(result));
+  if (result.u_tip) text += row("U of the tip", layout::um(2.0 * result.u_tip->value) + " (k = 2)");
+  if (!result.singular.empty())
+    text += row("at a pole", format("{} blocks, whose direction is left off: the first in line {}",
+                                    result.singular.size(), result.singular.front().line));
+  return text;
+}
+
+std::string unreachable_text(const ProgramCompensation& result, const std::string& file) {
+  std::string text =
+      format("{} of its blocks cannot be reached; nothing was written", result.unreachable.size());
+  for (std::size_t i = 0; i < std::min(most_shown, result.unreachable.size()); ++i)
+    text += format("\n{}:{}: {}", file, result.unreachable[i].line, result.unreachable[i].why);
+  if (result.unreachable.size() > most_shown)
+    text += format("\n… and {} more (--json has all)", result.unreachable.size() - most_shown);
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "trueaxis/compensation.hpp"
+
+namespace trueaxis {
+
+/// Takes a value in: the first of the largest stays.
+inline void take(LargestInProgram& largest, double value, std::size_t line) {
+  if (largest.line == 0 || std::abs(value) > largest.value) largest = {std::abs(value), line};
+}
+inline void take(LargestInProgram& largest, const LargestInProgram& later) {
+  if (later.line != 0) take(largest, later.value, later.line);
+}
+inline void take(LargestToolError& largest, const ToolPose& pose, const ToolPose& target,
+                 std::size_t line) {
+  take(largest.position,
+       std::hypot(pose.tip_mm[0] - target.tip_mm[0], pose.tip_mm[1] - target.tip_mm[1],
+                  pose.tip_mm[2] - target.tip_mm[2]),
+       line);
+  take(largest.direction, angle_between_rad(pose.direction, target.direction), line);
+}
+inline void take(LargestToolError& largest, const LargestToolError& later) {
+  take(largest.position, later.position);
+  take(largest.direction, later.direction);
+}
+
+/// What a run of moves adds to the result; runs are added up in the order of the program.
+struct Tally {
+  ProgramCompensation sums;
+  std::vector<LargestInProgram> by_error;
+  LargestInProgram u_tip;
+
+  void add(const Tally& later);
+};
+
+}  // namespace trueaxis

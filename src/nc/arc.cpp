@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nc/arc.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trueaxis::nc {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// What a program's rounded numbers may leave between the two radii of an arc.
+constexpr double largest_radius_gap_mm = 0.01;
+
+struct Point {
+  double u = 0.0, v = 0.0;
+};
+
+/// The axes u, v of a plane: from u to v is the sense of G3.
+struct PlaneAxes {
+  std::size_t u, v;
+};
+constexpr PlaneAxes axes_of(Plane plane) {
+  return plane == Plane::xy   ? PlaneAxes{0, 1}
+         : plane == Plane::zx ? PlaneAxes{2, 0}
+                              : PlaneAxes{1, 2};
+}
+
+/// Centre from the radius: on the left of the way from start to end where G3 turns less than half.
+std::optional<Point> centre_by_radius(const Arc& arc, Point from, Point to) {
+  const double radius_mm = *arc.radius_mm;
+  const double du = to.u - from.u, dv = to.v - from.v, half = 0.5 * std::hypot(du, dv);
+  if (half == 0.0 || half > std::abs(radius_mm) + largest_radius_gap_mm) return std::nullopt;
+  const double height = std::sqrt(std::max(0.0, radius_mm * radius_mm - half * half));
+  const double side = (arc.clockwise ? -1.0 : 1.0) * (radius_mm < 0.0 ? -1.0 : 1.0);
+  return Point{from.u + 0.5 * du - side * height * dv / (2.0 * half),
+               from.v + 0.5 * dv + side * height * du / (2.0 * half)};
+}
+
+std::optional<Point> centre_of(const Arc& arc, Point from, Point to, PlaneAxes plane,
+                               std::string& trouble) {
+  const auto &u = arc.centre_mm[plane.u], &v = arc.centre_mm[plane.v];
+  if (arc.radius_mm && (u || v)) {
+    trouble = "the arc has both R and a centre: keep one";
+  } else if (arc.radius_mm) {
+    if (auto centre = centre_by_radius(arc, from, to)) return centre;
+    trouble = "R is less than half of the way between the arc's ends, or these are one point";
+  } else if (u || v) {
+    return Point{from.u + u.value_or(0.0), from.v + v.value_or(0.0)};
+  } else {
+    trouble = "the arc has neither R nor a centre in its plane (G17 I J, G18 I K, G19 J K)";
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<AxisValues> chords_of(const Arc& arc, double tolerance_mm, std::string& trouble) {
+  const PlaneAxes plane = axes_of(arc.plane);
+  const Point from{arc.from[plane.u], arc.from[plane.v]}, to{arc.to[plane.u], arc.to[plane.v]};
+  const std::optional<Point> centre = centre_of(arc, from, to, plane, trouble);
+  if (!centre) return {};
+  const double r0 = std::hypot(from.u - centre->u, from.v - centre->v);
+  const double r1 = std::hypot(to.u - centre->u, to.v - centre->v);
+  if (std::abs(r1 - r0) > largest_radius_gap_mm || r0 == 0.0) {
+    trouble = "the arc's ends are not at one distance from its centre: " + std::to_string(r0) +
+              " mm and " + std::to_string(r1) + " mm";
+    return {};
+  }
+  const double start = std::atan2(from.v - centre->v, from.u - centre->u);
+  const double sense = arc.clockwise ? -1.0 : 1.0;
+  double turn = sense * (std::atan2(to.v - centre->v, to.u - centre->u) - start);
+  // A turn of nothing is a full circle.
+  const double nothing = 1e-9;
+  while (turn <= nothing) turn += 2.0 * pi;
+  while (turn > 2.0 * pi + nothing) turn -= 2.0 * pi;
+  // Height of a chord's arc over it: r (1 - cos(step / 2)).
+  const double radius = std::max(r0, r1);
+  const double cosine = std::max(1.0 - tolerance_mm / radius, std::cos(0.25 * pi));
+  const auto count = static_cast<std::size_t>(
+      std::max(1.0, std::ceil(turn / (2.0 * std::acos(cosine)) - nothing)));
+  std::vector<AxisValues> points;
+  for (std::size_t i = 1; i < count; ++i) {
+    const double s = static_cast<double>(i) / static_cast<double>(count);
+    const double angle = start + sense * s * turn, r = r0 + s * (r1 - r0);
+    AxisValues point;
+    for (std::size_t k = 0; k < axis_count; ++k)
+      point[k] = arc.from[k] + s * (arc.to[k] - arc.from[k]);
+    point[plane.u] = centre->u + r * std::cos(angle);
+    point[plane.v] = centre->v + r * std::sin(angle);
+    points.push_back(point);
+  }
+  return points;
+}
+
+}  // namespace trueaxis::nc

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nc/axes.hpp"
+#include "nc/lexer.hpp"
+#include "nc/modal.hpp"
+
+namespace trueaxis::nc {
+
+/// What the words X Y Z of a program are: positions of the axes, or of the tool's tip.
+enum class PositionMode : std::uint8_t { axes, tip };
+
+/// What a reader must be told of the machine, which this room does not know.
+struct ReadOptions {
+  AxisSet axes = all_axes;                 ///< that the machine has
+  PositionMode mode = PositionMode::axes;  ///< while G43.4 is off
+  std::size_t length_axis = 2;             ///< the linear axis along which G43 adds the length
+  std::array<bool, 6> work_offsets{true, true, true, true, true, true};  ///< G54 … G59 are known
+  std::vector<int> tools;  ///< whose lengths are known; empty: one for all
+  /// Words in force before the first block (mm, rad); no value: not known.
+  std::array<std::optional<double>, axis_count> start{};
+  /// How far chords may be from an arc; not given: arcs are refused.
+  std::optional<double> arc_tolerance_mm{};
+};
+
+/// A move to a position: a block with axis words under G0 or G1, or a chord of an arc.
+struct Move {
+  std::uint32_t line = 0;  ///< index in Program::lines
+  bool inserted = false;   ///< a chord that ends within its arc: it has no block of its own yet
+  bool continues = false;  ///< begins where the move before it in Program::moves ended
+  /// Its block puts something into force (G1, F, S, M3) that a line before it would need.
+  bool sets = false;
+  bool may_be_split = true;  ///< no M code of its block would be carried out later or twice
+  AxisSet named = 0;         ///< axes that have a word in the block
+  AxisValues words{};        ///< in force at its end; 0 for an axis that the machine has not
+  std::array<std::uint8_t, axis_count> decimals{};  ///< of these words where they were written
+  ModalState modal;                                 ///< with the words of its block in force
+};
+
+/// A program as it was read. Its text is kept byte by byte.
+struct Program {
+  std::string text, file;
+  std::vector<Line> lines;
+  std::vector<Word> words;
+  std::vector<Move> moves;
+  AxisValues start_words{};  ///< ReadOptions::start; NaN where it is not known
+  std::size_t blocks = 0;    ///< lines with a word
+
+  std::string_view text_of(const Line& line) const {
+    return std::string_view(text).substr(line.begin, line.end - line.begin);
+  }
+};
+
+/// Reads a program of ISO 6983 words. Read are N G M F S T H O, axis words, comments, `/` and `%`;
+/// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80 G90 G91 G93-G95, G2 and G3 with
+/// an arc tolerance. A position is known when every axis of the machine has a word in force; none
+/// has after G28, G30, G53 and the end of a program, all must be given again after another work
+/// offset, and the axes that the tool's length moves after G43, G43.4 and G49.
+/// @throws InputError with everything that is not read, each with its line and column
+Program read_program(std::string text, const std::string& file, const ReadOptions& options);
+
+}  // namespace trueaxis::nc

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "nc/arc.hpp"
+#include "nc/block.hpp"
+#include "nc/program.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::nc {
+namespace {
+
+/// Takes the blocks of a program one by one, as a control does.
+class Reader {
+ public:
+  Reader(Program& program, const ReadOptions& options, std::vector<Diagnostic>& wrong)
+      : program_(program), options_(options), wrong_(wrong) {
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      program_.start_words[k] = options.start[k].value_or(std::numeric_limits<double>::quiet_NaN());
+      if (!options.start[k] || !has(options.axes, k)) continue;
+      words_[k] = *options.start[k];
+      known_ |= only(k);
+    }
+    unknown_since_ = "it has no word before this block and no [program] start";
+  }
+
+  void take(std::size_t index) {
+    line_ = index;
+    const Line& line = program_.lines[index];
+    if (line.word_count == 0) return;
+    ++program_.blocks;
+    troubles_.clear();
+    sort_words({program_.words.data() + line.first_word, line.word_count},
+               {options_.axes, options_.arc_tolerance_mm.has_value()}, block_, troubles_);
+    for (const WordTrouble& trouble : troubles_) complain(*trouble.word, trouble.why);
+    take_program_number();
+    change_tool();
+    put_in_force();
+    take_axes();
+    if (block_.has_m(2) || block_.has_m(30) || block_.has_m(99)) end_program();
+  }
+
+ private:
+  void complain(const Word& word, std::string why) {
+    wrong_.push_back({program_.file, line_ + 1,
+                      column_of(program_.text, program_.lines[line_], word.letter_at),
+                      std::move(why)});
+  }
+
+  void forget(AxisSet axes, const std::string& since) {
+    if ((known_ & axes) != 0) told_ = 0;
+    known_ = static_cast<AxisSet>(known_ & ~axes);
+    unknown_since_ = "not known since " + since + " in line " + std::to_string(line_ + 1);
+  }
+
+  void take_program_number() {
+    if (block_.word('O') != nullptr && !program_.moves.empty()) {
+      forget(all_axes, "the program that begins");
+      continues_ = false;
+    }
+  }
+
+  /// The whole number of a word, -1 (and a complaint) where it is none.
+  int whole(const Word& word) {
+    if (word.number >= 0.0 && word.number < 1e9 && word.number == std::floor(word.number))
+      return static_cast<int>(word.number);
+    complain(word, std::string(1, word.letter) + " has a whole number");
+    return -1;
+  }
+
+  void change_tool() {
+    if (const Word* tool = block_.word('T')) selected_ = whole(*tool);
+    if (!block_.has_m(6)) return;
+    const Line& line = program_.lines[line_];
+    const Word* words = program_.words.data() + line.first_word;
+    const Word* change = std::find_if(words, words + line.word_count, [](const Word& word) {
+      return word.letter == 'M' && word.number == 6.0;
+    });
+    if (selected_ < 0) {
+      if (block_.word('T') == nullptr) complain(*change, "M6 without T: say which tool");
+      return;
+    }
+    if (selected_ > 0 && !options_.tools.empty() &&
+        std::ranges::find(options_.tools, selected_) == options_.tools.end())
+      complain(*change, "tool " + std::to_string(selected_) +
+                            " has no length in [tools] of the machine: add it there");
+    if (selected_ != state_.tool && state_.length != LengthOffset::none) {
+      forget(length_axes(state_, state_), "the tool's change");
+    }
+    if (selected_ != state_.tool) continues_ = false;
+    state_.tool = selected_;
+  }
+
+  /// Axes whose words move when the length in force changes between two states.
+  AxisSet length_axes(const ModalState& before, const ModalState& after) const {
+    if (options_.mode == PositionMode::tip) return 0;
+    if (before.length == LengthOffset::tip || after.length == LengthOffset::tip) return linear_axes;
+    return only(options_.length_axis);
+  }
+
+  void put_in_force() {
+    const ModalState before = state_;
+    before_ = before;
+    const bool moves = std::ranges::any_of(
+        block_.g_tenths, [](int code) { return group_of(code) == Group::motion; });
+    for (const int code : block_.g_tenths) {
+      apply_g(state_, code);
+      if (group_of(code) == Group::cycle && !moves) state_.motion = Motion::none;
+    }
+    if (const Word* feed = block_.word('F')) state_.feed = feed->number;
+    if (state_.length != before.length)
+      forget(length_axes(before, state_), "the tool's length was switched");
+    if (state_.work_offset != before.work_offset) {
+      forget(all_axes, "the work offset was changed");
+      check_work_offset();
+    } else if (block_.has_g(540 + 10 * state_.work_offset)) {
+      check_work_offset();
+    }
+    if (const Word* number = block_.word('H')) check_length_number(*number);
+  }
+
+  void check_work_offset() {
+    if (options_.work_offsets[state_.work_offset]) return;
+    const int code = 54 + state_.work_offset;
+    for (const Word& word : words_of_line())
+      if (word.letter == 'G' && word.number == code)
+        complain(word, "G" + std::to_string(code) + " is not in [workpiece] of the machine");
+  }
+
+  void check_length_number(const Word& word) {
+    const int number = whole(word);
+    if (number < 0) return;
+    const bool on = state_.length != LengthOffset::none;
+    if (number == 0) {
+      if (on) complain(word, "H0 takes no length: write G49");
+      return;
+    }
+    if (state_.tool > 0 && number != state_.tool)
+      complain(word, "H" + std::to_string(number) + " while tool " + std::to_string(state_.tool) +
+                         " is in the spindle: lengths are those of the tools");
+    if (state_.tool == 0 && !options_.tools.empty())
+      complain(word, "H" + std::to_string(number) + " and no tool was put in by T M6 before");
+  }
+
+  void take_axes() {
+    const bool circle = block_.named == 0 && is_arc(state_.motion) && centre_word() != nullptr;
+    if ((block_.named == 0 && !circle) || block_.has_g(g_dwell)) return check_dwell();
+    const Word& first = circle ? *centre_word() : first_axis_word();
+    const bool away =
+        block_.has_g(g_home) || block_.has_g(g_second_home) || block_.has_g(g_machine);
+    if (block_.refused) {
+      // What it does is not known; its words are taken, so that the blocks after it are read.
+    } else if (state_.incremental) {
+      complain_once(first, told_incremental_, "axis words under G91: write them under G90");
+    } else if (state_.motion == Motion::none && !away) {
+      complain_once(first, told_motion_, "axis words before G0 or G1: say how to move");
+    } else if (!away) {
+      return move(first);
+    }
+    take_words();
+    if (away) leave();
+  }
+
+  void check_dwell() {
+    if (block_.has_g(g_dwell)) {
+      if ((block_.named & ~only(0)) != 0 || (block_.named != 0 && block_.word('P') != nullptr))
+        complain(first_axis_word(), "axis words beside G4: give them a block of their own");
+      return;
+    }
+    if (block_.has_g(g_home) || block_.has_g(g_second_home)) leave();
+  }
+
+  /// After G28, G30 and G53 the machine stands somewhere that the program does not say.
+  void leave() {
+    forget(all_axes, block_.has_g(g_machine) ? "G53" : block_.has_g(g_home) ? "G28" : "G30");
+    continues_ = false;
+  }
+
+  void move(const Word& first) {
+    told_motion_ = told_incremental_ = false;
+    const AxisSet before = known_;
+    const AxisValues from = words_;
+    take_words();
+    const auto missing = static_cast<AxisSet>(options_.axes & ~known_);
+    if ((missing & ~told_) != 0) {
+      complain(first, "the position of " + names_of(missing) + " is not known here (" +
+                          unknown_since_ + "): give it in this block");
+      told_ = missing;
+    }
+    if (missing != 0) return;
+    Move made;
+    made.line = static_cast<std::uint32_t>(line_);
+    made.modal = state_;
+    made.decimals = decimals_;
+    made.sets = sets_something();
+    made.may_be_split =
+        std::ranges::all_of(block_.m, [](int code) { return stops(code) || is_repeatable(code); });
+    if (is_arc(state_.motion)) add_chords(first, made, from, before == options_.axes);
+    made.words = words_;
+    made.named = block_.named;
+    made.continues = continues_;
+    program_.moves.push_back(made);
+    continues_ = true;
+  }
+
+  bool sets_something() const {
+    ModalState before = before_, now = state_;
+    if (is_arc(before.motion)) before.motion = Motion::feed;  // as it is written
+    if (is_arc(now.motion)) now.motion = Motion::feed;
+    const bool same_feed = before.feed == now.feed || block_.word('F') == nullptr;
+    before.feed = now.feed = 0.0;
+    return !same_feed || before != now || std::ranges::any_of(block_.m, is_repeatable) ||
+           block_.word('S') != nullptr || block_.word('T') != nullptr ||
+           block_.word('H') != nullptr;
+  }
+
+  void add_chords(const Word& first, Move made, const AxisValues& from, bool known) {
+    if (!known) return complain(first, "an arc from a position that is not known");
+    Arc arc{from, words_, state_.plane, state_.motion == Motion::arc_clockwise, {}, {}};
+    const double factor = state_.inch ? mm_per_inch : 1.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const Word* word = block_.word("IJK"[k])) arc.centre_mm[k] = factor * word->number;
+    if (const Word* radius = block_.word('R')) arc.radius_mm = factor * radius->number;
+    std::string trouble;
+    made.inserted = true;
+    for (const AxisValues& point : chords_of(arc, *options_.arc_tolerance_mm, trouble)) {
+      made.words = point;
+      made.continues = continues_;
+      program_.moves.push_back(made);
+      continues_ = true;
+    }
+    if (!trouble.empty()) complain(first, trouble);
+  }
+
+  void take_words() {
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      if (!has(block_.named, k)) continue;
+      const Word& word = *block_.word(axis_letters[k]);
+      const double factor = is_rotary(k) ? rad_per_deg : state_.inch ? mm_per_inch : 1.0;
+      words_[k] = factor * word.number;
+      decimals_[k] = word.decimals;
+    }
+    known_ |= block_.named;
+    told_ = static_cast<AxisSet>(told_ & ~block_.named);
+  }
+
+  void complain_once(const Word& word, bool& told, const char* why) {
+    if (!std::exchange(told, true)) complain(word, why);
+  }
+
+  void end_program() {
+    const bool inch = state_.inch;
+    state_ = {};
+    state_.inch = inch;
+    forget(all_axes, "the end of the program");
+    continues_ = false;
+  }
+
+  std::span<const Word> words_of_line() const {
+    const Line& line = program_.lines[line_];
+    return {program_.words.data() + line.first_word, line.word_count};
+  }
+  const Word* centre_word() const {
+    for (const char letter : {'I', 'J', 'K'})
+      if (block_.word(letter) != nullptr) return block_.word(letter);
+    return nullptr;
+  }
+  const Word& first_axis_word() const {
+    const Word* first = nullptr;
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      const Word* word = has(block_.named, k) ? block_.word(axis_letters[k]) : nullptr;
+      if (word != nullptr && (first == nullptr || word < first)) first = word;
+    }
+    return *first;
+  }
+
+  Program& program_;
+  const ReadOptions& options_;
+  std::vector<Diagnostic>& wrong_;
+  Block block_;
+  std::vector<WordTrouble> troubles_;
+  std::size_t line_ = 0;
+  ModalState state_, before_;  ///< in force, and before this block
+  int selected_ = -1;
+  AxisValues words_{};
+  std::array<std::uint8_t, axis_count> decimals_{};
+  AxisSet known_ = 0, told_ = 0;
+  std::string unknown_since_;
+  bool continues_ = false, told_motion_ = false, told_incremental_ = false;
+};
+
+}  // namespace
+
+Program read_program(std::string text, const std::string& file, const ReadOptions& options) {
+  Program program;
+  program.text = std::move(text);
+  program.file = file;
+  std::vector<Diagnostic> wrong;
+  Lexed lexed = lex(program.text, file, wrong);
+  program.lines = std::move(lexed.lines);
+  program.words = std::move(lexed.words);
+  Reader reader(program, options, wrong);
+  for (std::size_t i = 0; i < program.lines.size(); ++i) reader.take(i);
+  std::ranges::stable_sort(wrong, [](const Diagnostic& a, const Diagnostic& b) {
+    return std::pair(a.line, a.column) < std::pair(b.line, b.column);
+  });
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return program;
+}
+
+}  // namespace trueaxis::nc

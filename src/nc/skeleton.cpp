@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nc/skeleton.hpp"
+
+#include <string>
+#include <vector>
+
+#include "nc/axes.hpp"
+#include "nc/lexer.hpp"
+
+namespace trueaxis::nc {
+namespace {
+
+/// A program without its axis words, the blanks before them, and the lines that hold nothing else.
+std::string skeleton_of(std::string_view text) {
+  std::vector<Diagnostic> ignored;
+  const Lexed lexed = lex(text, "", ignored);
+  std::string out;
+  for (const Line& line : lexed.lines) {
+    const std::size_t begin = out.size();
+    std::size_t copied = line.begin;
+    bool axes = false;
+    for (std::uint32_t i = 0; i < line.word_count; ++i) {
+      const Word& word = lexed.words[line.first_word + i];
+      if (axis_of(word.letter) == axis_count) continue;
+      out.append(text.substr(copied, word.letter_at - copied));
+      while (out.size() > begin && is_blank(out.back())) out.pop_back();
+      copied = word.end;
+      axes = true;
+    }
+    out.append(text.substr(copied, line.end - copied));
+    if (axes && out.find_first_not_of("/ \t", begin) == std::string::npos)
+      out.resize(begin);
+    else
+      out += '\n';
+  }
+  return out;
+}
+
+}  // namespace
+
+bool differ_in_axis_words_only(std::string_view one, std::string_view other) {
+  const std::string skeleton = skeleton_of(one);
+  return !skeleton.empty() && skeleton == skeleton_of(other);
+}
+
+}  // namespace trueaxis::nc

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nc/writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "nc/number_text.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::nc {
+namespace {
+
+constexpr std::size_t longest_line = 255;
+
+bool is_one_of(char letter, std::string_view letters) {
+  return letters.find(letter) != std::string_view::npos;
+}
+
+class Writer {
+ public:
+  Writer(const Program& program, const WriteOptions& options)
+      : program_(program),
+        options_(options),
+        source_(program.text),
+        in_force_(program.start_words) {
+    out_.text.reserve(source_.size() + source_.size() / 2);
+  }
+
+  Written write(std::span<const NewPosition> positions) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < program_.lines.size(); ++i) {
+      const Line& line = program_.lines[i];
+      copy_to(line.begin);
+      const std::size_t first = next;
+      while (next < positions.size() && program_.moves[positions[next].move].line == i) ++next;
+      if (next > first) write_block(line, positions.subspan(first, next - first));
+    }
+    copy_to(source_.size());
+    if (!wrong_.empty()) throw InputError(std::move(wrong_));
+    return std::move(out_);
+  }
+
+ private:
+  void copy_to(std::size_t end) {
+    out_.text.append(source_, copied_, end - copied_);
+    copied_ = end;
+  }
+
+  void write_block(const Line& line, std::span<const NewPosition> positions) {
+    pieces_ = static_cast<double>(positions.size());
+    const Move& move = program_.moves[positions.back().move];
+    if (positions.size() > 1 && !move.may_be_split)
+      complain(line,
+               "is to be cut in pieces and has an M code that may be carried out once only: "
+               "give it a block of its own");
+    if (positions.size() > 1 && move.modal.feed_mode == FeedMode::inverse_time && !has_feed(line))
+      complain(line, "is to be cut in pieces and has no F, which G93 asks for in every block");
+    for (std::size_t k = 0; k + 1 < positions.size(); ++k) write_piece(line, positions[k], k == 0);
+    const std::size_t begin = out_.text.size();
+    rewrite(line, positions.back());
+    copy_to(line.end);
+    const std::string_view now = std::string_view(out_.text).substr(begin);
+    if (now == program_.text_of(line)) return;
+    ++out_.rewritten;
+    check_length(line, now.size());
+  }
+
+  /// A line for a position on the way of a block.
+  void write_piece(const Line& line, const NewPosition& position, bool first) {
+    const Move& move = program_.moves[position.move];
+    const std::size_t begin = out_.text.size();
+    if (line.skippable) out_.text += '/';
+    words_ = 0;
+    if (first && move.sets) repeat_words(line, move);
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      if (!has(options_.axes, k)) continue;
+      const NewNumber now = new_number(move, k, position.words[k], options_);
+      if (!is_new(k, now)) continue;
+      separate(line);
+      append(axis_letters[k], now);
+      in_force_[k] = now.value;
+    }
+    if (move.modal.feed_mode == FeedMode::inverse_time) append_feed_word(line);
+    if (words_ == 0) return out_.text.resize(begin);  // it is where the one before is
+    check_length(line, out_.text.size() - begin);
+    out_.text += line_end_of(line);
+    ++out_.inserted;
+  }
+
+  /// Words that the block puts into force and that its pieces need before it.
+  void repeat_words(const Line& line, const Move& move) {
+    for (const Word& word : words_of(line)) {
+      if (is_one_of(word.letter, "NOXYZABCIJKPQR")) continue;
+      if (word.letter == 'F' && move.modal.feed_mode == FeedMode::inverse_time) continue;
+      if (word.letter == 'M' && stops(static_cast<int>(word.number))) continue;
+      separate(line);
+      append_word(word, move);
+    }
+  }
+
+  bool has_feed(const Line& line) const {
+    return std::ranges::find(words_of(line), 'F', &Word::letter) != words_of(line).end();
+  }
+
+  void append_feed_word(const Line& line) {
+    for (const Word& word : words_of(line)) {
+      if (word.letter != 'F') continue;
+      separate(line);
+      out_.text += source_[word.letter_at];
+      append_feed(word);
+    }
+  }
+
+  void separate(const Line& line) {
+    if (words_++ > 0 && line.has_blanks) out_.text += ' ';
+  }
+
+  /// A word as it stands; that of an arc as G1.
+  void append_word(const Word& word, const Move& move) {
+    std::string text(source_.substr(word.letter_at, word.end - word.letter_at));
+    if (word.letter == 'G' && is_arc(move.modal.motion) &&
+        (word.number == 2.0 || word.number == 3.0))
+      text[text.find_first_of("23")] = '1';
+    out_.text += text;
+  }
+
+  void append_feed(const Word& word) {
+    const int decimals = word.decimals;
+    append_number(out_.text, rounded(word.number * pieces_, decimals), decimals);
+    if (decimals == 0 && source_[word.end - 1] == '.') out_.text += '.';
+  }
+
+  void append(char letter, const NewNumber& now) {
+    out_.text += letter;
+    append_number(out_.text, now.number, now.decimals);
+  }
+
+  bool is_new(std::size_t axis, const NewNumber& now) const {
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(now.value);
+    return !(std::abs(now.value - in_force_[axis]) <= rounding);
+  }
+
+  /// The block itself, up to its last word that may change.
+  void rewrite(const Line& line, const NewPosition& position) {
+    const Move& move = program_.moves[position.move];
+    const bool arc = is_arc(move.modal.motion);
+    const Word* last = last_axis_word(line);
+    for (const Word& word : words_of(line)) {
+      const std::size_t axis = axis_of(word.letter);
+      if (axis < axis_count && has(move.named, axis)) {
+        replace_number(word, new_number(move, axis, position.words[axis], options_), axis);
+      } else if (word.letter == 'F' && pieces_ > 1.0 &&
+                 move.modal.feed_mode == FeedMode::inverse_time) {
+        copy_to(word.number_begin);
+        append_feed(word);
+        copied_ = word.end;
+      } else if (arc && is_one_of(word.letter, "IJKR")) {
+        drop(word);
+      } else if (arc && word.letter == 'G') {
+        copy_to(word.letter_at);
+        append_word(word, move);
+        copied_ = word.end;
+      }
+      if (&word == last) add_words(line, move, position);
+    }
+  }
+
+  void replace_number(const Word& word, const NewNumber& now, std::size_t axis) {
+    in_force_[axis] = now.value;
+    if (now.stays) return copy_to(word.end);
+    copy_to(word.number_begin);
+    if (source_[word.number_begin] == '+' && now.number >= 0.0) out_.text += '+';
+    append_number(out_.text, now.number, now.decimals);
+    copied_ = word.end;
+  }
+
+  /// Leaves a word out, and the blanks before it.
+  void drop(const Word& word) {
+    copy_to(word.letter_at);
+    while (!out_.text.empty() && (out_.text.back() == ' ' || out_.text.back() == '\t'))
+      out_.text.pop_back();
+    copied_ = word.end;
+  }
+
+  /// Words of axes that the block does not name and whose output changed.
+  void add_words(const Line& line, const Move& move, const NewPosition& position) {
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      if (has(move.named, k) || !has(options_.axes, k)) continue;
+      const NewNumber now = new_number(move, k, position.words[k], options_);
+      if (!is_new(k, now)) continue;
+      if (line.has_blanks) out_.text += ' ';
+      append(axis_letters[k], now);
+      in_force_[k] = now.value;
+    }
+  }
+
+  /// The last axis word; of a circle without one, the last word that stays.
+  const Word* last_axis_word(const Line& line) const {
+    const Word *last = nullptr, *other = nullptr;
+    for (const Word& word : words_of(line)) {
+      if (axis_of(word.letter) < axis_count) last = &word;
+      if (is_one_of(word.letter, "NG")) other = &word;
+    }
+    return last != nullptr ? last : other;
+  }
+
+  std::string_view line_end_of(const Line& line) const {
+    const auto index = static_cast<std::size_t>(&line - program_.lines.data());
+    const std::size_t next =
+        index + 1 < program_.lines.size() ? program_.lines[index + 1].begin : source_.size();
+    if (next > line.end) return source_.substr(line.end, next - line.end);
+    return index > 0 ? line_end_of(program_.lines[index - 1]) : "\n";
+  }
+
+  std::span<const Word> words_of(const Line& line) const {
+    return {program_.words.data() + line.first_word, line.word_count};
+  }
+
+  void check_length(const Line& line, std::size_t length) {
+    if (length > longest_line)
+      complain(line,
+               "would have " + std::to_string(length) +
+                   " characters, and controls take 255: shorten it or ask for fewer decimals");
+  }
+  void complain(const Line& line, std::string why) {
+    const auto index = static_cast<std::size_t>(&line - program_.lines.data());
+    wrong_.push_back({program_.file, index + 1, 1, std::move(why)});
+  }
+
+  const Program& program_;
+  const WriteOptions& options_;
+  std::string_view source_;
+  AxisValues in_force_;  ///< words of the new program
+  Written out_;
+  std::vector<Diagnostic> wrong_;
+  std::size_t copied_ = 0;
+  double pieces_ = 1.0;
+  int words_ = 0;  ///< of the line that is made
+};
+
+}  // namespace
+
+NewNumber new_number(const Move& move, std::size_t axis, double value,
+                     const WriteOptions& options) {
+  const bool inch = move.modal.inch && !is_rotary(axis);
+  const double factor = is_rotary(axis) ? rad_per_deg : inch ? mm_per_inch : 1.0;
+  const int least =
+      is_rotary(axis) ? options.angle_decimals : options.linear_decimals + (inch ? 2 : 0);
+  NewNumber out;
+  out.decimals = std::max<int>(move.decimals[axis], least);
+  const double before = move.words[axis] / factor;
+  out.number = rounded(before + (value - move.words[axis]) / factor, out.decimals);
+  out.stays = std::abs(out.number - before) <=
+              8.0 * std::numeric_limits<double>::epsilon() * std::abs(before);
+  out.value = out.stays ? move.words[axis] : out.number * factor;
+  return out;
+}
+
+AxisValues as_written(const Move& move, const AxisValues& words, const WriteOptions& options) {
+  AxisValues out{};
+  for (std::size_t k = 0; k < axis_count; ++k)
+    if (has(options.axes, k)) out[k] = new_number(move, k, words[k], options).value;
+  return out;
+}
+
+Written write_program(const Program& program, std::span<const NewPosition> positions,
+                      const WriteOptions& options) {
+  return Writer(program, options).write(positions);
+}
+
+}  // namespace trueaxis::nc

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
+const std::string machine = data + "trunnion_ac.toml";
+const std::string with_errors =
+    "--machine " + machine + " --errors " + data + "trunnion_ac_errors.toml ";
+const std::string hole = "N10 G1 X100. Y-50. Z30. A-35. C70. F1000 (hole 3)\n";
+
+class CompensateCommand : public CommandTest {
+ protected:
+  CommandStreams compensate(const std::string& name, const std::string& text,
+                            const std::string& options) {
+    file(name, text);
+    return command("compensate " + name + " " + options);
+  }
+};
+
+double value(const nlohmann::json& json) { return json.at("value"); }
+
+// The numbers of the worked example, docs/nc.md and docs/machine.md: machine, errors and results
+// were worked out by hand there.
+TEST_F(CompensateCommand, WritesTheWorkedExampleToTheByte) {
+  const CommandStreams done = compensate("p.nc", hole, with_errors + "-o out.nc --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(read_text(folder_ / "out.nc"),
+            "N10 G1 X100.0360 Y-50.0571 Z29.9684 A-35.00224 C70.04834 F1000 (hole 3)\n");
+  const auto json = result("r.json");
+  EXPECT_EQ(json.at("schema"), "trueaxis.compensation/1");
+  const std::map<std::string, double> change{{"X", 0.036035271450},
+                                             {"Y", 0.057104763753},
+                                             {"Z", 0.031559983647},
+                                             {"A", 0.002238418994},
+                                             {"C", 0.048338174086}};
+  for (const auto& [axis, size] : change) {
+    EXPECT_NEAR(value(json.at("largest_change").at(axis)), size, 1e-11) << axis;
+    EXPECT_EQ(json.at("largest_change").at(axis).at("unit"), axis < "X" ? "deg" : "mm");
+    EXPECT_EQ(json.at("largest_change").at(axis).at("line"), 1);
+  }
+  EXPECT_FALSE(json.at("largest_change").contains("B"));
+  EXPECT_NEAR(value(json.at("about_tool_axis")), 0.001740449, 1e-9);
+  const double before = std::hypot(0.014774302663, -0.017636984901, -0.006743673547);
+  EXPECT_NEAR(value(json.at("error_before").at("position")), before, 1e-9);
+  // Half of the last decimals, 0.05 um and 5e-6 deg at some 160 mm: less than 0.1 um in all.
+  EXPECT_LT(value(json.at("error_after").at("position")), 1e-4);
+  EXPECT_EQ(json.at("blocks"),
+            (nlohmann::json{{"read", 1}, {"moved", 1}, {"rewritten", 1}, {"inserted", 0}}));
+  // The two methods: 100.036036 and 100.036101 of X, and so on.
+  EXPECT_NEAR(value(json.at("exact_minus_differential").at("X")), 65.692605e-6, 1e-10);
+  EXPECT_NEAR(value(json.at("exact_minus_differential").at("C")), 3.279868e-6, 1e-10);
+}
+
+TEST_F(CompensateCommand, TakesTheDifferentialMethodAndTwelveDecimals) {
+  const CommandStreams done =
+      compensate("p.nc", hole,
+                 with_errors + "-o out.nc --method differential --decimals 12 --angle-decimals 12");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string text = read_text(folder_ / "out.nc");
+  const std::map<char, double> expected{{'X', 100.036100964055},
+                                        {'Y', -50.057097679454},
+                                        {'Z', 29.968446528073},
+                                        {'A', -35.002237731207},
+                                        {'C', 70.048341453954}};
+  for (const auto& [letter, number] : expected)
+    EXPECT_NEAR(std::stod(text.substr(text.find(letter) + 1)), number, 2e-12) << letter;
+}
+
+TEST_F(CompensateCommand, WithoutErrorsGivesTheSameBytes) {
+  const std::string ugly =
+      "\xEF\xBB\xBF%\r\n O0001(X1 G2)\r\n\r\ng0x1.y+2 z3.000a-0.c 5\r\nG1 X1.23456789F100;c\r\n%";
+  const CommandStreams done = compensate("p.nc", ugly, "--machine " + machine + " -o out.nc");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(read_text(folder_ / "out.nc"), ugly);
+}
+
+TEST_F(CompensateCommand, ListsAllThatIsRefusedAtOnce) {
+  file("p.nc", "G0 X0 Y0 Z0 A0 C0\nG2 X1 Y1 I1\nN7 X#1 B5\nG68.2 P1 X0\nG1 X1e3\n");
+  expect_input_error("compensate p.nc " + with_errors + "-o out.nc --json r.json",
+                     "p.nc:2:1: G2 is an arc");
+  const std::string err = command("compensate p.nc " + with_errors + "-o out.nc").err;
+  for (const char* const place : {"p.nc:2:1:", "p.nc:3:4:", "p.nc:3:8:", "p.nc:4:1:", "p.nc:5:4:"})
+    EXPECT_TRUE(contains(err, place)) << place << '\n' << err;
+}
+
+TEST_F(CompensateCommand, WritesOnlyTheResultWhereALimitIsLeft) {
+  // 400 mm is X's limit, and the errors ask for more.
+  const CommandStreams done = compensate("p.nc", "G1 X0 Y0 Z0 A0 C0\nX400. A-35. C70.\n",
+                                         with_errors + "-o out.nc --json r.json");
+  EXPECT_EQ(done.exit_code, 1);
+  EXPECT_TRUE(contains(done.err, "p.nc:2:")) << done.err;
+  EXPECT_FALSE(there("out.nc"));
+  const auto json = result("r.json");
+  ASSERT_EQ(json.at("unreachable").size(), 1u);
+  EXPECT_EQ(json.at("unreachable")[0].at("line"), 2);
+  EXPECT_FALSE(json.at("unreachable")[0].at("why").get<std::string>().empty());
+}
+
+TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
+  // The tool along C: its direction off by B0C and the like needs a turn of C of any size.
+  const CommandStreams done = compensate("p.nc", "G1 X50. Y20. Z30. A0. C10.\n",
+                                         with_errors +
+                                             "-o out.nc --json r.json "
+                                             "--decimals 12 --angle-decimals 12");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = result("r.json");
+  ASSERT_EQ(json.at("singular").size(), 1u);
+  EXPECT_EQ(json.at("singular")[0].at("line"), 1);
+  EXPECT_LT(value(json.at("error_after").at("position")), 1e-9);
+  EXPECT_NEAR(value(json.at("error_after").at("direction")),
+              value(json.at("singular")[0].at("direction_left")), 1e-9);
+  // max_rotary_change_deg is 0.5 where the machine says nothing.
+  for (const char* const axis : {"A", "C"})
+    EXPECT_LE(value(json.at("largest_change").at(axis)), 0.5 * (1.0 + 1e-9)) << axis;
+}
+
+TEST_F(CompensateCommand, ReplacesNoProgramUnasked) {
+  file("out.nc", "(mine)\n");
+  file("p.nc", hole);
+  expect_input_error("compensate p.nc " + with_errors + "-o out.nc", "--force");
+  expect_input_error("compensate p.nc " + with_errors + "-o p.nc --force", "is an input");
+  EXPECT_EQ(command("compensate p.nc " + with_errors + "-o out.nc --force").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.0360"));
+  // The same program again, with other numbers, needs no --force.
+  EXPECT_EQ(command("compensate p.nc " + with_errors + "-o out.nc --decimals 6").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.036035"));
+}
+
+TEST_F(CompensateCommand, CutsBlocksWithinATolerance) {
+  const CommandStreams done =
+      compensate("p.nc", "G1 X100. Y-50. Z30. A-35. C70. F500\nX110. C75.\n",
+                 with_errors + "-o out.nc --json r.json --tolerance-um 1");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const auto json = result("r.json");
+  const auto& between = json.at("between_blocks");
+  EXPECT_GT(value(between.at("before")), 0.1);
+  EXPECT_LE(value(between.at("after")), 1e-3);
+  const double inserted = json.at("blocks").at("inserted");
+  EXPECT_GT(inserted, 3);
+  EXPECT_LE(inserted + 1, std::ceil(1.3 * std::sqrt(value(between.at("before")) / 1e-3)));
+}
+
+TEST_F(CompensateCommand, RanksTheErrors) {
+  ASSERT_EQ(compensate("p.nc", hole, with_errors + "-o out.nc --json r.json").exit_code, 0);
+  const auto json = result("r.json");
+  ASSERT_EQ(json.at("by_error").size(), 15u);
+  double previous = 1e9;
+  std::map<std::string, double> tip;
+  for (const auto& one : json.at("by_error")) {
+    EXPECT_LE(value(one.at("tip")), previous);
+    previous = value(one.at("tip"));
+    tip[one.at("name")] = previous;
+  }
+  // A shift moves the tip by itself; EXX is 30 um · 100/400.
+  EXPECT_NEAR(tip.at("X0W"), 0.1, 1e-12);
+  EXPECT_NEAR(tip.at("EXX"), 7.5e-3, 1e-12);
+  EXPECT_NEAR(tip.at("EYC"), 3.498754496286e-3, 1e-12);
+  // A0S turns the tip, 120 mm from the gauge point, by 20 urad.
+  EXPECT_NEAR(tip.at("A0S"), 120.0 * 2.0 * std::sin(10e-6), 1e-12);
+}
+
+/// The calls of LinuxCNC's interpreter: line numbers of the program and names, and the moves.
+std::vector<std::string> calls(const fs::path& folder, const std::string& program) {
+  const auto done = shell("cd " + shell_word(folder) + " && rs274 -t tool.tbl -g " + program);
+  EXPECT_EQ(done.exit_code, 0) << done.output;
+  std::vector<std::string> out;
+  std::istringstream lines(done.output);
+  const std::regex call(R"(\s*\d+ (N\S+)\s+([A-Z_0-9]+)\(.*)");
+  std::smatch found;
+  for (std::string line; std::getline(lines, line);)
+    if (std::regex_match(line, found, call)) out.push_back(found[1].str() + ' ' + found[2].str());
+  return out;
+}
+
+TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
+  if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  fs::copy_file(data + "example.nc", folder_ / "p.nc");
+  file("tool.tbl", "T1 P1 Z120 D1\n");
+  ASSERT_EQ(command("compensate p.nc " + with_errors + "-o out.nc").exit_code, 0);
+  const auto source = calls(folder_, "p.nc"), written = calls(folder_, "out.nc");
+  EXPECT_GT(source.size(), 20u);
+  EXPECT_EQ(written, source);
+  // In pieces it makes more moves, before which a feed mode may be said again, and nothing else.
+  ASSERT_EQ(command("compensate p.nc " + with_errors + "-o pieces.nc --tolerance-um 2").exit_code,
+            0);
+  const auto pieces = calls(folder_, "pieces.nc");
+  EXPECT_GT(pieces.size(), source.size());
+  const auto not_feeds = [](std::vector<std::string> list) {
+    std::erase_if(list, [](const std::string& one) {
+      return contains(one, "FEED") || contains(one, "COMMENT");
+    });
+    return list;
+  };
+  EXPECT_EQ(not_feeds(pieces), not_feeds(source));
+}
+
+TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
+  if (shell("/usr/bin/python3 -c 'import gcode'").exit_code != 0)
+    GTEST_SKIP() << "Python's gcode (linuxcnc) is not installed";
+  const std::string source =
+      "G90 G21\nG0 X0 Y0 Z0 A0 C0\nG1 X100. Y-50. F500\nZ30.\nG20 X3.5\nG21 A-35. C70.\nM2\n";
+  ASSERT_EQ(compensate("p.nc", source, with_errors + "-o out.nc --decimals 12 --angle-decimals 12")
+                .exit_code,
+            0);
+  const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + TRUEAXIS_SOURCE +
+                          "/tests/e2e/linuxcnc_moves.py out.nc x.var moves.txt");
+  ASSERT_EQ(done.exit_code, 0) << done.output;
+  std::istringstream moves(read_text(folder_ / "moves.txt")), lines(read_text(folder_ / "out.nc"));
+  std::array<double, 6> words{};
+  int compared = 0;
+  double factor = 1.0;
+  for (std::string line; std::getline(lines, line);) {
+    if (contains(line, "G20")) factor = 25.4;
+    if (contains(line, "G21")) factor = 1.0;
+    bool is_move = false;
+    for (std::size_t k = 0; k < 6; ++k) {
+      const std::size_t at = line.find("XYZABC"[k]);
+      if (at == std::string::npos) continue;
+      words[k] = std::stod(line.substr(at + 1)) * (k < 3 ? factor : 1.0);
+      is_move = true;
+    }
+    if (!is_move) continue;
+    for (std::size_t k = 0; k < 6; ++k) {
+      double end = 0.0;
+      ASSERT_TRUE(moves >> end) << done.output;
+      EXPECT_NEAR(end, words[k], 1e-9) << line << " axis " << k;
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, 5);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
