@@ -11,6 +11,7 @@
 #include "trueaxis/effect.hpp"         // the catalogue of effects
 #include "trueaxis/error.hpp"          // InputError, ContractViolation
 #include "trueaxis/fit.hpp"            // association of a surface
+#include "trueaxis/fixture.hpp"        // a part on six locators, on its datums
 #include "trueaxis/job.hpp"            // streams in, verdict and table out
 #include "trueaxis/machine.hpp"        // a machine of several axes, its errors, compensation
 #include "trueaxis/probe_stream.hpp"   // the readings

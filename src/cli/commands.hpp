@@ -15,6 +15,8 @@ void add_simulate(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_spindle(CLI::App& app, int& exit_code);
+void add_locate(CLI::App& app, int& exit_code);
+void add_datum(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
 void add_compensate(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);

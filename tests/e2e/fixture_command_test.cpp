@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// `trueaxis locate` and `trueaxis datum` as a user meets them, and their errors in the machine.
+#include <cmath>
+
+#include "support/chain_matrices.hpp"
+#include "support/command_fixture.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class FixtureCommand : public CommandTest {
+ protected:
+  static std::string of_data(const std::string& name) {
+    return std::string(TRUEAXIS_SOURCE "/data/five_axis/").append(name);
+  }
+  static std::vector<std::string> lines_of(const nlohmann::json& json, const std::string& format) {
+    for (const nlohmann::json& frame : json.at("frames"))
+      if (frame.at("format") == format) return frame.at("lines");
+    return {};
+  }
+  /// D of a result by its six errors, and as its matrix.
+  static Matrix4 by_errors(const nlohmann::json& json) {
+    const auto value = [&](const char* name) {
+      return json.at("setup").at(name).at("value").get<double>();
+    };
+    const double deg = rad_per_deg;
+    return times(Tr(value("X0W"), value("Y0W"), value("Z0W")),
+                 exp({deg * value("A0W"), deg * value("B0W"), deg * value("C0W")}));
+  }
+  static void expect_same(const Matrix4& a, const nlohmann::json& matrix, double bound) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        EXPECT_NEAR(a[i][j], matrix.at(i).at(j).get<double>(), bound) << i << ' ' << j;
+  }
+};
+
+TEST_F(FixtureCommand, TableOneOfHongAndYeh) {
+  const CommandStreams done =
+      command("locate " + of_data("hong.toml") + " --json h.json -o E.toml");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json json = result("h.json"), paper = json.at("paper");
+  EXPECT_EQ(json.at("schema"), "trueaxis.setup/1");
+  const auto printed = [&](const char* key, const char* format) {
+    char text[32];
+    std::snprintf(text, sizeof text, format, paper.at(key).get<double>());
+    return std::string(text);
+  };
+  EXPECT_EQ(printed("alpha", "%.4f"), "0.1066");
+  EXPECT_EQ(printed("beta", "%.4f"), "-0.0217");
+  EXPECT_EQ(printed("gamma", "%.4f"), "-0.0065");
+  EXPECT_EQ(printed("gamma_as_printed", "%.4f"), "179.9935");
+  EXPECT_EQ(printed("dx", "%.4f"), "-0.1819");
+  EXPECT_EQ(printed("dy", "%.4f"), "0.1141");
+  EXPECT_EQ(printed("dz", "%.4f"), "-0.0663");
+  EXPECT_EQ(lines_of(json, "fanuc.g68.2.p0"),
+            std::vector<std::string>{
+                "G68.2 X-0.181862 Y0.114244 Z-0.066156 I-11.506192 J0.108786 K11.499672"});
+  EXPECT_TRUE(contains(done.out, "SPA+0.106602 SPB-0.021688 SPC-0.006540"));
+  EXPECT_TRUE(contains(done.out, "alpha 0.1066  beta -0.0217  gamma -0.0065 deg"));
+  expect_same(by_errors(json), json.at("matrix"), 1e-13);
+  EXPECT_TRUE(read_text(folder_ / "E.toml").starts_with("# schema: trueaxis.errors/1\n"));
+  // The same bytes again, over its own results.
+  const std::string before = read_text(folder_ / "h.json");
+  ASSERT_EQ(command("locate " + of_data("hong.toml") + " --json h.json -o E.toml").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "h.json"), before);
+  const CommandStreams coarse = command("locate " + of_data("hong.toml") + " --decimals 4");
+  EXPECT_TRUE(contains(coarse.out, "TRANS X-0.1819 Y0.1142 Z-0.0662\n")) << coarse.out;
+  EXPECT_EQ(command("locate " + of_data("hong.toml") + " --decimals 2").exit_code, 2);
+}
+
+// Three locators 1 µm uncertain: u of the height at their centre is 1/√3 µm and of D at any point
+// what the covariance says; a tip's u alone moves Z at A by itself.
+TEST_F(FixtureCommand, CovarianceAtALocatorIsThatOfItsTip) {
+  ASSERT_EQ(command("locate " + of_data("hong.toml") + " --json h.json").exit_code, 0);
+  const nlohmann::json covariance = result("h.json").at("covariance");
+  const double x[] = {15, 12}, deg = rad_per_deg;
+  // δz = δZ0W + y δA0W − x δB0W to first order of the small angles.
+  const double row[] = {0, 0, 1, x[1] * deg, -x[0] * deg, 0};
+  double variance = 0.0;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      variance += row[i] * covariance.at(i).at(j).get<double>() * row[j];
+  EXPECT_NEAR(std::sqrt(variance), 1e-3, 5e-6);  // angles of 2 mrad
+}
+
+/// Positions of the axes at the ends of the G1 moves of holes.nc, and where its holes end.
+struct Holes {
+  std::string positions;
+  std::vector<Vector3> bottom, axis;
+};
+Holes twelve_holes() {
+  Holes holes;
+  std::istringstream program(read_text(TRUEAXIS_SOURCE "/data/five_axis/holes.nc"));
+  std::map<char, double> word;
+  holes.positions = "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n";
+  for (std::string line; std::getline(program, line);) {
+    if (line.compare(0, 2, "G0") != 0 && line.compare(0, 2, "G1") != 0) continue;
+    std::istringstream words(line.substr(3));
+    for (std::string one; words >> one;) word[one[0]] = std::stod(one.substr(1));
+    if (line[1] == '0') continue;
+    char row[200];  // zero of G54, and the tool's length on Z
+    std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g,%.17g\n", word['X'] - 60.0,
+                  word['Y'] - 45.0, word['Z'] - 380.0 + 130.0, word['A'], word['C']);
+    holes.positions += row;
+  }
+  for (int n = 0; n < 12; ++n) {
+    const double tilt = (30 + 10 * (n % 3)) * rad_per_deg, azimuth = (15 + 30 * n) * rad_per_deg;
+    const Vector3 axis{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
+                       std::cos(tilt)};
+    holes.axis.push_back(axis);
+    holes.bottom.push_back({18.0 + 28.0 * (n % 4) - 12.0 * axis[0],
+                            17.0 + 28.0 * (n / 4) - 12.0 * axis[1], 60.0 - 12.0 * axis[2]});
+  }
+  return holes;
+}
+
+std::vector<std::vector<double>> rows_of(const std::string& csv) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream in(csv);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line)) {
+    rows.emplace_back();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');)
+      rows.back().push_back(std::stod(field));
+  }
+  return rows;
+}
+
+// The program of the twelve holes is right for the machine without errors to its four and five
+// decimals (0.5 · 10⁻⁴ mm an axis, 5 · 10⁻⁶ deg at 130 mm); with the errors of `datum` the tool is
+// at D⁻¹ of it, up to 0.3 mm off.
+TEST_F(FixtureCommand, TwelveHolesAreOffByTheDatums) {
+  ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
+  const Holes holes = twelve_holes();
+  file("p.csv", holes.positions);
+  const std::string pose = "pose " + of_data("zxacy.toml") + " p.csv";
+  const auto nominal = rows_of(command(pose).out);
+  const auto actual = rows_of(command(pose + " --errors E.toml").out);
+  ASSERT_EQ(nominal.size(), 12U);
+  ASSERT_EQ(actual.size(), 12U);
+  const Matrix4 part_from_fixture = inverse(by_errors(result("d.json")));
+  double most_mm = 0.0;
+  for (std::size_t n = 0; n < 12; ++n) {
+    const Vector3 tip{nominal[n][0], nominal[n][1], nominal[n][2]};
+    Vector3 moved = turned(part_from_fixture, tip);
+    double off = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(tip[k], holes.bottom[n][k], 2e-4) << "hole " << n + 1;
+      EXPECT_NEAR(nominal[n][k + 3], holes.axis[n][k], 2e-7) << "hole " << n + 1;
+      moved[k] += part_from_fixture[k][3];
+      EXPECT_NEAR(actual[n][k], moved[k], 1e-11) << "hole " << n + 1;
+      off += std::pow(moved[k] - tip[k], 2);
+    }
+    most_mm = std::max(most_mm, std::sqrt(off));
+  }
+  EXPECT_NEAR(most_mm, 0.3, 0.03);
+}
+
+// The tool that goes where the nominal machine would reach D of a hole is in the hole.
+TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
+  ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
+  const Matrix4 D = by_errors(result("d.json"));
+  const Holes holes = twelve_holes();
+  std::string targets = "x,y,z,i,j,k\n";
+  for (std::size_t n = 0; n < 12; ++n) {
+    const Vector3 tip = turned(D, holes.bottom[n]), axis = turned(D, holes.axis[n]);
+    char row[200];
+    std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g,%.17g,%.17g\n", tip[0] + D[0][3],
+                  tip[1] + D[1][3], tip[2] + D[2][3], axis[0], axis[1], axis[2]);
+    targets += row;
+  }
+  file("t.csv", targets);
+  const auto axes = rows_of(command("axes " + of_data("zxacy.toml") + " t.csv").out);
+  ASSERT_EQ(axes.size(), 12U);
+  std::string positions = "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n";
+  for (const auto& row : axes) {
+    char line[200];
+    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g\n", row[2], row[3], row[4],
+                  row[5], row[6]);
+    positions += line;
+  }
+  file("q.csv", positions);
+  const auto poses =
+      rows_of(command("pose " + of_data("zxacy.toml") + " q.csv --errors E.toml").out);
+  ASSERT_EQ(poses.size(), 12U);
+  for (std::size_t n = 0; n < 12; ++n) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(poses[n][k], holes.bottom[n][k], 1e-10) << "hole " << n + 1;
+      EXPECT_NEAR(poses[n][k + 3], holes.axis[n][k], 1e-12) << "hole " << n + 1;
+    }
+  }
+}
+
+// Table 2 of the paper as docs/fixtures.md has it: every rate from the sizes, the printed ones
+// rounded but for the two that are cut off.
+TEST(FixtureDocs, RatesOfTableTwo) {
+  std::istringstream page(read_text(TRUEAXIS_SOURCE "/docs/fixtures.md"));
+  int rows = 0, cut_off = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.compare(0, 7, "| hole,") != 0 && line.compare(0, 7, "| step,") != 0) continue;
+    std::istringstream fields(line.substr(line.find('|', 2) + 1));
+    char bar;
+    std::string percent;
+    double before, after, printed, rate;
+    fields >> before >> bar >> after >> bar >> printed >> percent >> bar >> rate >> percent;
+    ASSERT_TRUE(fields) << line;
+    const double exact = 100.0 * (1.0 - std::abs(after) / std::abs(before));
+    EXPECT_EQ(std::lround(100.0 * rate), std::lround(100.0 * exact)) << line;
+    if (printed != rate) {
+      ++cut_off;
+      EXPECT_EQ(std::lround(100.0 * printed), std::lround(std::floor(100.0 * exact))) << line;
+    }
+    ++rows;
+  }
+  EXPECT_EQ(rows, 7);
+  EXPECT_EQ(cut_off, 2);
+}
+
+TEST_F(FixtureCommand, PointsSayTheDatums) {
+  // z = 0.02 + 0.001 x − 0.0005 y; y = −0.01; x = 0.03 + 0.002 y.
+  std::string xy = "x[mm],y[mm],z[um]\n", zx = "# probed\nz[mm],x[mm],y[mm]\n",
+              yz = "x[mm],y[mm],z[mm]\n";
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      char row[100];
+      const double a = 25.0 * i, b = 20.0 * j;
+      std::snprintf(row, sizeof row, "%g,%g,%.12g\n", a, b, 20.0 + a - 0.5 * b);
+      xy += row;
+      std::snprintf(row, sizeof row, "%g,%g,-0.01\n", a, b);
+      zx += row;
+      std::snprintf(row, sizeof row, "%.12g,%g,%g\n", 0.03 + 0.002 * a, a, b);
+      yz += row;
+    }
+  }
+  file("xy.csv", xy), file("zx.csv", zx), file("yz.csv", yz);
+  file("d.toml",
+       "[xy]\npoints = \"xy.csv\"\n[zx]\npoints = \"zx.csv\"\n[yz]\npoints = \"yz.csv\"\n");
+  const CommandStreams done = command("datum d.toml --json d.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json json = result("d.json"), datums = json.at("datums");
+  const auto value = [&](const char* name) { return datums.at(name).at("value").get<double>(); };
+  // A plane z = c + p x + q y has the normal (−p, −q, 1)/√…: turned by atan √(p² + q²) about (q,
+  // −p).
+  const double p = 0.001, q = -0.0005, tilt = std::hypot(p, q);
+  EXPECT_NEAR(value("Ezz"), 0.02, 1e-9);
+  EXPECT_NEAR(value("Ezx"), q * std::atan(tilt) / tilt / rad_per_deg, 1e-9);
+  EXPECT_NEAR(value("Ezy"), -p * std::atan(tilt) / tilt / rad_per_deg, 1e-9);
+  EXPECT_NEAR(value("Eyy"), -0.01, 1e-9);
+  EXPECT_NEAR(value("Eyx"), 0.0, 1e-9);
+  EXPECT_NEAR(value("Exx"), 0.03, 1e-9);
+  EXPECT_NEAR(value("Exz"), -std::atan(0.002) / rad_per_deg, 1e-9);  // its normal towards −y
+  EXPECT_EQ(json.at("inputs").size(), 4U);
+  EXPECT_TRUE(json.at("setup").at("X0W").at("u").is_number());
+  expect_input_error("datum d.toml --json xy.csv", "xy.csv: is an input of this command");
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
