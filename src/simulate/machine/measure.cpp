@@ -90,7 +90,7 @@ class Session {
     MeasuredRow row;
     row.ball = static_cast<int>(ball) + 1;
     row.axes = rotary;
-    row.time_s = plan_.seconds_per_row * static_cast<double>(rows_.size());
+    row.time_s = plan_.pace_s * static_cast<double>(rows_.size());
     return row;
   }
 
@@ -112,7 +112,7 @@ class Session {
     const Ends at = ends(machine_, errors_, axes, lost_);
     Vector3 d =
         minus(transformed(at.bed_from_table, centre), tip_mm(machine_, at, plan_.tool_length_mm));
-    const double time_s = plan_.seconds_per_row * static_cast<double>(rows_.size());
+    const double time_s = plan_.pace_s * static_cast<double>(rows_.size());
     for (std::size_t i = 0; i < 3; ++i) d[i] += by.drift_mm_per_s[i] * time_s;
     return d;
   }

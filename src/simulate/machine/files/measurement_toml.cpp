@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/machine/files/measurement_toml.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "format/toml_reader.hpp"
@@ -111,14 +112,14 @@ MeasurementPlan read_plan(TomlTable table, const Machine& machine) {
                                                               {"axis", MeasurementKind::axis}});
   plan.noise_mm = table.number("noise_mm", 0.0, Range::non_negative());
   plan.tool_length_mm = table.number("tool_length_mm", machine.tool.length_mm);
-  plan.seconds_per_row = table.number("seconds_per_row_s", plan.seconds_per_row, Range::positive());
+  plan.pace_s = table.number("pace_s", plan.pace_s, Range::positive());
   plan.centred = table.flag("centred", false);
   plan.balls_mm = triples(table, "ball_mm");
   plan.bar_mm = triples(table, "bar_mm");
-  if (plan.kind != MeasurementKind::axis && plan.balls_mm.empty())
+  if (plan.kind != MeasurementKind::axis && plan.balls_mm.empty() && !table.has("ball_mm"))
     table.complain("ball_mm",
                    "is missing: the centre of each ball, [[x, y, z], …] in the zero position");
-  if (plan.kind == MeasurementKind::bar && plan.bar_mm.empty())
+  if (plan.kind == MeasurementKind::bar && plan.bar_mm.empty() && !table.has("bar_mm"))
     table.complain("bar_mm", "is missing: from the ball to the tip, [[x, y, z], …]");
   if (plan.kind == MeasurementKind::array || plan.kind == MeasurementKind::axis)
     read_axis(table, machine, plan);
