@@ -13,6 +13,8 @@
 #include "simulate/files/cut_table_csv.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
+#include "simulate/machine/files/measurement_csv.hpp"
+#include "simulate/machine/files/measurement_toml.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -55,7 +57,31 @@ void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
   outputs.commit();
 }
 
+/// What a machine of several axes would read of balls on its table.
+int simulate_measurement(const Options& options) {
+  if (!options.truth.empty() || !options.table.empty())
+    throw InputError(options.scenario,
+                     "a measurement of a machine has its errors file for a truth, and no table: "
+                     "leave --truth and --table out");
+  MeasurementScenario scenario = read_measurement_toml(options.scenario);
+  if (options.seed) scenario.plan.seed = *options.seed;
+  Outputs outputs(options.force);
+  for (const std::string& path : scenario.read) outputs.reads(path);
+  outputs.reads(options.scenario);
+  outputs.may_write(options.stream, "trueaxis.measurement");
+  outputs.check();
+  const auto rows = virtual_machine::measure(scenario.machine, scenario.errors, scenario.plan);
+  outputs.write(options.stream, measurement_csv(scenario.machine, scenario.plan, rows));
+  outputs.commit();
+  if (options.stream != "-") {
+    std::cout << options.stream << ": " << rows.size() << " rows, seed " << scenario.plan.seed
+              << '\n';
+  }
+  return done;
+}
+
 int execute(const Options& options) {
+  if (is_measurement_scenario(options.scenario)) return simulate_measurement(options);
   lathe::Scenario scenario = read_scenario_toml(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (scenario.cut) {

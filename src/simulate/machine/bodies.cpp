@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "simulate/machine/bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+namespace trueaxis::virtual_machine {
+namespace {
+
+double evaluated(const ConstantError& error, double) { return error.value; }
+
+double evaluated(const PolynomialError& error, double q) {
+  double sum = 0.0;
+  for (std::size_t i = error.coefficients.size(); i-- > 0;)
+    sum = sum * (q - error.origin) / error.scale + error.coefficients[i];
+  return sum;
+}
+
+double evaluated(const FourierError& error, double q) {
+  std::complex<double> sum = 0.0;  // a cos + b sin is the real part of (a − ib) e^{i…}
+  for (const FourierError::Term& term : error.terms)
+    sum +=
+        std::complex(term.cos, -term.sin) * std::polar(1.0, two_pi * term.order * q / error.period);
+  return sum.real();
+}
+
+double evaluated(const TableError& error, double q) {
+  const double first = error.at.front(), last = error.at.back();
+  if (error.periodic) q -= std::floor((q - first) / (last - first)) * (last - first);
+  q = std::clamp(q, first, last);
+  std::size_t k = 1;
+  while (k + 1 < error.at.size() && error.at[k] < q) ++k;
+  if (error.at.size() == 1) return error.values.front();
+  const double share = (q - error.at[k - 1]) / (error.at[k] - error.at[k - 1]);
+  return std::lerp(error.values[k - 1], error.values[k], share);
+}
+
+/// Sum of the terms of a name at a position.
+double sum_of(const ErrorModel& errors, const ErrorName& name, double position) {
+  double sum = 0.0;
+  for (const ErrorTerm& term : errors.terms) {
+    if (term.name == name)
+      sum += std::visit([&](const auto& f) { return evaluated(f, position); }, term.function);
+  }
+  return sum;
+}
+
+/// The three along X Y Z, or about them, of a body.
+Vector3 three_of(const ErrorModel& errors, bool component, bool about, std::size_t body,
+                 double position) {
+  Vector3 out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = sum_of(errors, {component, about ? i + 3 : i, body}, position);
+  return out;
+}
+
+Homogeneous inverse(const Homogeneous& m) {
+  Homogeneous out{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      out[row][column] = m[column][row];
+      out[row][3] -= m[column][row] * m[column][3];
+    }
+  }
+  out[3][3] = 1.0;
+  return out;
+}
+
+Vector3 negative(const Vector3& v) { return {-v[0], -v[1], -v[2]}; }
+
+Homogeneous about(const Vector3& point, const Homogeneous& turn) {
+  return product(translation(point), product(turn, translation(negative(point))));
+}
+
+Vector3 plus(const Vector3& a, const Vector3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+
+/// A body against its neighbour nearer to the bed: +1 on the tool's side, −1 on the workpiece's.
+Homogeneous moved(const MachineAxis& axis, const ErrorModel& errors, double q, double lost) {
+  const std::size_t body = index_of(axis.name), letter = body % 3;
+  const bool rotary = is_rotary(axis.name);
+  const double sense = axis.carries_workpiece ? -1.0 : 1.0;
+  Vector3 shift = three_of(errors, false, false, body, 0.0);
+  Vector3 tilt = three_of(errors, false, true, body, 0.0);
+  double& own = rotary ? tilt[letter] : shift[letter];
+  const double at = sense * (q + own + lost);
+  own = 0.0;
+  Vector3 direction = transformed(rotation(tilt), axis.direction);
+  Homogeneous error = product(translation(three_of(errors, true, false, body, q)),
+                              rotation(three_of(errors, true, true, body, q)));
+  if (axis.carries_workpiece && errors.sign == ErrorSign::tool_minus_workpiece)
+    error = inverse(error);
+  if (!rotary) {
+    for (double& component : direction) component *= at;
+    return product(translation(direction), about(errors.reference_mm[body], error));
+  }
+  const Vector3 point = plus(axis.point_mm, shift);
+  return product(translation(point),
+                 product(error, product(rotation(direction, at), translation(negative(point)))));
+}
+
+}  // namespace
+
+Homogeneous product(const Homogeneous& left, const Homogeneous& right) {
+  Homogeneous out{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t k = 0; k < 4; ++k) out[i][j] += left[i][k] * right[k][j];
+  return out;
+}
+
+Vector3 transformed(const Homogeneous& to_from, const Vector3& point_mm) {
+  Vector3 out{};
+  for (std::size_t i = 0; i < 3; ++i)
+    out[i] = to_from[i][0] * point_mm[0] + to_from[i][1] * point_mm[1] +
+             to_from[i][2] * point_mm[2] + to_from[i][3];
+  return out;
+}
+
+Homogeneous translation(const Vector3& by_mm) {
+  return {{{1, 0, 0, by_mm[0]}, {0, 1, 0, by_mm[1]}, {0, 0, 1, by_mm[2]}, {0, 0, 0, 1}}};
+}
+
+Homogeneous rotation(const Vector3& unit_axis, double angle_rad) {
+  // By the unit quaternion of half the angle.
+  const double w = std::cos(0.5 * angle_rad), s = std::sin(0.5 * angle_rad);
+  const double x = s * unit_axis[0], y = s * unit_axis[1], z = s * unit_axis[2];
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), 0},
+           {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 0},
+           {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), 0},
+           {0, 0, 0, 1}}};
+}
+
+Homogeneous rotation(const Vector3& w_rad) {
+  const double angle = std::hypot(w_rad[0], w_rad[1], w_rad[2]);
+  if (angle == 0.0) return translation({});
+  return rotation({w_rad[0] / angle, w_rad[1] / angle, w_rad[2] / angle}, angle);
+}
+
+Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions& axes,
+          const AxisPositions& lost) {
+  Ends out{translation({}), translation({})};
+  // `axes` run from the workpiece to the tool: those of the workpiece are met last to first.
+  for (auto axis = machine.axes.rbegin(); axis != machine.axes.rend(); ++axis) {
+    const std::size_t i = index_of(axis->name);
+    if (axis->carries_workpiece)
+      out.bed_from_table = product(out.bed_from_table, moved(*axis, errors, axes[i], lost[i]));
+  }
+  for (const MachineAxis& axis : machine.axes) {
+    const std::size_t i = index_of(axis.name);
+    if (!axis.carries_workpiece)
+      out.bed_from_spindle = product(out.bed_from_spindle, moved(axis, errors, axes[i], lost[i]));
+  }
+  const Vector3& gauge = machine.tool.gauge_point_mm;
+  const Homogeneous spindle =
+      product(translation(three_of(errors, false, false, spindle_body, 0.0)),
+              about(gauge, rotation(three_of(errors, false, true, spindle_body, 0.0))));
+  out.bed_from_spindle = product(out.bed_from_spindle, spindle);
+  return out;
+}
+
+double own_error(const ErrorModel& errors, AxisName axis, double position) {
+  const std::size_t body = index_of(axis);
+  return sum_of(errors, {true, body, body}, position) + sum_of(errors, {false, body, body}, 0.0);
+}
+
+Vector3 tip_mm(const Machine& machine, const Ends& ends, double tool_length_mm) {
+  Vector3 tip = machine.tool.gauge_point_mm;
+  for (std::size_t i = 0; i < 3; ++i) tip[i] -= tool_length_mm * machine.tool.direction[i];
+  return transformed(ends.bed_from_spindle, tip);
+}
+
+}  // namespace trueaxis::virtual_machine
