@@ -40,6 +40,9 @@ struct RigidTransform {
   Vector3 origin_mm{};
 };
 
+/// Rz(c) Ry(b) Rx(a) of {a, b, c}: turned about the fixed axes x, y, z in this order.
+Matrix3 rotation_zyx(const Vector3& angles_rad);
+
 struct MachineAxis {
   AxisName name = AxisName::X;
   bool carries_workpiece = false;  ///< between w and b: a prime in the chain
@@ -243,12 +246,12 @@ struct InverseKinematics {
 /// limits: in the nearest one); first the one whose rotary axes are nearest to `near`. Where an
 /// axis may stand anywhere (a pole) it stays as `near` has it; of three rotary axes the one next to
 /// the workpiece does.
-InverseKinematics axes_for(const Machine& machine, const ToolTarget& target,
+InverseKinematics axes_for(const MachineModel& model, const ToolTarget& target,
                            const AxisPositions& near, const Setting& setting);
 
 /// The linear axes that put the tip of the nominal machine at `tip_mm`, the rotary ones as `axes`
 /// has them; nothing for a machine whose linear axes do not span space. Limits are not asked.
-std::optional<AxisPositions> axes_for_tip(const Machine& machine, const Vector3& tip_mm,
+std::optional<AxisPositions> axes_for_tip(const MachineModel& model, const Vector3& tip_mm,
                                           const AxisPositions& axes, const Setting& setting);
 
 enum class CompensationStatus {

@@ -140,7 +140,7 @@ std::string why_not_in(fs::path folder) {
 
 std::string schema_in(std::string_view head) {
   static const std::regex says(
-      R"(^(?:\s*\{\s*"schema"\s*:\s*"|(?:#[^\n]*\n)*#+ schema: |<!-- schema: )"
+      R"(^(?:\s*\{\s*"schema"\s*:\s*"|(?:#[^\n]*\n)*#+ schema: |// schema: |<!-- schema: )"
       R"(|<!doctype html>[^]*<meta name="generator" content=")(trueaxis\.[a-z_]+)/)");
   std::match_results<std::string_view::const_iterator> found;
   return std::regex_search(head.begin(), head.end(), found, says) ? found[1].str() : "";

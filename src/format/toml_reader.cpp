@@ -175,6 +175,29 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
   return values;
 }
 
+std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t width,
+                                                 std::size_t without_unit) {
+  const std::string give = fmt::format("a list of rows of {} numbers [[…], …]", width);
+  const State::Found found = state_->find(key, &toml::node::is_array, give);
+  if (!found.node) return {};
+  std::vector<std::vector<double>> rows;
+  for (const toml::node& node : *found.node->as_array()) {
+    const toml::array* array = node.as_array();
+    std::vector<double> row;
+    for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+      const toml::node& item = (*array)[i];
+      const double value = item.value<double>().value_or(0.0);
+      if (item.is_number() && std::isfinite(value))
+        row.push_back(i < without_unit ? value : value * found.factor);
+    }
+    if (array == nullptr || array->size() != width || row.size() != width)
+      state_->wrong({found.key, 1.0, &node}, "holds what is no such row: give " + give);
+    else
+      rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
 std::optional<long long> TomlTable::maybe_integer(std::string_view key, long long low,
                                                   long long high) {
   const State::Found found = state_->find(key, &toml::node::is_integer, "a whole number");
@@ -298,6 +321,11 @@ std::vector<std::string> TomlTable::keys() const {
 }
 
 bool TomlTable::has(std::string_view key) { return state_->find(key).node != nullptr; }
+
+bool TomlTable::has_table(std::string_view key) {
+  const State::Found found = state_->find(key);
+  return found.node != nullptr && found.node->is_table();
+}
 
 void TomlTable::complain(std::string_view key, std::string message) {
   const State::Found found = state_->find(key);

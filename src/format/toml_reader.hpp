@@ -55,6 +55,10 @@ class TomlTable {
   double required_number(std::string_view key, const Range& range = {});
   /// An array of numbers; empty when the key is not there.
   std::vector<double> numbers(std::string_view key, const Range& range = {});
+  /// An array of rows of `width` numbers each, the first `without_unit` of which are taken as they
+  /// are; empty when the key is not there.
+  std::vector<std::vector<double>> rows(std::string_view key, std::size_t width,
+                                        std::size_t without_unit = 0);
 
   long long integer(std::string_view key, long long fallback,
                     long long low = std::numeric_limits<long long>::min(),
@@ -99,6 +103,7 @@ class TomlTable {
   std::vector<std::string> keys() const;
   /// Whether the file has `key` in any unit of its kind. Makes the key known.
   bool has(std::string_view key);
+  bool has_table(std::string_view key);  ///< and it is a table
   /// Notes a diagnostic at `key` if the file has it, else at the table. Say what to do.
   void complain(std::string_view key, std::string message);
   /// Keys that nobody asks for are not reported (after another diagnostic has said all).

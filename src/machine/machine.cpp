@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/machine.hpp"
-
 #include <algorithm>
 
+#include "machine/algebra.hpp"
+
 namespace trueaxis {
+
+Matrix3 rotation_zyx(const Vector3& angles_rad) {
+  using Eigen::Vector3d;
+  return rigid::rows(Eigen::Matrix3d(rigid::turn(Vector3d::UnitZ(), angles_rad[2]) *
+                                     rigid::turn(Vector3d::UnitY(), angles_rad[1]) *
+                                     rigid::turn(Vector3d::UnitX(), angles_rad[0])));
+}
 
 const MachineAxis* Machine::find(AxisName axis) const {
   const auto found = std::ranges::find(axes, axis, &MachineAxis::name);

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/machine_options.hpp"
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
+#include "machine/files/positions_csv.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  MachineOptions machine;
+  std::string targets, output;
+  bool all = false, force = false;
+};
+
+/// The solutions of every point, each nearest to the first of the point before.
+std::vector<std::vector<AxisPositions>> solve(const MachineModel& model,
+                                              const std::vector<ToolTarget>& targets,
+                                              const Setting& setting, bool all) {
+  std::vector<std::vector<AxisPositions>> solutions;
+  std::string refused;
+  AxisPositions near{};
+  for (const ToolTarget& target : targets) {
+    InverseKinematics found = axes_for(model, target, near, setting);
+    if (found.solutions.empty()) {
+      refused += fmt::format("{}point {}: {}", refused.empty() ? "" : "\n", solutions.size() + 1,
+                             found.why_none);
+    } else {
+      near = found.solutions.front();
+      if (!all) found.solutions.resize(1);
+    }
+    solutions.push_back(std::move(found.solutions));
+  }
+  if (!refused.empty()) throw Refusal(refused);
+  return solutions;
+}
+
+int execute(const Options& options) {
+  const MachineFile file = options.machine.read_machine();
+  const MachineModel model(file.machine);
+  const Setting setting = options.machine.setting_of(file.machine);
+  const auto targets = read_tool_targets_csv(options.targets);
+  const std::string text = axes_csv(file.machine, solve(model, targets, setting, options.all));
+  if (options.output.empty() || options.output == "-") {
+    std::cout << text;
+    return done;
+  }
+  Outputs outputs(options.force);
+  outputs.reads(options.machine.machine);
+  outputs.reads(options.targets);
+  outputs.may_write(options.output, "trueaxis.axes");
+  outputs.check();
+  outputs.write(options.output, "# schema: trueaxis.axes/1\n" + text);
+  outputs.commit();
+  return done;
+}
+
+}  // namespace
+
+void add_axes(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "axes", "axis positions that put the tool of the nominal machine at points of a tool path");
+  auto options = std::make_shared<Options>();
+  options->machine.add_machine_to(*command);
+  command->add_option("points", options->targets, "tool positions (CSV): x,y,z,i,j,k")->required();
+  command->add_flag("--all", options->all,
+                    "every solution within the limits, not only the nearest one");
+  options->machine.add_work_offset_to(*command);
+  command->add_option("-o,--output", options->output, "write here instead of printing")
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/machine_options.hpp"
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
+#include "machine/files/errors_json.hpp"
+#include "machine/files/errors_toml.hpp"
+#include "machine/files/etalon.hpp"
+#include "machine/files/isg_csv.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  MachineOptions machine;
+  std::string at, json, output, format = "toml", output_sign;
+  int points = 101;
+  bool force = false;
+};
+
+/// "X=50,A=-35": mm and degrees, axes that are left out at 0.
+AxisPositions positions_of(const std::string& text, const Machine& machine) {
+  AxisPositions axes{};
+  std::array<bool, axis_count> there{};
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::string part = CLI::detail::trim_copy(text.substr(at, end - at));
+    at = end + 1;
+    const std::size_t letter =
+        part.empty() ? std::string::npos : std::string("XYZABC").find(part[0]);
+    double value = 0.0;
+    if (letter == std::string::npos || part.size() < 3 || part[1] != '=' || there[letter] ||
+        machine.find(static_cast<AxisName>(letter)) == nullptr ||
+        !CLI::detail::lexical_cast(part.substr(2), value) || !std::isfinite(value))
+      throw CLI::ValidationError(
+          "--at",
+          '"' + part + "\" is no position of an axis of the machine, such as X=50 or A=-35");
+    there[letter] = true;
+    axes[letter] = letter >= 3 ? value * rad_per_deg : value;
+  }
+  return axes;
+}
+
+std::string schema_of(const std::string& format) {
+  return format == "toml" ? "trueaxis.errors" : "trueaxis." + format;
+}
+
+std::string converted(const Options& options, const Machine& machine, const ErrorModel& errors) {
+  const auto sign = sign_of(options.output_sign);
+  if (options.format == "toml") return errors_toml(errors);
+  return options.format == "isg" ? isg_csv_text(errors, machine, *sign, options.points)
+                                 : etalon_text(errors, machine, *sign, options.points);
+}
+
+int execute(const Options& options) {
+  if (options.format != "toml" && !options.output.empty() && options.output_sign.empty())
+    throw CLI::ValidationError("--output-sign",
+                               "is needed: an " + options.format + " file does not say its sign");
+  if (options.format == "toml" && !options.output_sign.empty())
+    throw CLI::ValidationError("--output-sign", "is of --format etalon or isg");
+  const MachineFile file = options.machine.read_machine();
+  const ErrorModel errors = options.machine.read_errors_of(file);
+  const AxisPositions at = positions_of(options.at, file.machine);
+  Outputs outputs(options.force);
+  outputs.reads(options.machine.machine);
+  for (const std::string& path : options.machine.errors) outputs.reads(path);
+  outputs.may_write(options.json, "trueaxis.errors_at");
+  outputs.may_write(options.output, schema_of(options.format));
+  outputs.check();
+  if (!options.json.empty()) outputs.write(options.json, errors_json(file.machine, errors, at));
+  if (!options.output.empty())
+    outputs.write(options.output, converted(options, file.machine, errors));
+  outputs.commit();
+  if (options.json != "-" && options.output != "-")
+    std::cout << errors_text(file.machine, errors, at);
+  return done;
+}
+
+}  // namespace
+
+void add_errors(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("errors", "the errors of a machine at a position, by name (ISO 230-1)");
+  auto options = std::make_shared<Options>();
+  options->machine.add_machine_to(*command);
+  options->machine.add_errors_to(*command);
+  command->add_option("--at", options->at,
+                      "position: \"X=50,A=-35\", mm and deg; axes that are left out at 0");
+  command->add_option("--json", options->json, "write the result here, '-' prints it")
+      ->check(a_place());
+  command->add_option("-o,--output", options->output, "write the errors of all files here")
+      ->check(a_place());
+  command->add_option("--format", options->format, "of --output: toml, etalon or isg (toml)")
+      ->check(CLI::IsMember({"toml", "etalon", "isg"}));
+  command
+      ->add_option("--output-sign", options->output_sign,
+                   "of component errors in an etalon or isg file")
+      ->check(a_sign());
+  command
+      ->add_option("--points", options->points,
+                   "of an etalon or isg table over the travel of an axis whose errors are none "
+                   "(101)")
+      ->check(CLI::Range(2, 100000));
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] {
+    if (!options->json.empty() && options->json == options->output)
+      throw CLI::ValidationError("--output", "cannot go where --json goes");
+    exit_code = execute(*options);
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
+#include "machine/files/errors_toml.hpp"
+#include "machine/files/machine_toml.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  std::string input, output, errors_output;
+  bool force = false;
+};
+
+int execute(const Options& options) {
+  const MachineFile file = read_machine_toml(options.input);
+  if (!file.denavit_hartenberg)
+    throw InputError(options.input, "has no [[dh]] rows: it is in the zero-position form already");
+  const bool has_errors = !file.parameter_errors.terms.empty();
+  if (has_errors && options.errors_output.empty())
+    throw InputError(options.input,
+                     "has errors of its parameters: say with --errors-output where they go as "
+                     "location errors");
+  if (!has_errors && !options.errors_output.empty())
+    throw InputError(options.input, "has no errors of its parameters: leave out --errors-output");
+  Outputs outputs(options.force);
+  outputs.reads(options.input);
+  outputs.may_write(options.output, "trueaxis.machine");
+  outputs.may_write(options.errors_output, "trueaxis.errors");
+  outputs.check();
+  outputs.write(options.output, machine_toml(file.machine));
+  if (has_errors) outputs.write(options.errors_output, errors_toml(file.parameter_errors));
+  outputs.commit();
+  return done;
+}
+
+}  // namespace
+
+void add_machine(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "machine", "a Denavit-Hartenberg table made a machine in the zero-position form");
+  auto options = std::make_shared<Options>();
+  command->add_option("dh", options->input, "a machine with [[dh]] rows (TOML)")->required();
+  command->add_option("-o,--output", options->output, "write the machine here (TOML)")
+      ->check(a_place())
+      ->required();
+  command
+      ->add_option("--errors-output", options->errors_output,
+                   "write the errors of the parameters here, as location errors (TOML)")
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/machine_options.hpp"
+
+#include "machine/files/errors_files.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+
+void MachineOptions::add_machine_to(CLI::App& command) {
+  command.add_option("machine", machine, "a machine (TOML, trueaxis.machine/1)")->required();
+}
+
+void MachineOptions::add_errors_to(CLI::App& command) {
+  command.add_option("--errors", errors,
+                     "errors of the machine: trueaxis.errors/1 (.toml), an ISG table (.csv), the "
+                     "Etalon exchange format (other names); several files add");
+  command.add_option("--sign", sign, "of component errors in ISG and Etalon files")
+      ->check(a_sign());
+}
+
+void MachineOptions::add_work_offset_to(CLI::App& command) {
+  command.add_option("--work-offset", work_offset, "the program frame: G54 … G59 (G54)")
+      ->check(CLI::IsMember({"G54", "G55", "G56", "G57", "G58", "G59"}));
+}
+
+MachineFile MachineOptions::read_machine() const { return read_machine_toml(machine); }
+
+ErrorModel MachineOptions::read_errors_of(const MachineFile& file) const {
+  return read_errors(errors, file, foreign_sign());
+}
+
+std::optional<ErrorSign> MachineOptions::foreign_sign() const { return sign_of(sign); }
+
+Setting MachineOptions::setting_of(const Machine& of) const {
+  Setting setting = first_setting(of);
+  const auto index = static_cast<std::size_t>(work_offset.back() - '4');
+  if (of.work_offsets[index])
+    setting.bed_from_program = of.work_offsets[index]->bed_from_program;
+  else if (work_offset != "G54")
+    throw InputError(machine, "has no [workpiece." + work_offset + ']');
+  return setting;
+}
+
+std::optional<ErrorSign> sign_of(const std::string& word) {
+  if (word.empty()) return std::nullopt;
+  return word == "moving_part" ? ErrorSign::moving_part : ErrorSign::tool_minus_workpiece;
+}
+
+CLI::Validator a_sign() { return CLI::IsMember({"moving_part", "tool_minus_workpiece"}); }
+
+}  // namespace trueaxis::cli

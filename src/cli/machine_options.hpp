@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "machine/files/machine_toml.hpp"
+#include "trueaxis/machine.hpp"
+
+/// What the commands about machines are told alike.
+namespace trueaxis::cli {
+
+struct MachineOptions {
+  std::string machine, sign, work_offset = "G54";
+  std::vector<std::string> errors;
+
+  void add_machine_to(CLI::App& command);
+  void add_errors_to(CLI::App& command);
+  void add_work_offset_to(CLI::App& command);
+
+  /// The machine read. @throws InputError
+  MachineFile read_machine() const;
+  /// Its errors, of all files. @throws InputError
+  ErrorModel read_errors_of(const MachineFile& file) const;
+  std::optional<ErrorSign> foreign_sign() const;
+  /// The program frame and tool to begin with. @throws InputError for an offset that is not there.
+  Setting setting_of(const Machine& machine) const;
+};
+
+std::optional<ErrorSign> sign_of(const std::string& word);
+CLI::Validator a_sign();
+
+}  // namespace trueaxis::cli

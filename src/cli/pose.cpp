@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/machine_options.hpp"
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
+#include "machine/files/positions_csv.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  MachineOptions machine;
+  std::string positions, output;
+  bool force = false;
+};
+
+int execute(const Options& options) {
+  const MachineFile file = options.machine.read_machine();
+  const MachineModel model(file.machine, options.machine.read_errors_of(file));
+  const Setting setting = options.machine.setting_of(file.machine);
+  std::vector<ToolPose> poses;
+  std::vector<double> twists_rad;
+  for (const AxisPositions& axes : read_positions_csv(options.positions, file.machine)) {
+    poses.push_back(model.actual(axes, setting));
+    twists_rad.push_back(about_tool_axis_rad(poses.back(), model.nominal(axes, setting)));
+  }
+  const std::string text = poses_csv(poses, twists_rad);
+  if (options.output.empty() || options.output == "-") {
+    std::cout << text;
+    return done;
+  }
+  Outputs outputs(options.force);
+  outputs.reads(options.machine.machine);
+  outputs.reads(options.positions);
+  for (const std::string& path : options.machine.errors) outputs.reads(path);
+  outputs.may_write(options.output, "trueaxis.poses");
+  outputs.check();
+  outputs.write(options.output, "# schema: trueaxis.poses/1\n" + text);
+  outputs.commit();
+  return done;
+}
+
+}  // namespace
+
+void add_pose(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("pose", "where the tool of a machine with errors is in the part");
+  auto options = std::make_shared<Options>();
+  options->machine.add_machine_to(*command);
+  command->add_option("positions", options->positions, "axis positions (CSV): X[mm],A[deg]…")
+      ->required();
+  options->machine.add_errors_to(*command);
+  options->machine.add_work_offset_to(*command);
+  command->add_option("-o,--output", options->output, "write here instead of printing")
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine/files/errors_files.hpp"
+
+#include <algorithm>
+
+#include "machine/files/errors_toml.hpp"
+#include "machine/files/etalon.hpp"
+#include "machine/files/isg_csv.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+ErrorModel read_one(const std::string& path, const Machine& machine,
+                    std::optional<ErrorSign> foreign_sign) {
+  if (path.ends_with(".toml")) return read_errors_toml(path, machine);
+  if (!foreign_sign)
+    throw InputError(path,
+                     "does not say the sign of its component errors: give --sign moving_part or "
+                     "--sign tool_minus_workpiece");
+  return path.ends_with(".csv") ? read_isg_csv(path, machine, *foreign_sign)
+                                : read_etalon(path, machine, *foreign_sign);
+}
+
+bool has_components(const ErrorModel& errors) {
+  return std::ranges::any_of(errors.terms,
+                             [](const ErrorTerm& term) { return term.name.component; });
+}
+
+}  // namespace
+
+ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
+                       std::optional<ErrorSign> foreign_sign) {
+  ErrorModel all = machine.parameter_errors;
+  std::vector<Diagnostic> wrong;
+  std::string of_components;
+  for (const std::string& path : paths) {
+    try {
+      const ErrorModel one = read_one(path, machine.machine, foreign_sign);
+      all.terms.insert(all.terms.end(), one.terms.begin(), one.terms.end());
+      if (!has_components(one)) continue;
+      if (!of_components.empty())
+        wrong.push_back({path, 0, 0,
+                         "has component errors, and so has " + of_components +
+                             ": they come from one file (location errors may come from several)"});
+      of_components = path;
+      all.sign = one.sign;
+      all.reference_mm = one.reference_mm;
+    } catch (const InputError& error) {
+      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return all;
+}
+
+}  // namespace trueaxis

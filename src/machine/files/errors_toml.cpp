@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine/files/errors_toml.hpp"
+
+#include <algorithm>
+
+#include "format/toml_units.hpp"
+#include "machine/files/error_names.hpp"
+#include "machine/files/toml_parts.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// Keys of one entry, by what the error is (a length or an angle) and its axis.
+struct Keys {
+  explicit Keys(const ErrorName& name)
+      : rotary(name.body >= 3 && name.body < axis_count),
+        value(name.angular() ? "_rad" : "_mm"),
+        position(rotary ? "_rad" : "_mm") {}
+  bool rotary;
+  std::string value, position;
+};
+
+PolynomialError read_polynomial(TomlTable& table, const Keys& keys) {
+  PolynomialError error;
+  const std::string coefficients = "coefficients" + keys.value;
+  error.coefficients = table.numbers(coefficients);
+  if (error.coefficients.empty())
+    table.complain(coefficients, "is needed: the list c0, c1, … of Σ cᵢ sⁱ");
+  error.origin = table.number("origin" + keys.position, 0.0);
+  error.scale = table.number("scale" + keys.position, keys.rotary ? rad_per_deg : 1.0);
+  if (error.scale == 0.0) table.complain("scale" + keys.position, "must not be 0");
+  return error;
+}
+
+FourierError read_fourier(TomlTable& table, const Keys& keys) {
+  FourierError error;
+  const std::string terms = "terms" + keys.value, period = "period" + keys.position;
+  for (const auto& row : table.rows(terms, 3, 1)) error.terms.push_back({row[0], row[1], row[2]});
+  if (error.terms.empty())
+    table.complain(terms, "is needed: rows [n, a, b] of a cos(2πnq/P) + b sin(2πnq/P)");
+  error.period = keys.rotary ? table.number(period, two_pi, Range::positive())
+                             : table.required_number(period, Range::positive());
+  return error;
+}
+
+TableError read_table(TomlTable& table, const Keys& keys) {
+  TableError error;
+  const std::string at = "at" + keys.position, values = "values" + keys.value;
+  error.at = table.numbers(at);
+  error.values = table.numbers(values);
+  error.periodic = table.flag("periodic", false);
+  if (error.at.size() < 2) table.complain(at, "is needed: two positions or more");
+  if (std::ranges::adjacent_find(error.at, std::ranges::greater_equal{}) != error.at.end())
+    table.complain(at, "must ascend");
+  if (error.values.size() != error.at.size())
+    table.complain(values, "must hold as many numbers as there are positions");
+  return error;
+}
+
+enum class Kind { constant, polynomial, fourier, table };
+
+Kind read_kind(TomlTable& entry) {
+  return entry.choice<Kind>("kind",
+                            {{"constant", Kind::constant},
+                             {"polynomial", Kind::polynomial},
+                             {"fourier", Kind::fourier},
+                             {"table", Kind::table}},
+                            Kind::constant);
+}
+
+ErrorFunction read_function(TomlTable& table, Kind kind, const Keys& keys) {
+  switch (kind) {
+    case Kind::polynomial:
+      return read_polynomial(table, keys);
+    case Kind::fourier:
+      return read_fourier(table, keys);
+    case Kind::table:
+      return read_table(table, keys);
+    case Kind::constant:
+      break;
+  }
+  return ConstantError{table.required_number("value" + keys.value)};
+}
+
+void read_error(TomlTable table, const Machine& machine, ErrorModel& errors) {
+  const std::string text = table.required_text("name");
+  const auto name = parse_error_name(text);
+  const std::string trouble = text.empty() ? "" : error_name_trouble(text, machine);
+  if (!trouble.empty()) table.complain("name", trouble);
+  if (!name) {
+    table.ignore_rest();
+    return;
+  }
+  const Kind kind = read_kind(table);
+  if (!name->component && kind != Kind::constant)
+    table.complain("kind", "must be \"constant\": " + text + " is no function of a position");
+  const Keys keys(*name);
+  ErrorTerm term{*name, read_function(table, kind, keys)};
+  term.u = table.number("u" + keys.value, 0.0, Range::non_negative());
+  if (without_effect(*name) && value_at(term.function, 0.0) != 0.0)
+    table.complain("value" + keys.value, "must be 0: " + text + " has no effect");
+  errors.terms.push_back(std::move(term));
+}
+
+void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors) {
+  const std::vector<std::string> keys = root.keys();
+  for (const KeySpelling& spelling : key_spellings("reference_mm")) {
+    if (std::ranges::find(keys, spelling.key) == keys.end()) continue;
+    auto table = root.maybe_table(spelling.key);
+    for (std::size_t i = 0; table && i < 3; ++i) {
+      const std::string letter(1, "XYZ"[i]);
+      Vector3& reference = errors.reference_mm[i];
+      reference = read_vector(*table, letter);
+      for (double& component : reference) component *= spelling.factor;
+      if (table->has(letter) && machine.find(static_cast<AxisName>(i)) == nullptr)
+        table->complain(letter, "is no axis of the machine");
+    }
+    return;
+  }
+  root.has("reference_mm");
+}
+
+}  // namespace
+
+ErrorModel read_errors_toml(const std::string& path, const Machine& machine) {
+  TomlDocument document(path);
+  TomlTable root = document.root();
+  ErrorModel errors;
+  root.required_choice<int>("schema", {{"trueaxis.errors/1", 1}});
+  root.text("name");
+  errors.sign = root.required_choice<ErrorSign>(
+      "sign", {{"moving_part", ErrorSign::moving_part},
+               {"tool_minus_workpiece", ErrorSign::tool_minus_workpiece}});
+  read_reference(root, machine, errors);
+  for (TomlTable table : root.tables("error")) read_error(table, machine, errors);
+  document.finish();
+  return errors;
+}
+
+}  // namespace trueaxis

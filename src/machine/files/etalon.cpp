@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "machine/files/etalon.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "format/file.hpp"
+#include "machine/files/error_names.hpp"
+#include "machine/files/number_table.hpp"
+#include "machine/files/toml_parts.hpp"
+#include "machine/sampled_errors.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Reads line by line; what a block is of is known from its heading.
+class EtalonReader {
+ public:
+  EtalonReader(const std::string& path, const Machine& machine, ErrorModel& errors)
+      : path_(path), machine_(machine), errors_(errors) {}
+
+  void line(std::string_view text) {
+    ++number_;
+    text = trimmed(text.substr(0, text.find("//")));
+    if (text.empty()) return;
+    if (in_grid_)
+      grid_row(text);
+    else if (text.front() == '[')
+      heading(text);
+    else
+      entry(text);
+  }
+  void finish() {
+    if (in_grid_) complain("a block of Gridpoints is not closed: end it with }");
+    close_block();
+    if (!wrong_.empty()) throw InputError(std::move(wrong_));
+  }
+
+ private:
+  void complain(std::string message) { wrong_.push_back({path_, number_, 0, std::move(message)}); }
+
+  void close_block() {
+    if (block_open_ && !filled_)
+      wrong_.push_back({path_, heading_line_, 0, "a block without VALUE or Gridpoints"});
+    block_open_ = filled_ = false;
+  }
+
+  void heading(std::string_view text) {
+    close_block();
+    const std::string name(trimmed(text.substr(1, text.find(']') - 1)));
+    const std::string trouble =
+        text.ends_with(']') ? error_name_trouble(name, machine_) : "is not closed by ]";
+    if (!trouble.empty()) complain("the block " + std::string(text) + ' ' + trouble);
+    name_ = trouble.empty() ? parse_error_name(name) : std::nullopt;
+    heading_line_ = number_;
+    block_open_ = true;
+  }
+
+  void entry(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    const std::string_view key = trimmed(text.substr(0, equals));
+    const std::string_view value =
+        equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
+    double constant = 0.0;
+    if (!block_open_ || filled_) {
+      complain("stands in no block, or a second time in one: begin one with [NAME]");
+    } else if (key == "VALUE" && parse_number(value, constant)) {
+      add(ConstantError{constant});
+    } else if (key == "Gridpoints" && value == "{") {
+      in_grid_ = true;
+      grid_ = {};
+      if (name_ && !name_->component) complain(to_string(*name_) + " has a VALUE, no Gridpoints");
+    } else {
+      complain('"' + std::string(text) + "\" is neither VALUE = number nor Gridpoints = {");
+    }
+    filled_ = filled_ || block_open_;
+  }
+
+  void grid_row(std::string_view text) {
+    const bool last = text.ends_with('}');
+    if (last) text = trimmed(text.substr(0, text.size() - 1));
+    const auto fields = fields_of(text);
+    double at = 0.0, value = 0.0;
+    if (!text.empty()) {
+      if (fields.size() != 2 || !parse_number(fields[0], at) || !parse_number(fields[1], value)) {
+        complain('"' + std::string(text) + "\" is no row `argument value`");
+      } else if (name_) {
+        at *= edge_unit(static_cast<AxisName>(name_->body % axis_count));
+        if (!grid_.at.empty() && at <= grid_.at.back()) complain("arguments must ascend");
+        grid_.at.push_back(at);
+        grid_.values.push_back(value);
+      }
+    }
+    if (!last) return;
+    in_grid_ = false;
+    if (name_ && grid_.at.size() < 2) complain("Gridpoints need two rows or more");
+    add(grid_);
+  }
+
+  void add(ErrorFunction function) {
+    if (!name_) return;
+    if (without_effect(*name_) && value_at(function, 0.0) != 0.0)
+      complain(to_string(*name_) + " has no effect: it must be 0");
+    errors_.terms.push_back({*name_, std::move(function)});
+  }
+
+  const std::string& path_;
+  const Machine& machine_;
+  ErrorModel& errors_;
+  std::vector<Diagnostic> wrong_;
+  std::optional<ErrorName> name_;
+  TableError grid_;
+  std::size_t number_ = 0, heading_line_ = 0;
+  bool block_open_ = false, filled_ = false, in_grid_ = false;
+};
+
+}  // namespace
+
+ErrorModel read_etalon(const std::string& path, const Machine& machine, ErrorSign sign) {
+  const std::string content = read_file(path);
+  ErrorModel errors;
+  errors.sign = sign;
+  EtalonReader reader(path, machine, errors);
+  for (std::size_t at = 0; at < content.size();) {
+    const std::size_t end = std::min(content.find('\n', at), content.size());
+    reader.line(std::string_view(content).substr(at, end - at));
+    at = end + 1;
+  }
+  reader.finish();
+  return errors;
+}
+
+std::string etalon_text(const ErrorModel& errors, const Machine& machine, ErrorSign sign,
+                        int points) {
+  std::string text = "// schema: trueaxis.etalon/1\n// mm, rad; arguments of rotary axes in deg\n";
+  for (std::size_t body = 0; body < body_count; ++body) {
+    for (std::size_t direction = 0; direction < 6; ++direction) {
+      const ErrorName name{false, direction, body};
+      if (const double value = location_value(errors, name); value != 0.0)
+        text += fmt::format("[{}]\nVALUE = {}\n", to_string(name), value);
+    }
+  }
+  for (const SampledErrors& axis : sample_components(machine, errors, sign, points)) {
+    for (std::size_t direction = 0; direction < 6; ++direction) {
+      if (axis.values[direction].empty()) continue;
+      const std::string name = to_string(ErrorName{true, direction, index_of(axis.axis)});
+      text += "[" + name + "]\nGridpoints = {\n";
+      for (std::size_t i = 0; i < axis.positions.size(); ++i)
+        text += fmt::format("  {} {}\n", axis.positions[i] / edge_unit(axis.axis),
+                            axis.values[direction][i]);
+      text += "}  // end of " + name + '\n';
+    }
+  }
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/machine.hpp"
+
+namespace trueaxis {
+
+/// Reads the Etalon exchange format, variant "Vendor": `//` comments, a block `[NAME]` with
+/// `VALUE = v` or `Gridpoints = {` rows `argument value` `}`; mm and rad, arguments of rotary axes
+/// in degrees. It does not say its sign: `sign` does, and of pivots it knows nothing (0).
+/// @throws InputError with every diagnostic.
+ErrorModel read_etalon(const std::string& path, const Machine& machine, ErrorSign sign);
+
+/// The same written, component errors as tables of `points` positions where they are none yet.
+std::string etalon_text(const ErrorModel& errors, const Machine& machine, ErrorSign sign,
+                        int points);
+
+}  // namespace trueaxis

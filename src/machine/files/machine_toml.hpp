@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/machine.hpp"
+
+namespace trueaxis {
+
+/// A machine as a file says it; of a D-H file also the errors of its parameters, as location errors
+/// of the axes and the spindle (no terms: it says none).
+struct MachineFile {
+  Machine machine;
+  ErrorModel parameter_errors;
+  bool denavit_hartenberg = false;
+};
+
+/// Reads `trueaxis.machine/1` (docs/machine.md), in its zero-position or its D-H form.
+/// @throws InputError with every diagnostic: file, line, column, what to do.
+MachineFile read_machine_toml(const std::string& path);
+
+/// In the zero-position form: what `read_machine_toml` reads back.
+std::string machine_toml(const Machine& machine);
+
+}  // namespace trueaxis

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "format/toml_reader.hpp"
+#include "trueaxis/machine.hpp"
+
+/// What the tables of a machine and of its errors have alike.
+namespace trueaxis {
+
+/// Three numbers, in the unit inside.
+inline Vector3 read_vector(TomlTable& table, std::string_view key, const Vector3& fallback = {}) {
+  if (!table.has(key)) return fallback;
+  const std::vector<double> values = table.numbers(key);
+  if (values.size() == 3) return {values[0], values[1], values[2]};
+  table.complain(key, "must hold three numbers [x, y, z]");
+  return fallback;
+}
+
+/// The same made a unit vector.
+inline Vector3 read_direction(TomlTable& table, std::string_view key, const Vector3& fallback) {
+  Vector3 v = read_vector(table, key, fallback);
+  const double length = std::hypot(v[0], v[1], v[2]);
+  if (!(length > 1e-9)) {
+    table.complain(key, "has no length: give the direction as a vector, such as [0, 0, 1]");
+    return fallback;
+  }
+  for (double& component : v) component /= length;
+  return v;
+}
+
+inline std::optional<AxisName> axis_of(std::string_view letter) {
+  const std::size_t number = std::string_view("XYZABC").find(letter);
+  if (letter.size() != 1 || number == std::string_view::npos) return std::nullopt;
+  return static_cast<AxisName>(number);
+}
+
+/// From mm or degrees, in which files give positions of an axis, to inside.
+inline double edge_unit(AxisName axis) { return is_rotary(axis) ? rad_per_deg : 1.0; }
+
+}  // namespace trueaxis

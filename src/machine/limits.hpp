@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/machine.hpp"
+
+namespace trueaxis {
+
+/// Rounding of a position that stands on its limit: 1e-9 mm, 1e-9 deg.
+double limit_slack(const MachineAxis& axis);
+
+bool within(const MachineAxis& axis, double position);
+
+/// Which axis would leave its limits, and where to; empty: none.
+std::string outside_limits(const Machine& machine, const AxisPositions& axes);
+
+}  // namespace trueaxis

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "trueaxis/machine.hpp"
+
+namespace trueaxis {
+
+/// The component errors of an axis as a table that others read: linear between the positions.
+struct SampledErrors {
+  AxisName axis = AxisName::X;
+  std::vector<double> positions;              ///< mm or rad, ascending
+  std::array<std::vector<double>, 6> values;  ///< EXK EYK EZK EAK EBK ECK; empty: none of it
+
+  bool operator==(const SampledErrors&) const = default;
+};
+
+/// Every axis that has component errors, in the order X … C, with the sign asked for: where it is
+/// not the model's own, E of an axis of the workpiece is inverted at every position, exactly. The
+/// positions are those of the tables, and of anything that is no table `points` over the limits of
+/// the axis (a rotary axis without limits: one turn). @throws InputError for a linear axis without
+/// limits whose errors are no tables.
+std::vector<SampledErrors> sample_components(const Machine& machine, const ErrorModel& errors,
+                                             ErrorSign sign, int points);
+
+/// The sum of the constants of a location error; 0 where there is none.
+double location_value(const ErrorModel& errors, const ErrorName& name);
+
+}  // namespace trueaxis
