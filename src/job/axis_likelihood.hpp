@@ -33,7 +33,7 @@ Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double
 
 /// ln of the likelihood of the axes as those of one part, whose surfaces are as far out of a common
 /// axis as parts are: 1 to 64 µm and, apart from that, 0.01 to 0.64 mrad, each scale as probable
-/// (Eqs. 132, 133). Up to a constant of the references.
+/// (Eqs. 152, 153). Up to a constant of the references.
 /// @param open what a mistake leaves open, taken at its best value: its width is paid for
 double log_likelihood(std::span<const HeldAxis> axes, std::optional<OpenMistake> open = {});
 

@@ -40,6 +40,15 @@ Screw of_errors(const Motion& frame, const Joint& joint, const Vector3d& pivot,
   return screw_in(frame, pivot, sign * errors.shift, sign * errors.rotation);
 }
 
+/// The joint with its errors: P.
+Motion actual_step(const Joint& joint, const AxisPositions& axes) {
+  const double position = joint.position(axes);
+  const Motion along = joint.actual(position);
+  if (joint.components.empty()) return along;
+  const Motion errors = component_errors(joint, position).motion(joint);
+  return joint.errors_first ? errors * along : along * errors;
+}
+
 }  // namespace
 
 Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
@@ -50,18 +59,21 @@ Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Se
 
 Motion actual_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
   Motion frame = machine.workpiece.inverse() * program_from_bed(setting);
-  for (const Joint& joint : machine.joints) {
-    const double position = joint.position(axes);
-    const Motion along = joint.actual(position);
-    if (joint.components.empty()) {
-      frame = frame * along;
-      continue;
-    }
-    const Motion errors = component_errors(joint, position).motion(joint);
-    frame = joint.errors_first ? frame * errors * along : frame * along * errors;
-  }
+  for (const Joint& joint : machine.joints) frame = frame * actual_step(joint, axes);
   frame = frame * machine.spindle;
   return {frame.R, frame * machine.tip(setting)};
+}
+
+ChainEnds actual_ends(const Compiled& machine, const AxisPositions& axes) {
+  Motion bed_in_workpiece;
+  ChainEnds ends;
+  for (std::size_t i = 0; i < machine.joints.size(); ++i) {
+    Motion& frame = machine.machine.axes[i].carries_workpiece ? bed_in_workpiece : ends.tool;
+    frame = frame * actual_step(machine.joints[i], axes);
+  }
+  ends.workpiece = bed_in_workpiece.inverse();
+  ends.tool = ends.tool * machine.spindle;
+  return ends;
 }
 
 ToolMotion nominal_motion(const Compiled& machine, const AxisPositions& axes,

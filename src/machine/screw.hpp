@@ -49,6 +49,13 @@ rigid::Motion nominal_tool(const MachineModel::Compiled& machine, const AxisPosi
 rigid::Motion actual_tool(const MachineModel::Compiled& machine, const AxisPositions& axes,
                           const Setting& setting);
 
+/// Both ends of the chain in M, with all errors: the body of the workpiece without D, and that of
+/// the tool with S. A point x of a body in the zero position is at G x.
+struct ChainEnds {
+  rigid::Motion workpiece, tool;
+};
+ChainEnds actual_ends(const MachineModel::Compiled& machine, const AxisPositions& axes);
+
 /// Displacement of the tool in the part by all errors, linear in them.
 Screw linear_error_screw(const MachineModel::Compiled& machine, const AxisPositions& axes,
                          const Setting& setting);

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trueaxis/machine.hpp"
+#include "trueaxis/units.hpp"
+
+/// Errors of a machine from measurements on it (docs/calibration.md). Inside mm, rad and s.
+namespace trueaxis {
+
+enum class MeasurementKind {
+  ball,   ///< ball's centre − tip in machine axes, at many positions
+  bar,    ///< length from a ball's centre to the tip
+  array,  ///< axis positions at which the tip is at the balls of a straight bar
+  axis    ///< actual against commanded position of one axis
+};
+const char* to_string(MeasurementKind kind);
+
+/// One file of a measurement, as long as its rows in every column that it has.
+struct MachineMeasurement {
+  std::string source, input_hash;
+  MeasurementKind kind = MeasurementKind::ball;
+  std::optional<double> noise_mm;      ///< σ of one read-out as stated; of a rotary axis rad
+  std::optional<AxisName> axis;        ///< of kinds array and axis
+  std::vector<int> setup, ball;        ///< numbers of this file
+  std::vector<AxisPositions> axes;     ///< commanded
+  std::vector<Vector3> deviation_mm;   ///< ball: centre − tip, directions of M
+  std::vector<double> length_mm;       ///< bar
+  std::vector<double> along_mm;        ///< array: s
+  std::vector<double> actual;          ///< axis: mm or rad
+  std::vector<double> tool_length_mm;  ///< empty: the machine's own
+  std::vector<double> time_s;          ///< empty: not known
+
+  std::size_t rows() const { return axes.size(); }
+};
+
+/// A parameter that was estimated: a location error, or a coefficient of a component error.
+struct CalibratedParameter {
+  std::string name;   ///< X0C; EXX.poly2
+  Estimate estimate;  ///< mm or rad, from the errors that were given
+};
+
+/// What the measurement does not tell: at its largest plausible size it moves the readings by less
+/// than their noise once the rest is fitted. The first of the class is held at what it was.
+struct NotDetermined {
+  std::vector<std::string> members;  ///< "ball": the centres
+  std::string why;
+};
+
+/// Where a ball, or the point at s = 0 of a bar, stands on the workpiece's body: in M, zero
+/// position, with what is held.
+struct PlacedBall {
+  std::size_t file = 0;
+  int setup = 0, ball = 0;           ///< ball 0: a bar
+  Vector3 centre_mm{}, direction{};  ///< direction of a bar's line
+};
+
+/// Position error of an axis from its read-out (Eq. 177).
+struct AxisReadOut {
+  AxisName axis = AxisName::X;
+  std::size_t readings = 0;
+  double period = 0.0;  ///< mm or rad; 0: nothing periodic was found
+  struct Order {
+    int order = 1;
+    Estimate cos, sin;  ///< mm or rad
+    double amplitude() const;
+  };
+  std::vector<Order> orders;         ///< of the period, those that were found
+  std::vector<Estimate> polynomial;  ///< Legendre coefficients over the range, degree 0 first
+  double low = 0.0, high = 0.0;      ///< range of the commanded positions
+  double rms_before = 0.0, rms_after = 0.0;
+};
+
+struct CalibrationOptions {
+  ErrorModel errors;  ///< what is known of the machine already; the estimate adds to it
+  double largest_length_mm = 0.1;  ///< largest plausible size of a location error
+  double largest_angle_rad = 0.2e-3;
+  double coverage_factor = 2.0;
+  int max_orders = 24;  ///< of a period in an axis' read-out
+};
+
+struct Calibration {
+  bool converged = false;
+  std::string message;  ///< why not
+  std::vector<std::string> sources, input_hashes;
+  std::vector<CalibratedParameter> parameters;
+  std::vector<double> covariance;  ///< of `parameters` by rows, mm and rad
+  std::vector<PlacedBall> balls;
+  std::vector<NotDetermined> not_determined;
+  std::string gauge;  ///< what was held, in words
+  std::vector<AxisReadOut> read_outs;
+  ErrorModel errors;  ///< given and found together, with u
+  std::size_t equations = 0, unknowns = 0;
+  double rms_before_mm = 0.0, rms_after_mm = 0.0;
+  double noise_mm = 0.0;     ///< σ of one number that u is made of
+  std::string noise_source;  ///< "stated", "residuals"
+};
+
+/// Files given together are one measurement, in order. All location errors of the axes, X0S Y0S
+/// Z0S, A0S and B0S, every ball's centre and every bar's line are estimated together by
+/// Levenberg-Marquardt through the exact chain (Eqs. 170-176); of an array's axis its three
+/// straightness and position errors as polynomials too; an axis' read-out gives its position error.
+/// @throws InputError where there is too little to estimate from
+Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
+                      const CalibrationOptions& options = {});
+
+}  // namespace trueaxis

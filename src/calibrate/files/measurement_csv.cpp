@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/files/measurement_csv.hpp"
+
+#include <cmath>
+
+#include "calibrate/files/measurement_header.hpp"
+#include "format/file.hpp"
+#include "measure/files/stream_csv_number.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Role = MeasurementRole;
+constexpr std::size_t most_listed = 50;
+
+/// A finite number below 1e9, whole where it counts; else what is wrong.
+std::string read_number(const MeasurementColumn& column, std::string_view text, double& value) {
+  if (text.empty()) return column.name + " is empty: write a number or remove the row";
+  std::errc error{};
+  const char* const end = text.data() + text.size();
+  if (csv_number(text.data(), end, value, error) != end)
+    return column.name + ": " + csv_quoted(text) + " is not a number";
+  if (error != std::errc{} || !(std::abs(value) < 1e9))
+    return column.name + ": " + csv_quoted(text) +
+           " is not finite or out of range: remove the row or measure it again";
+  const bool counts = column.role == Role::setup || column.role == Role::ball;
+  if (counts && value != std::floor(value))
+    return column.name + ": " + csv_quoted(text) + " is not a whole number: number them 1, 2, 3";
+  return "";
+}
+
+class Rows {
+ public:
+  Rows(MachineMeasurement& out, CsvDiagnostics& diagnostics)
+      : out_(out), diagnostics_(diagnostics) {}
+
+  std::vector<MeasurementColumn> columns;
+
+  void row(std::string_view line, std::size_t number) {
+    csv_split(line, ',', fields_);
+    if (fields_.size() != columns.size()) {
+      diagnostics_.add(number, 0,
+                       "the row has " + std::to_string(fields_.size()) +
+                           " fields, the header names " + std::to_string(columns.size()) +
+                           ": write one field per column");
+      return;
+    }
+    begin();
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      double value = 0.0;
+      std::string why = read_number(columns[k], fields_[k].text, value);
+      value *= columns[k].factor;
+      if (why.empty()) why = put(columns[k], value);
+      if (why.empty()) continue;
+      diagnostics_.add(number, csv_character(line, fields_[k].byte), std::move(why));
+    }
+  }
+
+ private:
+  void begin() {
+    out_.axes.emplace_back(AxisPositions{});
+    out_.setup.push_back(1);
+    out_.ball.push_back(1);
+    if (out_.kind == MeasurementKind::ball) out_.deviation_mm.emplace_back(Vector3{});
+  }
+
+  std::string put(const MeasurementColumn& column, double value) {
+    switch (column.role) {
+      case Role::setup:
+        out_.setup.back() = static_cast<int>(value);
+        break;
+      case Role::ball:
+        out_.ball.back() = static_cast<int>(value);
+        break;
+      case Role::axis:
+        out_.axes.back()[column.index] = value;
+        break;
+      case Role::deviation:
+        out_.deviation_mm.back()[column.index] = value;
+        break;
+      case Role::command:
+        out_.axes.back()[index_of(*out_.axis)] = value;
+        break;
+      case Role::actual:
+        out_.actual.push_back(value);
+        break;
+      case Role::length:
+        if (!(value > 0.0)) return "L must be more than 0: the length from ball to tip";
+        out_.length_mm.push_back(value);
+        break;
+      case Role::along:
+        out_.along_mm.push_back(value);
+        break;
+      case Role::tool_length:
+        if (value < 0.0) return "tool_length must not be negative";
+        out_.tool_length_mm.push_back(value);
+        break;
+      case Role::time:
+        if (!out_.time_s.empty() && value < out_.time_s.back())
+          return "t falls: rows stand in the order in which they were taken";
+        out_.time_s.push_back(value);
+        break;
+    }
+    return "";
+  }
+
+  MachineMeasurement& out_;
+  CsvDiagnostics& diagnostics_;
+  std::vector<CsvField> fields_;
+};
+
+/// Whether what was said before the header is enough to read it.
+bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, std::size_t number,
+                   MachineMeasurement& out, CsvDiagnostics& diagnostics) {
+  const auto wrong = [&](const char* key, const std::string& why) {
+    const auto line = metadata.lines.find(key);
+    diagnostics.add(line == metadata.lines.end() ? number : line->second, 0, why);
+  };
+  if (!metadata.kind) {
+    if (!metadata.lines.contains("kind"))
+      wrong("kind",
+            "does not say its kind before the header: write `# kind: ball` (bar, array, axis)");
+    return false;
+  }
+  out.kind = *metadata.kind;
+  const bool of_axis = out.kind == MeasurementKind::array || out.kind == MeasurementKind::axis;
+  out.axis = metadata.axis;
+  out.noise_mm = metadata.noise;
+  if (!of_axis && metadata.axis) wrong("axis", "axis is said of kinds array and axis only");
+  if (of_axis && !metadata.axis && !metadata.lines.contains("axis"))
+    wrong("axis", "does not say its axis before the header: write `# axis: X`");
+  if (out.axis && machine.find(*out.axis) == nullptr)
+    wrong("axis", std::string("the machine has no axis ") + letter_of(*out.axis));
+  if (out.kind == MeasurementKind::array && out.axis && is_rotary(*out.axis))
+    wrong("axis", "an array of balls lies along a linear axis");
+  const bool angle = out.kind == MeasurementKind::axis && out.axis && is_rotary(*out.axis);
+  if (metadata.noise && metadata.noise_is_angle != angle)
+    wrong("noise", angle ? "noise of a rotary axis is an angle" : "noise is a length");
+  return !of_axis || metadata.axis.has_value();
+}
+
+}  // namespace
+
+MachineMeasurement read_measurement_csv(const std::string& path, const Machine& machine) {
+  const std::string text = read_file(path);
+  MachineMeasurement out;
+  out.source = path;
+  out.input_hash = content_hash(text);
+  CsvDiagnostics diagnostics(path, most_listed);
+  MeasurementMetadata metadata;
+  Rows rows(out, diagnostics);
+  bool header = false;
+  std::size_t number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string_view line(text.data() + at, end - at);
+    at = end + 1;
+    ++number;
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+    const std::string_view content = csv_without_comment(line);
+    if (csv_trimmed(content).empty()) {
+      if (content.size() < line.size() && !header)
+        take_measurement_comment(line, number, metadata, diagnostics);
+      continue;
+    }
+    if (!header) {
+      header = true;
+      if (take_metadata(metadata, machine, number, out, diagnostics))
+        rows.columns = measurement_columns(content, number, metadata, machine, diagnostics);
+      if (rows.columns.empty()) break;
+    } else {
+      rows.row(content, number);
+    }
+  }
+  if (!header)
+    diagnostics.add(0, 0, "has no header and no rows");
+  else if (!diagnostics.any() && out.rows() == 0)
+    diagnostics.add(number, 0, "has no rows");
+  diagnostics.throw_if_any();
+  return out;
+}
+
+std::vector<MachineMeasurement> read_measurements(const std::vector<std::string>& paths,
+                                                  const Machine& machine) {
+  std::vector<MachineMeasurement> all;
+  std::vector<Diagnostic> wrong;
+  for (const std::string& path : paths) {
+    try {
+      all.push_back(read_measurement_csv(path, machine));
+    } catch (const InputError& error) {
+      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return all;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/files/measurement_header.hpp"
+
+#include <algorithm>
+
+#include "measure/files/stream_csv_number.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Role = MeasurementRole;
+
+/// A column that a file may have.
+struct Known {
+  std::string name;
+  Role role;
+  std::size_t index;
+  CsvQuantity quantity;
+  bool needed;
+};
+
+CsvQuantity of_axis(AxisName axis) {
+  return is_rotary(axis) ? CsvQuantity::angle : CsvQuantity::length;
+}
+
+std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Machine& machine) {
+  const MeasurementKind kind = *metadata.kind;
+  if (kind == MeasurementKind::axis) {
+    const CsvQuantity quantity = of_axis(metadata.axis.value_or(AxisName::X));
+    return {{"command", Role::command, 0, quantity, true},
+            {"actual", Role::actual, 0, quantity, true},
+            {"t", Role::time, 0, CsvQuantity::time, false}};
+  }
+  const bool array = kind == MeasurementKind::array;
+  std::vector<Known> known{{"setup", Role::setup, 0, CsvQuantity::count, !array},
+                           {"ball", Role::ball, 0, CsvQuantity::count, true}};
+  for (const MachineAxis& axis : machine.axes)  // an array's rotary axes stand at 0 unless said
+    known.push_back({std::string(1, letter_of(axis.name)), Role::axis, index_of(axis.name),
+                     of_axis(axis.name), !array || !is_rotary(axis.name)});
+  if (kind == MeasurementKind::ball)
+    for (std::size_t i = 0; i < 3; ++i)
+      known.push_back({std::string("d") + "XYZ"[i], Role::deviation, i, CsvQuantity::length, true});
+  if (kind == MeasurementKind::bar)
+    known.push_back({"L", Role::length, 0, CsvQuantity::length, true});
+  if (array) known.push_back({"s", Role::along, 0, CsvQuantity::length, true});
+  known.push_back({"tool_length", Role::tool_length, 0, CsvQuantity::length, false});
+  known.push_back({"t", Role::time, 0, CsvQuantity::time, false});
+  return known;
+}
+
+std::string names(const std::vector<Known>& known) {
+  std::string list;
+  for (const Known& one : known) list += (list.empty() ? "" : " ") + one.name;
+  return list;
+}
+
+/// What is wrong with the header's field, "" where nothing is; `column` is then filled.
+std::string take(std::string_view field, const std::vector<Known>& known,
+                 MeasurementColumn& column) {
+  const std::size_t bracket = field.find('[');
+  const std::string name(csv_trimmed(field.substr(0, bracket)));
+  const auto found = std::ranges::find(known, name, &Known::name);
+  if (found == known.end()) {
+    const bool axis =
+        name.size() == 1 && std::string_view("XYZABC").find(name) != std::string::npos;
+    return axis ? "the machine has no axis " + name + ": take the column out"
+                : csv_quoted(name) + " is no column of this kind: the columns are " + names(known);
+  }
+  column.role = found->role;
+  column.index = found->index;
+  column.name = name;
+  const bool unit_there = bracket != std::string_view::npos;
+  if (found->quantity == CsvQuantity::count)
+    return unit_there ? name + " is a number without a unit: write " + name : "";
+  const std::string give =
+      std::string(": write it in brackets, one of ") + csv_known_units(found->quantity);
+  if (!unit_there) return name + " has no unit" + give;
+  const std::string_view unit =
+      csv_trimmed(field.substr(bracket + 1, field.find(']') - bracket - 1));
+  const auto factor = csv_find_unit(found->quantity, unit);
+  if (!factor || field.back() != ']') return csv_quoted(unit) + " is no unit of " + name + give;
+  column.factor = factor->factor;
+  return "";
+}
+
+}  // namespace
+
+std::vector<MeasurementColumn> measurement_columns(std::string_view line, std::size_t number,
+                                                   const MeasurementMetadata& metadata,
+                                                   const Machine& machine,
+                                                   CsvDiagnostics& diagnostics) {
+  const std::vector<Known> known = known_columns(metadata, machine);
+  std::vector<CsvField> fields;
+  csv_split(line, ',', fields);
+  std::vector<MeasurementColumn> columns;
+  bool good = true;
+  const auto wrong = [&](std::size_t column, std::string message) {
+    diagnostics.add(number, column, std::move(message));
+    good = false;
+  };
+  for (const CsvField& field : fields) {
+    MeasurementColumn column;
+    std::string why = take(field.text, known, column);
+    if (why.empty() &&
+        std::ranges::find(columns, column.name, &MeasurementColumn::name) != columns.end())
+      why = column.name + " is there twice: keep one";
+    if (!why.empty()) wrong(csv_character(line, field.byte), std::move(why));
+    columns.push_back(std::move(column));
+  }
+  for (const Known& one : known) {
+    if (one.needed &&
+        std::ranges::find(columns, one.name, &MeasurementColumn::name) == columns.end())
+      wrong(0, "has no column " + one.name + ": the columns are " + names(known));
+  }
+  if (!good) columns.clear();
+  return columns;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/read_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "calibrate/periodic_fit.hpp"
+#include "calibrate/unknown.hpp"
+#include "math/fourier_sums.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+constexpr double oversampling = 8.0;        // points of the periodogram a resolution width
+constexpr std::size_t least_readings = 24;  // for something periodic to be looked for
+constexpr int most_divisions = 8;           // orders of the period that its strongest line may be
+constexpr double false_alarm = 0.01;
+
+struct Band {
+  double low = 0.0, high = 0.0, step = 0.0;  ///< per mm or rad
+};
+
+/// From one and a half undulations over the range to half the mean density of the positions.
+Band band_of(const std::vector<double>& position) {
+  const Extent range = range_of(position);
+  const std::set<double> different(position.begin(), position.end());
+  const double density = static_cast<double>(different.size() - 1) / range.length();
+  return {1.5 / range.length(), 0.5 * density, 1.0 / (oversampling * range.length())};
+}
+
+/// The strongest line of the residuals, refined with four of its multiples; 0 where it could be
+/// chance.
+double strongest_line(const PeriodicFit& fit, const Band& band) {
+  const PeriodicFit::Result smooth = fit.with({}, 1.0);
+  const auto count = static_cast<std::size_t>((band.high - band.low) / band.step) + 1;
+  const FourierSums sums(fit.position(), two_pi * band.low, two_pi * band.step, count);
+  const FourierSums::Sums lines = sums.of(smooth.residuals);
+  const auto top = std::ranges::max_element(
+      lines, {}, [](const std::complex<double>& line) { return std::norm(line); });
+  const double start = band.low + band.step * static_cast<double>(top - lines.begin());
+  const auto rss = [&](double frequency) {
+    return fit.with(fit.orders_up_to(5, 1.0 / frequency, band.high), 1.0 / frequency).rss;
+  };
+  const double frequency = least_of(rss, start - band.step, start + band.step);
+  const double left = fit.with({1}, 1.0 / frequency).rss;
+  const double p = chance_of(smooth.rss - left, 2.0, left, smooth.freedom - 2.0);
+  return p * static_cast<double>(count) < false_alarm ? frequency : 0.0;
+}
+
+/// The orders of a period that are no chance, and its Bayesian information criterion.
+struct Choice {
+  double period = 0.0, criterion = 0.0;
+  std::vector<int> orders;
+};
+
+Choice choose(const PeriodicFit& fit, double period, const Band& band, int max_orders) {
+  Choice choice{period, 0.0, fit.orders_up_to(max_orders, period, band.high)};
+  const auto n = static_cast<double>(fit.position().size());
+  const PeriodicFit::Result all = fit.with(choice.orders, period);
+  const double tests = static_cast<double>(choice.orders.size());
+  std::vector<int> real;
+  for (std::size_t k = 0; k < choice.orders.size(); ++k)
+    if (chance_of(all.gains[k], 2.0, all.rss, all.freedom) * tests < false_alarm)
+      real.push_back(choice.orders[k]);
+  choice.orders = real;
+  choice.criterion = n * std::log(std::max(fit.with(real, period).rss, 1e-300)) +
+                     2.0 * std::log(n) * static_cast<double>(real.size());
+  return choice;
+}
+
+Choice best_period(const PeriodicFit& fit, int max_orders) {
+  Choice best;
+  const auto& position = fit.position();
+  if (position.size() < least_readings) return best;
+  const Band band = band_of(position);
+  if (!(band.high > band.low)) return best;
+  const double line = strongest_line(fit, band);
+  if (line == 0.0) return best;
+  for (int k = 1; k <= most_divisions && k / line <= range_of(position).length(); ++k) {
+    Choice one = choose(fit, k / line, band, max_orders);
+    if (!one.orders.empty() && (best.period == 0.0 || one.criterion < best.criterion))
+      best = std::move(one);
+  }
+  if (best.period == 0.0) return best;
+  const double off = 0.1 * best.period * best.period * band.step;
+  best.period = least_of([&](double period) { return fit.with(best.orders, period).rss; },
+                         best.period - off, best.period + off);
+  return best;
+}
+
+/// E_KK in the machine's directions of the position error along the axis: what the moving part does
+/// (docs/calibration.md, signs).
+void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibration& out) {
+  const std::size_t body = index_of(axis.name), first = is_rotary(axis.name) ? 3 : 0;
+  const bool against = axis.carries_workpiece && out.errors.sign == ErrorSign::moving_part;
+  std::vector<double> powers{0.0};
+  PolynomialError polynomial = legendre(0, read_out.low, read_out.high);
+  for (std::size_t degree = 1; degree < read_out.polynomial.size(); ++degree) {
+    const PolynomialError one = legendre(static_cast<int>(degree), read_out.low, read_out.high);
+    powers.resize(one.coefficients.size(), 0.0);
+    for (std::size_t i = 0; i < one.coefficients.size(); ++i)
+      powers[i] += read_out.polynomial[degree].value * one.coefficients[i];
+  }
+  polynomial.coefficients = powers;
+  FourierError fourier{{}, read_out.period};
+  for (const AxisReadOut::Order& one : read_out.orders)
+    fourier.terms.push_back({static_cast<double>(one.order), one.cos.value, one.sin.value});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double factor = (against ? -1.0 : 1.0) * axis.direction[i];
+    if (factor == 0.0) continue;
+    const ErrorName name{true, first + i, body};
+    out.errors.terms.push_back({name, scaled(polynomial, factor), 0.0});
+    if (read_out.period > 0.0) out.errors.terms.push_back({name, scaled(fourier, factor), 0.0});
+  }
+}
+
+void check(const MachineMeasurement& file) {
+  const std::set<AxisPositions> different(file.axes.begin(), file.axes.end());
+  if (different.size() < 4)
+    throw InputError(file.source, "has " + std::to_string(different.size()) +
+                                      " positions of the axis: its error wants four or more");
+}
+
+}  // namespace
+
+AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
+  check(file);
+  AxisReadOut out;
+  out.axis = *file.axis;
+  out.readings = file.rows();
+  std::vector<double> position, error;
+  for (std::size_t i = 0; i < file.rows(); ++i) {
+    position.push_back(file.axes[i][index_of(out.axis)]);
+    error.push_back(file.actual[i] - position.back());
+  }
+  const PeriodicFit fit(std::move(position), std::move(error));
+  const Choice choice = best_period(fit, max_orders);
+  const PeriodicFit::Result result = fit.with(choice.orders, std::max(choice.period, 1e-300));
+  const char* const unit = is_rotary(out.axis) ? "rad" : "mm";
+  const auto estimate = [&](std::size_t i) {
+    return Estimate{result.coefficients[i], result.u[i], unit, ""};
+  };
+  const Extent range = range_of(fit.position());
+  out.low = range.low;
+  out.high = range.high;
+  out.period = choice.period;
+  for (std::size_t i = 0; i < fit.smooth(); ++i) out.polynomial.push_back(estimate(i));
+  for (std::size_t k = 0; k < choice.orders.size(); ++k)
+    out.orders.push_back(
+        {choice.orders[k], estimate(fit.smooth() + 2 * k), estimate(fit.smooth() + 2 * k + 1)});
+  const auto n = static_cast<double>(file.rows());
+  out.rms_before = std::sqrt(fit.with({}, 1.0).rss / n);
+  out.rms_after = std::sqrt(result.rss / n);
+  return out;
+}
+
+void from_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
+                    const CalibrationOptions& options, Calibration& out) {
+  for (const MachineMeasurement& file : data) {
+    if (file.kind != MeasurementKind::axis) continue;
+    AxisReadOut found = read_out_of(file, options.max_orders);
+    const std::string zero = std::string(1, letter_of(found.axis)) + "0" + letter_of(found.axis);
+    out.not_determined.push_back(
+        {{zero, "read-out"},
+         zero + " is not told from the zero of the read-out of " + file.source});
+    add_errors(*machine.find(found.axis), found, out);
+    out.read_outs.push_back(std::move(found));
+  }
+}
+
+}  // namespace trueaxis::calibrate_detail
+
+namespace trueaxis {
+
+double AxisReadOut::Order::amplitude() const { return std::hypot(cos.value, sin.value); }
+
+const char* to_string(MeasurementKind kind) {
+  constexpr const char* names[] = {"ball", "bar", "array", "axis"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "trueaxis/machine.hpp"
+
+namespace trueaxis::calibrate_detail {
+
+/// A number of the machine that is estimated: it multiplies `unit` in the errors.
+struct Unknown {
+  std::string name;
+  ErrorTerm unit;                                                    ///< of size 1 mm or 1 rad
+  double largest = 0.0;                                              ///< plausible size
+  double step() const { return unit.name.angular() ? 1e-5 : 1e-3; }  ///< of a difference
+};
+
+ErrorFunction scaled(const ErrorFunction& function, double factor);
+
+/// Every location error of the axes that has an effect, X0S Y0S Z0S, A0S and B0S. Of what the data
+/// cannot tell apart the later one is held: lines of the rotary axes stand first, then squareness
+/// (X is the reference, as ISO 230-1 has it), zeros, the spindle.
+std::vector<Unknown> location_unknowns(const Machine& machine, double largest_length_mm,
+                                       double largest_angle_rad);
+
+/// Legendre's polynomial P_degree(2 (q − low)/(high − low) − 1) as an error of size 1.
+PolynomialError legendre(int degree, double low, double high);
+
+/// `given` and what was found of each unknown, 0 left out.
+ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,
+                const Eigen::VectorXd& values);
+
+}  // namespace trueaxis::calibrate_detail
