@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/nc_programs.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -229,6 +230,25 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
     return list;
   };
   EXPECT_EQ(not_feeds(pieces), not_feeds(source));
+}
+
+TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfRandomPrograms) {
+  if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  constexpr std::uint64_t seed = 78;
+  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  ProgramMaker maker(seed);
+  file("tool.tbl", "T1 P1 Z120 D1\n");
+  // The numbers of these programs go further than the axes do.
+  file("m.toml", std::regex_replace(read_text(machine), std::regex("limits_[^\n]*"), ""));
+  for (int i = 0; i < 8; ++i) {
+    const CommandStreams done = compensate(
+        "p.nc", maker.next(25),
+        "--machine m.toml --errors " + data + "trunnion_ac_errors.toml -o out.nc --force");
+    ASSERT_EQ(done.exit_code, 0) << done.err << pasted(read_text(folder_ / "p.nc"));
+    const auto source = calls(folder_, "p.nc");
+    EXPECT_GT(source.size(), 10u);
+    EXPECT_EQ(calls(folder_, "out.nc"), source) << pasted(read_text(folder_ / "p.nc"));
+  }
 }
 
 TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
