@@ -136,6 +136,89 @@ TEST_F(MachineCommand, OtherMakersTablesGoThereAndBack) {
   }
 }
 
+TEST_F(MachineCommand, DenavitHartenbergWithErrors) {
+  std::string dh = read_text(data + "vmc50_dh.toml");
+  const std::string row = "a_mm = 40\n";
+  dh.insert(dh.find(row) + row.size(),
+            "theta_error_urad = 80\nd_error_um = 15\na_error_um = -7\nalpha_error_urad = 120\n");
+  file("dh.toml", dh);
+  file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n100,-50,30,-35,70\n");
+  expect_input_error("machine dh.toml -o zero.toml", "--errors-output");
+  ASSERT_EQ(command("machine dh.toml -o zero.toml --errors-output errors.toml").exit_code, 0);
+  const auto actual = only_row("pose dh.toml q.csv");
+  expect_row("pose zero.toml q.csv --errors errors.toml", actual, 1e-11);
+  const auto nominal = only_row("pose zero.toml q.csv");
+  EXPECT_GT(std::hypot(actual[0] - nominal[0], actual[1] - nominal[1]), 1e-3);
+}
+
+class ForeignTables : public MachineCommand {
+ protected:
+  /// {value of EXX at X = 50, of EAC at C = 45, of C0C}, mm and rad.
+  std::vector<double> values(const std::string& name) {
+    const CommandStreams done = command("errors " + machine + "--errors " + name +
+                                        " --sign moving_part --at X=50,C=45 --json v.json");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    const nlohmann::json json = result("v.json");
+    const double rad = std::acos(-1.0) / 180;
+    return {json["component"]["EXX"]["value"],
+            json["component"]["EAC"]["value"].get<double>() * rad,
+            json["location"]["C0C"]["value"].get<double>() * rad};
+  }
+  void expect_values(const std::string& name) {
+    const std::vector<double> wanted{0.002, 4.5e-5, 1.25e-5}, got = values(name);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-15) << name << i;
+  }
+};
+
+TEST_F(ForeignTables, AreReadAsTheirMakersWriteThem) {
+  file("e.txt",
+       "// vendor\r\n[C0C]\r\nVALUE = 0.0000125\r\n[EXX]\r\nGridpoints = {\r\n   0.0 0.001 // a\r\n"
+       "   100.0 0.003\r\n}  // end of EXX\r\n[EAC]\r\nGridpoints = {\r\n0 0\r\n90 9e-5 }\r\n");
+  expect_values("e.txt");
+  file("e.csv",
+       "// location\nC0C X0C\n0.0000125 0.1\n#\nX\tEXX\tEYX\n0.0\t0.001\t0\n100.0\t0.003\t1\n"
+       "# next\nC;EAC\n0;0\n90;9e-5\n");
+  expect_values("e.csv");
+}
+
+TEST_F(ForeignTables, RefuseWhatIsWrong) {
+  file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n");
+  const std::string pose = "pose " + machine + "q.csv --sign moving_part --errors ";
+  file("e.txt",
+       "VALUE = 1\n[EXQ]\nVALUE = 1\n[EXX]\n[Y0X]\nVALUE = 1\n[X0C]\nGridpoints = {\n1 2\n0 1\n}\n"
+       "[EYX]\nGridpoints = {\n1 2 3\n");
+  expect_all(
+      pose + "e.txt",
+      {"e.txt:1: stands in no block", "e.txt:2: the block [EXQ] is \"EXQ\", which is no error",
+       "e.txt:4: a block without", "e.txt:6: Y0X has no effect", "e.txt:8: X0C has a VALUE",
+       "e.txt:10: arguments must ascend", "e.txt:14: \"1 2 3\" is no row", "is not closed"});
+  file("e.csv",
+       "X Z EXX\n0 0 1\n1 0\n#\nX EYY\n0 1\n1 1\n#\nX0C EXX\n1 2\n3 4\n#\nB EXB\n2 1\n1 1\n");
+  expect_all(pose + "e.csv",
+             {"e.csv:1: Z is a second argument", "e.csv:3: is no row of 3 numbers",
+              "e.csv:5: EYY is no function of X", "e.csv:9: has no axis as its first column",
+              "e.csv:13: B is no axis of the machine", "e.csv:15: the argument must ascend"});
+}
+
+TEST_F(ForeignTables, NeedLimitsAndASign) {
+  const std::string tables = " --errors " + data + "trunnion_ac_errors.toml --format isg -o t.csv";
+  EXPECT_EQ(command("errors " + machine + tables).exit_code, 2);
+  std::string free = read_text(data + "trunnion_ac.toml");
+  free.erase(free.find("limits_mm"), std::string("limits_mm = [-400, 400]").size());
+  file("free.toml", free);
+  expect_input_error("errors free.toml --output-sign moving_part" + tables, "X needs limits_mm");
+}
+
+TEST_F(MachineCommand, NeverWritesOverWhatItReads) {
+  file("m.toml", read_text(data + "trunnion_ac.toml"));
+  file("q.csv", "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n0,0,0,0,0\n");
+  expect_input_error("pose m.toml q.csv -o q.csv --force", "is an input of this command");
+  expect_input_error("errors m.toml --json m.toml --force", "is an input of this command");
+  file("mine.csv", "my own table\n");
+  EXPECT_EQ(command("pose m.toml q.csv -o mine.csv").exit_code, 3);
+  EXPECT_EQ(read_text(folder_ / "mine.csv"), "my own table\n");
+}
+
 const char* const minimal =
     "schema = \"trueaxis.machine/1\"\nchain = \"w C' A' Y' b X Z t\"\n[program]\nmode = \"axes\"\n";
 

@@ -182,6 +182,45 @@ TEST(MachineCompensationLaw, DifferentialIsProportionalAndAQuarterIsLeft) {
   }
 }
 
+// Six axes: of all rotary positions with this direction the result has the least rotary change. The
+// way along which the direction stays is the null space of the three rotary screws across it, by
+// the nominal Jacobian; the change has next to nothing along it (errors turn it by 1e-4).
+TEST(MachineCompensationLaw, OfSixAxesTheLeastRotaryChange) {
+  int seen = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Bench bench(layouts().back(), seed);
+    const MachineModel model(bench.machine, bench.errors);
+    const AxisPositions q = bench.draw.positions(bench.machine);
+    const CompensatedPosition result = compensate_exactly(model, q, bench.setting);
+    if (result.status != CompensationStatus::compensated) continue;
+    const ToolJacobian J = model.jacobian(q, bench.setting);
+    const Vector3 d = model.nominal(q, bench.setting).direction;
+    // Of w with Σ wᵢ (ωᵢ × d) = 0: wᵢ = (ωⱼ × d) × (ωₖ × d) · d, since all lie across d.
+    const auto across = [&](std::size_t i) {
+      const Vector3& w = J[i].rotation_rad;
+      return Vector3{w[1] * d[2] - w[2] * d[1], w[2] * d[0] - w[0] * d[2],
+                     w[0] * d[1] - w[1] * d[0]};
+    };
+    const auto triple = [&](const Vector3& a, const Vector3& b) {
+      return (a[1] * b[2] - a[2] * b[1]) * d[0] + (a[2] * b[0] - a[0] * b[2]) * d[1] +
+             (a[0] * b[1] - a[1] * b[0]) * d[2];
+    };
+    const Vector3 free{triple(across(4), across(5)), triple(across(5), across(3)),
+                       triple(across(3), across(4))};
+    const double length = std::hypot(free[0], free[1], free[2]);
+    if (length < 0.1) continue;
+    double along = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double change = result.axes[3 + i] - q[3 + i];
+      along += change * free[i] / length;
+      size += change * change;
+    }
+    EXPECT_LT(std::fabs(along), 0.01 * std::sqrt(size)) << bench.said << literal(q);
+    ++seen;
+  }
+  EXPECT_GT(seen, 20);
+}
+
 TEST(MachineCompensationLaw, SaysWhichAxisLeavesItsLimits) {
   Bench bench(layouts()[0], 1);
   AxisPositions q = bench.draw.positions(bench.machine);
