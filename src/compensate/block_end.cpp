@@ -84,7 +84,9 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   }
   const ToolPose after = task.model.actual(end.written, setting);
   take(tally.sums.after, after, target, line);
-  take(tally.sums.rounding, after, task.model.actual(position.axes, setting), line);
+  const bool there = position.tip_left_mm < 1e-11 && position.direction_left_rad < 1e-13;
+  take(tally.sums.rounding, after, there ? target : task.model.actual(position.axes, setting),
+       line);
   take(tally.sums.about_tool_axis, position.about_tool_axis_rad, line);
   return end;
 }

@@ -82,8 +82,7 @@ class Reader {
       if (block_.word('T') == nullptr) complain(*change, "M6 without T: say which tool");
       return;
     }
-    if (selected_ > 0 && !options_.tools.empty() &&
-        std::ranges::find(options_.tools, selected_) == options_.tools.end())
+    if (selected_ > 0 && !options_.tools.empty() && !has_length(selected_))
       complain(*change, "tool " + std::to_string(selected_) +
                             " has no length in [tools] of the machine: add it there");
     if (selected_ != state_.tool && state_.length != LengthOffset::none) {
@@ -139,11 +138,13 @@ class Reader {
       if (on) complain(word, "H0 takes no length: write G49");
       return;
     }
-    if (state_.tool > 0 && number != state_.tool)
-      complain(word, "H" + std::to_string(number) + " while tool " + std::to_string(state_.tool) +
-                         " is in the spindle: lengths are those of the tools");
-    if (state_.tool == 0 && !options_.tools.empty())
-      complain(word, "H" + std::to_string(number) + " and no tool was put in by T M6 before");
+    if (number == state_.tool || !has_length(number)) return;
+    complain(word, "H" + std::to_string(number) + " is the length of a tool that is not in the " +
+                       "spindle: put it in by T" + std::to_string(number) + " M6");
+  }
+
+  bool has_length(int tool) const {
+    return std::ranges::find(options_.tools, tool) != options_.tools.end();
   }
 
   void take_axes() {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/nc_programs.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -170,6 +171,32 @@ TEST_F(CompensateCommand, RanksTheErrors) {
   EXPECT_NEAR(tip.at("A0S"), 120.0 * 2.0 * std::sin(10e-6), 1e-12);
 }
 
+TEST_F(CompensateCommand, StatesUOfTheTipWhereTheErrorsHaveU) {
+  file("e.toml",
+       "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n[[error]]\nname = \"X0W\"\n"
+       "value_um = 100\nu_um = 3\n[[error]]\nname = \"A0S\"\nvalue_urad = -20\nu_urad = 10\n");
+  const CommandStreams done =
+      compensate("p.nc", hole, "--machine " + machine + " --errors e.toml -o out.nc --json r.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  // 3 um along X, and 10 urad at the 120 mm from the gauge point to the tip; k = 2.
+  EXPECT_NEAR(value(result("r.json").at("U")), 2.0 * std::hypot(3e-3, 240.0 * std::sin(5e-6)),
+              1e-12);
+  EXPECT_EQ(result("r.json").at("U").at("line"), 1);
+}
+
+TEST_F(CompensateCommand, PrintsWhatTheDocumentationShows) {
+  const std::string page = read_text(fs::path(TRUEAXIS_SOURCE) / "docs/nc.md");
+  const std::string start = "```console\n$ trueaxis ";
+  const std::size_t begin = page.find(start), end = page.find("```", begin + start.size());
+  ASSERT_NE(begin, std::string::npos);
+  const std::string block = page.substr(begin + start.size(), end - begin - start.size());
+  fs::create_directory_symlink(fs::path(TRUEAXIS_SOURCE) / "data", folder_ / "data");
+  fs::create_directory(folder_ / "build");
+  const CommandStreams done = command(first_line(block));
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_EQ(done.out, block.substr(block.find('\n') + 1));
+}
+
 /// The calls of LinuxCNC's interpreter: line numbers of the program and names, and the moves.
 std::vector<std::string> calls(const fs::path& folder, const std::string& program) {
   const auto done = shell("cd " + shell_word(folder) + " && rs274 -t tool.tbl -g " + program);
@@ -203,6 +230,25 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
     return list;
   };
   EXPECT_EQ(not_feeds(pieces), not_feeds(source));
+}
+
+TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfRandomPrograms) {
+  if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  constexpr std::uint64_t seed = 78;
+  std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+  ProgramMaker maker(seed);
+  file("tool.tbl", "T1 P1 Z120 D1\n");
+  // The numbers of these programs go further than the axes do.
+  file("m.toml", std::regex_replace(read_text(machine), std::regex("limits_[^\n]*"), ""));
+  for (int i = 0; i < 8; ++i) {
+    const CommandStreams done = compensate(
+        "p.nc", maker.next(25),
+        "--machine m.toml --errors " + data + "trunnion_ac_errors.toml -o out.nc --force");
+    ASSERT_EQ(done.exit_code, 0) << done.err << pasted(read_text(folder_ / "p.nc"));
+    const auto source = calls(folder_, "p.nc");
+    EXPECT_GT(source.size(), 10u);
+    EXPECT_EQ(calls(folder_, "out.nc"), source) << pasted(read_text(folder_ / "p.nc"));
+  }
 }
 
 TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {

@@ -260,6 +260,30 @@ TEST(CompensateProgramLaw, PiecesStayWithinTheTolerance) {
   }
 }
 
+// A block of half a turn, on which the curvature is anything but even.
+TEST(CompensateProgramLaw, PiecesOfLongBlocksStayWithinTheTolerance) {
+  for (const std::uint64_t seed : {11, 12, 13, 14, 15, 16}) {
+    Case one(layouts()[seed % 2], seed);
+    one.machine.work_offsets[0]->zero = {};
+    const AxisPositions a = one.draw.positions(one.machine), b = one.draw.positions(one.machine);
+    CompensationOptions options = fine();
+    options.tolerance_mm = 0.2;
+    const auto result =
+        compensate_program(MachineModel(one.machine, one.errors),
+                           block(one.machine, a) + block(one.machine, b), "p.nc", options);
+    ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+    const std::vector<AxisPositions> written = words_of(result.text);
+    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
+    double largest = 0.0;
+    for (std::size_t i = 1; i < written.size(); ++i)
+      for (int j = 0; j <= 40; ++j)
+        largest = std::max(
+            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    EXPECT_LT(largest, 1.03 * 0.2) << "seed " << seed;
+    EXPECT_GT(result.blocks_inserted, 10u);
+  }
+}
+
 TEST(CompensateProgramLaw, PiecesUnderInverseTimeTakeTheSameTime) {
   Case one(layouts()[0], 1);
   const AxisPositions a = one.draw.positions(one.machine);

@@ -39,12 +39,13 @@ class ProgramMaker {
     lower_ = one_in(4);
     end_ = one_in(3) ? "\r\n" : "\n";
     numbered_ = one_in(2);
-    std::string text = one_in(2) ? "%" + end_ : "";
+    const std::string tape = one_in(2) ? "%" + end_ : "";
+    std::string text = tape;
     if (one_in(2)) text += "O" + std::to_string(1 + pick(9999)) + " (NAME)" + end_;
     if (one_in(3)) text += block({"G21", "G90"});
-    text += block({"G0", "X1", "Y1", "Z1", "A1", "C1"});
+    text += block({"G0", "X1", "Y1", "Z1", "A1", "C1", "F500"});
     for (int i = 0; i < blocks; ++i) text += some_line(i);
-    text += "M30";
+    text += "M30" + (tape.empty() ? "" : end_ + "%");
     if (one_in(2)) text += end_;
     return text;
   }

@@ -66,8 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
                       RefusedCase{"X1 (open\n", "2:4"}, RefusedCase{"X1 /Y2\n", "2:4"},
                       RefusedCase{"X1 \xC3\x9C\n", "2:4"}, RefusedCase{"G4 P1 X5\n", "2:7"},
                       RefusedCase{"X1 E5\n", "2:4"}, RefusedCase{"M6\n", "2:1"},
-                      RefusedCase{"G43 H0\n", "2:5"}, RefusedCase{"T1 M6\nG43 H2\n", "3:5"},
-                      RefusedCase{"M3.5\n", "2:1"}));
+                      RefusedCase{"G43 H0\n", "2:5"}, RefusedCase{"M3.5\n", "2:1"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Positions, NcRefused,
@@ -88,6 +87,7 @@ TEST(NcReader, AxisWordsBeforeAMotionAndUnknownStart) {
   options.work_offsets[1] = false;
   options.tools = {1, 3};
   EXPECT_EQ(places("G54\nG55\nT2 M6\nT3 M6\nG43 H3\n", options), "2:1 3:4");
+  EXPECT_EQ(places("G43 H1\nT3 M6\nG43 H1\nG43 H23\n", options), "1:5 3:5");
 }
 
 TEST(NcReader, WordsInForceInMmAndRad) {
