@@ -4,6 +4,7 @@
 
 #include "support/chain_matrices.hpp"
 #include "support/command_fixture.hpp"
+#include "support/twelve_holes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
@@ -84,58 +85,13 @@ TEST_F(FixtureCommand, CovarianceAtALocatorIsThatOfItsTip) {
   EXPECT_NEAR(std::sqrt(variance), 1e-3, 5e-6);  // angles of 2 mrad
 }
 
-/// Positions of the axes at the ends of the G1 moves of holes.nc, and where its holes end.
-struct Holes {
-  std::string positions;
-  std::vector<Vector3> bottom, axis;
-};
-Holes twelve_holes() {
-  Holes holes;
-  std::istringstream program(read_text(TRUEAXIS_SOURCE "/data/five_axis/holes.nc"));
-  std::map<char, double> word;
-  holes.positions = "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n";
-  for (std::string line; std::getline(program, line);) {
-    if (line.compare(0, 2, "G0") != 0 && line.compare(0, 2, "G1") != 0) continue;
-    std::istringstream words(line.substr(3));
-    for (std::string one; words >> one;) word[one[0]] = std::stod(one.substr(1));
-    if (line[1] == '0') continue;
-    char row[200];  // zero of G54, and the tool's length on Z
-    std::snprintf(row, sizeof row, "%.17g,%.17g,%.17g,%.17g,%.17g\n", word['X'] - 60.0,
-                  word['Y'] - 45.0, word['Z'] - 380.0 + 130.0, word['A'], word['C']);
-    holes.positions += row;
-  }
-  for (int n = 0; n < 12; ++n) {
-    const double tilt = (30 + 10 * (n % 3)) * rad_per_deg, azimuth = (15 + 30 * n) * rad_per_deg;
-    const Vector3 axis{std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
-                       std::cos(tilt)};
-    holes.axis.push_back(axis);
-    holes.bottom.push_back({18.0 + 28.0 * (n % 4) - 12.0 * axis[0],
-                            17.0 + 28.0 * (n / 4) - 12.0 * axis[1], 60.0 - 12.0 * axis[2]});
-  }
-  return holes;
-}
-
-std::vector<std::vector<double>> rows_of(const std::string& csv) {
-  std::vector<std::vector<double>> rows;
-  std::istringstream in(csv);
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    rows.emplace_back();
-    std::istringstream fields(line);
-    for (std::string field; std::getline(fields, field, ',');)
-      rows.back().push_back(std::stod(field));
-  }
-  return rows;
-}
-
 // The program of the twelve holes is right for the machine without errors to its four and five
 // decimals (0.5 · 10⁻⁴ mm an axis, 5 · 10⁻⁶ deg at 130 mm); with the errors of `datum` the tool is
 // at D⁻¹ of it, up to 0.3 mm off.
 TEST_F(FixtureCommand, TwelveHolesAreOffByTheDatums) {
   ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
-  const Holes holes = twelve_holes();
-  file("p.csv", holes.positions);
+  const Holes holes = twelve_holes(read_text(of_data("holes.nc")));
+  file("p.csv", positions_csv(holes.at));
   const std::string pose = "pose " + of_data("zxacy.toml") + " p.csv";
   const auto nominal = rows_of(command(pose).out);
   const auto actual = rows_of(command(pose + " --errors E.toml").out);
@@ -163,7 +119,7 @@ TEST_F(FixtureCommand, TwelveHolesAreOffByTheDatums) {
 TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
   ASSERT_EQ(command("datum " + of_data("holes.toml") + " -o E.toml --json d.json").exit_code, 0);
   const Matrix4 D = by_errors(result("d.json"));
-  const Holes holes = twelve_holes();
+  const Holes holes = twelve_holes(read_text(of_data("holes.nc")));
   std::string targets = "x,y,z,i,j,k\n";
   for (std::size_t n = 0; n < 12; ++n) {
     const Vector3 tip = turned(D, holes.bottom[n]), axis = turned(D, holes.axis[n]);
@@ -175,14 +131,9 @@ TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
   file("t.csv", targets);
   const auto axes = rows_of(command("axes " + of_data("zxacy.toml") + " t.csv").out);
   ASSERT_EQ(axes.size(), 12U);
-  std::string positions = "X[mm],Y[mm],Z[mm],A[deg],C[deg]\n";
-  for (const auto& row : axes) {
-    char line[200];
-    std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g,%.17g\n", row[2], row[3], row[4],
-                  row[5], row[6]);
-    positions += line;
-  }
-  file("q.csv", positions);
+  std::vector<FiveAxes> positions;
+  for (const auto& row : axes) positions.push_back({row[2], row[3], row[4], row[5], row[6]});
+  file("q.csv", positions_csv(positions));
   const auto poses =
       rows_of(command("pose " + of_data("zxacy.toml") + " q.csv --errors E.toml").out);
   ASSERT_EQ(poses.size(), 12U);
