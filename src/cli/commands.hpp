@@ -17,6 +17,7 @@ void add_plan(CLI::App& app, int& exit_code);
 void add_spindle(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_pose(CLI::App& app, int& exit_code);
 void add_axes(CLI::App& app, int& exit_code);
 void add_machine(CLI::App& app, int& exit_code);
