@@ -2,10 +2,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "calibrate/read_out.hpp"
-#include "calibrate/solve.hpp"
+#include "calibrate/tip_fit.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
@@ -132,21 +131,24 @@ void estimate_noise(std::span<const MachineMeasurement> data, const Solution& so
   }
 }
 
-void from_tips(const Machine& machine, std::span<const MachineMeasurement> data,
-               const CalibrationOptions& options, Calibration& out) {
-  Problem problem = make_problem(machine, data, out.errors);
-  if (problem.rows.empty()) return;
-  std::vector<Unknown> unknowns =
-      location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
+}  // namespace
+
+std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMeasurement> data,
+                               const CalibrationOptions& options, bool array_errors,
+                               Calibration& out) {
+  TipFit fit{make_problem(machine, data, out.errors), {}, {}, out.errors};
+  Problem& problem = fit.problem;
+  if (problem.rows.empty()) return std::nullopt;
+  fit.unknowns = location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
   for (const MachineMeasurement& file : data)
-    if (file.kind == MeasurementKind::array)
-      add_array_unknowns(file, options.largest_length_mm, unknowns);
-  const ErrorModel given = out.errors;
-  Solution solution = solve(problem, given, unknowns);
-  if (!problem.noise_stated && solution.freedom > 0.0) {
-    estimate_noise(data, solution, problem);
-    solution = solve(problem, given, unknowns);
+    if (array_errors && file.kind == MeasurementKind::array)
+      add_array_unknowns(file, options.largest_length_mm, fit.unknowns);
+  fit.solution = solve(problem, fit.given, fit.unknowns);
+  if (!problem.noise_stated && fit.solution.freedom > 0.0) {
+    estimate_noise(data, fit.solution, problem);
+    fit.solution = solve(problem, fit.given, fit.unknowns);
   }
+  const Solution& solution = fit.solution;
   out.converged = solution.converged;
   out.message = solution.message;
   if (!(solution.freedom > 0.0))
@@ -154,23 +156,21 @@ void from_tips(const Machine& machine, std::span<const MachineMeasurement> data,
                                               " numbers for " +
                                               std::to_string(solution.jacobian.cols()) +
                                               " unknowns: measure more positions");
-  describe(problem, unknowns, solution, out);
+  describe(problem, fit.unknowns, solution, out);
   place_balls(problem, solution.places, out);
   out.equations = static_cast<std::size_t>(problem.equations);
   out.unknowns = static_cast<std::size_t>(solution.jacobian.cols());
   const VectorXd sigma = problem.weights.cwiseInverse();
   out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
-  out.rms_before_mm = rms_mm(problem, problem.residuals(given, best_places(problem, given)));
+  out.rms_before_mm =
+      rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
   out.noise_mm = std::sqrt((out.noise_source == "stated" ? 1.0 : solution.variance) *
                            sigma.squaredNorm() / static_cast<double>(sigma.size()));
+  return fit;
 }
 
-}  // namespace
-}  // namespace calibrate_detail
-
-Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
-                      const CalibrationOptions& options) {
-  using namespace calibrate_detail;
+Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
+                         const CalibrationOptions& options) {
   expects(!data.empty(), "a measurement");
   Calibration out;
   out.converged = true;
@@ -180,7 +180,15 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
     out.input_hashes.push_back(file.input_hash);
   }
   from_read_outs(machine, data, options, out);
-  from_tips(machine, data, options, out);
+  return out;
+}
+
+}  // namespace calibrate_detail
+
+Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
+                      const CalibrationOptions& options) {
+  Calibration out = calibrate_detail::of_read_outs(machine, data, options);
+  calibrate_detail::fit_tips(machine, data, options, true, out);
   return out;
 }
 

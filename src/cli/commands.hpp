@@ -20,6 +20,7 @@ void add_datum(CLI::App& app, int& exit_code);
 void add_axis_bias(CLI::App& app, int& exit_code);
 void add_compensate(CLI::App& app, int& exit_code);
 void add_effects(CLI::App& app, int& exit_code);
+void add_calibrate(CLI::App& app, int& exit_code);
 void add_pose(CLI::App& app, int& exit_code);
 void add_axes(CLI::App& app, int& exit_code);
 void add_machine(CLI::App& app, int& exit_code);

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trueaxis/calibration.hpp"
+
+/// What the model of a machine gets wrong, from measurements of balls, bars and arrays
+/// (docs/calibration.md). Effects have names such as EXC.harmonic2, reversal.Y, drift.Z, ball.slip.
+namespace trueaxis {
+
+/// An effect that explains a finding as well, or nearly.
+struct MachineRival {
+  std::string effect;
+  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
+  double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
+  double probability = 0.0;       ///< among the class
+};
+
+struct MachineFinding {
+  std::string effect;                           ///< of the best explanation
+  std::vector<MachineRival> rivals;             ///< the rest of its class, the most probable first
+  std::vector<CalibratedParameter> parameters;  ///< cos and sin, legendre, x y z …; mm or rad
+  std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
+  double size = 0.0;              ///< amplitude, mm or rad
+  double p_value = 1.0;           ///< family-wise
+  double probability = 0.0;       ///< of the named effect in its class
+  double rms_mm = 0.0;            ///< of what it does to the readings beside what is always fitted
+  std::string separate_with;      ///< plan that tells the class apart best; empty: none is needed
+
+  std::vector<std::string> members() const;  ///< the class, the named one first
+};
+
+struct MachineUnexplained {
+  std::string pattern;  ///< in words
+  Estimate amplitude;   ///< mm
+  double p_value = 1.0;
+};
+
+struct MachineNotObservable {
+  std::string effect;
+  std::string why;
+  std::optional<double> detectable;  ///< size found with power ½; none: no size
+  std::string unit;                  ///< mm or rad
+  std::vector<std::string> plans;    ///< those after which it is seen
+};
+
+/// A further measurement and what it would show.
+struct MachinePlan {
+  std::string code;  ///< RV, L2, B2, AC
+  std::string what;
+  double minutes = 0.0;
+  std::vector<std::string> shows;      ///< effects that are not observable without it
+  std::vector<std::string> separates;  ///< findings whose class it tells apart
+};
+
+struct HeldOut {
+  double value_mm = 0.0, low_mm = 0.0, high_mm = 0.0;  ///< RMS, interval of about 95 %
+};
+
+enum class MachineVerdict { ideal, effects, unexplained };
+const char* to_string(MachineVerdict verdict);
+
+struct MachineDiagnosis {
+  MachineVerdict verdict = MachineVerdict::ideal;
+  Calibration baseline;                       ///< what is always fitted
+  std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
+  ErrorModel errors;                          ///< given, always fitted and found together
+  std::vector<MachineFinding> findings;       ///< the most significant first
+  std::vector<MachineUnexplained> unexplained;
+  std::vector<MachineNotObservable> not_observable;
+  std::vector<MachinePlan> plans;
+  std::string next_plan;  ///< that shows and separates most a minute; empty: none is needed
+  double noise_mm = 0.0;  ///< σ of one number as the residuals show it
+  double rms_before_mm = 0.0, rms_after_mm = 0.0;
+  HeldOut held_out_before, held_out_after;
+  std::size_t blocks = 0;  ///< of rotary positions, left out in turn
+  std::size_t hypotheses = 0;
+  double false_alarm = 0.01, threshold = 0.0;  ///< p of one test that is a finding
+};
+
+struct MachineDiagnoseOptions {
+  CalibrationOptions calibration;
+  double false_alarm = 0.01;  ///< per measurement, over all hypotheses
+  std::size_t max_findings = 6;
+  double typical_length_mm = 0.01, typical_angle_rad = 50e-6;  ///< that must be seen
+};
+
+/// Every effect is tested beside what is always fitted (places, location errors): an exact F test
+/// with Bonferroni's correction (Eqs. 178-183). @throws InputError as `calibrate`
+MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const MachineMeasurement> data,
+                                  const MachineDiagnoseOptions& options = {});
+
+}  // namespace trueaxis

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/calibration.hpp"
+
+namespace trueaxis {
+
+/// Schema trueaxis.calibration/1: lengths in mm, angles in degrees, each with its unit.
+std::string calibration_json(const Calibration& calibration, const Machine& machine);
+
+/// For a terminal: µm and µrad.
+std::string calibration_text(const Calibration& calibration);
+
+}  // namespace trueaxis

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "calibrate/files/calibration_files.hpp"
+#include "calibrate/files/edge_json.hpp"
+
+namespace trueaxis {
+namespace {
+
+Json covariance_json(const Calibration& c) {
+  Json names = Json::array(), rows = Json::array();
+  const std::size_t n = c.parameters.size();
+  const auto factor = [&](std::size_t i) {
+    return c.parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    names.push_back(c.parameters[i].name);
+    Json row = Json::array();
+    for (std::size_t j = 0; j < n; ++j)
+      row.push_back(number(factor(i) * factor(j) * c.covariance[i * n + j]));
+    rows.push_back(std::move(row));
+  }
+  return {{"parameters", names}, {"unit", "mm and deg"}, {"matrix", rows}};
+}
+
+Json ball_json(const PlacedBall& ball, const Calibration& c) {
+  Json json{{"file", c.sources[ball.file]}, {"setup", ball.setup}};
+  if (ball.ball != 0) json["ball"] = ball.ball;
+  json["centre"] = {{"value", ball.centre_mm}, {"unit", "mm"}};
+  if (ball.ball == 0) json["direction"] = ball.direction;
+  return json;
+}
+
+Json read_out_json(const AxisReadOut& one) {
+  const bool rotary = is_rotary(one.axis);
+  const double factor = rotary ? 1.0 / rad_per_deg : 1.0;
+  const char* const unit = rotary ? "deg" : "mm";
+  Json orders = Json::array(), polynomial = Json::array();
+  for (const AxisReadOut::Order& order : one.orders)
+    orders.push_back({{"order", order.order},
+                      {"amplitude", with_unit(factor * order.amplitude(), unit)},
+                      {"cos", edge(order.cos)},
+                      {"sin", edge(order.sin)}});
+  for (const Estimate& coefficient : one.polynomial) polynomial.push_back(edge(coefficient));
+  return {{"axis", std::string(1, letter_of(one.axis))},
+          {"readings", one.readings},
+          {"range", {{"low", factor * one.low}, {"high", factor * one.high}, {"unit", unit}}},
+          {"period", one.period > 0.0 ? with_unit(factor * one.period, unit) : Json(nullptr)},
+          {"orders", orders},
+          {"legendre", polynomial},
+          {"rms_before", with_unit(factor * one.rms_before, unit)},
+          {"rms_after", with_unit(factor * one.rms_after, unit)}};
+}
+
+}  // namespace
+
+std::string calibration_json(const Calibration& c, const Machine& machine) {
+  Json balls = Json::array(), read_outs = Json::array();
+  for (const PlacedBall& ball : c.balls) balls.push_back(ball_json(ball, c));
+  for (const AxisReadOut& one : c.read_outs) read_outs.push_back(read_out_json(one));
+  return json_text(
+      {{"schema", "trueaxis.calibration/1"},
+       {"version", TRUEAXIS_VERSION},
+       {"machine", machine.name},
+       {"inputs", inputs_json(c)},
+       {"converged", c.converged},
+       {"parameters", parameters_json(c.parameters)},
+       {"not_determined", not_determined_json(c)},
+       {"gauge", c.gauge},
+       {"covariance", covariance_json(c)},
+       {"balls", balls},
+       {"equations", c.equations},
+       {"unknowns", c.unknowns},
+       {"rms",
+        {{"before", with_unit(c.rms_before_mm, "mm")}, {"after", with_unit(c.rms_after_mm, "mm")}}},
+       {"noise", {{"sigma", with_unit(c.noise_mm, "mm")}, {"source", c.noise_source}}},
+       {"read_outs", read_outs}});
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "calibrate/files/calibration_files.hpp"
+#include "format/text_layout.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string unit_of(const Estimate& estimate) { return estimate.unit == "rad" ? "µrad" : "µm"; }
+
+double small_factor(const Estimate& estimate) { return estimate.unit == "rad" ? 1e6 : 1e3; }
+
+std::string parameter_line(const CalibratedParameter& one) {
+  const double factor = small_factor(one.estimate);
+  const double U = 2.0 * factor * one.estimate.u;
+  const int decimals = decimals_of(U, 1);
+  return fmt::format("  {:<12}{:>12.{}f} ± {:<10.{}f} {}\n", one.name, factor * one.estimate.value,
+                     decimals, U, decimals, unit_of(one.estimate));
+}
+
+std::string read_out_text(const AxisReadOut& one) {
+  const bool rotary = is_rotary(one.axis);
+  const double factor = rotary ? 1e6 : 1e3;
+  const char* const unit = rotary ? "µrad" : "µm";
+  std::string text =
+      fmt::format("axis {}: {} readings, RMS {:.3g} -> {:.3g} {}\n", letter_of(one.axis),
+                  one.readings, factor * one.rms_before, factor * one.rms_after, unit);
+  if (one.period > 0.0)
+    text += fmt::format("  periodic in {:.6g} {}:", rotary ? one.period / rad_per_deg : one.period,
+                        rotary ? "deg" : "mm");
+  for (const AxisReadOut::Order& order : one.orders)
+    text += fmt::format(" {}: {:.3g}", order.order, factor * order.amplitude());
+  return text + (one.period > 0.0 ? fmt::format(" {} (order: amplitude)\n", unit) : "");
+}
+
+}  // namespace
+
+std::string calibration_text(const Calibration& c) {
+  std::string text;
+  for (const AxisReadOut& one : c.read_outs) text += read_out_text(one);
+  if (c.equations > 0)
+    text += fmt::format("{} numbers, {} unknowns: RMS {} -> {}, noise {} ({})\n", c.equations,
+                        c.unknowns, layout::um(c.rms_before_mm), layout::um(c.rms_after_mm),
+                        layout::um(c.noise_mm), c.noise_source);
+  if (!c.parameters.empty()) text += "parameters ± U (k = 2)\n";
+  for (const CalibratedParameter& one : c.parameters) text += parameter_line(one);
+  if (!c.not_determined.empty()) text += "not determined\n";
+  for (const NotDetermined& one : c.not_determined) text += layout::wrapped("  ", one.why) + "\n";
+  if (!c.gauge.empty()) text += layout::wrapped("", c.gauge) + "\n";
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/files/edge_json.hpp"
+#include "calibrate/files/machine_diagnosis_files.hpp"
+
+namespace trueaxis {
+namespace {
+
+template <class T, class Write>
+Json list_of(const std::vector<T>& items, const Write& write) {
+  Json list = Json::array();
+  for (const T& item : items) list.push_back(write(item));
+  return list;
+}
+
+Json rival_json(const MachineRival& rival) {
+  return {{"effect", rival.effect},
+          {"distance", number(rival.distance)},
+          {"likelihood_ratio", number(rival.likelihood_ratio)},
+          {"probability", number(rival.probability)}};
+}
+
+Json finding_json(const MachineFinding& finding) {
+  const std::string unit = finding.parameters.front().estimate.unit;
+  return {{"effect", finding.effect},
+          {"class", finding.members()},
+          {"parameters", parameters_json(finding.parameters)},
+          {"size", edge_size(finding.size, unit)},
+          {"p_value", number(finding.p_value)},
+          {"probability", number(finding.probability)},
+          {"rms", with_unit(finding.rms_mm, "mm")},
+          {"rivals", list_of(finding.rivals, rival_json)},
+          {"separate_with",
+           finding.separate_with.empty() ? Json(nullptr) : Json(finding.separate_with)}};
+}
+
+Json unexplained_json(const MachineUnexplained& one) {
+  return {{"pattern", one.pattern},
+          {"amplitude", edge(one.amplitude)},
+          {"p_value", number(one.p_value)}};
+}
+
+Json not_observable_json(const MachineNotObservable& one) {
+  Json detectable;
+  if (one.detectable)
+    detectable = edge_size(*one.detectable, one.unit);
+  else
+    detectable = {{"value", nullptr}, {"why", "no size of it would be found"}};
+  return {{"effect", one.effect},
+          {"why", one.why},
+          {"detectable", detectable},
+          {"separate_with", one.plans}};
+}
+
+Json plan_json(const MachinePlan& plan) {
+  return {{"plan", plan.code},
+          {"what", plan.what},
+          {"minutes", number(plan.minutes)},
+          {"shows", plan.shows},
+          {"separates", plan.separates}};
+}
+
+Json held_out_json(const HeldOut& rms) {
+  return {{"value", number(rms.value_mm)},
+          {"low", number(rms.low_mm)},
+          {"high", number(rms.high_mm)},
+          {"unit", "mm"}};
+}
+
+Json next_json(const MachineDiagnosis& d) {
+  for (const MachinePlan& plan : d.plans)
+    if (plan.code == d.next_plan) return plan_json(plan);
+  return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
+}
+
+Json baseline_json(const Calibration& c) {
+  return {{"converged", c.converged},
+          {"parameters", parameters_json(c.parameters)},
+          {"not_determined", not_determined_json(c)},
+          {"gauge", c.gauge},
+          {"equations", c.equations},
+          {"unknowns", c.unknowns}};
+}
+
+}  // namespace
+
+std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& machine) {
+  return json_text(
+      {{"schema", "trueaxis.machine_diagnosis/1"},
+       {"version", TRUEAXIS_VERSION},
+       {"machine", machine.name},
+       {"inputs", inputs_json(d.baseline)},
+       {"verdict", to_string(d.verdict)},
+       {"baseline", baseline_json(d.baseline)},
+       {"extended", {{"parameters", parameters_json(d.extended)}}},
+       {"findings", list_of(d.findings, finding_json)},
+       {"unexplained", list_of(d.unexplained, unexplained_json)},
+       {"not_observable", list_of(d.not_observable, not_observable_json)},
+       {"noise",
+        {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
+       {"gain",
+        {{"rms_before", with_unit(d.rms_before_mm, "mm")},
+         {"rms_after", with_unit(d.rms_after_mm, "mm")},
+         {"held_out_rms_before", held_out_json(d.held_out_before)},
+         {"held_out_rms_after", held_out_json(d.held_out_after)},
+         {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
+       {"next_measurement", next_json(d)},
+       {"plans", list_of(d.plans, plan_json)},
+       {"false_alarm", number(d.false_alarm)},
+       {"hypotheses", d.hypotheses},
+       {"threshold", number(d.threshold)}});
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+
+#include "calibrate/files/machine_diagnosis_files.hpp"
+#include "format/text_layout.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string size_text(double size, const std::string& unit) {
+  return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size)
+                       : fmt::format("{:.3g} µm", 1e3 * size);
+}
+
+std::string finding_text(const MachineFinding& finding) {
+  const std::string& unit = finding.parameters.front().estimate.unit;
+  std::string text =
+      fmt::format("{}: {}, {} in the readings (p {:.2g})\n", finding.effect,
+                  size_text(finding.size, unit), layout::um(finding.rms_mm), finding.p_value);
+  if (finding.rivals.empty()) return text;
+  std::string rivals;
+  for (const MachineRival& rival : finding.rivals)
+    rivals += (rivals.empty() ? "" : ", ") + rival.effect + " (" +
+              layout::probability(rival.probability) + ")";
+  text += layout::wrapped("  not told from ", rivals) + "\n";
+  text += finding.separate_with.empty() ? "  none of the plans tells them apart\n"
+                                        : "  plan " + finding.separate_with + " tells them apart\n";
+  return text;
+}
+
+/// Effects that share their reason and their plans, in one line.
+std::string not_observable_text(const MachineDiagnosis& d) {
+  std::map<std::pair<std::string, std::vector<std::string>>, std::vector<std::string>> alike;
+  for (const MachineNotObservable& one : d.not_observable)
+    alike[{one.why, one.plans}].push_back(one.effect);
+  std::string text;
+  for (const auto& [why, effects] : alike)
+    text += layout::wrapped(
+                "  ", fmt::format("{}: {}; {}", fmt::join(effects, " "), why.first,
+                                  why.second.empty()
+                                      ? "none of the plans shows them"
+                                      : fmt::format("shown by {}", fmt::join(why.second, ", ")))) +
+            "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string machine_diagnosis_text(const MachineDiagnosis& d) {
+  std::string text =
+      d.verdict == MachineVerdict::ideal     ? "nothing beside the location errors was found\n"
+      : d.verdict == MachineVerdict::effects ? "beside the location errors:\n"
+                                             : "beside the location errors, in part unexplained:\n";
+  for (const MachineFinding& finding : d.findings) text += finding_text(finding);
+  for (const MachineUnexplained& one : d.unexplained)
+    text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
+                        layout::um(one.amplitude.value), one.p_value);
+  text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
+                      layout::um(d.rms_before_mm), layout::um(d.rms_after_mm),
+                      layout::um(d.held_out_before.value_mm), layout::um(d.held_out_after.value_mm),
+                      d.blocks);
+  if (!d.not_observable.empty()) text += "not seen at these positions\n" + not_observable_text(d);
+  for (const MachinePlan& plan : d.plans)
+    if (plan.code == d.next_plan)
+      text += fmt::format("next: {}, {} ({:.0f} min)\n", plan.code, plan.what, plan.minutes);
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class CalibrateCommand : public CommandTest {
+ protected:
+  static std::string data(const std::string& name) {
+    return std::string(TRUEAXIS_SOURCE) + "/data/five_axis/" + name;
+  }
+  std::string machine_ = data("trunnion_ac.toml"), ball_ = data("trunnion_ac_ball.csv");
+};
+
+// The example was made with Z0A 31 µm, B0C 60 and C0A −45 µrad; U is printed in degrees.
+TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
+  const auto done =
+      command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json json = result("c.json");
+  EXPECT_EQ(json["schema"], "trueaxis.calibration/1");
+  const nlohmann::json& parameters = json["parameters"];
+  EXPECT_EQ(parameters["Z0A"]["unit"], "mm");
+  EXPECT_EQ(parameters["B0C"]["unit"], "deg");
+  EXPECT_NEAR(parameters["B0C"]["value"].get<double>(), 60e-6 * 180.0 / 3.14159265358979,
+              5.0 * parameters["B0C"]["u"].get<double>());
+  EXPECT_EQ(json["covariance"]["matrix"].size(), parameters.size());
+  EXPECT_FALSE(json["not_determined"].empty());
+  for (const auto& one : json["not_determined"]) EXPECT_FALSE(one["why"].get<std::string>().empty());
+  const auto pose = command("pose " + machine_ + ' ' + data("trunnion_ac_positions.csv") +
+                            " --errors e.toml");
+  EXPECT_EQ(pose.exit_code, 0) << pose.err;
+  const auto again = command("calibrate " + machine_ + ' ' + ball_ + " --errors e.toml -o f.toml");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+}
+
+// The same bytes come twice.
+TEST_F(CalibrateCommand, IsDeterministic) {
+  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json").exit_code, 0);
+  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o f.toml --json d.json").exit_code, 0);
+  EXPECT_EQ(read_text(folder_ / "e.toml"), read_text(folder_ / "f.toml"));
+  EXPECT_EQ(read_text(folder_ / "c.json"), read_text(folder_ / "d.json"));
+}
+
+// The example hides EXC of order 2, amplitude √(3² + 2²) = 3.6 µm.
+TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
+  const auto done = command("diagnose " + ball_ + " --machine " + machine_ + " --json d.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json json = result("d.json");
+  EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/1");
+  EXPECT_EQ(json["verdict"], "effects");
+  ASSERT_EQ(json["findings"].size(), 1U) << json["findings"].dump(1);
+  const nlohmann::json& finding = json["findings"][0];
+  EXPECT_EQ(finding["effect"], "EXC.harmonic2");
+  EXPECT_NEAR(finding["parameters"]["cos"]["value"].get<double>(), 3e-3,
+              4.0 * finding["parameters"]["cos"]["u"].get<double>());
+  EXPECT_NEAR(finding["parameters"]["sin"]["value"].get<double>(), -2e-3,
+              4.0 * finding["parameters"]["sin"]["u"].get<double>());
+  EXPECT_LT(json["gain"]["held_out_rms_after"]["value"], json["gain"]["held_out_rms_before"]["value"]);
+  EXPECT_TRUE(contains(done.out, "EXC.harmonic2"));
+}
+
+TEST_F(CalibrateCommand, ReadOutOfAnAxis) {
+  std::string text = "# kind: axis\n# axis: Z\ncommand[mm],actual[mm]\n";
+  for (int i = 0; i <= 400; ++i) {
+    const double z = 0.25 * i;
+    char line[80];
+    std::snprintf(line, sizeof line, "%.17g,%.17g\n", z,
+                  z + 0.01 * z / 100.0 + 0.003 * std::cos(2.0 * 3.14159265358979 * z / 4.0) +
+                      1e-5 * std::sin(37.0 * i));
+    text += line;
+  }
+  file("z.csv", text);
+  const auto done = command("calibrate " + machine_ + " z.csv -o e.toml --json c.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const nlohmann::json read_out = result("c.json")["read_outs"][0];
+  EXPECT_NEAR(read_out["period"]["value"].get<double>(), 4.0, 1e-3);
+  EXPECT_NEAR(read_out["orders"][0]["amplitude"]["value"].get<double>(), 3e-3, 5e-6);
+  EXPECT_TRUE(contains(read_text(folder_ / "e.toml"), "EZZ"));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
