@@ -267,7 +267,9 @@ void Outputs::remove_left_over(const Place& place) const {
     const bool is_read = std::ranges::any_of(inputs_, [&](const std::string& input) {
       return identity_of_input(input) == identity_of_output(path);
     });
-    const bool ours = entry.file_size(error) == 0 || schema_of_file(path) == place.schema;
+    // A result that says no schema is not known again: what is not empty may be the user's.
+    const bool ours = entry.file_size(error) == 0 ||
+                      (!place.schema.empty() && schema_of_file(path) == place.schema);
     if (is_read || !ours) continue;
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
     if (file < 0) continue;

@@ -138,6 +138,12 @@ TEST_F(CompensateCommand, ReplacesNoProgramUnasked) {
   EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.036035"));
 }
 
+TEST_F(CompensateCommand, LeavesFilesThatMayBeTheUsers) {
+  file("out.nc.part2", "(the second part of the user's own program)\n");
+  ASSERT_EQ(compensate("p.nc", hole, with_errors + "-o out.nc").exit_code, 0);
+  EXPECT_TRUE(there("out.nc.part2"));
+}
+
 TEST_F(CompensateCommand, CutsBlocksWithinATolerance) {
   const CommandStreams done =
       compensate("p.nc", "G1 X100. Y-50. Z30. A-35. C70. F500\nX110. C75.\n",

@@ -4,104 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <set>
-#include <sstream>
 
-#include "support/chain_matrices.hpp"
-#include "support/random_machine.hpp"
-#include "trueaxis/compensation.hpp"
+#include "support/program_case.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 constexpr std::uint64_t seeds = 6;
-constexpr const char* letters = "XYZABC";
-
-std::string block(const Machine& machine, const std::array<double, axis_count>& words) {
-  std::string text = "G1";
-  char number[64];
-  for (std::size_t k = 0; k < axis_count; ++k) {
-    if (machine.find(static_cast<AxisName>(k)) == nullptr) continue;
-    std::snprintf(number, sizeof number, " %c%.12f", letters[k],
-                  words[k] / (k < 3 ? 1.0 : rad_per_deg));
-    text += number;
-  }
-  return text + "\n";
-}
-
-/// The words of every line that has an axis word, those left out as before; mm and rad.
-std::vector<std::array<double, axis_count>> words_of(const std::string& text) {
-  std::vector<std::array<double, axis_count>> out;
-  std::istringstream lines(text);
-  std::array<double, axis_count> words{};
-  for (std::string line; std::getline(lines, line);) {
-    bool moves = false;
-    for (std::size_t k = 0; k < axis_count; ++k) {
-      const std::size_t at = line.find(letters[k]);
-      if (at == std::string::npos) continue;
-      words[k] = std::strtod(line.c_str() + at + 1, nullptr) * (k < 3 ? 1.0 : rad_per_deg);
-      moves = true;
-    }
-    if (moves) out.push_back(words);
-  }
-  return out;
-}
-
-CompensationOptions fine() {
-  CompensationOptions options;
-  options.decimals = options.angle_decimals = 12;
-  return options;
-}
-
-/// A machine of which some parts are turned into those of a program: mode, zeros.
-struct Case {
-  Case(const Layout& layout, std::uint64_t seed) : draw(seed), machine(draw.machine(layout)) {
-    for (double& zero : machine.work_offsets[0]->zero) zero = draw.between(-1.0, 1.0);
-    errors = draw.errors(machine, 0.02, 2e-4);
-    setting = first_setting(machine);
-  }
-  Vector3 nominal_tip(const AxisPositions& q) const {
-    return tip_of(ChainMatrices{machine, none}.tool_in_part(q, setting));
-  }
-
-  /// The axes to which a control takes a tip, by the nominal tip's being linear in X Y Z.
-  AxisPositions axes_of_tip(const std::array<double, axis_count>& words) const {
-    AxisPositions q{};
-    for (std::size_t k = 3; k < axis_count; ++k)
-      if (machine.find(static_cast<AxisName>(k)) != nullptr)
-        q[k] = words[k] + machine.work_offsets[0]->zero[k];
-    for (int round = 0; round < 2; ++round) {
-      const Vector3 at = nominal_tip(q);
-      double J[3][3], r[3];
-      for (std::size_t k = 0; k < 3; ++k) {
-        AxisPositions one = q;
-        one[k] += 1.0;
-        const Vector3 there = nominal_tip(one);
-        for (std::size_t i = 0; i < 3; ++i) J[i][k] = there[i] - at[i];
-        r[k] = words[k] - at[k];
-      }
-      const auto det = [](const double(&m)[3][3]) {
-        return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-      };
-      const double whole = det(J);
-      for (std::size_t k = 0; k < 3; ++k) {
-        double Jk[3][3];
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 3; ++j) Jk[i][j] = j == k ? r[i] : J[i][j];
-        q[k] += det(Jk) / whole;
-      }
-    }
-    return q;
-  }
-
-  Draw draw;
-  Machine machine;
-  ErrorModel errors, none;
-  Setting setting;
-};
 
 std::set<std::size_t> singular_lines(const ProgramCompensation& result) {
   std::set<std::size_t> lines;
@@ -109,7 +20,7 @@ std::set<std::size_t> singular_lines(const ProgramCompensation& result) {
   return lines;
 }
 
-void expect_where_it_shall_be(const Case& one, const std::vector<AxisPositions>& commanded,
+void expect_where_it_shall_be(const ProgramCase& one, const std::vector<AxisPositions>& commanded,
                               const std::vector<AxisPositions>& written,
                               const ProgramCompensation& result) {
   ASSERT_EQ(written.size(), commanded.size());
@@ -144,7 +55,7 @@ TEST(CompensateProgramLaw, AxesPutTheToolWhereItShallBe) {
   std::printf("seeds 1 to %d\n", static_cast<int>(seeds));
   for (const Layout& layout : spatial()) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-      Case one(layout, seed);
+      ProgramCase one(layout, seed);
       const bool with_length = seed % 2 == 0;
       const double along = seed % 4 == 0 ? 1.0 : -1.0;
       for (MachineAxis& axis : one.machine.axes)
@@ -174,7 +85,7 @@ TEST(CompensateProgramLaw, AxesPutTheToolWhereItShallBe) {
 TEST(CompensateProgramLaw, TipsPutTheToolWhereItShallBe) {
   for (const Layout& layout : spatial()) {
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-      Case one(layout, 100 + seed);
+      ProgramCase one(layout, 100 + seed);
       if (seed % 2 == 0) one.machine.mode = ProgramMode::tip;
       std::string text = seed % 2 == 0 ? "(tip)\n" : "G43.4 H1\n";
       const AxisPositions& zero = one.machine.work_offsets[0]->zero;
@@ -199,7 +110,7 @@ TEST(CompensateProgramLaw, TipsPutTheToolWhereItShallBe) {
 
 TEST(CompensateProgramLaw, WithoutErrorsNothingChanges) {
   for (const Layout& layout : layouts()) {
-    Case one(layout, 5);
+    ProgramCase one(layout, 5);
     std::string text;
     for (int i = 0; i < 20; ++i) text += block(one.machine, one.draw.positions(one.machine));
     const auto result = compensate_program(MachineModel(one.machine), text, "p.nc", {});
@@ -209,105 +120,9 @@ TEST(CompensateProgramLaw, WithoutErrorsNothingChanges) {
   }
 }
 
-/// Where a tip is, a part of the way along a block, in `axes`: every axis goes evenly.
-Vector3 on_the_way(const Case& one, const AxisPositions& from, const AxisPositions& to, double s) {
-  AxisPositions q;
-  for (std::size_t k = 0; k < axis_count; ++k) q[k] = from[k] + s * (to[k] - from[k]);
-  return tip_of(ChainMatrices{one.machine, one.errors}.tool_in_part(q, one.setting));
-}
-
-double from_line(const Vector3& p, const Vector3& a, const Vector3& b) {
-  Vector3 ab, ap;
-  double length = 0.0, along = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    ab[i] = b[i] - a[i], ap[i] = p[i] - a[i];
-    length += ab[i] * ab[i], along += ab[i] * ap[i];
-  }
-  const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
-  return std::hypot(ap[0] - s * ab[0], ap[1] - s * ab[1], ap[2] - s * ab[2]);
-}
-
-// The tip is asked at 40 points of every piece; between the quarters that the command looks at an
-// even curve rises by at most a third of a percent, a curve of the third degree by 3 %.
-TEST(CompensateProgramLaw, PiecesStayWithinTheTolerance) {
-  for (const std::uint64_t seed : {1, 2, 3, 4}) {
-    Case one(layouts()[0], seed);
-    one.machine.work_offsets[0]->zero = {};
-    const AxisPositions a = one.draw.positions(one.machine);
-    AxisPositions b = a;
-    for (std::size_t k : {0, 1, 2}) b[k] += one.draw.between(-20.0, 20.0);
-    for (std::size_t k : {3, 5}) b[k] += one.draw.between(-0.2, 0.2);
-    const std::string text = block(one.machine, a) + block(one.machine, b);
-    const MachineModel model(one.machine, one.errors);
-    CompensationOptions options = fine();
-    const auto whole = compensate_program(model, text, "p.nc", options);
-    options.tolerance_mm = 0.01;
-    const auto result = compensate_program(model, text, "p.nc", options);
-    const std::vector<AxisPositions> written = words_of(result.text);
-    ASSERT_EQ(written.size(), 2 + result.blocks_inserted);
-    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
-    double largest = 0.0;
-    for (std::size_t i = 1; i < written.size(); ++i)
-      for (int j = 0; j <= 40; ++j)
-        largest = std::max(
-            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
-    EXPECT_LT(largest, 1.03 * 0.01) << "seed " << seed;
-    EXPECT_LE(result.between_after.value, 0.01);
-    EXPECT_GT(result.blocks_inserted, 0u);
-    // An even curve that leaves d in one piece leaves d / n² in n.
-    const double asked = std::sqrt(whole.between_after.value / 0.01);
-    EXPECT_LE(static_cast<double>(result.blocks_inserted + 1), std::ceil(1.3 * asked)) << seed;
-  }
-}
-
-// A block of half a turn, on which the curvature is anything but even.
-TEST(CompensateProgramLaw, PiecesOfLongBlocksStayWithinTheTolerance) {
-  for (const std::uint64_t seed : {11, 12, 13, 14, 15, 16}) {
-    Case one(layouts()[seed % 2], seed);
-    one.machine.work_offsets[0]->zero = {};
-    const AxisPositions a = one.draw.positions(one.machine), b = one.draw.positions(one.machine);
-    CompensationOptions options = fine();
-    options.tolerance_mm = 0.2;
-    const auto result =
-        compensate_program(MachineModel(one.machine, one.errors),
-                           block(one.machine, a) + block(one.machine, b), "p.nc", options);
-    ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
-    const std::vector<AxisPositions> written = words_of(result.text);
-    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
-    double largest = 0.0;
-    for (std::size_t i = 1; i < written.size(); ++i)
-      for (int j = 0; j <= 40; ++j)
-        largest = std::max(
-            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
-    EXPECT_LT(largest, 1.03 * 0.2) << "seed " << seed;
-    EXPECT_GT(result.blocks_inserted, 10u);
-  }
-}
-
-TEST(CompensateProgramLaw, PiecesUnderInverseTimeTakeTheSameTime) {
-  Case one(layouts()[0], 1);
-  const AxisPositions a = one.draw.positions(one.machine);
-  AxisPositions b = a;
-  b[0] += 30.0, b[5] += 0.5;
-  std::string to_b = block(one.machine, b);
-  to_b.insert(to_b.size() - 1, " F3");
-  CompensationOptions options = fine();
-  options.tolerance_mm = 0.01;
-  const auto result = compensate_program(MachineModel(one.machine, one.errors),
-                                         "G93 F2 " + block(one.machine, a) + to_b, "p.nc", options);
-  double time_min = 0.0;
-  std::istringstream lines(result.text);
-  std::string line;
-  std::getline(lines, line);
-  for (; std::getline(lines, line);)
-    time_min += 1.0 / std::strtod(line.c_str() + line.find('F') + 1, nullptr);
-  EXPECT_GT(result.blocks_inserted, 3u);
-  EXPECT_NEAR(time_min, 1.0 / 3.0, 1e-12);
-}
-
 TEST(CompensateProgramLaw, EachErrorAloneIsThatOfAMachineWithItOnly) {
   for (const Layout& layout : layouts()) {
-    Case one(layout, 9);
+    ProgramCase one(layout, 9);
     std::vector<AxisPositions> commanded;
     std::string text;
     for (int i = 0; i < 10; ++i) {
@@ -355,7 +170,7 @@ TEST(CompensateProgramLaw, EachErrorAloneIsThatOfAMachineWithItOnly) {
 }
 
 TEST(CompensateProgramLaw, TheSameBytesOnAnyNumberOfThreads) {
-  Case one(layouts()[0], 3);
+  ProgramCase one(layouts()[0], 3);
   std::string text;
   for (int i = 0; i < 3000; ++i) text += block(one.machine, one.draw.positions(one.machine));
   const MachineModel model(one.machine, one.errors);
@@ -375,7 +190,7 @@ TEST(CompensateProgramLaw, TheSameBytesOnAnyNumberOfThreads) {
 }
 
 TEST(CompensateProgramLaw, TheDifferentialMethodLeavesAQuarterOfHalvedErrors) {
-  Case one(layouts()[0], 4);
+  ProgramCase one(layouts()[0], 4);
   std::string text;
   for (int i = 0; i < 50; ++i) {
     AxisPositions words = one.draw.positions(one.machine);
@@ -385,7 +200,7 @@ TEST(CompensateProgramLaw, TheDifferentialMethodLeavesAQuarterOfHalvedErrors) {
   CompensationOptions options = fine();
   options.method = CompensationMethod::differential;
   const auto left = [&](double factor) {
-    Case scaled(layouts()[0], 4);
+    ProgramCase scaled(layouts()[0], 4);
     for (ErrorTerm& term : scaled.errors.terms)
       std::visit(
           [&](auto& f) {

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Blocks that are cut in pieces: between the numbers of the new text, every axis going evenly, the
+// tip is asked of matrices that the test multiplies out itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/program_case.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+/// Where a tip is, a part of the way along a block, in `axes`: every axis goes evenly.
+Vector3 on_the_way(const ProgramCase& one, const AxisPositions& from, const AxisPositions& to,
+                   double s) {
+  AxisPositions q;
+  for (std::size_t k = 0; k < axis_count; ++k) q[k] = from[k] + s * (to[k] - from[k]);
+  return tip_of(ChainMatrices{one.machine, one.errors}.tool_in_part(q, one.setting));
+}
+
+double from_line(const Vector3& p, const Vector3& a, const Vector3& b) {
+  Vector3 ab, ap;
+  double length = 0.0, along = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    ab[i] = b[i] - a[i], ap[i] = p[i] - a[i];
+    length += ab[i] * ab[i], along += ab[i] * ap[i];
+  }
+  const double s = length > 0.0 ? std::clamp(along / length, 0.0, 1.0) : 0.0;
+  return std::hypot(ap[0] - s * ab[0], ap[1] - s * ab[1], ap[2] - s * ab[2]);
+}
+
+// The tip is asked at 40 points of every piece; between the quarters that the command looks at an
+// even curve rises by at most a third of a percent, a curve of the third degree by 3 %.
+TEST(CompensatePiecesLaw, PiecesStayWithinTheTolerance) {
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    ProgramCase one(layouts()[0], seed);
+    one.machine.work_offsets[0]->zero = {};
+    const AxisPositions a = one.draw.positions(one.machine);
+    AxisPositions b = a;
+    for (std::size_t k : {0, 1, 2}) b[k] += one.draw.between(-20.0, 20.0);
+    for (std::size_t k : {3, 5}) b[k] += one.draw.between(-0.2, 0.2);
+    const std::string text = block(one.machine, a) + block(one.machine, b);
+    const MachineModel model(one.machine, one.errors);
+    CompensationOptions options = fine();
+    const auto whole = compensate_program(model, text, "p.nc", options);
+    options.tolerance_mm = 0.01;
+    const auto result = compensate_program(model, text, "p.nc", options);
+    const std::vector<AxisPositions> written = words_of(result.text);
+    ASSERT_EQ(written.size(), 2 + result.blocks_inserted);
+    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
+    double largest = 0.0;
+    for (std::size_t i = 1; i < written.size(); ++i)
+      for (int j = 0; j <= 40; ++j)
+        largest = std::max(
+            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    EXPECT_LT(largest, 1.03 * 0.01) << "seed " << seed;
+    EXPECT_LE(result.between_after.value, 0.01);
+    EXPECT_GT(result.blocks_inserted, 0u);
+    // An even curve that leaves d in one piece leaves d / n² in n.
+    const double asked = std::sqrt(whole.between_after.value / 0.01);
+    EXPECT_LE(static_cast<double>(result.blocks_inserted + 1), std::ceil(1.3 * asked)) << seed;
+  }
+}
+
+// A block of half a turn, on which the curvature is anything but even.
+TEST(CompensatePiecesLaw, PiecesOfLongBlocksStayWithinTheTolerance) {
+  for (const std::uint64_t seed : {11, 12, 13, 14, 15, 16}) {
+    ProgramCase one(layouts()[seed % 2], seed);
+    one.machine.work_offsets[0]->zero = {};
+    const AxisPositions a = one.draw.positions(one.machine), b = one.draw.positions(one.machine);
+    CompensationOptions options = fine();
+    options.tolerance_mm = 0.2;
+    const auto result =
+        compensate_program(MachineModel(one.machine, one.errors),
+                           block(one.machine, a) + block(one.machine, b), "p.nc", options);
+    ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+    const std::vector<AxisPositions> written = words_of(result.text);
+    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
+    double largest = 0.0;
+    for (std::size_t i = 1; i < written.size(); ++i)
+      for (int j = 0; j <= 40; ++j)
+        largest = std::max(
+            largest, from_line(on_the_way(one, written[i - 1], written[i], j / 40.0), start, end));
+    EXPECT_LT(largest, 1.03 * 0.2) << "seed " << seed;
+    EXPECT_GT(result.blocks_inserted, 10u);
+  }
+}
+
+TEST(CompensatePiecesLaw, PiecesUnderInverseTimeTakeTheSameTime) {
+  ProgramCase one(layouts()[0], 1);
+  const AxisPositions a = one.draw.positions(one.machine);
+  AxisPositions b = a;
+  b[0] += 30.0, b[5] += 0.5;
+  std::string to_b = block(one.machine, b);
+  to_b.insert(to_b.size() - 1, " F3");
+  CompensationOptions options = fine();
+  options.tolerance_mm = 0.01;
+  const auto result = compensate_program(MachineModel(one.machine, one.errors),
+                                         "G93 F2 " + block(one.machine, a) + to_b, "p.nc", options);
+  double time_min = 0.0;
+  std::istringstream lines(result.text);
+  std::string line;
+  std::getline(lines, line);
+  for (; std::getline(lines, line);)
+    time_min += 1.0 / std::strtod(line.c_str() + line.find('F') + 1, nullptr);
+  EXPECT_GT(result.blocks_inserted, 3u);
+  EXPECT_NEAR(time_min, 1.0 / 3.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
