@@ -44,7 +44,7 @@ Screw of_errors(const Motion& frame, const Joint& joint, const Vector3d& pivot,
 
 Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
   Motion frame = program_from_bed(setting);
-  for (const Joint& joint : machine.joints) frame = frame * joint.nominal(joint.position(axes));
+  for (const Joint& joint : machine.joints) frame = joint.nominal(frame, joint.position(axes));
   return {frame.R, frame * machine.tip(setting)};
 }
 
@@ -52,13 +52,13 @@ Motion actual_tool(const Compiled& machine, const AxisPositions& axes, const Set
   Motion frame = machine.workpiece.inverse() * program_from_bed(setting);
   for (const Joint& joint : machine.joints) {
     const double position = joint.position(axes);
-    const Motion along = joint.actual(position);
     if (joint.components.empty()) {
-      frame = frame * along;
+      frame = joint.actual(frame, position);
       continue;
     }
     const Motion errors = component_errors(joint, position).motion(joint);
-    frame = joint.errors_first ? frame * errors * along : frame * along * errors;
+    frame = joint.errors_first ? joint.actual(frame * errors, position)
+                               : joint.actual(frame, position) * errors;
   }
   frame = frame * machine.spindle;
   return {frame.R, frame * machine.tip(setting)};
@@ -70,7 +70,7 @@ ToolMotion nominal_motion(const Compiled& machine, const AxisPositions& axes,
   Motion frame = program_from_bed(setting);
   for (const Joint& joint : machine.joints) {
     out.axes[joint.axis] = line_screw(frame, joint.rotary, joint.direction, joint.point);
-    frame = frame * joint.nominal(joint.position(axes));
+    frame = joint.nominal(frame, joint.position(axes));
   }
   out.tool = {frame.R, frame * machine.tip(setting)};
   return out;
@@ -83,14 +83,14 @@ ToolMotion actual_motion(const Compiled& machine, const AxisPositions& axes,
   for (const Joint& joint : machine.joints) {
     const double position = joint.position(axes);
     const auto [errors, slopes] = component_errors_and_slopes(joint, position);
-    const Motion along = joint.actual(position), off = errors.motion(joint);
-    Screw& screw = out.axes[joint.axis];
-    const Motion between = frame * (joint.errors_first ? off : along);
+    const Motion off = errors.motion(joint);
+    const Motion between = joint.errors_first ? frame * off : joint.actual(frame, position);
     const Motion &before_line = joint.errors_first ? between : frame,
                  &before_errors = joint.errors_first ? frame : between;
+    Screw& screw = out.axes[joint.axis];
     screw = line_screw(before_line, joint.rotary, joint.actual_direction, joint.actual_point);
     screw += of_errors(before_errors, joint, joint.actual_pivot, slopes);
-    frame = between * (joint.errors_first ? along : off);
+    frame = joint.errors_first ? joint.actual(between, position) : between * off;
   }
   frame = frame * machine.spindle;
   out.tool = {frame.R, frame * machine.tip(setting)};
@@ -103,7 +103,7 @@ Screw linear_error_screw(const Compiled& machine, const AxisPositions& axes,
   Screw sum{-machine.workpiece_shift, -machine.workpiece_turn};
   for (const Joint& joint : machine.joints) {
     const double position = joint.position(axes);
-    const Motion after = frame * joint.nominal(position);
+    const Motion after = joint.nominal(frame, position);
     sum += location_screw(frame, joint, position);
     sum += of_errors(joint.errors_first ? frame : after, joint, joint.pivot,
                      component_errors(joint, position));
