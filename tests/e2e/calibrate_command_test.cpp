@@ -14,8 +14,7 @@ class CalibrateCommand : public CommandTest {
 
 // The example was made with Z0A 31 µm, B0C 60 and C0A −45 µrad; U is printed in degrees.
 TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
-  const auto done =
-      command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json");
+  const auto done = command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("c.json");
   EXPECT_EQ(json["schema"], "trueaxis.calibration/1");
@@ -26,9 +25,10 @@ TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
               5.0 * parameters["B0C"]["u"].get<double>());
   EXPECT_EQ(json["covariance"]["matrix"].size(), parameters.size());
   EXPECT_FALSE(json["not_determined"].empty());
-  for (const auto& one : json["not_determined"]) EXPECT_FALSE(one["why"].get<std::string>().empty());
-  const auto pose = command("pose " + machine_ + ' ' + data("trunnion_ac_positions.csv") +
-                            " --errors e.toml");
+  for (const auto& one : json["not_determined"])
+    EXPECT_FALSE(one["why"].get<std::string>().empty());
+  const auto pose =
+      command("pose " + machine_ + ' ' + data("trunnion_ac_positions.csv") + " --errors e.toml");
   EXPECT_EQ(pose.exit_code, 0) << pose.err;
   const auto again = command("calibrate " + machine_ + ' ' + ball_ + " --errors e.toml -o f.toml");
   ASSERT_EQ(again.exit_code, 0) << again.err;
@@ -36,8 +36,10 @@ TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
 
 // The same bytes come twice.
 TEST_F(CalibrateCommand, IsDeterministic) {
-  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json").exit_code, 0);
-  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o f.toml --json d.json").exit_code, 0);
+  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json").exit_code,
+            0);
+  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o f.toml --json d.json").exit_code,
+            0);
   EXPECT_EQ(read_text(folder_ / "e.toml"), read_text(folder_ / "f.toml"));
   EXPECT_EQ(read_text(folder_ / "c.json"), read_text(folder_ / "d.json"));
 }
@@ -56,7 +58,8 @@ TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
               4.0 * finding["parameters"]["cos"]["u"].get<double>());
   EXPECT_NEAR(finding["parameters"]["sin"]["value"].get<double>(), -2e-3,
               4.0 * finding["parameters"]["sin"]["u"].get<double>());
-  EXPECT_LT(json["gain"]["held_out_rms_after"]["value"], json["gain"]["held_out_rms_before"]["value"]);
+  EXPECT_LT(json["gain"]["held_out_rms_after"]["value"],
+            json["gain"]["held_out_rms_before"]["value"]);
   EXPECT_TRUE(contains(done.out, "EXC.harmonic2"));
 }
 
