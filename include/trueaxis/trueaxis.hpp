@@ -5,19 +5,21 @@
 // radius; results for people (FitParameter) are in mm, deg and 1, each with its unit. Files and the
 // report belong to the command.
 
-#include "trueaxis/compensation.hpp"   // a program rewritten for a machine with errors
-#include "trueaxis/correction.hpp"     // target axis, correction table, actuator
-#include "trueaxis/diagnosis.hpp"      // what the ideal surface misses
-#include "trueaxis/effect.hpp"         // the catalogue of effects
-#include "trueaxis/error.hpp"          // InputError, ContractViolation
-#include "trueaxis/fit.hpp"            // association of a surface
-#include "trueaxis/fixture.hpp"        // a part on six locators, on its datums
-#include "trueaxis/job.hpp"            // streams in, verdict and table out
-#include "trueaxis/machine.hpp"        // a machine of several axes, its errors, compensation
-#include "trueaxis/probe_stream.hpp"   // the readings
-#include "trueaxis/resimulation.hpp"   // the diagnosed part measured again
-#include "trueaxis/spindle.hpp"        // part and spindle separated
-#include "trueaxis/study.hpp"          // repeats against the Cramér-Rao bound
-#include "trueaxis/surface.hpp"        // axis, cone and cylinder, a surface of one's own
-#include "trueaxis/units.hpp"          // mm_per_um, rad_per_deg; a value with its uncertainty
-#include "trueaxis/virtual_lathe.hpp"  // simulated streams with known truth
+#include "trueaxis/calibration.hpp"        // errors of a machine from measurements on it
+#include "trueaxis/compensation.hpp"       // a program rewritten for a machine with errors
+#include "trueaxis/correction.hpp"         // target axis, correction table, actuator
+#include "trueaxis/diagnosis.hpp"          // what the ideal surface misses
+#include "trueaxis/effect.hpp"             // the catalogue of effects
+#include "trueaxis/error.hpp"              // InputError, ContractViolation
+#include "trueaxis/fit.hpp"                // association of a surface
+#include "trueaxis/fixture.hpp"            // a part on six locators, on its datums
+#include "trueaxis/job.hpp"                // streams in, verdict and table out
+#include "trueaxis/machine.hpp"            // a machine of several axes, its errors, compensation
+#include "trueaxis/machine_diagnosis.hpp"  // what the model of a machine gets wrong
+#include "trueaxis/probe_stream.hpp"       // the readings
+#include "trueaxis/resimulation.hpp"       // the diagnosed part measured again
+#include "trueaxis/spindle.hpp"            // part and spindle separated
+#include "trueaxis/study.hpp"              // repeats against the Cramér-Rao bound
+#include "trueaxis/surface.hpp"            // axis, cone and cylinder, a surface of one's own
+#include "trueaxis/units.hpp"              // mm_per_um, rad_per_deg; a value with its uncertainty
+#include "trueaxis/virtual_lathe.hpp"      // simulated streams with known truth

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "calibrate/periodic_fit.hpp"
@@ -65,6 +66,11 @@ Choice choose(const PeriodicFit& fit, double period, const Band& band, int max_o
   for (std::size_t k = 0; k < choice.orders.size(); ++k)
     if (chance_of(all.gains[k], 2.0, all.rss, all.freedom) * tests < false_alarm)
       real.push_back(choice.orders[k]);
+  // Orders that are all multiples of one are orders of a shorter period.
+  int common = 0;
+  for (const int order : real) common = std::gcd(common, order);
+  if (common > 1) choice.period = period /= common;
+  for (int& order : real) order /= std::max(1, common);
   choice.orders = real;
   choice.criterion = n * std::log(std::max(fit.with(real, period).rss, 1e-300)) +
                      2.0 * std::log(n) * static_cast<double>(real.size());
@@ -81,7 +87,8 @@ Choice best_period(const PeriodicFit& fit, int max_orders) {
   if (line == 0.0) return best;
   for (int k = 1; k <= most_divisions && k / line <= range_of(position).length(); ++k) {
     Choice one = choose(fit, k / line, band, max_orders);
-    if (!one.orders.empty() && (best.period == 0.0 || one.criterion < best.criterion))
+    // The same lines of a longer period differ by rounding only.
+    if (!one.orders.empty() && (best.period == 0.0 || one.criterion < best.criterion - 1e-3))
       best = std::move(one);
   }
   if (best.period == 0.0) return best;

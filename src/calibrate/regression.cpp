@@ -16,6 +16,7 @@ constexpr double same = 1e-4;  // of an orthonormal column: what others leave of
 
 /// G⁻¹ c with what stays below `same` left out.
 VectorXd solved(const MatrixXd& products, const VectorXd& right) {
+  if (products.rows() == 0) return right;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(products);
   const VectorXd inverse =
       (eigen.eigenvalues().array() > same).select(eigen.eigenvalues().cwiseInverse(), 0.0);
@@ -25,6 +26,7 @@ VectorXd solved(const MatrixXd& products, const VectorXd& right) {
 }  // namespace
 
 double gain_of(const MatrixXd& products, const VectorXd& right) {
+  if (products.rows() == 0) return 0.0;
   if (products.rows() == 1)
     return products(0, 0) > same ? right[0] * right[0] / products(0, 0) : 0.0;
   if (products.rows() == 2) {

@@ -68,7 +68,7 @@ void SingleErrors::tip_mm(const AxisPositions& axes, const Setting& setting,
   Vector3d point = tip;
   for (std::size_t k = joints.size(); k-- > 0;) {
     far[k] = point;
-    point = joints[k].nominal(joints[k].position(axes)) * point;
+    point = joints[k].nominal(rigid::Motion{}, joints[k].position(axes)) * point;
     near[k] = point;
   }
   const Vector3d in_part = rigid::motion(setting.bed_from_program).inverse() * point;
@@ -86,7 +86,8 @@ void SingleErrors::tip_mm(const AxisPositions& axes, const Setting& setting,
         out[i] = moved_by(joint, component_errors(joint, position),
                           joint.errors_first ? near[one.joint] : far[one.joint]);
       } else {
-        out[i] = (joint.actual(position) * far[one.joint] - near[one.joint]).norm();
+        out[i] =
+            (joint.actual(rigid::Motion{}, position) * far[one.joint] - near[one.joint]).norm();
       }
     }
   }
