@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include <iostream>
 
@@ -40,19 +37,9 @@ int run(int argc, char** argv) {
   return code;
 }
 
-/// Columns of 10⁶ readings are taken from memory that is there already: else each is mapped anew,
-/// page by page, and given back. (Both are where glibc's own limits end up in a stream of 10⁷.)
-void keep_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);
-  mallopt(M_TRIM_THRESHOLD, 64 << 20);
-#endif
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  keep_memory();
   FLAGS_logtostderr = true;
   google::InitGoogleLogging(argv[0]);
   return trueaxis::cli::guarded([&] { return run(argc, argv); });
