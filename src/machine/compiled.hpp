@@ -36,15 +36,18 @@ struct Joint {
 
   double position(const AxisPositions& axes) const { return axes[axis]; }
 
-  /// Along or about a line by `amount`.
-  static rigid::Motion along(bool rotary, const Eigen::Vector3d& direction,
-                             const Eigen::Vector3d& point, double amount) {
-    if (!rotary) return {Eigen::Matrix3d::Identity(), amount * direction};
-    return rigid::about(point, rigid::turn(direction, amount));
+  /// `frame` moved along, or turned about, a line by `amount`.
+  static rigid::Motion moved(const rigid::Motion& frame, bool rotary,
+                             const Eigen::Vector3d& direction, const Eigen::Vector3d& point,
+                             double amount) {
+    if (!rotary) return {frame.R, frame.t + frame.R * (amount * direction)};
+    return frame * rigid::about(point, rigid::turn(direction, amount));
   }
-  rigid::Motion nominal(double position) const { return along(rotary, direction, point, position); }
-  rigid::Motion actual(double position) const {
-    return along(rotary, actual_direction, actual_point, position + offset);
+  rigid::Motion nominal(const rigid::Motion& frame, double position) const {
+    return moved(frame, rotary, direction, point, position);
+  }
+  rigid::Motion actual(const rigid::Motion& frame, double position) const {
+    return moved(frame, rotary, actual_direction, actual_point, position + offset);
   }
 };
 

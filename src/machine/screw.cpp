@@ -40,26 +40,26 @@ Screw of_errors(const Motion& frame, const Joint& joint, const Vector3d& pivot,
   return screw_in(frame, pivot, sign * errors.shift, sign * errors.rotation);
 }
 
-/// The joint with its errors: P.
-Motion actual_step(const Joint& joint, const AxisPositions& axes) {
+/// `frame` moved by the joint with its errors: frame · P.
+Motion actual_step(const Motion& frame, const Joint& joint, const AxisPositions& axes) {
   const double position = joint.position(axes);
-  const Motion along = joint.actual(position);
-  if (joint.components.empty()) return along;
+  if (joint.components.empty()) return joint.actual(frame, position);
   const Motion errors = component_errors(joint, position).motion(joint);
-  return joint.errors_first ? errors * along : along * errors;
+  return joint.errors_first ? joint.actual(frame * errors, position)
+                            : joint.actual(frame, position) * errors;
 }
 
 }  // namespace
 
 Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
   Motion frame = program_from_bed(setting);
-  for (const Joint& joint : machine.joints) frame = frame * joint.nominal(joint.position(axes));
+  for (const Joint& joint : machine.joints) frame = joint.nominal(frame, joint.position(axes));
   return {frame.R, frame * machine.tip(setting)};
 }
 
 Motion actual_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
   Motion frame = machine.workpiece.inverse() * program_from_bed(setting);
-  for (const Joint& joint : machine.joints) frame = frame * actual_step(joint, axes);
+  for (const Joint& joint : machine.joints) frame = actual_step(frame, joint, axes);
   frame = frame * machine.spindle;
   return {frame.R, frame * machine.tip(setting)};
 }
@@ -69,7 +69,7 @@ ChainEnds actual_ends(const Compiled& machine, const AxisPositions& axes) {
   ChainEnds ends;
   for (std::size_t i = 0; i < machine.joints.size(); ++i) {
     Motion& frame = machine.machine.axes[i].carries_workpiece ? bed_in_workpiece : ends.tool;
-    frame = frame * actual_step(machine.joints[i], axes);
+    frame = actual_step(frame, machine.joints[i], axes);
   }
   ends.workpiece = bed_in_workpiece.inverse();
   ends.tool = ends.tool * machine.spindle;
@@ -82,7 +82,7 @@ ToolMotion nominal_motion(const Compiled& machine, const AxisPositions& axes,
   Motion frame = program_from_bed(setting);
   for (const Joint& joint : machine.joints) {
     out.axes[joint.axis] = line_screw(frame, joint.rotary, joint.direction, joint.point);
-    frame = frame * joint.nominal(joint.position(axes));
+    frame = joint.nominal(frame, joint.position(axes));
   }
   out.tool = {frame.R, frame * machine.tip(setting)};
   return out;
@@ -95,14 +95,14 @@ ToolMotion actual_motion(const Compiled& machine, const AxisPositions& axes,
   for (const Joint& joint : machine.joints) {
     const double position = joint.position(axes);
     const auto [errors, slopes] = component_errors_and_slopes(joint, position);
-    const Motion along = joint.actual(position), off = errors.motion(joint);
-    Screw& screw = out.axes[joint.axis];
-    const Motion between = frame * (joint.errors_first ? off : along);
+    const Motion off = errors.motion(joint);
+    const Motion between = joint.errors_first ? frame * off : joint.actual(frame, position);
     const Motion &before_line = joint.errors_first ? between : frame,
                  &before_errors = joint.errors_first ? frame : between;
+    Screw& screw = out.axes[joint.axis];
     screw = line_screw(before_line, joint.rotary, joint.actual_direction, joint.actual_point);
     screw += of_errors(before_errors, joint, joint.actual_pivot, slopes);
-    frame = between * (joint.errors_first ? along : off);
+    frame = joint.errors_first ? joint.actual(between, position) : between * off;
   }
   frame = frame * machine.spindle;
   out.tool = {frame.R, frame * machine.tip(setting)};
@@ -115,7 +115,7 @@ Screw linear_error_screw(const Compiled& machine, const AxisPositions& axes,
   Screw sum{-machine.workpiece_shift, -machine.workpiece_turn};
   for (const Joint& joint : machine.joints) {
     const double position = joint.position(axes);
-    const Motion after = frame * joint.nominal(position);
+    const Motion after = joint.nominal(frame, position);
     sum += location_screw(frame, joint, position);
     sum += of_errors(joint.errors_first ? frame : after, joint, joint.pivot,
                      component_errors(joint, position));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/zero_position.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "machine/algebra.hpp"
@@ -16,6 +17,11 @@ Motion row_motion(const DenavitHartenbergRow::Numbers& row) {
   const Motion about_z{rigid::turn(Vector3d::UnitZ(), row.theta_rad), {0.0, 0.0, row.d_mm}};
   const Motion about_x{rigid::turn(Vector3d::UnitX(), row.alpha_rad), {row.a_mm, 0.0, 0.0}};
   return about_z * about_x;
+}
+
+bool has_errors(const DenavitHartenbergRow& row) {
+  const auto& [theta, d, a, alpha] = row.errors;
+  return theta != 0.0 || d != 0.0 || a != 0.0 || alpha != 0.0;
 }
 
 struct Frames {
@@ -45,10 +51,10 @@ Frames frames_of(const DenavitHartenbergChain& chain, bool with_errors) {
 Vector3d tilt_between(const Vector3d& u, const Vector3d& v, Eigen::Index own, char letter) {
   Vector3d w = Vector3d::Zero();
   const Eigen::Index first = (own + 1) % 3, second = (own + 2) % 3;
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0;; ++i) {
     const Vector3d now = rigid::exponential(w) * u;
     const Vector3d left = v - now;
-    if (left.norm() < 1e-16) return w;
+    if (i > 8 || left.norm() == 0.0) break;
     Eigen::Matrix<double, 3, 2> J;
     J.col(0) = Vector3d::Unit(first).cross(now);
     J.col(1) = Vector3d::Unit(second).cross(now);
@@ -57,9 +63,8 @@ Vector3d tilt_between(const Vector3d& u, const Vector3d& v, Eigen::Index own, ch
     const Eigen::Vector2d step = normal.inverse() * (J.transpose() * left);
     w[first] += step[0];
     w[second] += step[1];
-    if (step.norm() < 1e-17) return w;
   }
-  if ((rigid::exponential(w) * u - v).norm() < 1e-15) return w;
+  if ((rigid::exponential(w) * u - v).norm() < 4e-15) return w;  // rounding
   throw InputError("dh", std::string("errors of the rows before axis ") + letter +
                              " cannot be said as location errors: its line lies across its letter");
 }
@@ -102,8 +107,9 @@ void to_zero_position(const DenavitHartenbergChain& chain, Machine& machine) {
 }
 
 ErrorModel parameter_errors(const DenavitHartenbergChain& chain, const Machine& machine) {
-  const Frames nominal = frames_of(chain, false), actual = frames_of(chain, true);
   ErrorModel errors;
+  if (std::ranges::none_of(chain.rows, has_errors)) return errors;
+  const Frames nominal = frames_of(chain, false), actual = frames_of(chain, true);
   for (const MachineAxis& axis : machine.axes) {
     const std::size_t body = index_of(axis.name);
     const Motion &from = nominal.before[body], &to = actual.before[body];

@@ -66,7 +66,7 @@ std::vector<Column> axis_columns(const NumberTable& table, const Machine& machin
 
 void append(std::string& text, double value, char behind) {
   char number[40];
-  const int length = std::snprintf(number, sizeof number, "%.17g%c", value, behind);
+  const int length = std::snprintf(number, sizeof number, "%.17g%c", value + 0.0, behind);  // no -0
   text.append(number, static_cast<std::size_t>(length));
 }
 

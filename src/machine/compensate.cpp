@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "machine/correction_step.hpp"
+#include "machine/limits.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Eigen::Vector3d;
+using Compiled = MachineModel::Compiled;
+using Left = CorrectionStep::Left;
+
+constexpr int largest_count = 60;
+constexpr double lever_mm = 100.0;         ///< by which a turn counts as a length
+constexpr double fine_mm = 1e-12;          ///< a step that changes nothing
+constexpr double exact_tip_mm = 1e-8;      ///< more that is left: the tip cannot be put there
+constexpr double exact_direction = 1e-10;  ///< more that is left, rad: a pole
+
+struct Target {
+  Vector3d tip, direction;
+};
+
+Left left_of(const Compiled& machine, const rigid::Motion& tool, const Target& target) {
+  const Vector3d off = tool.R * machine.tool_direction - target.direction;
+  return {tool.t - target.tip, off - target.direction.dot(off) * target.direction};
+}
+
+AxisPositions sum(const AxisPositions& a, const AxisPositions& b) {
+  AxisPositions out;
+  for (std::size_t k = 0; k < axis_count; ++k) out[k] = a[k] + b[k];
+  return out;
+}
+
+double size_of(const AxisPositions& a, const AxisPositions& b) {
+  double largest = 0.0;
+  for (std::size_t k = 0; k < axis_count; ++k)
+    largest = std::fmax(largest, std::fabs(a[k] - b[k]) * (k < 3 ? 1.0 : lever_mm));
+  return largest;
+}
+
+/// The machine's own axes of `near`, no others.
+AxisPositions of_machine(const Machine& machine, const AxisPositions& near) {
+  AxisPositions axes{};
+  for (const MachineAxis& axis : machine.axes)
+    axes[index_of(axis.name)] = near[index_of(axis.name)];
+  return axes;
+}
+
+/// A machine's way to a target from where its axes were commanded.
+struct Problem {
+  const Compiled& machine;
+  const Target& target;
+  const AxisPositions& near;
+  const Setting& setting;
+
+  rigid::Motion tool(const AxisPositions& change) const {
+    return actual_tool(machine, sum(near, change), setting);
+  }
+  ToolMotion motion(const AxisPositions& change) const {
+    return actual_motion(machine, sum(near, change), setting);
+  }
+};
+
+struct Solution {
+  AxisPositions change{};
+  rigid::Motion tool;  ///< with it
+  std::size_t weakest_rotary = 0;
+};
+
+bool direction_met(const Left& left) { return left.direction.norm() <= exact_direction; }
+
+/// Newton's method with a Jacobian that is kept as long as it serves: the errors turn it by some
+/// 1e-4, so that each step takes away four digits of what is left. Where a direction is left it is
+/// the Jacobian that says where it is least, and only a fresh one is right.
+Solution newton(const Problem& problem, const AxisPositions& start) {
+  const Compiled& machine = problem.machine;
+  const ToolMotion motion = problem.motion(start);
+  Solution now{start, motion.tool};
+  CorrectionStep step(machine, motion);
+  bool fresh = true;
+  double before = INFINITY;
+  for (int i = 0; i < largest_count; ++i) {
+    const AxisPositions next = step.total(now.change, left_of(machine, now.tool, problem.target),
+                                          machine.machine.max_rotary_change_rad);
+    const double size = size_of(next, now.change);
+    now.change = next;
+    now.tool = problem.tool(next);
+    const bool slow = i > 0 && size > 0.02 * before;
+    const bool still = size <= fine_mm || (i > 0 && !slow && size * size / before <= fine_mm);
+    if (still && (fresh || direction_met(left_of(machine, now.tool, problem.target)))) break;
+    fresh = still || slow;
+    if (fresh) step = CorrectionStep(machine, problem.motion(next));
+    before = size;
+  }
+  now.weakest_rotary = step.weakest_rotary();
+  return now;
+}
+
+bool corrects_direction(const Machine& machine) {
+  return machine.rotary_count() >= 2 && machine.linear_count() >= 3;
+}
+
+/// The solution nearest to the commanded axes. At a pole, where a direction is left, there may be a
+/// valley on either side of the axis that has lost its effect: both are looked into.
+Solution solve(const Problem& problem) {
+  Solution best = newton(problem, {});
+  Left left = left_of(problem.machine, best.tool, problem.target);
+  if (!corrects_direction(problem.machine.machine) || direction_met(left)) return best;
+  const Solution first = best;
+  const std::size_t weakest = first.weakest_rotary;
+  const double largest_rad = problem.machine.machine.max_rotary_change_rad;
+  for (const double end : {largest_rad, -largest_rad}) {
+    AxisPositions start = first.change;
+    if (std::abs(start[weakest] - end) < 0.5 * largest_rad) continue;  // this is that valley
+    start[weakest] = end;
+    const Solution other = newton(problem, start);
+    const Left of_other = left_of(problem.machine, other.tool, problem.target);
+    if (of_other.tip.norm() > exact_tip_mm ||
+        !(of_other.direction.norm() < left.direction.norm() * (1.0 - 1e-9)))
+      continue;
+    best = other;
+    left = of_other;
+  }
+  return best;
+}
+
+bool at_largest_change(const Machine& machine, const AxisPositions& change) {
+  for (const MachineAxis& axis : machine.axes)
+    if (is_rotary(axis.name) &&
+        std::abs(change[index_of(axis.name)]) >= machine.max_rotary_change_rad * (1.0 - 1e-9))
+      return true;
+  return false;
+}
+
+CompensatedPosition result_of(const MachineModel& model, const ToolPose& target,
+                              const AxisPositions& near, const Solution& solution) {
+  CompensatedPosition result;
+  result.axes = sum(near, solution.change);
+  const Eigen::Matrix3d& R = solution.tool.R;
+  const ToolPose pose{rigid::array(solution.tool.t),
+                      rigid::array(Vector3d(R * model.compiled().tool_direction)), rigid::rows(R)};
+  result.tip_left_mm = (solution.tool.t - rigid::eigen(target.tip_mm)).norm();
+  result.direction_left_rad = angle_between_rad(pose.direction, target.direction);
+  result.about_tool_axis_rad = about_tool_axis_rad(pose, target);
+  return result;
+}
+
+/// Where an axis leaves its limits the result is no result.
+void refuse_outside(CompensatedPosition& result, const Machine& machine) {
+  for (const MachineAxis& axis : machine.axes) {
+    if (within(axis, result.axes[index_of(axis.name)])) continue;
+    result.status = CompensationStatus::outside;
+    result.why = outside_limits(machine, result.axes);
+    return;
+  }
+}
+
+}  // namespace
+
+CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose& target,
+                                       const AxisPositions& near, const Setting& setting) {
+  const Compiled& machine = model.compiled();
+  const AxisPositions from = of_machine(machine.machine, near);
+  const Target wanted{rigid::eigen(target.tip_mm), rigid::eigen(target.direction)};
+  const Solution solution = solve({machine, wanted, from, setting});
+  CompensatedPosition result = result_of(model, target, from, solution);
+  if (!(result.tip_left_mm <= exact_tip_mm)) {
+    result.status = CompensationStatus::unreachable;
+    result.why = fmt::format("the tip stays {:.6f} mm off", result.tip_left_mm);
+  } else if (corrects_direction(machine.machine) && result.direction_left_rad > exact_direction) {
+    result.status = CompensationStatus::singular;
+  }
+  refuse_outside(result, machine.machine);
+  return result;
+}
+
+CompensatedPosition compensate_exactly(const MachineModel& model, const AxisPositions& commanded,
+                                       const Setting& setting) {
+  return compensate_exactly(model, model.nominal(commanded, setting), commanded, setting);
+}
+
+CompensatedPosition compensate_by_differential(const MachineModel& model,
+                                               const AxisPositions& commanded,
+                                               const Setting& setting) {
+  const Compiled& machine = model.compiled();
+  const AxisPositions from = of_machine(machine.machine, commanded);
+  const ToolMotion motion = nominal_motion(machine, from, setting);
+  const Screw error = linear_error_screw(machine, from, setting);
+  const Left left{error.of_point(motion.tool.t), error.w.cross(motion.direction(machine))};
+  Solution solution;
+  solution.change =
+      CorrectionStep(machine, motion).total({}, left, machine.machine.max_rotary_change_rad);
+  solution.tool = actual_tool(machine, sum(from, solution.change), setting);
+  CompensatedPosition result = result_of(model, model.nominal(from, setting), from, solution);
+  if (corrects_direction(machine.machine) && at_largest_change(machine.machine, solution.change))
+    result.status = CompensationStatus::singular;
+  refuse_outside(result, machine.machine);
+  return result;
+}
+
+}  // namespace trueaxis
