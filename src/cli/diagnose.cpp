@@ -14,6 +14,7 @@
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
+#include "machine/files/errors_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
@@ -27,6 +28,7 @@ struct Options {
   double false_alarm = DiagnoseOptions{}.false_alarm;
   ResultOptions result;
   MachineOptions machine;
+  std::string errors_output;
 };
 
 /// The fit that broke, or nullptr.
@@ -62,8 +64,8 @@ int execute(const Options& options) {
 
 /// Options of a stream beside --machine would be passed over in silence.
 void expect_of_machine(const CLI::App& command) {
-  constexpr const char* fine[] = {"stream", "--machine",     "--errors", "--sign",
-                                  "--json", "--false-alarm", "--force",  "--help"};
+  constexpr const char* fine[] = {"stream",   "--machine",     "--errors", "--sign", "--json",
+                                  "--output", "--false-alarm", "--force",  "--help"};
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && std::ranges::find(fine, option->get_name()) == std::end(fine))
       throw CLI::ValidationError(option->get_name(), "is of a stream: --machine has none");
@@ -81,6 +83,7 @@ int execute_machine(const Options& options) {
   for (const std::string& path : options.data) outputs.reads(path);
   for (const std::string& path : options.machine.errors) outputs.reads(path);
   outputs.may_write(json, "trueaxis.machine_diagnosis");
+  outputs.may_write(options.errors_output, "trueaxis.errors");
   outputs.check();
   const MachineDiagnosis found = diagnose_machine(file.machine, data, diagnose_options);
   if (!found.baseline.converged) {
@@ -88,8 +91,9 @@ int execute_machine(const Options& options) {
     return numerical;
   }
   if (!json.empty()) outputs.write(json, machine_diagnosis_json(found, file.machine));
+  outputs.write(options.errors_output, errors_toml(found.errors));
   outputs.commit();
-  if (json != "-") std::cout << machine_diagnosis_text(found);
+  if (json != "-" && options.errors_output != "-") std::cout << machine_diagnosis_text(found);
   return done;
 }
 
@@ -97,11 +101,15 @@ int execute_machine(const Options& options) {
 int execute_either(const CLI::App& command, Options& options, bool surface_said) {
   if (!options.machine.machine.empty()) {
     expect_of_machine(command);
+    if (!options.errors_output.empty() && options.errors_output == options.result.json)
+      throw CLI::ValidationError("-o", "cannot go where --json goes");
     return execute_machine(options);
   }
   if (options.data.size() > 1)
     throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
   if (!surface_said) throw CLI::RequiredError("--surface");
+  if (!options.errors_output.empty())
+    throw CLI::ValidationError("-o", "writes the errors of a machine: name it with --machine");
   if (!options.machine.errors.empty() || !options.machine.sign.empty())
     throw CLI::ValidationError("--errors", "is of a machine: name it with --machine");
   options.stream.path = options.data.front();
@@ -127,6 +135,10 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   command->add_option("--machine", options->machine.machine,
                       "the machine (TOML) that was measured; no --surface then");
   options->machine.add_errors_to(*command);
+  command
+      ->add_option("-o,--output", options->errors_output,
+                   "with --machine: write its errors here (TOML): given, always fitted and found")
+      ->check(a_place());
   add_false_alarm(*command, options->false_alarm);
   options->result.add_to(*command, "what is left before and after here (CSV)");
   command->callback([options, command, surface, &exit_code] {

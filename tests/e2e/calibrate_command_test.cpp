@@ -48,7 +48,8 @@ TEST_F(CalibrateCommand, IsDeterministic) {
 
 // The example hides EXC of order 2, amplitude √(3² + 2²) = 3.6 µm.
 TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
-  const auto done = command("diagnose " + ball_ + " --machine " + machine_ + " --json d.json");
+  const auto done =
+      command("diagnose " + ball_ + " --machine " + machine_ + " --json d.json -o e.toml");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("d.json");
   EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/1");
@@ -63,6 +64,11 @@ TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
   EXPECT_LT(json["gain"]["held_out_rms_after"]["value"],
             json["gain"]["held_out_rms_before"]["value"]);
   EXPECT_TRUE(contains(done.out, "EXC.harmonic2"));
+  // With the errors that it wrote nothing is left to be found.
+  const auto again = command("diagnose " + ball_ + " --machine " + machine_ +
+                             " --errors e.toml --json again.json");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(result("again.json")["verdict"], "ideal");
 }
 
 TEST_F(CalibrateCommand, ReadOutOfAnAxis) {

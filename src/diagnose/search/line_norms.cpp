@@ -128,12 +128,16 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
       for (std::size_t i = begin; i < begin + size; ++i)
         out[i - begin] = counts(i) ? x[i - start] - x[i - start - lag] : 0.0;
     };
-    double longest = 0.0;
-    std::vector<double> some(std::min(point.size(), rows_at_once));
-    for (std::size_t begin = 0; begin < point.size(); begin += some.size()) {
-      const std::size_t size = std::min(some.size(), point.size() - begin);
-      steps_of(x_, begin, size, some.data());
-      for (std::size_t i = 0; i < size; ++i) longest = std::max(longest, std::abs(some[i]));
+    std::size_t stride = 1;
+    if (bins > point.size()) {  // fewer cost no more than a look at all steps
+      double longest = 0.0;
+      std::vector<double> some(std::min(point.size(), rows_at_once));
+      for (std::size_t begin = 0; begin < point.size(); begin += some.size()) {
+        const std::size_t size = std::min(some.size(), point.size() - begin);
+        steps_of(x_, begin, size, some.data());
+        for (std::size_t i = 0; i < size; ++i) longest = std::max(longest, std::abs(some[i]));
+      }
+      stride = stride_of(longest, df);
     }
     const auto steps = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
       steps_of(x_, begin, size, out[0]);
@@ -148,7 +152,6 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
         out[0][i] *= weight, out[1][i] *= weight;
       }
     };
-    const std::size_t stride = stride_of(longest, df);
     const std::size_t coarse = stride > 1 ? bins / stride + taps + 1 : bins;
     const double first = stride > 1 ? low - before * static_cast<double>(stride) * df : low;
     const auto sums = FourierSums(steps, point.size(), 0.0, two_pi * first,
