@@ -216,6 +216,8 @@ void add_slow_spirals(const Problem& problem, std::vector<Hypothesis>& list) {
 std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
                                double step = step_start) {
   const double first_step = step;
+  const bool of_means =
+      judge.problem().means != nullptr;  // so many readings tell a form from lobes
   double shrink = 1.0;
   for (int round = 0; round < rounds; ++round) {
     std::vector<Hypothesis> tried;
@@ -224,7 +226,7 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
       const Hypothesis& h = best[i].hypothesis;
       const double cell = is_line(h) ? half_cell(h, judge.problem().point) : 0.0;
       for (Hypothesis& v : variants(h, judge.problem(), step, 0.5 * shrink * cell)) {
-        if (is_local(v)) keep_local(judge.problem(), v);
+        if (!of_means && is_local(v)) keep_local(judge.problem(), v);
         tried.push_back(std::move(v));
         owner.push_back(i);
       }
