@@ -21,13 +21,6 @@ using namespace diagnose_detail;
 
 namespace {
 
-constexpr std::size_t very_many = 4'000'000;  // readings: memory counts more than time there
-
-/// Threads for work side by side that takes memory for every reading.
-int threads_beside(const ProbeStream& stream, const DiagnoseOptions& options) {
-  return stream.size() < very_many ? options.threads : 1;
-}
-
 Diagnosis not_diagnosable(Diagnosis out) {
   out.named = out.extended = out.baseline;
   out.noise.note =
@@ -74,12 +67,12 @@ std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
 
 /// How sure all of it is: noise, checks of the data, gain, tests made.
 void add_evidence(const IdealModel& ideal, const RelinearisedFit& refit, const Model& model,
-                  const AveragedAxis& average, Diagnosis& out) {
+                  const AveragedAxis& average, int threads, Diagnosis& out) {
   const Problem& problem = refit.problem();
   const Joint& joint = refit.joint();
   out.noise = report_noise(ideal.stream, joint, out.residual_after_mm, ideal.masked,
                            ideal.fit_options.noise_mm);
-  for_each_index(4, problem.threads, [&](std::size_t k) {
+  for_each_index(4, threads, [&](std::size_t k) {
     if (k == 0) out.gain = measure_gain(problem, joint, average, out.noise.sigma_mm);
     if (k == 1) out.checks = check_quality(ideal, joint, out.residual_after_mm, out.noise);
     if (k == 2)
@@ -100,7 +93,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     expects(find_effect(own.id) == nullptr, "an effect of one's own has an id of its own");
   Diagnosis out;
   out.false_alarm = options.false_alarm;
-  const int threads = threads_beside(stream, options);
+  const int threads = threads_beside(stream.size(), options.threads);
   DistinctValues indicated;
   for_each_index(2, threads, [&](std::size_t k) {
     if (k == 0) out.baseline = fit(stream, options.fit);
@@ -114,8 +107,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const std::unique_ptr<RelinearisedFit> refit = relinearise(ideal, search.model, timing);
   Explanation explanation;
   for_each_index(2, threads, [&](std::size_t k) {
-    if (k == 0) refit->fit_surface();
-    if (k == 1) explanation = explain(search, *refit, timing);
+    if (k == 0) explanation = explain(search, *refit, timing);
+    if (k == 1) refit->fit_surface();
   });
 
   out.findings = std::move(explanation.findings);
@@ -138,7 +131,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     }
     if (k == 1) {
       out.residual_after_mm = refit->residual_mm();
-      add_evidence(ideal, *refit, search.model, average, out);
+      add_evidence(ideal, *refit, search.model, average, threads, out);
     }
   });
   const LinearisationPoint& point = refit->problem().point;

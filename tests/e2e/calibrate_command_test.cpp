@@ -11,12 +11,18 @@ class CalibrateCommand : public CommandTest {
   static std::string data(const std::string& name) {
     return std::string(TRUEAXIS_SOURCE) + "/data/five_axis/" + name;
   }
+  /// Words with blanks between them.
+  static std::string line(std::initializer_list<std::string_view> words) {
+    std::string out;
+    for (const std::string_view word : words) out.append(word).append(1, ' ');
+    return out;
+  }
   std::string machine_ = data("trunnion_ac.toml"), ball_ = data("trunnion_ac_ball.csv");
 };
 
 // The example was made with Z0A 31 µm, B0C 60 and C0A −45 µrad; U is printed in degrees.
 TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
-  const auto done = command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json");
+  const auto done = command(line({"calibrate", machine_, ball_, "-o e.toml --json c.json"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("c.json");
   EXPECT_EQ(json["schema"], "trueaxis.calibration/1");
@@ -30,18 +36,16 @@ TEST_F(CalibrateCommand, WritesErrorsThatPoseReads) {
   for (const auto& one : json["not_determined"])
     EXPECT_FALSE(one["why"].get<std::string>().empty());
   const auto pose =
-      command("pose " + machine_ + ' ' + data("trunnion_ac_positions.csv") + " --errors e.toml");
+      command(line({"pose", machine_, data("trunnion_ac_positions.csv"), "--errors e.toml"}));
   EXPECT_EQ(pose.exit_code, 0) << pose.err;
-  const auto again = command("calibrate " + machine_ + ' ' + ball_ + " --errors e.toml -o f.toml");
+  const auto again = command(line({"calibrate", machine_, ball_, "--errors e.toml -o f.toml"}));
   ASSERT_EQ(again.exit_code, 0) << again.err;
 }
 
 // The same bytes come twice.
 TEST_F(CalibrateCommand, IsDeterministic) {
-  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o e.toml --json c.json").exit_code,
-            0);
-  ASSERT_EQ(command("calibrate " + machine_ + ' ' + ball_ + " -o f.toml --json d.json").exit_code,
-            0);
+  ASSERT_EQ(command(line({"calibrate", machine_, ball_, "-o e.toml --json c.json"})).exit_code, 0);
+  ASSERT_EQ(command(line({"calibrate", machine_, ball_, "-o f.toml --json d.json"})).exit_code, 0);
   EXPECT_EQ(read_text(folder_ / "e.toml"), read_text(folder_ / "f.toml"));
   EXPECT_EQ(read_text(folder_ / "c.json"), read_text(folder_ / "d.json"));
 }
@@ -49,7 +53,7 @@ TEST_F(CalibrateCommand, IsDeterministic) {
 // The example hides EXC of order 2, amplitude √(3² + 2²) = 3.6 µm.
 TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
   const auto done =
-      command("diagnose " + ball_ + " --machine " + machine_ + " --json d.json -o e.toml");
+      command(line({"diagnose", ball_, "--machine", machine_, "--json d.json -o e.toml"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json json = result("d.json");
   EXPECT_EQ(json["schema"], "trueaxis.machine_diagnosis/1");
@@ -65,8 +69,8 @@ TEST_F(CalibrateCommand, DiagnoseNamesTheHiddenError) {
             json["gain"]["held_out_rms_before"]["value"]);
   EXPECT_TRUE(contains(done.out, "EXC.harmonic2"));
   // With the errors that it wrote nothing is left to be found.
-  const auto again = command("diagnose " + ball_ + " --machine " + machine_ +
-                             " --errors e.toml --json again.json");
+  const auto again = command(
+      line({"diagnose", ball_, "--machine", machine_, "--errors e.toml --json again.json"}));
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(result("again.json")["verdict"], "ideal");
 }
@@ -84,7 +88,7 @@ TEST_F(CalibrateCommand, ReadOutOfAnAxis) {
     text += line;
   }
   file("z.csv", text);
-  const auto done = command("calibrate " + machine_ + " z.csv -o e.toml --json c.json");
+  const auto done = command(line({"calibrate", machine_, "z.csv -o e.toml --json c.json"}));
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const nlohmann::json read_out = result("c.json")["read_outs"][0];
   EXPECT_NEAR(read_out["period"]["value"].get<double>(), 4.0, 1e-3);

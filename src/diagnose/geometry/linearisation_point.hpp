@@ -59,6 +59,14 @@ struct LinearisationFacts {
   double end_mm() const { return std::abs(z_mid_mm) + z_half_mm; }  ///< outer end of a face
 };
 
+/// Readings from which on memory counts more than time.
+inline constexpr std::size_t very_many = 4'000'000;
+
+/// Threads for work side by side that takes memory for every reading.
+constexpr int threads_beside(std::size_t readings, int threads) {
+  return readings < very_many ? threads : 1;
+}
+
 /// Readings about the fitted surface. C, Z and time are at hand; all else is kept of few readings,
 /// and of many made anew, part by part, where it is asked for.
 struct LinearisationPoint : LinearisationFacts {

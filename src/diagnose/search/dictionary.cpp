@@ -10,8 +10,6 @@
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t very_many = 4'000'000;  // readings: memory counts more than time there
-
 Hypothesis function_of(int order, int degree, bool spindle = false, bool in_time = false) {
   Hypothesis h;
   h.pattern = {.order = static_cast<double>(order),

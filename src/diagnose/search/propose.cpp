@@ -288,7 +288,7 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   std::ranges::stable_sort(out.basis, better);
   // Three looks that know nothing of each other.
   double bumps_tested = 0.0, steps_tested = 0.0;
-  for_each_index(3, problem_.threads, [&](std::size_t look) {
+  for_each_index(3, threads_beside(problem_.point.size(), problem_.threads), [&](std::size_t look) {
     if (look == 0) out.scans = scanner_(equations, left);
     if (look == 1) out.steps = scan_steps(problem_, phi, terms, steps_tested);
     if (look == 2) out.bumps = bumps(equations, left, terms, bumps_tested);
@@ -361,7 +361,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
     to = refined(judge, std::move(best));
     average_over_noise(problem_, phi, dictionary_->noise_freedom, terms, to);
   };
-  for_each_index(2, problem_.threads, [&](std::size_t k) {
+  for_each_index(2, threads_beside(problem_.point.size(), problem_.threads), [&](std::size_t k) {
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
   });
   const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
