@@ -9,7 +9,7 @@ namespace {
 class CalibrateCommand : public CommandTest {
  protected:
   static std::string data(const std::string& name) {
-    return std::string(TRUEAXIS_SOURCE) + "/data/five_axis/" + name;
+    return TRUEAXIS_SOURCE "/data/five_axis/" + name;
   }
   /// Words with blanks between them.
   static std::string line(std::initializer_list<std::string_view> words) {
@@ -81,11 +81,11 @@ TEST_F(CalibrateCommand, ReadOutOfAnAxis) {
   std::normal_distribution<double> normal(0.0, 1e-5);
   for (int i = 0; i <= 400; ++i) {
     const double z = 0.25 * i;
-    char line[80];
+    char row[80];
     std::snprintf(
-        line, sizeof line, "%.17g,%.17g\n", z,
+        row, sizeof row, "%.17g,%.17g\n", z,
         z + 0.01 * z / 100.0 + 0.003 * std::cos(2.0 * 3.14159265358979 * z / 4.0) + normal(random));
-    text += line;
+    text += row;
   }
   file("z.csv", text);
   const auto done = command(line({"calibrate", machine_, "z.csv -o e.toml --json c.json"}));
