@@ -122,14 +122,14 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
                                             out.baseline, search.model.others);
   out.shares = average.shares;
   out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
-  out.effect_mm = refit->effect_mm();
-  out.residual_before_mm = out.baseline.residual_mm;
   for_each_index(2, threads, [&](std::size_t k) {
     if (k == 0) {
       out.extended = refit->shifted(average.shift, average.within, average.between);
       out.named = refit->take_named();
     }
     if (k == 1) {
+      out.effect_mm = refit->effect_mm();
+      out.residual_before_mm = out.baseline.residual_mm;
       out.residual_after_mm = refit->residual_mm();
       add_evidence(ideal, *refit, search.model, average, threads, out);
     }
