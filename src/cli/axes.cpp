@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
-#include "cli/options.hpp"
-#include "format/outputs.hpp"
 #include "machine/files/positions_csv.hpp"
 #include "trueaxis/error.hpp"
 
@@ -17,8 +14,9 @@ namespace {
 
 struct Options {
   MachineOptions machine;
-  std::string targets, output;
-  bool all = false, force = false;
+  TableOutput output;
+  std::string targets;
+  bool all = false;
 };
 
 /// The solutions of every point, each nearest to the first of the point before.
@@ -49,17 +47,7 @@ int execute(const Options& options) {
   const Setting setting = options.machine.setting_of(file.machine);
   const auto targets = read_tool_targets_csv(options.targets);
   const std::string text = axes_csv(file.machine, solve(model, targets, setting, options.all));
-  if (options.output.empty() || options.output == "-") {
-    std::cout << text;
-    return done;
-  }
-  Outputs outputs(options.force);
-  outputs.reads(options.machine.machine);
-  outputs.reads(options.targets);
-  outputs.may_write(options.output, "trueaxis.axes");
-  outputs.check();
-  outputs.write(options.output, "# schema: trueaxis.axes/1\n" + text);
-  outputs.commit();
+  options.output.print_or_write("trueaxis.axes", text, {options.machine.machine, options.targets});
   return done;
 }
 
@@ -74,9 +62,7 @@ void add_axes(CLI::App& app, int& exit_code) {
   command->add_flag("--all", options->all,
                     "every solution within the limits, not only the nearest one");
   options->machine.add_work_offset_to(*command);
-  command->add_option("-o,--output", options->output, "write here instead of printing")
-      ->check(a_place());
-  add_force(*command, options->force);
+  options->output.add_to(*command);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

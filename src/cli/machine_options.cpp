@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/machine_options.hpp"
 
+#include <iostream>
+
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
 #include "machine/files/errors_files.hpp"
 #include "trueaxis/error.hpp"
 
@@ -39,6 +43,25 @@ Setting MachineOptions::setting_of(const Machine& of) const {
   else if (work_offset != "G54")
     throw InputError(machine, "has no [workpiece." + work_offset + ']');
   return setting;
+}
+
+void TableOutput::add_to(CLI::App& command) {
+  command.add_option("-o,--output", place, "write here instead of printing")->check(a_place());
+  add_force(command, force);
+}
+
+void TableOutput::print_or_write(const std::string& schema, const std::string& table,
+                                 const std::vector<std::string>& read) const {
+  if (place.empty() || place == "-") {
+    std::cout << table;
+    return;
+  }
+  Outputs outputs(force);
+  for (const std::string& path : read) outputs.reads(path);
+  outputs.may_write(place, schema);
+  outputs.check();
+  outputs.write(place, "# schema: " + schema + "/1\n" + table);
+  outputs.commit();
 }
 
 std::optional<ErrorSign> sign_of(const std::string& word) {

@@ -29,6 +29,18 @@ struct MachineOptions {
   Setting setting_of(const Machine& machine) const;
 };
 
+/// A table that is printed, or written where `--output` says.
+struct TableOutput {
+  std::string place;
+  bool force = false;
+
+  void add_to(CLI::App& command);
+  /// @param schema without the version
+  /// @param read files that the command reads, none of which is written over
+  void print_or_write(const std::string& schema, const std::string& table,
+                      const std::vector<std::string>& read) const;
+};
+
 std::optional<ErrorSign> sign_of(const std::string& word);
 CLI::Validator a_sign();
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
-#include "cli/options.hpp"
-#include "format/outputs.hpp"
 #include "machine/files/positions_csv.hpp"
 
 namespace trueaxis::cli {
@@ -14,8 +11,8 @@ namespace {
 
 struct Options {
   MachineOptions machine;
-  std::string positions, output;
-  bool force = false;
+  TableOutput output;
+  std::string positions;
 };
 
 int execute(const Options& options) {
@@ -29,18 +26,9 @@ int execute(const Options& options) {
     twists_rad.push_back(about_tool_axis_rad(poses.back(), model.nominal(axes, setting)));
   }
   const std::string text = poses_csv(poses, twists_rad);
-  if (options.output.empty() || options.output == "-") {
-    std::cout << text;
-    return done;
-  }
-  Outputs outputs(options.force);
-  outputs.reads(options.machine.machine);
-  outputs.reads(options.positions);
-  for (const std::string& path : options.machine.errors) outputs.reads(path);
-  outputs.may_write(options.output, "trueaxis.poses");
-  outputs.check();
-  outputs.write(options.output, "# schema: trueaxis.poses/1\n" + text);
-  outputs.commit();
+  std::vector<std::string> read = options.machine.errors;
+  read.insert(read.end(), {options.machine.machine, options.positions});
+  options.output.print_or_write("trueaxis.poses", text, read);
   return done;
 }
 
@@ -55,9 +43,7 @@ void add_pose(CLI::App& app, int& exit_code) {
       ->required();
   options->machine.add_errors_to(*command);
   options->machine.add_work_offset_to(*command);
-  command->add_option("-o,--output", options->output, "write here instead of printing")
-      ->check(a_place());
-  add_force(*command, options->force);
+  options->output.add_to(*command);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 
