@@ -109,4 +109,8 @@ struct Calibration {
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options = {});
 
+/// Why a calibration cannot be right: a size that, less its U, is fifty times the largest plausible
+/// one, as of inches for mm or a wrong tool length. Empty: nothing speaks against it.
+std::string implausible(const Calibration& found, const CalibrationOptions& options);
+
 }  // namespace trueaxis

@@ -11,6 +11,7 @@
 #include "format/outputs.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "trueaxis/calibration.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -39,6 +40,7 @@ int execute(const Options& options) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;
   }
+  if (const std::string why = implausible(found, calibration); !why.empty()) throw Refusal(why);
   outputs.write(options.output, errors_toml(found.errors));
   if (!options.json.empty()) outputs.write(options.json, calibration_json(found, file.machine));
   outputs.commit();
