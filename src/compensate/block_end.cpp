@@ -1,11 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compensate/block_end.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 namespace trueaxis {
+namespace {
+
+/// A quarter of the shortest wave, the least distance of two points of a table; what a polynomial
+/// does on the length of its scale a wave does on a quarter.
+double bend_of(const ErrorFunction& function) {
+  double least = INFINITY;
+  if (const auto* polynomial = std::get_if<PolynomialError>(&function)) {
+    if (polynomial->coefficients.size() > 2)
+      least = std::abs(polynomial->scale) / static_cast<double>(polynomial->coefficients.size());
+  } else if (const auto* waves = std::get_if<FourierError>(&function)) {
+    for (const FourierError::Term& term : waves->terms)
+      if (term.order != 0.0) least = std::min(least, 0.25 * std::abs(waves->period / term.order));
+  } else if (const auto* table = std::get_if<TableError>(&function)) {
+    for (std::size_t i = 1; i < table->at.size(); ++i)
+      least = std::min(least, table->at[i] - table->at[i - 1]);
+  }
+  return least;
+}
+
+AxisPositions bends_of(const ErrorModel& errors) {
+  AxisPositions bends;
+  bends.fill(INFINITY);
+  for (const ErrorTerm& term : errors.terms)
+    if (term.name.component)
+      bends[term.name.body] = std::min(bends[term.name.body], bend_of(term.function));
+  return bends;
+}
+
+}  // namespace
 
 CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                                    const CompensationOptions& options_of,
@@ -16,7 +46,8 @@ CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Progr
       axes(axes_of),
       write{options_of.decimals, options_of.angle_decimals, axes_of.axes()},
       by_error(SingleErrors::of_names(model_of)),
-      uncertainties(SingleErrors::of_uncertainties(model_of)) {}
+      uncertainties(SingleErrors::of_uncertainties(model_of)),
+      bends(bends_of(model_of.errors())) {}
 
 namespace {
 
@@ -70,6 +101,7 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   const auto other = exactly ? compensate_by_differential(task.model, end.commanded, setting)
                              : compensate_exactly(task.model, end.commanded, setting);
   const ToolPose before = task.model.actual(end.commanded, setting);
+  end.actual_mm = before.tip_mm;
   take(tally.sums.before, before, target, line);
   take_single_errors(task, end.commanded, setting, line, tally);
   end.reached = is_reached(position, line, tally);
@@ -83,6 +115,7 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
     take(tally.sums.exact_minus_differential[k], position.axes[k] - other.axes[k], line);
   }
   const ToolPose after = task.model.actual(end.written, setting);
+  end.written_mm = after.tip_mm;
   take(tally.sums.after, after, target, line);
   const bool there = position.tip_left_mm < 1e-11 && position.direction_left_rad < 1e-13;
   take(tally.sums.rounding, after, there ? target : task.model.actual(position.axes, setting),

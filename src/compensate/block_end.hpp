@@ -16,6 +16,7 @@ struct CompensationTask {
   ProgramAxes axes;
   nc::WriteOptions write;
   SingleErrors by_error, uncertainties;
+  AxisPositions bends;  ///< length of an axis over which its errors bend once; infinite: none do
 
   CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                    const CompensationOptions& options_of, const ProgramAxes& axes_of);
@@ -28,6 +29,8 @@ struct BlockEnd {
   AxisPositions written{};    ///< by the new program, with its decimals
   nc::AxisValues words{};     ///< of the new program, before they are rounded
   Vector3 tip_mm{};           ///< nominal, at `commanded`
+  Vector3 actual_mm{};        ///< actual tip, at `commanded`
+  Vector3 written_mm{};       ///< actual tip, at `written`
   bool reached = false;
 };
 
