@@ -91,26 +91,30 @@ double BlockPath::distance_mm(const Vector3& tip) const {
 
 namespace {
 
-/// Points at which a way is looked at: it bends once in 20° of rotary axes, and where errors do.
-std::size_t points_on(const AxisPositions& from, const AxisPositions& to,
-                      const AxisPositions& bends) {
+/// In how many parts a way bends no more than once each: 20° of rotary axes and what bends an
+/// error.
+double parts_of(const AxisPositions& from, const AxisPositions& to, const ErrorBends& bends) {
   constexpr double even_rad = 20.0 * rad_per_deg;
   double parts = 0.0;
   for (std::size_t k = 0; k < axis_count; ++k) {
     const double way = std::abs(to[k] - from[k]);
-    parts += way / bends[k] + (is_rotary(static_cast<AxisName>(k)) ? way / even_rad : 0.0);
+    parts += way / bends.length[k] + (is_rotary(static_cast<AxisName>(k)) ? way / even_rad : 0.0);
   }
-  return 4 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 1.0, 200.0)));
+  return parts;
 }
 
-/// Eq. 200: what an even way has beside the parabola through its ends and middle, at most; the tip
-/// within a metre of the rotary axes.
-double cubic_mm(const AxisPositions& from, const AxisPositions& to) {
+/// Eq. 200: what a way has beside the parabola through its ends and middle, at most.
+double beside_parabola_mm(const AxisPositions& from, const AxisPositions& to,
+                          const ErrorBends& bends) {
   constexpr double lever_mm = 1000.0;
-  double turn = 0.0, travel_mm = 0.0;
-  for (std::size_t k = 0; k < axis_count; ++k)
-    (is_rotary(static_cast<AxisName>(k)) ? turn : travel_mm) += std::abs(to[k] - from[k]);
-  return turn * turn * (turn * lever_mm + 3.0 * travel_mm) * std::sqrt(3.0) / 216.0;
+  double turn = 0.0, travel_mm = 0.0, corners_mm = 0.0;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const double way = std::abs(to[k] - from[k]);
+    (is_rotary(static_cast<AxisName>(k)) ? turn : travel_mm) += way;
+    corners_mm += bends.off_mm(k, from[k], to[k]);
+  }
+  const double third = turn * turn * (turn * lever_mm + 3.0 * travel_mm);
+  return third * std::sqrt(3.0) / 216.0 + corners_mm;
 }
 
 }  // namespace
@@ -119,21 +123,25 @@ double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& t
                                const Vector3& from_tip_mm, const Vector3& to_tip_mm,
                                double of_interest_mm) const {
   const Way on = way(from, to);
-  const std::size_t points = points_on(from, to, task_.bends);
+  const double parts = parts_of(from, to, task_.bends);
+  const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, 500.0)));
+  const bool is_even = parts <= 0.5;
   const double off_from_mm = distance_mm(from_tip_mm), off_to_mm = distance_mm(to_tip_mm);
   Vector3 middle{};
-  if (points == 4) {
+  if (is_even) {
     middle = actual_tip_mm(on, 0.5);
-    const double largest_mm = std::max({off_from_mm, off_to_mm, distance_mm(middle)});
     const double bow_mm = across_mm(middle, mix(from_tip_mm, to_tip_mm, 0.5));
-    if (largest_mm + 2.0 * bow_mm + cubic_mm(from, to) < of_interest_mm) return largest_mm;
+    const double ends_mm = std::max(off_from_mm, off_to_mm);
+    const double seen_mm = std::max(ends_mm, distance_mm(middle));
+    const double most_mm = ends_mm + bow_mm + beside_parabola_mm(from, to, task_.bends);
+    if (most_mm < of_interest_mm || most_mm <= 1.01 * seen_mm) return seen_mm;
   }
   const auto off_mm = [&](double s) {
     if (s == 0.0) return off_from_mm;
     if (s == 1.0) return off_to_mm;
-    return distance_mm(s == 0.5 && points == 4 ? middle : actual_tip_mm(on, s));
+    return distance_mm(s == 0.5 && is_even ? middle : actual_tip_mm(on, s));
   };
-  return LargestOnWay(off_mm, points).value(of_interest_mm);
+  return LargestOnWay(off_mm, looks).value(of_interest_mm);
 }
 
 double BlockPath::deviation_before_mm(double of_interest_mm) const {

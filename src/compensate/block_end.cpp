@@ -1,42 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compensate/block_end.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "machine/compensations.hpp"
+
 namespace trueaxis {
-namespace {
-
-/// A quarter of the shortest wave, the least distance of two points of a table; what a polynomial
-/// does on the length of its scale a wave does on a quarter.
-double bend_of(const ErrorFunction& function) {
-  double least = INFINITY;
-  if (const auto* polynomial = std::get_if<PolynomialError>(&function)) {
-    if (polynomial->coefficients.size() > 2)
-      least = std::abs(polynomial->scale) / static_cast<double>(polynomial->coefficients.size());
-  } else if (const auto* waves = std::get_if<FourierError>(&function)) {
-    for (const FourierError::Term& term : waves->terms)
-      if (term.order != 0.0) least = std::min(least, 0.25 * std::abs(waves->period / term.order));
-  } else if (const auto* table = std::get_if<TableError>(&function)) {
-    for (std::size_t i = 1; i < table->at.size(); ++i)
-      least = std::min(least, table->at[i] - table->at[i - 1]);
-  }
-  return least;
-}
-
-AxisPositions bends_of(const ErrorModel& errors) {
-  AxisPositions bends;
-  bends.fill(INFINITY);
-  for (const ErrorTerm& term : errors.terms)
-    if (term.name.component)
-      bends[term.name.body] = std::min(bends[term.name.body], bend_of(term.function));
-  return bends;
-}
-
-}  // namespace
-
 CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                                    const CompensationOptions& options_of,
                                    const ProgramAxes& axes_of)
@@ -96,11 +68,19 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   end.commanded = *commanded;
   const ToolPose target = task.model.nominal(end.commanded, setting);
   end.tip_mm = target.tip_mm;
-  const bool exactly = task.options.method == CompensationMethod::exact;
-  const auto position = compensate_position(task, end.commanded, setting);
-  const auto other = exactly ? compensate_by_differential(task.model, end.commanded, setting)
-                             : compensate_exactly(task.model, end.commanded, setting);
-  const ToolPose before = task.model.actual(end.commanded, setting);
+  CompensatedPosition position;
+  ToolPose before;
+  AxisPositions by_other_method;
+  if (task.options.method == CompensationMethod::exact) {
+    auto exact = compensate_exactly_with_before(task.model, target, end.commanded, setting);
+    position = std::move(exact.position);
+    before = exact.before;
+    by_other_method = axes_by_differential(task.model, end.commanded, setting);
+  } else {
+    position = compensate_by_differential(task.model, end.commanded, setting);
+    before = task.model.actual(end.commanded, setting);
+    by_other_method = compensate_exactly(task.model, target, end.commanded, setting).axes;
+  }
   end.actual_mm = before.tip_mm;
   take(tally.sums.before, before, target, line);
   take_single_errors(task, end.commanded, setting, line, tally);
@@ -112,7 +92,7 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   for (std::size_t k = 0; k < axis_count; ++k) {
     if (!nc::has(task.axes.axes(), k)) continue;
     take(tally.sums.largest_change[k], end.words[k] - move.words[k], line);
-    take(tally.sums.exact_minus_differential[k], position.axes[k] - other.axes[k], line);
+    take(tally.sums.exact_minus_differential[k], position.axes[k] - by_other_method[k], line);
   }
   const ToolPose after = task.model.actual(end.written, setting);
   end.written_mm = after.tip_mm;

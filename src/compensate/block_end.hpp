@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "compensate/error_bends.hpp"
 #include "compensate/program_axes.hpp"
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
@@ -16,7 +17,7 @@ struct CompensationTask {
   ProgramAxes axes;
   nc::WriteOptions write;
   SingleErrors by_error, uncertainties;
-  AxisPositions bends;  ///< length of an axis over which its errors bend once; infinite: none do
+  ErrorBends bends;
 
   CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                    const CompensationOptions& options_of, const ProgramAxes& axes_of);
