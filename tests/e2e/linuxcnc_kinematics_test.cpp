@@ -17,6 +17,8 @@ using Joints = std::array<double, 5>;  // X Y Z, first and second rotary axis; m
 const std::string module_folder = "/usr/lib/linuxcnc/modules/";
 const std::string source_folder = TRUEAXIS_SOURCE "/tests/e2e/";
 const std::string five_axis_data = TRUEAXIS_SOURCE "/data/five_axis/";
+const std::string of_trunnion = "--machine " + five_axis_data + "trunnion_ac.toml --errors " +
+                                five_axis_data + "trunnion_ac_errors.toml ";
 
 class LinuxCncKinematics : public CommandTest {
  protected:
@@ -26,6 +28,14 @@ class LinuxCncKinematics : public CommandTest {
            shell("cd " + shell_word(folder_) + " && cc -rdynamic -o client " + source_folder +
                  "linuxcnc_kinematics.c -ldl")
                    .exit_code == 0;
+  }
+
+  void makes_trunnion() {
+    std::filesystem::copy_file(source_folder + "trunnion_kins.comp",
+                               folder_ / "trunnion_kins.comp");
+    const auto made =
+        shell("cd " + shell_word(folder_) + " && halcompile --compile trunnion_kins.comp");
+    ASSERT_EQ(made.exit_code, 0) << made.output;
   }
 
   std::vector<std::array<double, 9>> world(const std::string& module_and_pins,
@@ -168,10 +178,7 @@ double from_segment(const double* p, const double* a, const double* b) {
 TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
   if (!builds_client("/usr/bin/halcompile"))
     GTEST_SKIP() << "halcompile (linuxcnc-uspace-dev) or cc is not installed";
-  std::filesystem::copy_file(source_folder + "trunnion_kins.comp", folder_ / "trunnion_kins.comp");
-  const auto made =
-      shell("cd " + shell_word(folder_) + " && halcompile --compile trunnion_kins.comp");
-  ASSERT_EQ(made.exit_code, 0) << made.output;
+  makes_trunnion();
   // The worked example of docs/machine.md.
   const auto example = world("./trunnion_kins.so", {{100.0, -50.0, 30.0, -35.0, 70.0}}).front();
   const double expected[] = {-1.850358534818, 97.210312596243, 59.190929118170};
@@ -187,10 +194,8 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
     text += line;
   }
   file("p.nc", text);
-  const std::string errors = "--machine " + five_axis_data + "trunnion_ac.toml --errors " +
-                             five_axis_data + "trunnion_ac_errors.toml ";
   const std::string fine = "--decimals 12 --angle-decimals 12 ";
-  ASSERT_EQ(command("compensate p.nc " + errors + fine + "-o ends.nc").exit_code, 0);
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + fine + "-o ends.nc").exit_code, 0);
   const auto asked = world("./trunnion_kins.so errors=0", joints_of(text));
   const auto got = world("./trunnion_kins.so", joints_of(read_text(folder_ / "ends.nc")));
   ASSERT_EQ(got.size(), asked.size());
@@ -199,8 +204,9 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
 
   // In pieces, with every joint going evenly between them, the tip is near the line it should cut.
   const double tolerance_mm = 5e-3;
-  ASSERT_EQ(command("compensate p.nc " + errors + fine + "--tolerance-um 5 -o pieces.nc").exit_code,
-            0);
+  ASSERT_EQ(
+      command("compensate p.nc " + of_trunnion + fine + "--tolerance-um 5 -o pieces.nc").exit_code,
+      0);
   const std::vector<Joints> pieces = joints_of(read_text(folder_ / "pieces.nc"));
   EXPECT_GT(pieces.size(), 2 * nominal.size());
   std::vector<Joints> on_the_way;
@@ -226,6 +232,65 @@ TEST_F(LinuxCncKinematics, AMachineWithErrorsFollowsTheCompensatedPath) {
   EXPECT_EQ(block + 1, asked.size());
   EXPECT_LT(largest, 1.01 * tolerance_mm);
   std::printf("%zu pieces, %.3f um from the line\n", pieces.size() - 1, 1e3 * largest);
+}
+
+// LinuxCNC itself, its task, planner and motion at 1 kHz, runs the compensated program in pieces;
+// what its joints are told every millisecond the module turns into where the tip then really is.
+TEST_F(LinuxCncKinematics, TheControlKeepsTheCompensatedPathWithinTheTolerance) {
+  if (shell("command -v linuxcnc").exit_code != 0 || !builds_client("/usr/bin/halcompile"))
+    GTEST_SKIP() << "linuxcnc or halcompile (linuxcnc-uspace-dev) is not installed";
+  makes_trunnion();
+  std::vector<Joints> nominal = random_walk(79);
+  nominal.resize(8);
+  std::string text = "G21 G90 G94 G61\nG1 F2000\n";
+  char line[200];
+  for (const Joints& q : nominal) {
+    std::snprintf(line, sizeof line, "X%.6f Y%.6f Z%.6f A%.6f C%.6f\n", q[0], q[1], q[2], q[3],
+                  q[4]);
+    text += line;
+  }
+  file("p.nc", text + "M2\n");
+  const std::string options = " --decimals 6 --angle-decimals 6 ";
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + options + "-o ends.nc").exit_code, 0);
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + options + "-o pieces.nc --tolerance-um 5")
+                .exit_code,
+            0);
+  const auto ran = shell("cd " + shell_word(folder_) + " && " + source_folder +
+                         "linuxcnc_control.py pieces.nc samples.txt");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  std::vector<Joints> samples;
+  std::istringstream lines(read_text(folder_ / "samples.txt"));
+  for (std::string row; std::getline(lines, row);) {
+    std::istringstream numbers(row);
+    for (double& one : samples.emplace_back()) numbers >> one;
+  }
+  const auto tips = world("./trunnion_kins.so", samples);
+  const auto asked = world("./trunnion_kins.so errors=0", joints_of(text));
+  // Of each block the samples from where its start is met to where its end is: G61 stops there.
+  const std::vector<Joints> ends = joints_of(read_text(folder_ / "ends.nc"));
+  std::size_t at = 0;
+  double largest = 0.0, largest_at_ends = 0.0;
+  for (std::size_t block = 0; block < ends.size(); ++block) {
+    const auto gap = [&](const Joints& q) {
+      double sum = 0.0;
+      for (std::size_t k = 0; k < 5; ++k) sum += std::pow(q[k] - ends[block][k], 2);
+      return sum;
+    };
+    const auto met = std::ranges::min_element(samples.begin() + static_cast<std::ptrdiff_t>(at),
+                                              samples.end(), {}, gap);
+    const auto end = static_cast<std::size_t>(met - samples.begin());
+    largest_at_ends = std::max(
+        largest_at_ends, std::hypot(tips[end][0] - asked[block][0], tips[end][1] - asked[block][1],
+                                    tips[end][2] - asked[block][2]));
+    for (std::size_t i = at; block > 0 && i <= end; ++i)
+      largest = std::max(
+          largest, from_segment(tips[i].data(), asked[block - 1].data(), asked[block].data()));
+    at = end;
+  }
+  std::printf("%zu samples: %.2f um from the lines, %.2f um at their ends\n", samples.size(),
+              1e3 * largest, 1e3 * largest_at_ends);
+  EXPECT_LT(largest, 1.01 * 5e-3);
+  EXPECT_LT(largest_at_ends, 2e-3);  // within a ms of a stop at 2000 mm/s2 it moves by 1 um
 }
 
 }  // namespace

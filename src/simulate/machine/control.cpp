@@ -70,6 +70,9 @@ class Control {
                  fmt::format("this control has no G{:g}: give straight moves, arcs as chords "
                              "(compensate --arcs)",
                              code));
+    for (const auto& [letter, value] : block.of_letter)
+      if (std::string_view("EUVW").find(letter) != std::string_view::npos)
+        complain(block, std::string("this control knows no ") + letter);
     for (std::size_t k = 0; k < axis_count; ++k)
       if (block.has(letters[k]) && !block.has_g(4.0) && !machine_.find(static_cast<AxisName>(k)))
         complain(block, std::string("the machine has no axis ") + letters[k]);
