@@ -1,5 +1,5 @@
 component trunnion_kins "The trunnion of docs/machine.md with the errors of its worked example";
-license "GPL";
+license "Apache-2.0";
 pin in float errors = 1 "0: the machine without errors";
 option period no;
 function unused nofp;

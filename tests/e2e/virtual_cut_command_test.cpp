@@ -66,8 +66,8 @@ TEST_F(VirtualCutCommand, JudgesOneInPieces) {
 }
 
 TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
-  file("p.nc", "G1 X0 Y0 Z1 A0 C0\nG2 X1 I1 F100\nG81 Z1\nX#1\nG1 B5 F100\nX1 X2\n");
-  expect_input_error(cut_scenario + "--program p.nc -o path.csv", "p.nc:2: this control has no G2");
+  file("p.nc", "G1 X0 Y0 Z1 A0 C0\nG2 X1 F100\nG81 Z1\nX#1\nG1 B5 F100\nX1 X2\n");
+  expect_input_error(cut_scenario + "--program p.nc -o path.csv", "p.nc:2: the arc has no centre");
   const std::string err = command(cut_scenario + "--program p.nc -o path.csv").err;
   for (const char* const place : {"p.nc:1:", "p.nc:3:", "p.nc:4:", "p.nc:5:", "p.nc:6:"})
     EXPECT_TRUE(contains(err, place)) << place << '\n' << err;

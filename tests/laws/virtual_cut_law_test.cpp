@@ -37,11 +37,11 @@ struct CutCase : ProgramCase {
     }
   }
 
-  vm::Cut cut(const std::string& program, const ErrorModel& with) const {
+  vm::Cut cut(const std::string& program, const ErrorModel& with, double step_mm = 1.0) const {
     vm::CutPlan plan;
     plan.program = program, plan.program_file = "compensated.nc";
     plan.nominal = text, plan.nominal_file = "part.nc";
-    plan.step_mm = 1.0, plan.step_rad = 0.01;
+    plan.step_mm = step_mm, plan.step_rad = 0.01 * step_mm;
     return vm::cut(machine, with, plan);
   }
 
@@ -73,6 +73,13 @@ struct CutCase : ProgramCase {
 
   std::string text;
 };
+
+/// The first lines of a text.
+std::string first_lines_of(const std::string& text, int lines) {
+  std::size_t end = 0;
+  for (; lines > 0; --lines) end = text.find('\n', end) + 1;
+  return text.substr(0, end);
+}
 
 std::vector<Layout> with_space() {
   std::vector<Layout> out;
@@ -155,6 +162,33 @@ TEST(VirtualCutLaw, PiecesStayWithinTheTolerance) {
     EXPECT_EQ(cut.blocks, 12 + result.blocks_inserted);
     EXPECT_LT(cut.off_at_ends.value, 1e-9);
     EXPECT_LT(cut.off_between.value, 1.01 * 0.05);
+  });
+}
+
+// Arcs of the control against chords of the compensation: half a turn and three quarters in every
+// plane, a whole one with the rotary axes going along, the blocks after the first without G2.
+TEST(VirtualCutLaw, ChordsStayWithTheArcsOfTheControl) {
+  each_case([](CutCase one) {
+    one.text = first_lines_of(one.text, 2);
+    std::string rotary;
+    for (const MachineAxis& axis : one.machine.axes)
+      if (is_rotary(axis.name)) rotary += std::string(1, letter_of(axis.name)) + "10 ";
+    one.text += "G90 G0 X10 Y0 Z0\nG2 X-10 Y0 I-10 J0\nX-10 Y20 R-10\nG17 " + rotary +
+                "X-10 I10\nG18 G3 X-20 Z10 K10\nG19 Z0 J3 K-5\n";
+    CompensationOptions options = fine();
+    options.arc_tolerance_mm = 0.02;
+    const auto result =
+        compensate_program(MachineModel(one.machine, one.errors), one.text, "p.nc", options);
+    ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+    const vm::Cut cut = one.cut(result.text, one.errors, 2.0),
+                  before = one.cut(one.text, one.errors, 5.0);
+    EXPECT_EQ(cut.judged_ends, 7u);
+    EXPECT_GT(cut.blocks, 40u);
+    EXPECT_LT(cut.off_at_ends.value, 1e-9);
+    EXPECT_GT(before.off_at_ends.value, 1e-3);
+    // Chords stay within the tolerance of the arc, and the tip within what is said of the chords;
+    // with rotary axes that turn, a tenth of the chord's height is as much again.
+    EXPECT_LT(cut.off_between.value, 1.1 * (0.02 + result.between_after.value) + 1e-9);
   });
 }
 

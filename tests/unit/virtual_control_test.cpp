@@ -94,6 +94,46 @@ TEST(VirtualControl, ReadsAsTheCompensationDoes) {
   }
 }
 
+/// Points on the way against the arc's own equation, and how far it turns.
+TEST(VirtualControl, GoesOnArcs) {
+  const Machine machine = machine_with_tools();
+  struct Case {
+    std::string text;
+    std::size_t u, v;
+    double centre_u, centre_v, radius, turn_rad;
+  };
+  const Case cases[] = {
+      {"G0 X10 Y0 Z0 A0 C0\nG3 X0 Y10 I-10 J0 F100\n", 0, 1, 0, 0, 10, 0.25 * two_pi},
+      {"G0 X10 Y0 Z0 A0 C0\nG2 X0 Y10 Z6 C90 I-10 J0 F100\n", 0, 1, 0, 0, 10, -0.75 * two_pi},
+      {"G0 X10 Y0 Z0 A0 C0\nG18 G2 X0 Z10 R10 F100\n", 2, 0, 0, 0, 10, -0.25 * two_pi},
+      {"G0 X0 Y0 Z5 A0 C0\nG19 G3 Y5 Z0 R-5 F100\n", 1, 2, 0, 0, 5, 0.75 * two_pi},
+      {"G0 X3 Y0 Z0 A0 C0\nG2 I-3 F100\n", 0, 1, 0, 0, 3, -two_pi}};
+  const AxisPositions& zero = machine.work_offsets[0]->zero;
+  for (const Case& one : cases) {
+    const auto moves = moves_of_program(machine, one.text, "p.nc");
+    ASSERT_EQ(moves.size(), 2u) << one.text;
+    const ControlMove& arc = moves[1];
+    ASSERT_TRUE(arc.arc) << one.text;
+    EXPECT_NEAR(arc.arc->turn_rad, one.turn_rad, 1e-12) << one.text;
+    EXPECT_NEAR(arc.duration_s, 0.6 * one.radius * std::abs(one.turn_rad), 1e-9) << one.text;
+    double turned = 0.0, last = 0.0;
+    for (int i = 0; i <= 100; ++i) {
+      const AxisPositions q = axes_on_way(machine, arc, i / 100.0);
+      const double u = q[one.u] - zero[one.u] - one.centre_u,
+                   v = q[one.v] - zero[one.v] - one.centre_v;
+      EXPECT_NEAR(std::hypot(u, v), one.radius, 1e-12) << one.text;
+      const double at = std::atan2(v, u);
+      if (i > 0) turned += std::remainder(at - last, two_pi);
+      last = at;
+    }
+    EXPECT_NEAR(turned, one.turn_rad, 1e-9) << one.text;
+  }
+  const auto helix = moves_of_program(machine, cases[1].text, "p.nc");
+  const AxisPositions middle = axes_on_way(machine, helix[1], 0.5);
+  EXPECT_NEAR(middle[2] - zero[2], 3.0, 1e-12);
+  EXPECT_NEAR(middle[5] - zero[5], 45.0 * rad_per_deg, 1e-12);
+}
+
 TEST(VirtualControl, PiecesComeBeforeTheirBlock) {
   const Machine machine = machine_with_tools();
   const std::string nominal = "G1 F100 X0 Y0 Z0 A-40 C0\nX10\nX10\nN9 X0 M3\nM30\n",
@@ -101,9 +141,19 @@ TEST(VirtualControl, PiecesComeBeforeTheirBlock) {
                         "G1 F100 X0 Y0 Z0 A-40 C0\nX3\nX6\nX10\nX10\nM3 X7\nX3\nN9 X0 M3\nM30\n";
   const auto of_nominal = moves_of_program(machine, nominal, "p.nc"),
              of_pieces = moves_of_program(machine, pieces, "q.nc");
-  EXPECT_EQ(nominal_moves_of(machine, of_pieces, of_nominal, "q.nc"),
+  EXPECT_EQ(nominal_moves_of(machine, {}, of_pieces, of_nominal, "q.nc"),
             (std::vector<std::size_t>{0, 1, 1, 1, 2, 3, 3, 3}));
-  EXPECT_THROW(nominal_moves_of(machine, of_nominal, of_pieces, "p.nc"), InputError);
+  EXPECT_THROW(nominal_moves_of(machine, {}, of_nominal, of_pieces, "p.nc"), InputError);
+  // The first piece says G1 and F as its block does; a whole turn ends where it begins.
+  const auto of_arcs = moves_of_program(
+                 machine, "G0 X0 Y0 Z0 A-40 C0\nG2 I5 F100\nX10 I5\nG1 X20\nX30\nG1 X40\n", "p.nc"),
+             of_chords = moves_of_program(
+                 machine,
+                 "G0 X0 Y0 Z0 A-40 C0\nG1 F100 X5 Y5\nX10 Y0\nX5 Y-5\nG1 X0 Y0 F100\n"
+                 "X5 Y5\nX10 Y0\nG1 X20\nX30\nG1 X40\n",
+                 "q.nc");
+  EXPECT_EQ(nominal_moves_of(machine, {}, of_chords, of_arcs, "q.nc"),
+            (std::vector<std::size_t>{0, 1, 1, 1, 1, 2, 2, 3, 4, 5}));
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace {
 constexpr double rapid_per_min = 10000.0;  // mm or degrees
 constexpr char letters[] = "XYZABC";
 
+Vector3 linear_part(const AxisPositions& axes) { return {axes[0], axes[1], axes[2]}; }
+
 class Control {
  public:
   Control(const Machine& machine, const std::string& file, std::vector<Diagnostic>& wrong)
@@ -35,14 +37,17 @@ class Control {
 
   /// Whether the program goes on.
   bool carry_out(const BlockWords& block) {
+    const std::size_t before = wrong_.size();
     check(block);
     put_in_force(block);
-    if (block.has_g(4.0)) {
+    if (wrong_.size() > before) {
+      // What it does is not known.
+    } else if (block.has_g(4.0)) {
       for (const char letter : {'P', 'X'})
         if (block.has(letter)) clock_s_ += block.of_letter.at(letter);
     } else if (block.has_g(28.0) || block.has_g(30.0)) {
       go_home(block);
-    } else if (has_axis_word(block)) {
+    } else if (has_axis_word(block) || (is_arc() && has_centre(block))) {
       go(block);
     }
     return !block.has_m(2.0) && !block.has_m(30.0) && !block.has_m(99.0);
@@ -60,16 +65,17 @@ class Control {
                        [&](char letter) { return block.has(letter); });
   }
 
+  bool is_arc() const { return motion_ == 2 || motion_ == 3; }
+  static bool has_centre(const BlockWords& block) {
+    return block.has('I') || block.has('J') || block.has('K');
+  }
+
   void check(const BlockWords& block) {
-    static const std::set<double> known{0,  1,  4,    17, 18, 19, 20, 21, 28, 30,
-                                        40, 43, 43.4, 49, 53, 54, 55, 56, 57, 58,
-                                        59, 61, 64,   80, 90, 91, 93, 94, 95};
+    static const std::set<double> known{0,  2,  3,  1,    4,  17, 18, 19, 20, 21, 28,
+                                        30, 40, 43, 43.4, 49, 53, 54, 55, 56, 57, 58,
+                                        59, 61, 64, 80,   90, 91, 93, 94, 95};
     for (const double code : block.g)
-      if (!known.contains(code))
-        complain(block,
-                 fmt::format("this control has no G{:g}: give straight moves, arcs as chords "
-                             "(compensate --arcs)",
-                             code));
+      if (!known.contains(code)) complain(block, fmt::format("this control has no G{:g}", code));
     for (const auto& [letter, value] : block.of_letter)
       if (std::string_view("EUVW").find(letter) != std::string_view::npos)
         complain(block, std::string("this control knows no ") + letter);
@@ -80,7 +86,8 @@ class Control {
 
   void put_in_force(const BlockWords& block) {
     for (const double code : block.g) {
-      if (code <= 1.0) rapid_ = code == 0.0, motion_said_ = true;
+      if (code <= 3.0) motion_ = static_cast<int>(code);
+      if (code >= 17.0 && code <= 19.0) plane_ = static_cast<int>(code);
       if (code == 20.0 || code == 21.0) unit_mm_ = code == 20.0 ? mm_per_inch : 1.0;
       if (code == 43.0 || code == 43.4 || code == 49.0) length_ = code;
       if (code >= 54.0 && code <= 59.0) offset_ = static_cast<std::size_t>(code - 54.0);
@@ -128,7 +135,7 @@ class Control {
 
   void go(const BlockWords& block) {
     const bool machine_zero = block.has_g(53.0);
-    if (!motion_said_ && !machine_zero)
+    if (motion_ < 0 && !machine_zero)
       return complain(block, "axis words before G0 or G1: say how to move");
     if (machine_zero && incremental_) return complain(block, "G53 under G91: write it under G90");
     const bool tip_goes = along_tip() && !machine_zero;
@@ -145,20 +152,32 @@ class Control {
       else
         to[k] = machine_zero ? value : value + zero(k) + (k < 3 ? length_on(k) : 0.0);
     }
+    std::optional<ArcWay> arc;
+    if (is_arc() && !machine_zero) {
+      const Vector3 from =
+          tip_goes ? tool_in_part(machine_, {}, stands_, setting()).tip_mm : linear_part(stands_);
+      arc = arc_of(block, unit_mm_, plane_, motion_ == 2, from, tip_goes ? tip : linear_part(to));
+      if (!arc) return complain(block, "the arc has no centre: give I J K in its plane, or R");
+    }
     if (tip_goes) to = axes_of_tip(machine_, tip, to, setting());
-    move(block, to, tip_goes, machine_zero);
+    move(block, to, tip_goes, machine_zero, arc);
   }
 
   void go_home(const BlockWords& block) {
     AxisPositions to = stands_;
     for (std::size_t k = 0; k < axis_count; ++k)
       if (block.has(letters[k]) || !has_axis_word(block)) to[k] = 0.0;
-    move(block, to, false, true);
+    move(block, to, false, true, {});
   }
 
-  void move(const BlockWords& block, const AxisPositions& to, bool tip_goes, bool leaves) {
-    ControlMove made{block.line, rapid_ || leaves, leaves,   anew_, tip_goes, stands_,
-                     to,         setting(),        clock_s_, 0.0,   block};
+  void move(const BlockWords& block, const AxisPositions& to, bool tip_goes, bool leaves,
+            const std::optional<ArcWay>& arc) {
+    ControlMove made{block.line, motion_ <= 0 || leaves,
+                     leaves,     anew_,
+                     tip_goes,   stands_,
+                     to,         setting(),
+                     clock_s_,   0.0,
+                     arc,        block};
     made.duration_s = duration_s(block, made);
     clock_s_ += made.duration_s;
     stands_ = to;
@@ -170,6 +189,10 @@ class Control {
     double way = distance_mm(tool_in_part(machine_, {}, made.from, made.setting).tip_mm,
                              tool_in_part(machine_, {}, made.to, made.setting).tip_mm);
     double unit = unit_mm_;
+    if (made.arc)
+      way = made.arc->length_mm(made.along_tip
+                                    ? tool_in_part(machine_, {}, made.from, made.setting).tip_mm
+                                    : linear_part(made.from));
     if (way < 1e-9) {
       unit = 1.0;
       for (std::size_t k = 3; k < axis_count; ++k)
@@ -189,7 +212,8 @@ class Control {
   const std::string& file_;
   std::vector<Diagnostic>& wrong_;
   AxisPositions stands_{};
-  bool rapid_ = false, motion_said_ = false, incremental_ = false, anew_ = true;
+  bool incremental_ = false, anew_ = true;
+  int motion_ = -1, plane_ = 17;  ///< -1: no G0 … G3 yet
   double unit_mm_ = 1.0, length_ = 49.0, feed_mode_ = 94.0, feed_ = 0.0, speed_rpm_ = 0.0;
   std::size_t offset_ = 0;
   int tool_ = 0, selected_ = 0;
@@ -214,12 +238,17 @@ std::vector<ControlMove> moves_of_program(const Machine& machine, std::string_vi
 AxisPositions axes_on_way(const Machine& machine, const ControlMove& move, double share) {
   AxisPositions axes;
   for (std::size_t k = 0; k < axis_count; ++k) axes[k] = std::lerp(move.from[k], move.to[k], share);
-  if (!move.along_tip) return axes;
-  const Vector3 from = tool_in_part(machine, {}, move.from, move.setting).tip_mm,
-                to = tool_in_part(machine, {}, move.to, move.setting).tip_mm;
-  Vector3 tip;
-  for (std::size_t i = 0; i < 3; ++i) tip[i] = std::lerp(from[i], to[i], share);
-  return axes_of_tip(machine, tip, axes, move.setting);
+  if (!move.along_tip && !move.arc) return axes;
+  const auto of = [&](const AxisPositions& at) {
+    return move.along_tip ? tool_in_part(machine, {}, at, move.setting).tip_mm : linear_part(at);
+  };
+  const Vector3 from = of(move.from), to = of(move.to);
+  Vector3 there;
+  for (std::size_t i = 0; i < 3; ++i) there[i] = std::lerp(from[i], to[i], share);
+  if (move.arc) there = move.arc->put_on_arc(there, from, to, share);
+  if (move.along_tip) return axes_of_tip(machine, there, axes, move.setting);
+  std::ranges::copy(there, axes.begin());
+  return axes;
 }
 
 }  // namespace trueaxis::virtual_machine

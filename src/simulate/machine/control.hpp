@@ -5,12 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "simulate/machine/arc_way.hpp"
 #include "simulate/machine/block_words.hpp"
 #include "trueaxis/machine.hpp"
 
 namespace trueaxis::virtual_machine {
 
-/// A straight move that the control makes of a block. Its way is that of the nominal machine, which
+/// A move that the control makes of a block. Its way is that of the nominal machine, which
 /// is the only one that a control knows.
 struct ControlMove {
   std::size_t line = 0;
@@ -22,6 +23,7 @@ struct ControlMove {
   AxisPositions from{}, to{};
   Setting setting;  ///< program frame and tool that are in force
   double start_s = 0.0, duration_s = 0.0;
+  std::optional<ArcWay> arc;  ///< of the axes, or of the tip where it goes evenly
   BlockWords words;
 };
 

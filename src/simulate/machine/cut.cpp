@@ -20,19 +20,6 @@ double angle_rad(const Vector3& a, const Vector3& b) {
                           std::hypot(sum[0], sum[1], sum[2]));
 }
 
-/// From the straight line between two points.
-double off_line_mm(const Vector3& point, const Vector3& from, const Vector3& to) {
-  double along = 0.0, length = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    along += (point[i] - from[i]) * (to[i] - from[i]);
-    length += (to[i] - from[i]) * (to[i] - from[i]);
-  }
-  const double share = length > 0.0 ? std::fmin(std::fmax(along / length, 0.0), 1.0) : 0.0;
-  Vector3 foot;
-  for (std::size_t i = 0; i < 3; ++i) foot[i] = std::lerp(from[i], to[i], share);
-  return distance_mm(point, foot);
-}
-
 void take(LargestOff& largest, double value, std::size_t line) {
   if (value > largest.value) largest = {value, line};
 }
@@ -45,7 +32,7 @@ class Cutting {
   Cut make() {
     const auto moves = moves_of_program(machine_, plan_.program, plan_.program_file);
     const auto nominal = moves_of_program(machine_, plan_.nominal, plan_.nominal_file);
-    const auto nominal_of = nominal_moves_of(machine_, moves, nominal, plan_.program_file);
+    const auto nominal_of = nominal_moves_of(machine_, errors_, moves, nominal, plan_.program_file);
     out_.blocks = moves.size();
     for (std::size_t i = 0; i < moves.size(); ++i) {
       const std::size_t j = nominal_of[i];
@@ -58,12 +45,12 @@ class Cutting {
  private:
   void carry_out(const ControlMove& move, const ControlMove& nominal, bool ends_block) {
     take_lost_motion(plan_.disturbance.reversal, move.from, move.to, beside_.lost);
-    const Vector3 from = tool_in_part(machine_, {}, nominal.from, nominal.setting).tip_mm;
+    if (said_ != &nominal) path_ = NominalPath(machine_, nominal);
+    said_ = &nominal;
     const ToolInPart to = tool_in_part(machine_, {}, nominal.to, nominal.setting);
     const bool path_is_said = !nominal.leaves && !nominal.begins_anew && !nominal.rapid;
     if (path_is_said)
-      take(out_.off_between, off_line_mm(row_at(move, 0.0).tool.tip_mm, from, to.tip_mm),
-           nominal.line);
+      take(out_.off_between, path_.off_mm(row_at(move, 0.0).tool.tip_mm), nominal.line);
     const std::size_t pieces = pieces_of(move);
     for (std::size_t k = 1; k <= pieces; ++k) {
       const bool end = k == pieces;
@@ -71,7 +58,7 @@ class Cutting {
       row.end = end && ends_block;
       row.off_mm = row.angle_rad = not_said;
       if (path_is_said) {
-        row.off_mm = off_line_mm(row.tool.tip_mm, from, to.tip_mm);
+        row.off_mm = path_.off_mm(row.tool.tip_mm);
         take(out_.off_between, row.off_mm, nominal.line);
       }
       if (row.end && !nominal.leaves) judge_end(row, to, nominal.line);
@@ -90,6 +77,8 @@ class Cutting {
 
   std::size_t pieces_of(const ControlMove& move) const {
     double pieces = 1.0;
+    if (move.arc && plan_.step_mm)
+      pieces = std::ceil(move.arc->length_mm(lead_of(machine_, move)) / *plan_.step_mm);
     for (std::size_t k = 0; k < axis_count && !move.rapid; ++k) {
       const auto& step = k < 3 ? plan_.step_mm : plan_.step_rad;
       if (step) pieces = std::fmax(pieces, std::ceil(std::fabs(move.to[k] - move.from[k]) / *step));
@@ -112,6 +101,8 @@ class Cutting {
   const ErrorModel& errors_;
   const CutPlan& plan_;
   BesideCommand beside_;
+  const ControlMove* said_ = nullptr;
+  NominalPath path_;  ///< of `said_`
   Cut out_;
 };
 

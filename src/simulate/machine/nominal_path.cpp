@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/machine/nominal_path.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <numeric>
+#include <string>
 #include <string_view>
 
 #include "simulate/machine/tool_in_part.hpp"
@@ -9,79 +14,176 @@
 namespace trueaxis::virtual_machine {
 namespace {
 
-/// Tips, and directions at 100 mm, where the machine without errors ends its moves: a compensation
-/// moves them by the errors only, the axes at a pole by much more.
+/// Of tips, and of directions at 100 mm.
 double apart_mm(const ToolInPart& a, const ToolInPart& b) {
   constexpr double lever_mm = 100.0;
   return distance_mm(a.tip_mm, b.tip_mm) + lever_mm * distance_mm(a.direction, b.direction);
 }
 
-/// Whether a block may be the other with other positions: what is no axis word (and no F, of which
-/// pieces under G93 have their own) is the same.
-bool same_but_for_axes(const BlockWords& a, const BlockWords& b) {
-  const auto others = [](const BlockWords& block) {
-    auto words = block.of_letter;
-    std::erase_if(words, [](const auto& word) {
-      return std::string_view("XYZABCF").find(word.first) != std::string_view::npos;
-    });
-    return words;
-  };
-  return a.g == b.g && a.m == b.m && others(a) == others(b);
+/// From the straight line between two points.
+double off_line_mm(const Vector3& point, const Vector3& from, const Vector3& to) {
+  double along = 0.0, length = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    along += (point[i] - from[i]) * (to[i] - from[i]);
+    length += (to[i] - from[i]) * (to[i] - from[i]);
+  }
+  const double share = length > 0.0 ? std::fmin(std::fmax(along / length, 0.0), 1.0) : 0.0;
+  Vector3 foot;
+  for (std::size_t i = 0; i < 3; ++i) foot[i] = std::lerp(from[i], to[i], share);
+  return distance_mm(point, foot);
+}
+
+/// Of an arc.
+Vector3 tip_on_way(const Machine& machine, const ControlMove& move, double share) {
+  if (!move.along_tip)
+    return tool_in_part(machine, {}, axes_on_way(machine, move, share), move.setting).tip_mm;
+  const Vector3 from = tool_in_part(machine, {}, move.from, move.setting).tip_mm,
+                to = tool_in_part(machine, {}, move.to, move.setting).tip_mm;
+  Vector3 there;
+  for (std::size_t i = 0; i < 3; ++i) there[i] = std::lerp(from[i], to[i], share);
+  return move.arc->put_on_arc(there, from, to, share);
+}
+
+constexpr std::size_t arc_parts = 64;
+constexpr double beyond_any_mm = 1e9;
+
+/// What of a block is no position: its words but those of axes and F (of which pieces under G93
+/// have their own), G1 standing for an arc. Empty for a line of axis words.
+std::string other_words(const BlockWords& block) {
+  std::string text;
+  for (const double code : block.g)
+    text += fmt::format("G{} ", code == 2.0 || code == 3.0 ? 1.0 : code);
+  for (const double code : block.m) text += fmt::format("M{} ", code);
+  for (const auto& [letter, value] : block.of_letter)
+    if (std::string_view("XYZABCFIJKR").find(letter) == std::string_view::npos)
+      text += fmt::format("{}{} ", letter, value);
+  return text;
 }
 
 /// Takes the blocks of the nominal program one after the other.
 class Pairing {
  public:
-  Pairing(const Machine& machine, std::span<const ControlMove> moves,
+  Pairing(const Machine& machine, const ErrorModel& errors, std::span<const ControlMove> moves,
           std::span<const ControlMove> nominal)
-      : moves_(moves), nominal_(nominal) {
-    for (const ControlMove& move : moves)
-      ends_.push_back(tool_in_part(machine, {}, move.to, move.setting));
+      : machine_(machine), errors_(errors), moves_(moves), nominal_(nominal) {
+    for (const ControlMove& move : moves) {
+      ends_.push_back(tool_in_part(machine, errors, move.to, move.setting));
+      others_.push_back(other_words(move.words));
+    }
     for (const ControlMove& move : nominal)
       nominal_ends_.push_back(tool_in_part(machine, {}, move.to, move.setting));
+    // Of each move the next that says the same, with lines of axis words alone between.
+    next_alike_.assign(moves.size(), moves.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      std::size_t next = i + 1;
+      while (next < moves.size() && others_[next].empty() && !others_[i].empty()) ++next;
+      if (next < moves.size() && others_[next] == others_[i]) next_alike_[i] = next;
+    }
   }
 
   /// How many blocks were met.
   std::size_t pair(std::vector<std::size_t>& out) const {
-    std::size_t j = 0;
+    std::size_t j = 0, first = 0;  // `first` of the moves of block j
     for (std::size_t i = 0; i < moves_.size() && j < nominal_.size(); ++i) {
       out[i] = j;
-      if (ends(i, j)) ++j;
+      if (!ends(first, i, j)) continue;
+      ++j;
+      first = i + 1;
     }
     return j;
   }
 
  private:
-  bool may_end(std::size_t i, std::size_t j) const {
-    return same_but_for_axes(moves_[i].words, nominal_[j].words);
-  }
-
-  bool ends(std::size_t i, std::size_t j) const {
+  bool ends(std::size_t first, std::size_t i, std::size_t j) const {
     if (moves_.size() - i == nominal_.size() - j || i + 1 == moves_.size()) return true;
-    if (!may_end(i, j) || j + 1 == nominal_.size()) return false;
-    for (std::size_t next = i + 1; next < moves_.size(); ++next) {
-      if (may_end(next, j))
-        return apart_mm(ends_[i], nominal_ends_[j]) <= apart_mm(ends_[next], nominal_ends_[j]);
-      if (may_end(next, j + 1)) return true;
-    }
-    return true;
+    if (others_[i] != other_words(nominal_[j].words) || j + 1 == nominal_.size()) return false;
+    const std::size_t next = next_alike_[i];
+    return next == moves_.size() || left(first, i, j) <= left(first, next, j);
   }
 
+  /// How far move i ends from the end of block j, mm. A whole turn ends where it begins: the first
+  /// half of an arc counts as further away than anything.
+  double left(std::size_t first, std::size_t i, std::size_t j) const {
+    const double apart = apart_mm(ends_[i], nominal_ends_[j]);
+    if (!nominal_[j].arc) return apart;
+    const ArcWay& arc = *nominal_[j].arc;
+    const auto from_centre = [&](const AxisPositions& axes, const ToolInPart& tool) {
+      const Vector3 at = nominal_[j].along_tip ? tool.tip_mm : Vector3{axes[0], axes[1], axes[2]};
+      return arc.in_plane(at) - arc.centre_mm;
+    };
+    double turned = 0.0;
+    for (std::size_t k = first; k <= i; ++k) {
+      const ToolInPart start = tool_in_part(machine_, errors_, moves_[k].from, moves_[k].setting);
+      turned += std::arg(from_centre(moves_[k].to, ends_[k]) / from_centre(moves_[k].from, start));
+    }
+    const double left_rad = std::abs(arc.turn_rad - turned);
+    return left_rad > 0.5 * std::abs(arc.turn_rad) ? (1.0 + left_rad) * beyond_any_mm : apart;
+  }
+
+  const Machine& machine_;
+  const ErrorModel& errors_;
   std::span<const ControlMove> moves_, nominal_;
   std::vector<ToolInPart> ends_, nominal_ends_;
+  std::vector<std::string> others_;
+  std::vector<std::size_t> next_alike_;
 };
 
 }  // namespace
 
-std::vector<std::size_t> nominal_moves_of(const Machine& machine,
+NominalPath::NominalPath(const Machine& machine, const ControlMove& move)
+    : machine_(&machine), move_(&move) {
+  if (!move.arc) {
+    for (const AxisPositions& axes : {move.from, move.to})
+      tips_mm_.push_back(tool_in_part(machine, {}, axes, move.setting).tip_mm);
+    return;
+  }
+  for (std::size_t i = 0; i <= arc_parts; ++i)
+    tips_mm_.push_back(tip_on_way(machine, move, static_cast<double>(i) / arc_parts));
+}
+
+double NominalPath::off_mm(const Vector3& tip_mm) const {
+  if (!move_->arc) return off_line_mm(tip_mm, tips_mm_.front(), tips_mm_.back());
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < tips_mm_.size(); ++i)
+    if (distance_mm(tip_mm, tips_mm_[i]) < distance_mm(tip_mm, tips_mm_[nearest])) nearest = i;
+  // A whole turn begins where it ends.
+  const bool at_an_end = nearest == 0 || nearest == arc_parts;
+  return at_an_end ? std::fmin(off_beside_mm(tip_mm, 0), off_beside_mm(tip_mm, arc_parts))
+                   : off_beside_mm(tip_mm, nearest);
+}
+
+/// The foot of the perpendicular lies beside the nearest point: thirds are cut off.
+double NominalPath::off_beside_mm(const Vector3& tip_mm, std::size_t nearest) const {
+  double low = static_cast<double>(nearest == 0 ? 0 : nearest - 1) / arc_parts,
+         high = static_cast<double>(std::min(nearest + 1, arc_parts)) / arc_parts;
+  const auto off_at = [&](double share) {
+    return distance_mm(tip_mm, tip_on_way(*machine_, *move_, share));
+  };
+  for (int round = 0; round < 30; ++round) {
+    const double a = std::lerp(low, high, 1.0 / 3.0), b = std::lerp(low, high, 2.0 / 3.0);
+    if (off_at(a) < off_at(b))
+      high = b;
+    else
+      low = a;
+  }
+  return off_at(0.5 * (low + high));
+}
+
+Vector3 lead_of(const Machine& machine, const ControlMove& move) {
+  if (move.along_tip) return tool_in_part(machine, {}, move.from, move.setting).tip_mm;
+  return {move.from[0], move.from[1], move.from[2]};
+}
+
+std::vector<std::size_t> nominal_moves_of(const Machine& machine, const ErrorModel& errors,
                                           std::span<const ControlMove> moves,
                                           std::span<const ControlMove> nominal,
                                           const std::string& file) {
   std::vector<std::size_t> out(moves.size());
   std::iota(out.begin(), out.end(), std::size_t{0});
   if (moves.size() == nominal.size()) return out;
-  const std::size_t met =
-      moves.size() < nominal.size() ? moves.size() : Pairing(machine, moves, nominal).pair(out);
+  const std::size_t met = moves.size() < nominal.size()
+                              ? moves.size()
+                              : Pairing(machine, errors, moves, nominal).pair(out);
   if (met != nominal.size())
     throw InputError(file, "is no other form of the nominal program: of its " +
                                std::to_string(nominal.size()) + " moves " + std::to_string(met) +

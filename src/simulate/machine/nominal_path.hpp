@@ -8,12 +8,32 @@
 
 namespace trueaxis::virtual_machine {
 
+/// What the tip should cut in a move of the nominal program: of a straight block the line between
+/// the tips at its ends, of an arc the way of the nominal machine's tip.
+class NominalPath {
+ public:
+  NominalPath() = default;
+  NominalPath(const Machine& machine, const ControlMove& move);
+  double off_mm(const Vector3& tip_mm) const;
+
+ private:
+  double off_beside_mm(const Vector3& tip_mm, std::size_t nearest) const;
+
+  const Machine* machine_ = nullptr;
+  const ControlMove* move_ = nullptr;
+  std::vector<Vector3> tips_mm_;  ///< even; of a straight block its ends
+};
+
+/// Where a move begins in what it goes evenly in: X Y Z of the axes, or the tip.
+Vector3 lead_of(const Machine& machine, const ControlMove& move);
+
 /// Of every move of a program the index of the move of the nominal program to which it belongs.
-/// Pieces of a block come before the move that ends it: this has the other words of the block, and
-/// where more than one has these, it is the first after which the tool goes away from the block's
-/// end again.
+/// Pieces of a block come before the move that ends it: this has the other words of the block. The
+/// first piece may have these too, and of lines of axis words all have: then the block ends where
+/// the tool of the machine with its errors, which a compensated program makes up for, is nearer to
+/// its end than at the next such move.
 /// @throws InputError (of `file`) where the program has not all moves of the nominal one
-std::vector<std::size_t> nominal_moves_of(const Machine& machine,
+std::vector<std::size_t> nominal_moves_of(const Machine& machine, const ErrorModel& errors,
                                           std::span<const ControlMove> moves,
                                           std::span<const ControlMove> nominal,
                                           const std::string& file);
