@@ -108,7 +108,9 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand("simulate", "probe a part in the virtual lathe");
+  CLI::App* command = app.add_subcommand(
+      "simulate",
+      "probe a part in the virtual lathe; measure, or cut a program, on a virtual machine");
   auto options = std::make_shared<Options>();
   auto from = std::make_shared<SimulateFromOptions>();
   auto* scenario = command->add_option("scenario", options->scenario, "scenario (TOML)");
