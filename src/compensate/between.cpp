@@ -220,8 +220,8 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
                                              Tally& tally) const {
   if (deviation_mm <= tolerance_mm) return {};
   const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
-  const double off_at_ends_mm =
-      std::max(distance_mm(written_from_mm()), distance_mm(to_.written_mm));
+  const double off_at_start_mm = distance_mm(written_from_mm());
+  const double off_at_ends_mm = std::max(off_at_start_mm, distance_mm(to_.written_mm));
   std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
   for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
     double asked = 0.0;
@@ -242,7 +242,11 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
   }
   tally.sums.unreachable.push_back(
       {task_.line_of(move_),
-       off_at_ends_mm > tolerance_mm
+       off_at_start_mm > tolerance_mm && !same_setting_
+           ? "the tip is " + std::to_string(1e3 * off_at_start_mm) +
+                 " um off where the block begins, a place that was compensated for the work offset "
+                 "before: move there by G0 under the new one"
+       : off_at_ends_mm > tolerance_mm
            ? "the tip is " + std::to_string(1e3 * off_at_ends_mm) +
                  " um off at an end of the block, more than the tolerance: ask for more decimals"
            : "more pieces than " + std::to_string(most_pieces) +

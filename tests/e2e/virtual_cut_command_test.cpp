@@ -65,6 +65,44 @@ TEST_F(VirtualCutCommand, JudgesOneInPieces) {
   EXPECT_EQ(command(cut_scenario + "--program c.nc --json after.json -o path.csv").exit_code, 0);
 }
 
+// Tools, work offsets, inches, inverse time, increments on the way home, axes and tip in one.
+TEST_F(VirtualCutCommand, JudgesAProgramOfEverything) {
+  std::string machine = read_text(cut_data + "trunnion_ac.toml");
+  machine.insert(machine.find("[program]"),
+                 "[workpiece.G55]\norigin_mm = [30, 5, -10]\nrotation_deg = [3, -4, 25]\n"
+                 "zero = { X = 5, C = 30, A = -1 }\n[tools.1]\nlength_mm = 80\n[tools.2]\n"
+                 "length_mm = 101.5\n");
+  file("m.toml", machine);
+  file("p.nc",
+       "%\nO1 (MIX)\nG21 G90 G94 G17 G54\nT1 M6\nG43 H1\nG0 X10 Y0 Z50 A-30 C0\n"
+       "G1 X20 Y5 F800\nG20 X1.5 Y.1\nG21 Z45 C10\nG93 A-35 F3\nX25 C15 F4\nG94 G55 G0 X10\n"
+       "G1 Y5 C-10 F500\nG91 G28 Z0\nG90 T2 M6\nG43 H2 G54 G0 X0 Y0 Z40 A-20 C40\n"
+       "G1 X10 F300 M8\n/X15 Y10\nG49\nG43.4 H2 X10 Y20 Z30 A-40 C20\nG1 X15 Y25 C30 F400\n"
+       "A-50\nG91 G30 Z0\nM30\n%\n");
+  file("cut.toml", "[machine]\nfile = \"m.toml\"\nerrors = \"" + cut_data +
+                       "trunnion_ac_errors.toml\"\n[cut]\nprogram = \"p.nc\"\nstep_mm = 0.1\n"
+                       "step_deg = 0.1\n");
+  const CommandStreams made =
+      command("compensate p.nc --machine m.toml --errors " + cut_data +
+              "trunnion_ac_errors.toml -o out.nc --tolerance-um 3 --json said.json");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  ASSERT_EQ(command("simulate cut.toml --json before.json").exit_code, 0);
+  ASSERT_EQ(command("simulate cut.toml --program out.nc --json after.json").exit_code, 0);
+  const auto said = result("said.json"), before = result("before.json"),
+             after = result("after.json");
+  EXPECT_EQ(after.at("block_ends"), 14);
+  EXPECT_GT(after.at("moves"), 30);
+  for (const char* const part : {"position", "direction"}) {
+    const auto &was = before.at("off_at_ends").at(part), &is = after.at("off_at_ends").at(part);
+    EXPECT_NEAR(of(was), of(said.at("error_before").at(part)), 1e-9);
+    EXPECT_NEAR(of(is), of(said.at("error_after").at(part)), 1e-9);
+    EXPECT_EQ(was.at("line"), said.at("error_before").at(part).at("line"));
+  }
+  EXPECT_NEAR(of(before.at("off_between")), of(said.at("between_blocks").at("before")),
+              0.01 * of(before.at("off_between")));
+  EXPECT_LT(of(after.at("off_between")), 1.01 * 3e-3);
+}
+
 TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
   file("p.nc", "G1 X0 Y0 Z1 A0 C0\nG2 X1 F100\nG81 Z1\nX#1\nG1 B5 F100\nX1 X2\n");
   expect_input_error(cut_scenario + "--program p.nc -o path.csv", "p.nc:2: the arc has no centre");
