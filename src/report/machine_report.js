@@ -14,8 +14,8 @@ function keyNumbers(verdict) {
   if (!isNumber(verdict.before_um)) return null;
   return facts(
       [
-        ['Tip off, as programmed', um(verdict.before_um)],
-        ['Tip off with the new program', `at most ${um(verdict.at_most_um)} in 95 of 100`],
+        ['Tip off with the program as it is', micrometres(verdict.before_um / 1000, verdict.before_um / 1000)],
+        ['Tip off with the new program', `at most ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} in 95 of 100`],
         [
           'Tolerance',
           isNumber(verdict.tolerance_um) ? `${tick(verdict.tolerance_um)}${nbsp}µm` : 'none given'
@@ -99,18 +99,17 @@ function errorsSection({compensation: c}) {
 
 function mapSection({maps}) {
   if (!maps.length) return null;
-  const limit = roundUpFinely(
-      Math.max(...maps.map((map) => Math.max(largest(map.before_um), largest(map.after_um)))));
+  const limitOf = (key) => roundUpFinely(Math.max(...maps.map((map) => largest(map[key]))));
+  const drawn = (map, key, words) =>
+      volumeMap(map, key, `${words}, ${map.across.name}–${map.up.name}`, limitOf(key));
   return section(
       'map', 'The error over the volume',
       paragraph(
-          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. One colour scale for all.'),
+          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: one before, in red, and one after, in blue.'),
       ...maps.map(
           (map) => element(
-              'div', {class: 'pair maps'},
-              volumeMap(map, 'before_um', `Before, ${map.across.name}–${map.up.name}`, limit),
-              volumeMap(
-                  map, 'after_um', `After, at most, ${map.across.name}–${map.up.name}`, limit))));
+              'div', {class: 'pair maps'}, drawn(map, 'before_um', 'Before'),
+              drawn(map, 'after_um', 'After, at most'))));
 }
 
 const inputsSection = ({inputs}) => section(
