@@ -87,6 +87,7 @@ struct MachineJobVerdict {
 struct MachineJobResult {
   MachineJob job;
   MachineDiagnosis diagnosis;
+  std::string implausible;  ///< why the errors cannot be right; empty: nothing speaks against them
   std::optional<ProgramCompensation> compensation;
   std::vector<AxisRange> ranges;
   std::optional<PartDisplacement> part;  ///< of the program as it was read

@@ -36,7 +36,10 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
   outputs.write(outputs.in_folder("report.html"), render_machine_report(result));
   outputs.write(outputs.in_folder("diagnosis.json"),
                 machine_diagnosis_json(result.diagnosis, result.job.machine));
-  outputs.write(outputs.in_folder("errors.toml"), errors_toml(result.diagnosis.errors));
+  if (result.implausible.empty())
+    outputs.write(outputs.in_folder("errors.toml"), errors_toml(result.diagnosis.errors));
+  else
+    outputs.remove_earlier(outputs.in_folder("errors.toml"));
   if (result.compensation)
     outputs.write(outputs.in_folder("compensation.json"), job_compensation_json(result));
   if (!result.job.program) return;
@@ -54,7 +57,7 @@ int run_machine(MachineJob job, const std::string& folder, bool force) {
   prepare(outputs, job, folder, force);
   const MachineJobResult result = run_machine_job(std::move(job));
   if (!result.diagnosis.baseline.converged) {
-    std::cerr << result.job.inputs.front().file
+    std::cerr << result.job.data.front().source
               << ": not converged: " << result.diagnosis.baseline.message << '\n';
     return numerical;
   }
@@ -66,9 +69,10 @@ int run_machine(MachineJob job, const std::string& folder, bool force) {
   else if (result.job.program)
     std::cout << "program not written: the verdict is " << to_string(result.verdict.decision)
               << '\n';
-  std::cout << "errors  " << outputs.in_folder("errors.toml") << "\nresult  "
-            << outputs.in_folder("result.json") << "\nreport  " << outputs.in_folder("report.html")
-            << '\n';
+  if (result.implausible.empty())
+    std::cout << "errors  " << outputs.in_folder("errors.toml") << '\n';
+  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
+            << outputs.in_folder("report.html") << '\n';
   return result.verdict.go() ? done : refused;
 }
 

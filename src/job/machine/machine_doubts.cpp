@@ -55,10 +55,12 @@ std::string tool_reservation(const MachineJobResult& result) {
     if (end.rapid || (length > *measured.begin() - same_length_mm &&
                       length < *measured.rbegin() + same_length_mm))
       continue;
+    const double beyond_mm =
+        std::min(std::abs(length - *measured.begin()), std::abs(length - *measured.rbegin()));
     return fmt::format(
-        "line {} cuts with a tool of {:.6g} mm, and it was measured with {:.6g} mm: what the "
-        "measurement holds (the spindle's tilt) would move its tip",
-        end.line, length, *measured.rbegin());
+        "line {} cuts with a tool of {:.6g} mm, {:.3g} mm from the lengths that were measured: a "
+        "tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by {}",
+        end.line, length, beyond_mm, um_text(beyond_mm * CalibrationOptions{}.largest_angle_rad));
   }
   return "";
 }
@@ -81,8 +83,7 @@ std::string rivals_text(const MachineFinding& found, const MachineDiagnosis& dia
 std::string machine_objection(const MachineJobResult& result) {
   const Calibration& base = result.diagnosis.baseline;
   if (!base.converged) return "the errors were not found: " + base.message;
-  CalibrationOptions options;
-  if (std::string why = implausible(base, options); !why.empty()) return why;
+  if (!result.implausible.empty()) return result.implausible;
   if (!result.compensation || result.compensation->unreachable.empty()) return "";
   const auto& blocks = result.compensation->unreachable;
   return fmt::format("{} of the program's blocks cannot be reached, the first in line {}: {}",

@@ -110,6 +110,7 @@ MachineJobResult run_machine_job(MachineJob job) {
   options.calibration.errors = result.job.known;
   options.false_alarm = result.job.false_alarm;
   result.diagnosis = diagnose_machine(result.job.machine, result.job.data, options);
+  result.implausible = implausible(result.diagnosis.baseline, options.calibration);
   MachineJobVerdict numbers;
   if (result.diagnosis.baseline.converged) {
     const MachineModel model(result.job.machine, result.diagnosis.errors);

@@ -73,9 +73,7 @@ MachineJobVerdict by_tolerance(const MachineJobResult& result, MachineJobVerdict
 
 std::string next_of(const MachineJobResult& result, const MachineJobVerdict& v) {
   const std::string plan = next_plan_text(result.diagnosis);
-  if (!v.go())
-    return plan.empty() ? "Mend what the verdict names, and run the job again."
-                        : "Measure " + plan + ".";
+  if (!v.go()) return "Mend what the verdict names, and run the job again.";
   if (!result.job.program)
     return "Name the part's program in a [program] table, and run the job again.";
   std::string text =

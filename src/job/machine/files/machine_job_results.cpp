@@ -78,7 +78,8 @@ Json machine_job_object(const MachineJobResult& result) {
                                {"shift", vector_json(result.part->shift_mm, 1.0, "mm")},
                                {"turn", vector_json(result.part->turn_rad, rad_per_deg, "deg")}};
   json["ranges"] = ranges_json(result);
-  json["files"] = {{"errors", "errors.toml"}, {"diagnosis", "diagnosis.json"}};
+  json["files"] = {{"errors", result.implausible.empty() ? Json("errors.toml") : Json(nullptr)},
+                   {"diagnosis", "diagnosis.json"}};
   if (result.compensation) json["files"]["compensation"] = "compensation.json";
   if (result.job.program)
     json["files"]["program"] =
@@ -100,10 +101,8 @@ std::string job_compensation_json(const MachineJobResult& result) {
 std::string machine_job_text(const MachineJobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   text += machine_diagnosis_text(result.diagnosis);
-  if (result.compensation)
-    text += result.compensation->unreachable.empty()
-                ? compensation_text(*result.compensation)
-                : unreachable_text(*result.compensation, result.job.program->file) + '\n';
+  if (result.compensation && result.compensation->unreachable.empty())
+    text += compensation_text(*result.compensation);
   for (const std::string& remark : result.remarks) text += layout::wrapped("", remark) + '\n';
   text += layout::wrapped("next    ", result.verdict.next) + "\n";
   return text;
