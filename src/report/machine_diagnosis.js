@@ -55,7 +55,8 @@ function locationTable({extended, baseline}) {
     table('Where the axes stand and point, against the machine\'s file', ['Error', 'Size ± U'], rows));
 }
 
-const sentence = (text) => text ? `${text[0].toUpperCase()}${text.slice(1)}.` : '';
+/** A sentence of a clause; the name of an effect stays as it is. */
+const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}.`;
 
 function findingsSection({diagnosis}) {
   const {verdict, findings, unexplained, plans} = diagnosis;

@@ -14,7 +14,7 @@ function keyNumbers(verdict) {
   if (!isNumber(verdict.before_um)) return null;
   return facts(
       [
-        ['Tip off with the program as it is', micrometres(verdict.before_um / 1000, verdict.before_um / 1000)],
+        ['Tip off with the program as it is, at the ends of blocks', micrometres(verdict.before_um / 1000, verdict.before_um / 1000)],
         ['Tip off with the new program', `at most ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} in 95 of 100`],
         [
           'Tolerance',
@@ -57,14 +57,14 @@ function programFacts({compensation: c, part, verdict, program}) {
       'Blocks',
       `${c.blocks.read} read, ${c.blocks.rewritten} rewritten, ${c.blocks.inserted} inserted`
     ],
-    ['Method', c.method === 'exact' ? 'exact (Newton)' : 'total differential'],
-    [
-      'Direction of the tool, before → after',
-      `${angle(c.error_before.direction)} → ${angle(c.error_after.direction)}`
-    ]
+    ['Method', c.method === 'exact' ? 'exact (Newton)' : 'total differential']
   ];
   if (isNumber(verdict.before_um))
     list.push(
+        [
+          'Direction of the tool, before → after',
+          `${angle(c.error_before.direction)} → ${angle(c.error_after.direction)}`
+        ],
         [
           'Tip at the ends of blocks, before → after',
           `${um(verdict.before_um)} → ${um(verdict.after_um)}`
@@ -83,11 +83,13 @@ function programFacts({compensation: c, part, verdict, program}) {
 function programSection(all) {
   const {compensation: c, tips, verdict} = all;
   if (!c) return null;
-  const lost = c.unreachable.slice(0, 20).map(({line, why}) => [`line ${line}`, why]);
+  const lost = c.unreachable.slice(0, 10).map(({line, why}) => [`line ${line}`, why]);
   return section(
       'program', 'The program before and after', programFacts(all),
       lost.length ?
-          table(`${c.unreachable.length} blocks cannot be reached`, ['Block', 'Why'], lost, 2) :
+          table(
+              `Blocks that cannot be reached: ${lost.length < c.unreachable.length ? `the first ${lost.length} of ` : ''}${c.unreachable.length}`,
+              ['Block', 'Why'], lost, 2) :
           null,
       tips ? alongProgram(tips, verdict) : null, tips ? pathViews(tips) : null);
 }
@@ -99,13 +101,12 @@ function errorsSection({compensation: c}) {
 
 function mapSection({maps}) {
   if (!maps.length) return null;
-  const limitOf = (key) => roundUpFinely(Math.max(...maps.map((map) => largest(map[key]))));
-  const drawn = (map, key, words) =>
-      volumeMap(map, key, `${words}, ${map.across.name}–${map.up.name}`, limitOf(key));
+  const drawn = (map, key, words) => volumeMap(
+      map, key, `${words}, ${map.across.name}–${map.up.name}`, roundUpFinely(largest(map[key])));
   return section(
       'map', 'The error over the volume',
       paragraph(
-          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: one before, in red, and one after, in blue.'),
+          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: every map has its own.'),
       ...maps.map(
           (map) => element(
               'div', {class: 'pair maps'}, drawn(map, 'before_um', 'Before'),

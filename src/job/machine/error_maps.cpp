@@ -2,6 +2,7 @@
 #include "job/machine/error_maps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace trueaxis::machine_job {
@@ -39,7 +40,9 @@ std::vector<ErrorMap> planes(const std::vector<AxisRange>& ranges, const Machine
     (is_rotary(ranges[i].axis) ? rotary : linear).push_back(i);
     const auto& [low, high] =
         ranges[i].program.value_or(std::array{ranges[i].measured_low, ranges[i].measured_high});
-    middle[index_of(ranges[i].axis)] = 0.5 * (low + high);
+    double& at = middle[index_of(ranges[i].axis)];
+    at = 0.5 * (low + high);
+    if (is_rotary(ranges[i].axis) && high - low > two_pi) at = std::remainder(at, two_pi);
   }
   const auto by_name = [&](std::size_t a, std::size_t b) {
     return ranges[a].axis < ranges[b].axis;

@@ -149,7 +149,7 @@ std::vector<std::string> machine_remarks(const MachineJobResult& result) {
   const bool places = std::ranges::any_of(held, [](const NotDetermined& one) {
     return std::ranges::find(one.members, "ball") != one.members.end();
   });
-  if (places && result.compensation)
+  if (places)
     all.emplace_back(
         "The measurement does not tell where the part stands as a whole, as the places of balls "
         "are unknown: the numbers are of the part without that, and hold once its zero point is "

@@ -119,7 +119,7 @@ MachineJobResult run_machine_job(MachineJob job) {
         result.compensation ? cutting(result.compensation->ends) : std::vector<ProgramEnd>{};
     result.ranges = axis_ranges(result.job, ends);
     TipUncertainty uncertainty(result.job, result.diagnosis);
-    if (ends.empty()) {
+    if (ends.empty() || !result.compensation->unreachable.empty()) {
       map_alone(result, model, uncertainty);
     } else {
       const ProgramTips tips(model, ends);

@@ -18,8 +18,10 @@ std::string in_um(double length_mm) {
 }
 
 std::string numbers_text(const MachineJobVerdict& v) {
-  return fmt::format("tip off by at most {} with the new program (in 95 of 100), {} without it",
-                     in_um(v.upper_mm), in_um(v.before_mm));
+  return fmt::format(
+      "tip off by at most {} with the new program (in 95 of 100), {} at the ends of blocks without "
+      "it",
+      in_um(v.upper_mm), in_um(v.before_mm));
 }
 
 /// What would bring the tip within its tolerance: the largest part of what it is off by.

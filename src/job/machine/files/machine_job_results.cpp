@@ -99,12 +99,12 @@ std::string job_compensation_json(const MachineJobResult& result) {
 }
 
 std::string machine_job_text(const MachineJobResult& result) {
-  std::string text = result.verdict.line + "\n\n";
+  std::string text = result.verdict.line + "\n";
+  text += layout::wrapped("next    ", result.verdict.next) + "\n";
   text += machine_diagnosis_text(result.diagnosis);
   if (result.compensation && result.compensation->unreachable.empty())
     text += compensation_text(*result.compensation);
   for (const std::string& remark : result.remarks) text += layout::wrapped("", remark) + '\n';
-  text += layout::wrapped("next    ", result.verdict.next) + "\n";
   return text;
 }
 
