@@ -44,9 +44,12 @@ struct Given {
         others.amounts.push_back(amount);
       }
     }
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-        MatrixXd(matrix(of_components, of_components)));
-    root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    root.resize(static_cast<Index>(components.size()), static_cast<Index>(components.size()));
+    if (!components.empty()) {
+      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
+          MatrixXd(matrix(of_components, of_components)));
+      root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+    }
     const MatrixXd rest = matrix(of_others, of_others);
     others.matrix.assign(rest.data(), rest.data() + rest.size());
   }
