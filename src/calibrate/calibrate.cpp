@@ -5,6 +5,7 @@
 
 #include "calibrate/read_out.hpp"
 #include "calibrate/tip_fit.hpp"
+#include "calibrate/total_uncertainty.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
@@ -187,8 +188,14 @@ Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurem
 
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options) {
-  Calibration out = calibrate_detail::of_read_outs(machine, data, options);
-  calibrate_detail::fit_tips(machine, data, options, true, out);
+  using namespace calibrate_detail;
+  Calibration out = of_read_outs(machine, data, options);
+  const auto fit = fit_tips(machine, data, options, true, out);
+  if (!fit || !out.converged) return out;
+  const Eigen::VectorXd places = take_component_errors(*fit, out);
+  out.balls.clear();
+  place_balls(fit->problem, places, out);
+  out.rms_after_mm = rms_mm(fit->problem, fit->problem.residuals(out.errors, places));
   return out;
 }
 

@@ -41,7 +41,7 @@ int execute(const Options& options) {
     return numerical;
   }
   if (const std::string why = implausible(found, calibration); !why.empty()) throw Refusal(why);
-  outputs.write(options.output, errors_toml(found.errors));
+  outputs.write(options.output, errors_toml(found.errors, &file.machine));
   if (!options.json.empty()) outputs.write(options.json, calibration_json(found, file.machine));
   outputs.commit();
   if (options.json != "-" && options.output != "-") std::cout << calibration_text(found);

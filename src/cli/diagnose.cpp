@@ -91,7 +91,7 @@ int execute_machine(const Options& options) {
     return numerical;
   }
   if (!json.empty()) outputs.write(json, machine_diagnosis_json(found, file.machine));
-  outputs.write(options.errors_output, errors_toml(found.errors));
+  outputs.write(options.errors_output, errors_toml(found.errors, &file.machine));
   outputs.commit();
   if (json != "-" && options.errors_output != "-") std::cout << machine_diagnosis_text(found);
   return done;

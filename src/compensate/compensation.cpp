@@ -93,7 +93,7 @@ class NewProgram {
       out.by_error.push_back({task_.by_error.names()[i], tally.by_error[i]});
     std::ranges::stable_sort(out.by_error, std::ranges::greater{},
                              [](const ErrorAlone& one) { return one.tip.value; });
-    if (!task_.uncertainties.names().empty()) out.u_tip = tally.u_tip;
+    if (task_.uncertainty.stated()) out.u_tip = tally.u_tip;
   }
 
   void keep_ends(ProgramCompensation& out) const {
