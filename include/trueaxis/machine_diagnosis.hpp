@@ -48,6 +48,14 @@ struct MachineNotObservable {
   std::vector<std::string> plans;    ///< those after which it is seen
 };
 
+/// Where a further measurement goes.
+struct PlannedVisit {
+  int setup = 1, ball = 1;
+  Vector3 ball_mm{};  ///< centre on the workpiece's body, in M, zero position
+  double tool_length_mm = 0.0;
+  AxisPositions axes{};
+};
+
 /// A further measurement and what it would show.
 struct MachinePlan {
   std::string code;  ///< RV, L2, B2, AC
@@ -55,6 +63,7 @@ struct MachinePlan {
   double minutes = 0.0;
   std::vector<std::string> shows;      ///< effects that are not observable without it
   std::vector<std::string> separates;  ///< findings whose class it tells apart
+  std::vector<PlannedVisit> visits;    ///< in order
 };
 
 struct HeldOut {

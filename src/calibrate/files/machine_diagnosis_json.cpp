@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
+
 #include "calibrate/files/edge_json.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 
@@ -66,9 +68,37 @@ Json held_out_json(const HeldOut& rms) {
           {"unit", "mm"}};
 }
 
-Json next_json(const MachineDiagnosis& d) {
-  for (const MachinePlan& plan : d.plans)
-    if (plan.code == d.next_plan) return plan_json(plan);
+/// Where to go: a table with the columns of a measurement, and where the balls stand.
+Json measurement_json(const MachinePlan& plan, const Machine& machine) {
+  Json columns{"setup", "ball"}, rows = Json::array(), balls = Json::array();
+  std::vector<std::size_t> axes;
+  for (std::size_t k = 0; k < axis_count; ++k)
+    if (machine.find(static_cast<AxisName>(k)) != nullptr) axes.push_back(k);
+  for (const std::size_t k : axes)
+    columns.push_back(std::string(1, "XYZABC"[k]) + (k < 3 ? "[mm]" : "[deg]"));
+  columns.push_back("tool_length[mm]");
+  std::set<std::pair<int, int>> placed;
+  for (const PlannedVisit& visit : plan.visits) {
+    if (placed.insert({visit.setup, visit.ball}).second)
+      balls.push_back({{"setup", visit.setup},
+                       {"ball", visit.ball},
+                       {"centre", {{"value", visit.ball_mm}, {"unit", "mm"}}}});
+    Json row{visit.setup, visit.ball};
+    for (const std::size_t k : axes)
+      row.push_back(number(visit.axes[k] / (k < 3 ? 1.0 : rad_per_deg)));
+    row.push_back(number(visit.tool_length_mm));
+    rows.push_back(row);
+  }
+  return {{"columns", columns}, {"balls", balls}, {"rows", rows}};
+}
+
+Json next_json(const MachineDiagnosis& d, const Machine& machine) {
+  for (const MachinePlan& plan : d.plans) {
+    if (plan.code != d.next_plan) continue;
+    Json json = plan_json(plan);
+    json["measurement"] = measurement_json(plan, machine);
+    return json;
+  }
   return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
 }
 
@@ -103,7 +133,7 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
          {"held_out_rms_before", held_out_json(d.held_out_before)},
          {"held_out_rms_after", held_out_json(d.held_out_after)},
          {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
-       {"next_measurement", next_json(d)},
+       {"next_measurement", next_json(d, machine)},
        {"plans", list_of(d.plans, plan_json)},
        {"false_alarm", number(d.false_alarm)},
        {"hypotheses", d.hypotheses},
