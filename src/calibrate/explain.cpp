@@ -97,7 +97,8 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const auto& block = regression.block(set[at]);
   MachineFinding out;
   out.effect = term.effect;
-  out.p_value = std::min(1.0, options.tests * chance(regression, others, set[at]));
+  out.p_value = std::min(1.0, options.measurement_alarm * chance(regression, others, set[at]) /
+                                  options.level_of(term));
   Class alike = class_of(regression, terms, set, at);
   out.rivals = std::move(alike.rivals);
   out.probability = alike.probability;

@@ -11,9 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double whole_turn = 300.0 * rad_per_deg;  // from here on harmonics can be told
-constexpr double least_range = 1e-6;                // of an axis that moved
-constexpr std::size_t slips_a_target = 16;          // tried in the search, then refined
+constexpr double least_range = 1e-6;        // of an axis that moved
+constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
 
 /// Columns times a function of the row.
 template <class Function>
@@ -122,26 +121,6 @@ void add_slips(const Problem& problem, const Geometry& geometry, std::vector<Ter
   }
 }
 
-/// A shift of the tip in M or of the part in its own frame, times a function of an axis.
-void add_pattern(const Problem& problem, const Geometry& geometry, AxisName axis,
-                 const std::string& words, const std::vector<ErrorFunction>& functions,
-                 std::vector<Term>& terms) {
-  for (const bool part : {false, true})
-    for (Index i = 0; i < 3; ++i) {
-      Term term;
-      term.effect = std::string(part ? "part " : "machine ") + "XYZ"[i] + ": " + words + " of " +
-                    letter_of(axis);
-      term.pattern = true;
-      term.columns.resize(problem.equations, static_cast<Index>(functions.size()));
-      for (std::size_t f = 0; f < functions.size(); ++f)
-        term.columns.col(static_cast<Index>(f)) = times_rows(
-            problem, (part ? geometry.part_shift : geometry.tip_shift).col(i),
-            [&](const Row& row) { return value_at(functions[f], row.axes[index_of(axis)]); });
-      term.parameters.assign(functions.size(), "amplitude");
-      terms.push_back(std::move(term));
-    }
-}
-
 }  // namespace
 
 Term slip_term(const Problem& problem, const Geometry& geometry, std::size_t target,
@@ -177,27 +156,6 @@ std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
   }
   if (timed) add_drifts(problem, geometry, terms);
   add_slips(problem, geometry, terms);
-  return terms;
-}
-
-std::vector<Term> pattern_terms(const Problem& problem, const Geometry& geometry) {
-  std::vector<Term> terms;
-  for (const MachineAxis& axis : problem.machine->axes) {
-    const AxisRange range = axis_range(problem, axis.name);
-    if (range.length() < least_range) continue;
-    if (is_rotary(axis.name) && range.length() >= whole_turn) {
-      for (int order = 5; order <= 12; ++order) {
-        const auto n = static_cast<double>(order);
-        add_pattern(problem, geometry, axis.name, "harmonic " + std::to_string(order),
-                    {FourierError{{{n, 1.0, 0.0}}, two_pi}, FourierError{{{n, 0.0, 1.0}}, two_pi}},
-                    terms);
-      }
-    } else {
-      for (int degree = 4; degree <= 6; ++degree)
-        add_pattern(problem, geometry, axis.name, "polynomial of degree " + std::to_string(degree),
-                    {legendre(degree, range.low, range.high)}, terms);
-    }
-  }
   return terms;
 }
 

@@ -26,11 +26,18 @@ ErrorName drawn_error(const Machine& machine, bool rotary, Engine& engine) {
   }
 }
 
-// A raised cosine, 50 to 110° wide at its foot.
+// 50 to 110° wide at its foot: a raised cosine, a triangle or a half sine.
+double hump(double s, std::uint64_t shape) {  // |s| up to 1
+  if (std::abs(s) >= 1.0) return 0.0;
+  if (shape == 0) return 0.5 + 0.5 * std::cos(0.5 * two_pi * s);
+  return shape == 1 ? 1.0 - std::abs(s) : std::cos(0.25 * two_pi * s);
+}
+
 Effect bump(const Machine& machine, const Plan& plan, Engine& engine) {
   const ErrorName name = drawn_error(machine, true, engine);
   const auto [low, high] = range_of(plan, static_cast<AxisName>(name.body));
   const double width = drawn(engine, 50, 110) * rad_per_deg, centre = drawn(engine, low, high);
+  const std::uint64_t shape = engine() % 3;
   TableError table;
   table.periodic = high - low > 5.0;
   const double from = table.periodic ? 0.0 : low - 1.0, to = table.periodic ? two_pi : high + 1.0;
@@ -38,8 +45,7 @@ Effect bump(const Machine& machine, const Plan& plan, Engine& engine) {
     const double at = from + (to - from) * k / 360.0;
     const double off = table.periodic ? std::remainder(at - centre, two_pi) : at - centre;
     table.at.push_back(at);
-    table.values.push_back(std::abs(off) < 0.5 * width ? 0.5 + 0.5 * std::cos(two_pi * off / width)
-                                                       : 0.0);
+    table.values.push_back(hump(2.0 * off / width, shape));
   }
   Fault fault;
   fault.errors.terms.push_back({name, table, 0.0});
@@ -69,15 +75,16 @@ Effect of_two_axes(const Machine& machine, const Plan& plan, Engine& engine) {
     other = index_of(machine.axes[one_of(engine, machine.axes.size())].name);
   const auto function = [&](std::size_t axis) -> std::function<double(double)> {
     const auto [low, high] = range_of(plan, static_cast<AxisName>(axis));
-    const bool even = engine() % 2 == 0;
+    const std::uint64_t shape = engine() % 4;
     if (high - low > 5.0 && axis >= 3) {
-      const double order = even ? 2.0 : 1.0, phase = drawn(engine, 0, two_pi);
+      const double order = shape == 0 ? 2.0 : 1.0, phase = drawn(engine, 0, two_pi);
+      if (shape == 3) return [=](double q) { return std::abs(std::cos(0.5 * q + phase)); };
       return [=](double q) { return std::cos(order * q + phase); };
     }
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     return [=](double q) {
       const double s = (q - middle) / half;
-      return even ? 1.5 * s * s - 0.5 : s;
+      return shape == 0 ? s * s : shape == 1 ? s : shape == 2 ? std::exp(s) : std::abs(s);
     };
   };
   Fault fault;
@@ -89,9 +96,11 @@ Effect of_two_axes(const Machine& machine, const Plan& plan, Engine& engine) {
   return {"two axes, " + to_string(name) + " with " + "XYZABC" [other], { fault }, name.angular()};
 }
 
-// 1 − exp(−t/τ) of a shift, or of a scale.
+// Of a shift, or of a scale: 1 − exp(−t/τ), of two time constants, or up and down with a pause.
 Effect warming(const Machine& machine, const Plan& plan, Engine& engine) {
-  const double tau = plan.visits.back().time_s * drawn(engine, 0.06, 0.25);
+  const double whole_s = plan.visits.back().time_s, tau = whole_s * drawn(engine, 0.06, 0.25);
+  const double pause_s = whole_s * drawn(engine, 0.4, 0.7);
+  const std::uint64_t shape = engine() % 3;
   ErrorName name = drawn_error(machine, false, engine);
   while (name.body >= 3) name = drawn_error(machine, false, engine);
   const bool scale = engine() % 2 == 0;
@@ -101,7 +110,10 @@ Effect warming(const Machine& machine, const Plan& plan, Engine& engine) {
   const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
   Fault fault;
   fault.of_visit = [=](const Visit& visit) -> std::vector<ErrorTerm> {
-    const double warm = 1.0 - std::exp(-visit.time_s / tau);
+    double warm = 1.0 - std::exp(-visit.time_s / tau);
+    if (shape == 1) warm = 0.6 * warm + 0.4 * (1.0 - std::exp(-0.2 * visit.time_s / tau));
+    if (shape == 2 && visit.time_s > pause_s)
+      warm = (1.0 - std::exp(-pause_s / tau)) * std::exp((pause_s - visit.time_s) / tau);
     const double along = scale ? (visit.axes[name.body] - middle) / half : 1.0;
     return {{name, ConstantError{warm * along}, 0.0}};
   };
