@@ -61,6 +61,27 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   out.blocks = after.blocks;
 }
 
+/// The axis of an effect by its letter; t of drifts and slips.
+char letter_of_effect(const std::string& effect) {
+  if (effect.starts_with("reversal.")) return effect.back();
+  return effect.front() == 'E' ? effect[2] : 't';
+}
+
+/// Why a finding is no name but part of something unknown: a pattern of the same axis is there, or
+/// three terms of one error, which is then no order or degree.
+bool of_unknown(const MachineFinding& finding, const Found& search) {
+  std::size_t alike = 0;
+  for (const std::size_t t : search.found) {
+    const Term& other = search.terms[t];
+    if (other.pattern && std::ranges::any_of(finding.members(), [&](const std::string& member) {
+          return other.letters.find(letter_of_effect(member)) != std::string::npos;
+        }))
+      return true;
+    alike += !other.errors.empty() && other.effect.starts_with(finding.effect.substr(0, 4)) ? 1 : 0;
+  }
+  return finding.effect.front() == 'E' && alike >= 3;
+}
+
 void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
                         static_cast<double>(fit.problem.equations);
@@ -68,19 +89,22 @@ void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& ou
     MachineFinding found =
         finding_of(*search.regression, search.terms, search.found, at, search.options);
     found.rms_mm *= to_rms;
-    if (search.terms[search.found[at]].pattern) {
-      double square = 0.0;
-      for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
-      out.unexplained.push_back(
-          {found.effect,
-           {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())), "mm", ""},
-           found.p_value});
+    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    const bool pattern = search.terms[search.found[at]].pattern;
+    if (!pattern && !of_unknown(found, search)) {
+      out.findings.push_back(std::move(found));
       continue;
     }
-    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
-    out.findings.push_back(std::move(found));
+    double square = 0.0;
+    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
+    out.unexplained.push_back(
+        {pattern ? found.effect : found.effect + ", which may be part of something unknown",
+         {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
+          found.parameters.front().estimate.unit, ""},
+         found.p_value});
   }
   std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
+  std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
 }
 
 /// Scatter that the stated noise does not explain: χ² of all that is left.

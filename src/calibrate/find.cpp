@@ -106,6 +106,8 @@ class Finder {
         taken_.push_back(entry);
         looked.emplace_back(out_.terms.size(), set);
         out_.terms.push_back(scan_->term(entry));
+        // One of many more than there are effects.
+        out_.terms.back().tests = out_.options.pattern_tests / out_.options.tests;
       }
     if (looked.empty()) return false;
     Regression wider = regression_of(out_.terms);

@@ -36,7 +36,7 @@ std::string place_text(AxisName axis, double value) {
 
 PatternFunction of_axis(const Problem& problem, const Axis& axis, std::string words,
                         std::vector<ErrorFunction> functions) {
-  PatternFunction out{std::move(words), {}, std::move(functions), std::nullopt};
+  PatternFunction out{std::move(words), {}, std::move(functions), std::nullopt, axis.letter()};
   out.values.resize(static_cast<Index>(problem.rows.size()),
                     static_cast<Index>(out.functions.size()));
   for (Index i = 0; i < out.values.rows(); ++i)
@@ -62,7 +62,7 @@ std::vector<PatternFunction> lowest(const Problem& problem, const Axis& axis) {
 }
 
 PatternFunction product(const PatternFunction& a, const PatternFunction& b, std::string words) {
-  PatternFunction out{std::move(words), {}, {}, std::nullopt};
+  PatternFunction out{std::move(words), {}, {}, std::nullopt, a.letters + b.letters};
   out.values.resize(a.values.rows(), a.values.cols() * b.values.cols());
   for (Index i = 0; i < a.values.cols(); ++i)
     for (Index j = 0; j < b.values.cols(); ++j)
@@ -178,7 +178,7 @@ std::vector<PatternFunction> functions_of_time(const Problem& problem) {
   std::vector<PatternFunction> out;
   if (!(length > 0.0)) return out;
   const auto add = [&](std::string words, auto&& value) {
-    PatternFunction one{std::move(words), MatrixXd(problem.rows.size(), 1), {}, std::nullopt};
+    PatternFunction one{std::move(words), MatrixXd(problem.rows.size(), 1), {}, std::nullopt, "t"};
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
       one.values(static_cast<Index>(i), 0) = value((problem.rows[i].time_s - begin) / length);
     out.push_back(std::move(one));
@@ -198,7 +198,7 @@ std::vector<PatternFunction> growths(const Problem& problem, std::size_t k) {
   std::vector<PatternFunction> out;
   for (const PatternFunction& course : functions_of_time(problem))
     out.push_back(product(along, course, course.words + " that grows with " + axis.letter()));
-  PatternFunction line{"", MatrixXd(problem.rows.size(), 1), {}, std::nullopt};
+  PatternFunction line{"", MatrixXd(problem.rows.size(), 1), {}, std::nullopt, "t"};
   for (std::size_t i = 0; i < problem.rows.size(); ++i)
     line.values(static_cast<Index>(i), 0) = problem.rows[i].time_s;
   line.values.array() -= line.values.mean();

@@ -13,7 +13,7 @@ struct PatternFunction {
   Eigen::MatrixXd values;                ///< a row of the problem each
   std::vector<ErrorFunction> functions;  ///< of one axis alone: as errors, one a column
   std::optional<PatternPlace> place;
-  double alike = 1.0;  ///< how many of its kind are tried
+  std::string letters;  ///< of the axes that it is a function of; t: of the time
 };
 
 /// Functions of one axis that no effect has: orders 5 to 12 or degrees 4 to 6, bumps, steps.

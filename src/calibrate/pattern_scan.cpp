@@ -58,9 +58,7 @@ PatternScan::PatternScan(const Problem& problem, const Geometry& geometry,
 
 std::vector<std::size_t> PatternScan::keep(std::vector<PatternFunction> functions) {
   std::vector<std::size_t> at;
-  const auto alike = static_cast<double>(functions.size());
   for (PatternFunction& one : functions) {
-    one.alike = alike;
     at.push_back(functions_.size());
     functions_.push_back(std::move(one));
   }
@@ -136,12 +134,13 @@ Term PatternScan::term_of(std::size_t unit, const PatternFunction& function) con
   term.pattern = true;
   term.unit = unit;
   term.place = function.place;
-  term.tests = function.alike;
+  term.letters = function.letters;
   const std::size_t k = unit / 6, direction = unit % 6;
   if (k < axes.size()) {
     const ErrorName name{true, direction, index_of(axes[k].name)};
     term.effect = to_string(name) + ": " + function.words;
     term.angle = name.angular();
+    term.letters += letter_of(axes[k].name);
     for (const ErrorFunction& one : function.functions) term.errors.push_back({name, one, 0.0});
   } else {
     term.effect = std::string(direction < 3 ? "machine " : "part ") + "XYZ"[direction % 3] + ": " +

@@ -28,6 +28,7 @@ struct Term {
   double tests = 1.0;                 ///< how many places of it were tried
   std::size_t target = 0, row = 0;    ///< ball.slip: of which target, from which row on
   std::size_t unit = 0;               ///< of a pattern: the column that its functions multiply
+  std::string letters;                ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern
 };
 
