@@ -7,6 +7,7 @@
 #include "calibrate/advise.hpp"
 #include "calibrate/explain.hpp"
 #include "calibrate/find.hpp"
+#include "calibrate/remarks.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
@@ -82,7 +83,8 @@ bool of_unknown(const MachineFinding& finding, const Found& search) {
   return finding.effect.front() == 'E' && alike >= 3;
 }
 
-void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
+void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
+                    MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
                         static_cast<double>(fit.problem.equations);
   for (std::size_t at = 0; at < search.found.size(); ++at) {
@@ -90,6 +92,8 @@ void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& ou
         finding_of(*search.regression, search.terms, search.found, at, search.options);
     found.rms_mm *= to_rms;
     out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    weigh_aliases(fit.problem, search.terms[search.found[at]], found);
+    found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
     const bool pattern = search.terms[search.found[at]].pattern;
     if (!pattern && !of_unknown(found, search)) {
       out.findings.push_back(std::move(found));
@@ -101,7 +105,9 @@ void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& ou
         {pattern ? found.effect : found.effect + ", which may be part of something unknown",
          {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
           found.parameters.front().estimate.unit, ""},
-         found.p_value});
+         found.p_value,
+         found.parameters,
+         found.covariance});
   }
   std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
   std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
@@ -118,7 +124,9 @@ void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnose
   if (p >= options.false_alarm * share_of_scatter) return;
   out.unexplained.push_back({"scatter above the noise that is stated",
                              {out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""},
-                             std::min(1.0, p / share_of_scatter)});
+                             std::min(1.0, p / share_of_scatter),
+                             {},
+                             {}});
 }
 
 }  // namespace
@@ -153,8 +161,13 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
   out.threshold = found.options.single_level();
   fit_jointly(*fit, found, out);
-  state_findings(*fit, found, out);
+  state_findings(*fit, found, options.calibration, out);
   judge_scatter(*fit, found, options, out);
+  out.effective_hypotheses = independent_tests(*found.regression, found.terms);
+  out.typical_length_mm = options.typical_length_mm;
+  out.typical_angle_rad = options.typical_angle_rad;
+  add_checks(*fit, *found.regression, found.found, timed, out);
+  add_remarks(out);
   out.verdict = !out.unexplained.empty() ? MachineVerdict::unexplained
                 : !out.findings.empty()  ? MachineVerdict::effects
                                          : MachineVerdict::ideal;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -86,6 +87,31 @@ std::vector<double> gaps(const Problem& problem, const Axis& axis) {
   return out;
 }
 
+/// An orthonormal basis of functions of the row.
+struct Orthonormal {
+  MatrixXd basis;
+  /// Whether they leave less than a hundredth of functions.
+  bool make(const MatrixXd& values) const {
+    const MatrixXd left = values - basis * (basis.transpose() * values);
+    return left.squaredNorm() < 0.01 * values.squaredNorm();
+  }
+};
+
+/// What the effects of an axis and what is always fitted make of its positions.
+Orthonormal effects_of_axis(const Problem& problem, const Axis& axis, int highest) {
+  std::vector<ErrorFunction> functions{ConstantError{1.0}};
+  for (int n = 1; n <= (axis.whole_turn ? 4 : highest); ++n) {
+    if (axis.whole_turn)
+      std::ranges::move(harmonic(n), std::back_inserter(functions));
+    else
+      functions.emplace_back(legendre(n, axis.range.low, axis.range.high));
+  }
+  const MatrixXd values = of_axis(problem, axis, "", std::move(functions)).values;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(values);
+  qr.setThreshold(1e-9);
+  return {qr.householderQ() * MatrixXd::Identity(values.rows(), qr.rank())};
+}
+
 }  // namespace
 
 // A raised cosine; of a whole turn it goes round.
@@ -143,14 +169,14 @@ std::vector<PatternFunction> near(const Problem& problem, const PatternPlace& pl
   return out;
 }
 
-std::vector<PatternFunction> functions_of_axis(const Problem& problem, std::size_t k) {
+std::vector<PatternFunction> functions_of_axis(const Problem& problem, std::size_t k, int highest) {
   std::vector<PatternFunction> out;
   const Axis axis = axis_of(problem, k);
   const double length = axis.range.length();
   for (int order = 5; axis.whole_turn && order <= 12; ++order)
     out.push_back(of_axis(problem, axis, fmt::format("harmonic {} of {}", order, axis.letter()),
                           harmonic(order)));
-  for (int degree = is_rotary(axis.name) ? 4 : 3; !axis.whole_turn && degree <= 6; ++degree)
+  for (int degree = highest + 1; !axis.whole_turn && degree <= 6; ++degree)
     out.push_back(of_axis(problem, axis,
                           fmt::format("polynomial of degree {} of {}", degree, axis.letter()),
                           {legendre(degree, axis.range.low, axis.range.high)}));
@@ -159,6 +185,8 @@ std::vector<PatternFunction> functions_of_axis(const Problem& problem, std::size
       out.push_back(
           bump(problem, k, axis.range.low + (i + 0.5) * length / bump_centres, width * length));
   for (const double at : gaps(problem, axis)) out.push_back(step(problem, k, at));
+  const Orthonormal own = effects_of_axis(problem, axis, highest);
+  std::erase_if(out, [&](const PatternFunction& one) { return own.make(one.values); });
   return out;
 }
 

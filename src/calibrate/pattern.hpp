@@ -16,8 +16,11 @@ struct PatternFunction {
   std::string letters;  ///< of the axes that it is a function of; t: of the time
 };
 
-/// Functions of one axis that no effect has: orders 5 to 12 or degrees 4 to 6, bumps, steps.
-std::vector<PatternFunction> functions_of_axis(const Problem& problem, std::size_t axis);
+/// Functions of one axis that no effect has: orders 5 to 12 or degrees above `highest` to 6, bumps,
+/// steps; without those that the effects' own make at these positions.
+/// @param highest degree of the effects
+std::vector<PatternFunction> functions_of_axis(const Problem& problem, std::size_t axis,
+                                               int highest);
 /// Products of the two lowest orders or degrees of two axes.
 std::vector<PatternFunction> functions_of_two(const Problem& problem, std::size_t a, std::size_t b);
 /// What warms up, bends or steps in time.

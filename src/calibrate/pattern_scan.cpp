@@ -35,8 +35,11 @@ PatternScan::PatternScan(const Problem& problem, const Geometry& geometry,
   };
   for (std::size_t k = 0; k < axes; ++k) {
     if (!moves(k)) continue;
-    const auto own = keep(functions_of_axis(problem, k));
-    for (std::size_t direction = 0; direction < 6; ++direction) add(6 * k + direction, own);
+    const bool rotary = is_rotary(problem.machine->axes[k].name);
+    const auto own = keep(functions_of_axis(problem, k, 3));
+    const auto angles = rotary ? own : keep(functions_of_axis(problem, k, 2));
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      add(6 * k + direction, direction < 3 ? own : angles);
     for (std::size_t other = 0; other < k; ++other) {
       if (!moves(other)) continue;
       const auto both = keep(functions_of_two(problem, k, other));
@@ -135,6 +138,7 @@ Term PatternScan::term_of(std::size_t unit, const PatternFunction& function) con
   term.unit = unit;
   term.place = function.place;
   term.letters = function.letters;
+  term.formula = "amplitude times " + function.words;
   const std::size_t k = unit / 6, direction = unit % 6;
   if (k < axes.size()) {
     const ErrorName name{true, direction, index_of(axes[k].name)};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "calibrate/problem.hpp"
+#include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -23,6 +24,8 @@ struct Term {
   Eigen::MatrixXd columns;
   std::vector<std::string> parameters;  ///< a name each column
   std::vector<ErrorTerm> errors;        ///< of which each column is; empty: no error of the machine
+  std::string formula;
+  std::vector<MachineShape> shape;
   bool angle = false;
   bool pattern = false;               ///< no effect, only what is left over
   double tests = 1.0;                 ///< how many places of it were tried

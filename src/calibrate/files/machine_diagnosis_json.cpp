@@ -21,9 +21,40 @@ Json rival_json(const MachineRival& rival) {
           {"probability", number(rival.probability)}};
 }
 
+/// The covariance in the units of `linear`.
+Json linear_json(const std::vector<CalibratedParameter>& parameters,
+                 const std::vector<double>& covariance) {
+  Json linear = Json::array(), rows = Json::array();
+  const auto to_edge = [&](std::size_t i) {
+    return parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    Json one = edge_size(parameters[i].estimate.value, parameters[i].estimate.unit);
+    one["name"] = parameters[i].name;
+    linear.push_back(one);
+    Json row = Json::array();
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      row.push_back(number(to_edge(i) * to_edge(j) * covariance[i * parameters.size() + j]));
+    rows.push_back(row);
+  }
+  return {{"linear", linear}, {"covariance", rows}};
+}
+
+Json term_json(const MachineFinding& finding) {
+  Json json = linear_json(finding.parameters, finding.covariance);
+  json["formula"] = finding.formula;
+  json["shape"] = Json::object();
+  for (const MachineShape& one : finding.shape)
+    json["shape"][one.name] = edge_size(one.value, one.unit);
+  return json;
+}
+
 Json finding_json(const MachineFinding& finding) {
   const std::string unit = finding.parameters.front().estimate.unit;
   return {{"effect", finding.effect},
+          {"term", term_json(finding)},
+          {"alias", finding.alias},
+          {"pairs", finding.pairs},
           {"class", finding.members()},
           {"parameters", parameters_json(finding.parameters)},
           {"size", edge_size(finding.size, unit)},
@@ -38,7 +69,8 @@ Json finding_json(const MachineFinding& finding) {
 Json unexplained_json(const MachineUnexplained& one) {
   return {{"pattern", one.pattern},
           {"amplitude", edge(one.amplitude)},
-          {"p_value", number(one.p_value)}};
+          {"p_value", number(one.p_value)},
+          {"term", linear_json(one.parameters, one.covariance)}};
 }
 
 Json not_observable_json(const MachineNotObservable& one) {
@@ -102,6 +134,16 @@ Json next_json(const MachineDiagnosis& d, const Machine& machine) {
   return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
 }
 
+Json check_json(const MachineCheck& check) {
+  return {{"effect", check.name}, {"found", check.found}, {"text", check.text}};
+}
+
+Json options_json(const MachineDiagnosis& d) {
+  return {{"false_alarm", number(d.false_alarm)},
+          {"typical_length", with_unit(d.typical_length_mm, "mm")},
+          {"typical_angle", with_unit(d.typical_angle_rad / rad_per_deg, "deg")}};
+}
+
 Json baseline_json(const Calibration& c) {
   return {{"converged", c.converged},
           {"parameters", parameters_json(c.parameters)},
@@ -119,12 +161,15 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
        {"version", TRUEAXIS_VERSION},
        {"machine", machine.name},
        {"inputs", inputs_json(d.baseline)},
+       {"options", options_json(d)},
        {"verdict", to_string(d.verdict)},
        {"baseline", baseline_json(d.baseline)},
        {"extended", {{"parameters", parameters_json(d.extended)}}},
        {"findings", list_of(d.findings, finding_json)},
        {"unexplained", list_of(d.unexplained, unexplained_json)},
        {"not_observable", list_of(d.not_observable, not_observable_json)},
+       {"remarks", d.remarks},
+       {"checks", list_of(d.checks, check_json)},
        {"noise",
         {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
        {"gain",
@@ -137,6 +182,7 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
        {"plans", list_of(d.plans, plan_json)},
        {"false_alarm", number(d.false_alarm)},
        {"hypotheses", d.hypotheses},
+       {"effective_hypotheses", number(d.effective_hypotheses)},
        {"threshold", number(d.threshold)}});
 }
 
