@@ -97,7 +97,10 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const auto& block = regression.block(set[at]);
   MachineFinding out;
   out.effect = term.effect;
-  out.p_value = std::min(1.0, options.tests * chance(regression, others, set[at]));
+  out.formula = term.formula;
+  out.shape = term.shape;
+  out.p_value = std::min(1.0, options.measurement_alarm * chance(regression, others, set[at]) /
+                                  options.level_of(term));
   Class alike = class_of(regression, terms, set, at);
   out.rivals = std::move(alike.rivals);
   out.probability = alike.probability;
@@ -112,6 +115,7 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const MatrixXd covariance = variance * block.back *
                               G.completeOrthogonalDecomposition().pseudoInverse() *
                               block.back.transpose();
+  out.covariance.assign(covariance.data(), covariance.data() + covariance.size());
   for (Index k = 0; k < value.size(); ++k)
     out.parameters.push_back(
         {term.parameters[static_cast<std::size_t>(k)],

@@ -81,9 +81,9 @@ Regression::Regression(const std::vector<Term>& terms, const MatrixXd& base,
 }
 
 void Regression::take(const VectorXd& residuals) {
-  const VectorXd left = residuals - basis_ * (basis_.transpose() * residuals);
-  right_ = orthonormal_.transpose() * left;
-  rss_ = left.squaredNorm();
+  residuals_ = residuals - basis_ * (basis_.transpose() * residuals);
+  right_ = orthonormal_.transpose() * residuals_;
+  rss_ = residuals_.squaredNorm();
 }
 
 std::vector<Index> Regression::columns_of(const Set& set) const {

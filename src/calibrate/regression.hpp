@@ -44,13 +44,19 @@ class Regression {
   };
   Beside beside(const Set& others) const;
   const Eigen::MatrixXd& products() const { return products_; }
+  const Eigen::MatrixXd& basis() const { return basis_; }  ///< orthonormal, of the base
+  /// The orthonormal columns of a set, over σ and beside the base.
+  Eigen::MatrixXd columns(const Set& set) const {
+    return orthonormal_(Eigen::all, columns_of(set));
+  }
+  const Eigen::VectorXd& residuals() const { return residuals_; }  ///< beside the base
 
  private:
   std::vector<Eigen::Index> columns_of(const Set& set) const;
 
   std::vector<Block> blocks_;
   Eigen::MatrixXd orthonormal_, basis_, products_;
-  Eigen::VectorXd right_;
+  Eigen::VectorXd right_, residuals_;
   double rss_ = 0.0, freedom_ = 0.0;
 };
 

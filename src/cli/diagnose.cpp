@@ -16,6 +16,7 @@
 #include "job/files/job_results.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::cli {
@@ -90,6 +91,9 @@ int execute_machine(const Options& options) {
     std::cerr << options.data.front() << ": not converged: " << found.baseline.message << '\n';
     return numerical;
   }
+  if (const std::string why = implausible(found.baseline, diagnose_options.calibration);
+      !why.empty())
+    throw Refusal(why);
   if (!json.empty()) outputs.write(json, machine_diagnosis_json(found, file.machine));
   outputs.write(options.errors_output, errors_toml(found.errors, &file.machine));
   outputs.commit();
