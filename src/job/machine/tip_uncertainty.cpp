@@ -26,7 +26,10 @@ Eigen::Vector3d displaced_tip(const MachineModel& model, const AxisPositions& ax
 TipUncertainty::TipUncertainty(const MachineJob& job, const MachineDiagnosis& diagnosis) {
   const ErrorModel& all = diagnosis.errors;
   const auto machine_with = [&](const ErrorName& name, const ErrorFunction& function) {
-    ErrorModel errors{all.sign, all.reference_mm, {{name, function}}};
+    ErrorModel errors;
+    errors.sign = all.sign;
+    errors.reference_mm = all.reference_mm;
+    errors.terms.push_back({name, function});
     one_u_.emplace_back(job.machine, errors);
   };
   for (const CalibratedParameter& one : diagnosis.extended)
