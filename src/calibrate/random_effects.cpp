@@ -12,7 +12,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_rounds = 300;
+constexpr int most_iterations = 300;
 constexpr double settled = 1e-3;  // of ln t and of ln φ, a round
 
 /// The most probable x = ln t of `count` amounts whose squares over s² share add up to `square`,
@@ -56,7 +56,7 @@ class Regressor {
   }
 
   RandomEffects run() {
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_iterations; ++round) {
       solve();
       if (improve() < settled) break;
     }
