@@ -37,7 +37,8 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
   outputs.write(outputs.in_folder("diagnosis.json"),
                 machine_diagnosis_json(result.diagnosis, result.job.machine));
   if (result.implausible.empty())
-    outputs.write(outputs.in_folder("errors.toml"), errors_toml(result.diagnosis.errors));
+    outputs.write(outputs.in_folder("errors.toml"),
+                  errors_toml(result.errors, &result.job.machine));
   else
     outputs.remove_earlier(outputs.in_folder("errors.toml"));
   if (result.compensation)

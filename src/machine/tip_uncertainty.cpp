@@ -61,15 +61,16 @@ Matrix3Xd TipUncertainty::moved(const AxisPositions& axes, const Setting& settin
   return out;
 }
 
+Matrix3Xd TipUncertainty::causes(const AxisPositions& axes, const Setting& setting) const {
+  Matrix3Xd all = moved(axes, setting);
+  all.rightCols(u_.size()) *= u_.asDiagonal();
+  if (root_.size() > 0) all.leftCols(root_.rows()) *= root_;
+  return all;
+}
+
 Matrix3 TipUncertainty::covariance_mm2(const AxisPositions& axes, const Setting& setting) const {
-  const Matrix3Xd all = moved(axes, setting);
-  const Matrix3Xd alone = all.rightCols(u_.size()) * u_.asDiagonal();
-  Eigen::Matrix3d sum = alone * alone.transpose();
-  if (root_.size() > 0) {
-    const Matrix3Xd together = all.leftCols(root_.rows()) * root_;
-    sum += together * together.transpose();
-  }
-  return rigid::rows(sum);
+  const Matrix3Xd all = causes(axes, setting);
+  return rigid::rows(all * all.transpose());
 }
 
 double TipUncertainty::u_mm(const AxisPositions& axes, const Setting& setting) const {

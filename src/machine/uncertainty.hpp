@@ -27,6 +27,9 @@ class TipUncertainty {
   explicit TipUncertainty(const MachineModel& model);
 
   bool stated() const { return !amounts_.empty(); }
+  /// Displacements of the tip in the part, mm, a column each of as many independent causes of
+  /// standard deviation 1 as there are amounts.
+  Eigen::Matrix3Xd causes(const AxisPositions& axes, const Setting& setting) const;
   /// Covariance of the tip in the part, mm².
   Matrix3 covariance_mm2(const AxisPositions& axes, const Setting& setting) const;
   /// The root of its trace: the standard uncertainty of the distance.

@@ -92,7 +92,7 @@ std::vector<Stand> map_stands(const std::vector<AxisRange>& ranges, const Machin
 }
 
 std::vector<ErrorMap> error_maps(const MachineModel& model, const std::vector<AxisRange>& ranges,
-                                 const Setting& setting, const TipUncertainty& uncertainty,
+                                 const Setting& setting, const ProbedTipUncertainty& uncertainty,
                                  const RigidFit::Body& part) {
   std::vector<ErrorMap> maps = planes(ranges, model.machine());
   for (ErrorMap& map : maps)

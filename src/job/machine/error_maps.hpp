@@ -13,7 +13,7 @@ inline constexpr std::size_t map_cells = 24;  ///< along each side
 /// measured and what the program uses together; the other axes where the program has its middle, or
 /// the measurement. @param part the program's, taken off the errors before
 std::vector<ErrorMap> error_maps(const MachineModel& model, const std::vector<AxisRange>& ranges,
-                                 const Setting& setting, const TipUncertainty& uncertainty,
+                                 const Setting& setting, const ProbedTipUncertainty& uncertainty,
                                  const RigidFit::Body& part);
 
 /// The stands of all maps, where there is no program to take the part's displacement from.

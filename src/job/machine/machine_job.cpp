@@ -5,6 +5,7 @@
 
 #include "job/machine/axis_ranges.hpp"
 #include "job/machine/error_maps.hpp"
+#include "job/machine/job_errors.hpp"
 #include "job/machine/machine_doubts.hpp"
 #include "job/machine/machine_job_verdict.hpp"
 #include "machine/algebra.hpp"
@@ -52,17 +53,18 @@ class ProgramTips {
   const RigidFit& rigid() const { return *rigid_; }
   const RigidFit::Body& part() const { return part_; }
 
-  std::vector<ProgramTip> take(const TipUncertainty& uncertainty, MachineJobVerdict& v) const {
+  std::vector<ProgramTip> take(const ProbedTipUncertainty& uncertainty,
+                               MachineJobVerdict& v) const {
     const Displacements before = rigid_->without(before_, part_),
                         after = rigid_->without(after_, rigid_->nearest(after_));
+    const std::vector<double> u_mm = u_mm_of(uncertainty, stands_);
     std::vector<ProgramTip> tips;
     for (std::size_t i = 0; i < ends_.size(); ++i) {
-      const double u_mm = uncertainty.u_mm(stands_[i]);
       tips.push_back({ends_[i].line, model_.nominal(stands_[i].axes, stands_[i].setting).tip_mm,
-                      rigid::array(before[i]), rigid::array(after[i]), u_mm});
+                      rigid::array(before[i]), rigid::array(after[i]), u_mm[i]});
       take_largest(before[i].norm(), ends_[i].line, v.before_mm, v.before_line);
       take_largest(after[i].norm(), ends_[i].line, v.after_mm, v.after_line);
-      v.U_mm = std::max(v.U_mm, 2.0 * u_mm);
+      v.U_mm = std::max(v.U_mm, 2.0 * u_mm[i]);
     }
     return tips;
   }
@@ -84,7 +86,7 @@ void compensate_program_of(MachineJobResult& result, const MachineModel& model) 
 }
 
 /// Maps where there is no program: the part's displacement is that over the maps themselves.
-void map_alone(MachineJobResult& result, const MachineModel& model, TipUncertainty& uncertainty) {
+void map_alone(MachineJobResult& result, const MachineModel& model) {
   const Setting setting = first_setting(result.job.machine);
   const std::vector<Stand> stands = map_stands(result.ranges, result.job.machine, setting);
   std::vector<Eigen::Vector3d> points;
@@ -94,7 +96,7 @@ void map_alone(MachineJobResult& result, const MachineModel& model, TipUncertain
     moved.push_back(displaced_tip(model, stand.axes, stand));
   }
   const RigidFit rigid(points);
-  uncertainty.take_off_part(rigid, stands);
+  const ProbedTipUncertainty uncertainty(model, rigid, stands);
   result.maps = error_maps(model, result.ranges, setting, uncertainty, rigid.nearest(moved));
 }
 
@@ -113,17 +115,17 @@ MachineJobResult run_machine_job(MachineJob job) {
   result.implausible = implausible(result.diagnosis.baseline, options.calibration);
   MachineJobVerdict numbers;
   if (result.diagnosis.baseline.converged) {
-    const MachineModel model(result.job.machine, result.diagnosis.errors);
+    result.errors = job_errors(result.job, result.diagnosis);
+    const MachineModel model(result.job.machine, result.errors);
     if (result.job.program) compensate_program_of(result, model);
     const std::vector<ProgramEnd> ends =
         result.compensation ? cutting(result.compensation->ends) : std::vector<ProgramEnd>{};
     result.ranges = axis_ranges(result.job, ends);
-    TipUncertainty uncertainty(result.job, result.diagnosis);
     if (ends.empty() || !result.compensation->unreachable.empty()) {
-      map_alone(result, model, uncertainty);
+      map_alone(result, model);
     } else {
       const ProgramTips tips(model, ends);
-      uncertainty.take_off_part(tips.rigid(), tips.stands());
+      const ProbedTipUncertainty uncertainty(model, tips.rigid(), tips.stands());
       result.part = displacement_of(tips.part());
       result.tips = tips.take(uncertainty, numbers);
       numbers.between_mm = result.compensation->between_after.value;

@@ -44,6 +44,17 @@ RigidFit::Body RigidFit::nearest(const Displacements& displacements_mm) const {
   return {middle_mm_, found.head<3>(), found.tail<3>() / reach_mm_};
 }
 
+void RigidFit::Sums::add(const Eigen::Vector3d& point_mm,
+                         const Eigen::Matrix3Xd& displacements_mm) {
+  right_ +=
+      columns_at((point_mm - fit_.middle_mm_) / fit_.reach_mm_).transpose() * displacements_mm;
+}
+
+Eigen::Matrix3Xd RigidFit::at(const Eigen::Vector3d& point_mm,
+                              const Eigen::MatrixXd& bodies) const {
+  return columns_at((point_mm - middle_mm_) / reach_mm_) * bodies;
+}
+
 Displacements RigidFit::without(const Displacements& displacements_mm, const Body& body) const {
   Displacements left = displacements_mm;
   for (std::size_t i = 0; i < left.size(); ++i) left[i] -= body.at(points_mm_[i]);

@@ -25,6 +25,20 @@ class RigidFit {
     }
   };
   Body nearest(const Displacements& displacements_mm) const;
+  /// The same of many displacements at once, which come point by point: a column each.
+  class Sums {
+   public:
+    Sums(const RigidFit& fit, Eigen::Index columns)
+        : fit_(fit), right_(Eigen::MatrixXd::Zero(6, columns)) {}
+    void add(const Eigen::Vector3d& point_mm, const Eigen::Matrix3Xd& displacements_mm);
+    Eigen::MatrixXd bodies() const { return fit_.normal_.solve(right_); }
+
+   private:
+    const RigidFit& fit_;
+    Eigen::MatrixXd right_;
+  };
+  /// Displacement of a point by `Sums::bodies`.
+  Eigen::Matrix3Xd at(const Eigen::Vector3d& point_mm, const Eigen::MatrixXd& bodies) const;
   /// What is left of them beside it.
   Displacements without(const Displacements& displacements_mm, const Body& body) const;
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/machine/tip_uncertainty.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include "calibrate/unknown.hpp"
 #include "machine/algebra.hpp"
 
 namespace trueaxis::machine_job {
+namespace {
+
+constexpr std::size_t most_looked_at = 4000;
+
+std::size_t every_of(std::size_t stands) { return (stands + most_looked_at - 1) / most_looked_at; }
+
+}  // namespace
 
 using rigid::eigen;
 
@@ -23,79 +28,43 @@ Eigen::Vector3d displaced_tip(const MachineModel& model, const AxisPositions& ax
           eigen(model.nominal(stand.axes, stand.setting).tip_mm));
 }
 
-TipUncertainty::TipUncertainty(const MachineJob& job, const MachineDiagnosis& diagnosis) {
-  const ErrorModel& all = diagnosis.errors;
-  const auto machine_with = [&](const ErrorName& name, const ErrorFunction& function) {
-    ErrorModel errors;
-    errors.sign = all.sign;
-    errors.reference_mm = all.reference_mm;
-    errors.terms.push_back({name, function});
-    one_u_.emplace_back(job.machine, errors);
-  };
-  for (const CalibratedParameter& one : diagnosis.extended)
-    if (const auto name = parse_error_name(one.name))
-      machine_with(*name, ConstantError{one.estimate.u});
-  correlate(diagnosis);
-  for (const MachineFinding& found : diagnosis.findings)
-    for (std::size_t k = 0; k < found.errors.size(); ++k) {
-      const Estimate& estimate = found.parameters[k].estimate;
-      if (estimate.value == 0.0 || !std::isfinite(estimate.u)) continue;
-      machine_with(found.errors[k].name,
-                   calibrate_detail::scaled(found.errors[k].function, estimate.u / estimate.value));
-    }
-  for (const ErrorTerm& term : job.known.terms)
-    if (term.u > 0.0) machine_with(term.name, ConstantError{term.u});
-  const auto n = static_cast<Eigen::Index>(one_u_.size());
-  const Eigen::MatrixXd located = correlation_;
-  correlation_ = Eigen::MatrixXd::Identity(n, n);
-  correlation_.topLeftCorner(located.rows(), located.cols()) = located;
+ProbedTipUncertainty::ProbedTipUncertainty(const MachineModel& model, const RigidFit& part,
+                                           const std::vector<Stand>& stands)
+    : model_(model), uncertainty_(model), part_(part) {
+  if (!uncertainty_.stated()) return;
+  std::optional<RigidFit::Sums> sums;
+  std::vector<Eigen::Vector3d> points;
+  const std::size_t every = every_of(stands.size());
+  for (std::size_t i = 0; i < stands.size(); i += every)
+    points.push_back(nominal_tip(model_, stands[i]));
+  part_ = RigidFit(points);
+  for (std::size_t i = 0; i < stands.size(); i += every) {
+    const Eigen::Matrix3Xd moved = causes(stands[i]);
+    if (!sums) sums.emplace(part_, moved.cols());
+    sums->add(points[i / every], moved);
+  }
+  if (sums) bodies_ = sums->bodies();
 }
 
-/// Of the location errors, as the calibration has them; what was found beside them is searched in
-/// what these leave (Eq. 178).
-void TipUncertainty::correlate(const MachineDiagnosis& diagnosis) {
-  const Calibration& base = diagnosis.baseline;
-  const std::size_t all = base.parameters.size();
-  std::vector<std::size_t> at;
-  for (const CalibratedParameter& one : diagnosis.extended) {
-    if (!parse_error_name(one.name)) continue;
-    at.push_back(static_cast<std::size_t>(
-        std::ranges::find(base.parameters, one.name, &CalibratedParameter::name) -
-        base.parameters.begin()));
-  }
-  const auto n = static_cast<Eigen::Index>(at.size());
-  correlation_ = Eigen::MatrixXd::Identity(n, n);
-  const auto covariance = [&](std::size_t i, std::size_t j) {
-    return base.covariance[at[i] * all + at[j]];
-  };
-  for (std::size_t i = 0; i < at.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      if (at[i] == all || at[j] == all) continue;
-      const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
-      if (!(scale > 0.0)) continue;
-      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      correlation_(row, column) = correlation_(column, row) = covariance(i, j) / scale;
-    }
+Eigen::Matrix3Xd ProbedTipUncertainty::causes(const Stand& stand) const {
+  return eigen(stand.setting.bed_from_program.rotation) *
+         uncertainty_.causes(stand.axes, stand.setting);
 }
 
-void TipUncertainty::take_off_part(const RigidFit& part, const std::vector<Stand>& stands) {
-  bodies_.clear();
-  Displacements moved(stands.size());
-  for (const MachineModel& model : one_u_) {
-    for (std::size_t i = 0; i < stands.size(); ++i)
-      moved[i] = displaced_tip(model, stands[i].axes, stands[i]);
-    bodies_.push_back(part.nearest(moved));
-  }
+double ProbedTipUncertainty::u_mm(const Stand& stand) const {
+  if (!uncertainty_.stated()) return 0.0;
+  Eigen::Matrix3Xd left = causes(stand);
+  if (bodies_.size() > 0) left -= part_.at(nominal_tip(model_, stand), bodies_);
+  return left.norm();
 }
 
-double TipUncertainty::u_mm(const Stand& stand) const {
-  Eigen::Matrix3Xd moved(3, static_cast<Eigen::Index>(one_u_.size()));
-  for (std::size_t k = 0; k < one_u_.size(); ++k) {
-    Eigen::Vector3d one = displaced_tip(one_u_[k], stand.axes, stand);
-    if (!bodies_.empty()) one -= bodies_[k].at(nominal_tip(one_u_[k], stand));
-    moved.col(static_cast<Eigen::Index>(k)) = one;
-  }
-  return std::sqrt(std::max(0.0, (moved * correlation_ * moved.transpose()).trace()));
+std::vector<double> u_mm_of(const ProbedTipUncertainty& uncertainty,
+                            const std::vector<Stand>& stands) {
+  std::vector<double> all(stands.size());
+  const std::size_t every = every_of(stands.size());
+  for (std::size_t i = 0; i < stands.size(); ++i)
+    all[i] = i % every == 0 ? uncertainty.u_mm(stands[i]) : all[i - 1];
+  return all;
 }
 
 }  // namespace trueaxis::machine_job

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <optional>
 #include <vector>
 
 #include "job/machine/part_displacement.hpp"
-#include "trueaxis/machine_job.hpp"
+#include "machine/uncertainty.hpp"
 
 namespace trueaxis::machine_job {
 
@@ -23,25 +24,29 @@ Eigen::Vector3d nominal_tip(const MachineModel& model, const Stand& stand);
 Eigen::Vector3d displaced_tip(const MachineModel& model, const AxisPositions& axes,
                               const Stand& stand);
 
-/// What the uncertainty of the errors makes of the tip: every parameter that was estimated, and
-/// every known error that states u, moves it by its u; the parts are added with their correlations
-/// (Eq. 221), each without the displacement of the part as a whole, which the measurement cannot
-/// tell.
-class TipUncertainty {
+/// What the uncertainty of the errors makes of the tip in a part that is probed where it stands:
+/// every independent cause moves all tips, and its displacement of the part as a whole, which the
+/// measurement cannot tell, is taken off (Eq. 221).
+class ProbedTipUncertainty {
  public:
-  TipUncertainty(const MachineJob& job, const MachineDiagnosis& diagnosis);
+  /// @param part of these stands' nominal tips; of very many every so manieth is taken
+  ProbedTipUncertainty(const MachineModel& model, const RigidFit& part,
+                       const std::vector<Stand>& stands);
 
-  /// Takes off each parameter's displacement of the part: the nearest over these tips.
-  void take_off_part(const RigidFit& part, const std::vector<Stand>& stands);
   /// Root of the trace of the tip's covariance.
   double u_mm(const Stand& stand) const;
 
  private:
-  void correlate(const MachineDiagnosis& diagnosis);
+  Eigen::Matrix3Xd causes(const Stand& stand) const;
 
-  std::vector<MachineModel> one_u_;  ///< a machine with one parameter of the size of its u
-  std::vector<RigidFit::Body> bodies_;
-  Eigen::MatrixXd correlation_;
+  MachineModel model_;
+  TipUncertainty uncertainty_;
+  RigidFit part_;
+  Eigen::MatrixXd bodies_;
 };
+
+/// Of every stand, of very many that of the last before it that is looked at.
+std::vector<double> u_mm_of(const ProbedTipUncertainty& uncertainty,
+                            const std::vector<Stand>& stands);
 
 }  // namespace trueaxis::machine_job
