@@ -37,6 +37,7 @@ struct MachineFinding {
   std::vector<MachineShape> shape;
   std::vector<double> covariance;  ///< of `parameters` by rows
   std::string alias;               ///< orders that these positions cannot tell from it
+  bool likely_order = true;        ///< its order is 95 % likely among them, 1/n² an order n
   std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
   double size = 0.0;                              ///< amplitude, mm or rad
   double p_value = 1.0;                           ///< family-wise

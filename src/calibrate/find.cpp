@@ -89,6 +89,19 @@ class Finder {
     return true;
   }
 
+  /// Whether an effect makes all but a fiftieth of a pattern.
+  bool made_by_effect(const Regression& regression, std::size_t pattern) const {
+    const auto& own = regression.block(pattern);
+    for (std::size_t t = 0; t < out_.terms.size(); ++t) {
+      const auto& effect = regression.block(t);
+      if (out_.terms[t].pattern || own.rank == 0 || effect.rank == 0) continue;
+      const double part =
+          regression.products().block(effect.first, own.first, effect.rank, own.rank).squaredNorm();
+      if (part > 0.98 * static_cast<double>(own.rank)) return true;
+    }
+    return false;
+  }
+
   /// @returns whether one of them passes beside what it was looked for beside
   bool add_patterns() {
     const Regression& r = *out_.regression;
@@ -111,9 +124,10 @@ class Finder {
       }
     if (looked.empty()) return false;
     Regression wider = regression_of(out_.terms);
+    for (const auto& [term, set] : looked) out_.terms[term].barred = made_by_effect(wider, term);
     const bool passes = std::ranges::any_of(looked, [&](const auto& one) {
       const auto& [term, set] = one;
-      return wider.block(term).rank > 0 &&
+      return wider.block(term).rank > 0 && !out_.terms[term].barred &&
              chance(wider, set, term) < out_.options.level_of(out_.terms[term]);
     });
     if (!passes) {

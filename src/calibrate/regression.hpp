@@ -17,6 +17,7 @@ class Regression {
     Eigen::Index first = 0, rank = 0;
     Eigen::MatrixXd back;      ///< coefficients of the term from those of its orthonormal columns
     double information = 0.0;  ///< mean of |column|² per mm² or rad², over σ²
+    double weakest = 0.0;      ///< of the direction that is seen least
   };
 
   /// @param base columns over σ, of any rank

@@ -17,6 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int highest_alias = 12;
+constexpr double sure_of_order = 0.95;
 constexpr double same_part = 1e-3;  // of a column's square that is left
 
 MatrixXd waves(const VectorXd& position, int order) {
@@ -61,8 +62,10 @@ void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& fin
     sum += 1.0 / (order * order);
     finding.alias += (finding.alias.empty() ? "order " : ", ") + std::to_string(order);
   }
-  finding.probability /= own * own * sum;
-  for (MachineRival& rival : finding.rivals) rival.probability /= own * own * sum;
+  const double share = 1.0 / (own * own * sum);
+  finding.likely_order = share >= sure_of_order;
+  finding.probability *= share;
+  for (MachineRival& rival : finding.rivals) rival.probability *= share;
 }
 
 std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
@@ -173,7 +176,7 @@ void add_checks(const TipFit& fit, const Regression& regression, const Regressio
 
 void add_remarks(MachineDiagnosis& out) {
   for (const MachineFinding& finding : out.findings) {
-    if (!finding.alias.empty())
+    if (!finding.likely_order)
       out.remarks.push_back(finding.effect + ": these positions read " + finding.alias +
                             " alike, so that the order is the likeliest and not certain");
     for (const auto& [one, other] : finding.pairs)

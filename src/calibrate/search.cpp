@@ -35,7 +35,7 @@ Best best_beside(const Regression& regression, const std::vector<Term>& terms, c
   Best best;
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const auto& block = regression.block(t);
-    if (block.rank == 0 || (effects_only && terms[t].pattern) ||
+    if (block.rank == 0 || terms[t].barred || (effects_only && terms[t].pattern) ||
         std::ranges::find(others, t) != others.end())
       continue;
     const double gain =
@@ -75,7 +75,8 @@ void exchange(const Regression& regression, const std::vector<Term>& terms, Set&
 Set best_pair(const Regression& regression, const std::vector<Term>& terms) {
   std::vector<std::pair<double, std::size_t>> alone;
   for (std::size_t t = 0; t < terms.size(); ++t)
-    if (regression.block(t).rank > 0) alone.emplace_back(-regression.gain({t}), t);
+    if (regression.block(t).rank > 0 && !terms[t].barred)
+      alone.emplace_back(-regression.gain({t}), t);
   std::ranges::sort(alone);
   if (alone.size() > of_pairs) alone.resize(of_pairs);
   Set best;

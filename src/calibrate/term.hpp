@@ -28,6 +28,7 @@ struct Term {
   std::vector<MachineShape> shape;
   bool angle = false;
   bool pattern = false;               ///< no effect, only what is left over
+  bool barred = false;                ///< a pattern that an effect makes at these rows
   double tests = 1.0;                 ///< how many places of it were tried
   std::size_t target = 0, row = 0;    ///< ball.slip: of which target, from which row on
   std::size_t unit = 0;               ///< of a pattern: the column that its functions multiply

@@ -76,6 +76,15 @@ void add_harmonics(const Problem& problem, const Geometry& geometry, std::size_t
   }
 }
 
+/// The way in which an axis goes first: that in which it is taken to have come before.
+double first_way(const Problem& problem, std::size_t axis) {
+  for (const Row& row : problem.rows) {
+    const double move = row.axes[axis] - problem.rows.front().axes[axis];
+    if (std::abs(move) > 1e-9) return move > 0.0 ? 0.5 : -0.5;
+  }
+  return 0.0;
+}
+
 /// + or − half by the way in which the axis came, which files that follow each other go on with.
 void add_reversal(const Problem& problem, const Geometry& geometry, std::size_t k,
                   std::vector<Term>& terms) {
@@ -84,7 +93,7 @@ void add_reversal(const Problem& problem, const Geometry& geometry, std::size_t 
   VectorXd own = VectorXd::Zero(problem.equations);
   for (std::size_t i = 0; i < 3; ++i)
     own += axis.direction[i] * geometry.unit_errors.col(static_cast<Index>(6 * k + first + i));
-  double way = 0.0, last = problem.rows.front().axes[index];
+  double way = first_way(problem, index), last = problem.rows.front().axes[index];
   bool both = false;
   double seen = 0.0;
   Term term;

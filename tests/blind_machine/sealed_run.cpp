@@ -11,7 +11,9 @@ namespace {
 using Json = nlohmann::json;
 
 Advice advice_from(const Json& next) {
-  Advice out{next.at("plan"), {}};
+  Advice out{next.at("plan"), {}, {}};
+  for (const char* const list : {"shows", "separates"})
+    for (const Json& one : next.at(list)) out.promised.insert(one);
   if (!next.contains("measurement")) return out;
   const Json& measurement = next.at("measurement");
   const auto columns = measurement.at("columns").get<std::vector<std::string>>();

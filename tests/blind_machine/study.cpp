@@ -55,7 +55,13 @@ Outcome follow_advice(Result& result, const StudyOptions& options,
   const std::string& truth = result.made.truth.front();
   const std::size_t before = class_size(result.answer, truth);
   const bool absorbed = before == 0;
-  if (absorbed ? !result.answer.not_observable.contains(truth) : before < 2)
+  const std::set<std::string>& promised = result.answer.advice->promised;
+  if (absorbed ? !promised.contains(truth) : before < 2 || promised.empty())
+    return Outcome::no_advice;
+  if (!absorbed && std::ranges::none_of(result.answer.classes, [&](const auto& members) {
+        return std::ranges::find(members, truth) != members.end() &&
+               promised.contains(members.front());
+      }))
     return Outcome::no_advice;
   const Plan plan = extended(result.made, *result.answer.advice);
   if (plan.visits.size() == result.made.plan.visits.size()) return Outcome::crash;

@@ -15,6 +15,7 @@ namespace trueaxis::blind_machine {
 struct Advice {
   std::string code;
   std::vector<Visit> visits;
+  std::set<std::string> promised;  ///< what it shows, and findings whose class it tells apart
 };
 
 /// What the command said of a measurement.
@@ -38,7 +39,7 @@ enum class Outcome {
   extra_finding,       ///< every truth in a class, and more
   not_called_unknown,  ///< named, or not seen
   not_abstained,       ///< something was found, or it is not listed as not observable
-  no_advice,           ///< nothing was advised: no case of the advice
+  no_advice,           ///< nothing is promised of this truth: no case of the advice
   unresolved,          ///< the advised measurement told no more
   crash
 };
