@@ -108,8 +108,9 @@ struct Calibration {
   ErrorModel errors;  ///< given and found together, component errors too, with their covariance
   std::size_t equations = 0, unknowns = 0;
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  double noise_mm = 0.0;     ///< σ of one number that u is made of
-  std::string noise_source;  ///< "stated", "residuals"
+  double noise_mm = 0.0;         ///< σ of one number that u is made of
+  std::string noise_source;      ///< "stated", "residuals"
+  double stated_noise_mm = 0.0;  ///< σ that the files state; 0: one of them does not
 };
 
 /// Files given together are one measurement, in order. All location errors of the axes, X0S Y0S
@@ -125,5 +126,12 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
 /// Why a calibration cannot be right: a size that, less its U, is fifty times the largest plausible
 /// one, as of inches for mm or a wrong tool length. Empty: nothing speaks against it.
 std::string implausible(const Calibration& found, const CalibrationOptions& options);
+
+/// The mistake in the columns that a measurement most likely has, and what to write: exchanged
+/// columns, wrong signs, radians as degrees, where mended they leave half of the RMS at most; and
+/// readings that scatter thirty times less than is stated. Empty: the data show none. That all
+/// deviations are negated they show only where the axes stood off the ball by more than its errors.
+std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
+                           const CalibrationOptions& options, const Calibration& found);
 
 }  // namespace trueaxis

@@ -162,6 +162,7 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   out.equations = static_cast<std::size_t>(problem.equations);
   out.unknowns = static_cast<std::size_t>(solution.jacobian.cols());
   const VectorXd sigma = problem.weights.cwiseInverse();
+  if (problem.noise_stated) out.stated_noise_mm = rms_mm(problem, sigma);
   out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
   out.rms_before_mm =
       rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));

@@ -6,6 +6,7 @@
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "cli/commands.hpp"
+#include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
@@ -87,6 +88,7 @@ int execute_machine(const Options& options) {
   outputs.may_write(options.errors_output, "trueaxis.errors");
   outputs.check();
   const MachineDiagnosis found = diagnose_machine(file.machine, data, diagnose_options);
+  expect_no_mistake(file.machine, data, diagnose_options.calibration, found.baseline);
   if (!found.baseline.converged) {
     std::cerr << options.data.front() << ": not converged: " << found.baseline.message << '\n';
     return numerical;
