@@ -8,13 +8,13 @@
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/simulate_from.hpp"
+#include "cli/simulate_machine.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "simulate/files/cut_table_csv.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
-#include "simulate/machine/files/measurement_csv.hpp"
-#include "simulate/machine/files/measurement_toml.hpp"
+#include "simulate/machine/files/scenario_machine.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 namespace lathe = virtual_lathe;
 
 struct Options {
-  std::string scenario, stream, truth, table;
+  std::string scenario, stream, truth, table, program, json;
   std::optional<std::uint64_t> seed;
   bool force = false;
 };
@@ -57,31 +57,31 @@ void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
   outputs.commit();
 }
 
-/// What a machine of several axes would read of balls on its table.
-int simulate_measurement(const Options& options) {
+/// A scenario with `[machine]`.
+int simulate_machine(const Options& options, MachineScenarioKind kind) {
+  const bool cuts = kind == MachineScenarioKind::cut;
   if (!options.truth.empty() || !options.table.empty())
     throw InputError(options.scenario,
-                     "a measurement of a machine has its errors file for a truth, and no table: "
-                     "leave --truth and --table out");
-  MeasurementScenario scenario = read_measurement_toml(options.scenario);
-  if (options.seed) scenario.plan.seed = *options.seed;
-  Outputs outputs(options.force);
-  for (const std::string& path : scenario.read) outputs.reads(path);
-  outputs.reads(options.scenario);
-  outputs.may_write(options.stream, "trueaxis.measurement");
-  outputs.check();
-  const auto rows = virtual_machine::measure(scenario.machine, scenario.errors, scenario.plan);
-  outputs.write(options.stream, measurement_csv(scenario.machine, scenario.plan, rows));
-  outputs.commit();
-  if (options.stream != "-") {
-    std::cout << options.stream << ": " << rows.size() << " rows, seed " << scenario.plan.seed
-              << '\n';
-  }
-  return done;
+                     "a machine has its errors file for a truth, and no table: leave --truth and "
+                     "--table out");
+  if (cuts && options.seed)
+    throw InputError(options.scenario, "a cut has no noise: leave --seed out");
+  if (!cuts && !options.program.empty())
+    throw InputError(options.scenario, "--program needs a scenario with [machine] and [cut]");
+  const SimulateMachineOptions of_machine{options.scenario, options.stream, options.json,
+                                          options.program,  options.seed,   options.force};
+  return cuts ? simulate_machine_cut(of_machine) : simulate_measurement(of_machine);
 }
 
 int execute(const Options& options) {
-  if (is_measurement_scenario(options.scenario)) return simulate_measurement(options);
+  const MachineScenarioKind kind = machine_scenario_kind(options.scenario);
+  const bool cuts = kind == MachineScenarioKind::cut;
+  if (options.stream.empty() && !cuts) throw CLI::RequiredError("--output");
+  if (!options.json.empty() && !cuts)
+    throw CLI::ValidationError("--json", "needs --from, or a scenario with [machine] and [cut]");
+  if (kind != MachineScenarioKind::none) return simulate_machine(options, kind);
+  if (!options.program.empty())
+    throw InputError(options.scenario, "--program needs a scenario with [machine] and [cut]");
   lathe::Scenario scenario = read_scenario_toml(options.scenario);
   if (options.seed) scenario.seed = *options.seed;
   if (scenario.cut) {
@@ -125,6 +125,11 @@ void add_simulate(CLI::App& app, int& exit_code) {
       ->needs(output);
   command->add_option("--table", options->table, "correction table of the scenario's [cut]")
       ->excludes(diagnosis);
+  command
+      ->add_option("--program", options->program,
+                   "a program that the machine cuts instead of that of the scenario's [cut], which "
+                   "says what should be cut")
+      ->excludes(diagnosis);
   command->add_option("--seed", options->seed, "instead of the scenario's");
   command->add_option("--stream", from->stream.path, "where the diagnosed stream is now")
       ->needs(diagnosis);
@@ -134,19 +139,22 @@ void add_simulate(CLI::App& app, int& exit_code) {
   command->add_flag("--compare", from->compare, "print the comparison, write no stream")
       ->needs(diagnosis)
       ->excludes(output);
-  command->add_option("--json", from->json, "write the comparison here (JSON), '-' prints it")
-      ->check(a_place())
-      ->needs(diagnosis);
+  command
+      ->add_option("--json", from->json,
+                   "write the comparison, or the judgement of a cut, here (JSON), '-' prints it")
+      ->check(a_place());
   add_force(*command, options->force);
   from->stream.add_meaning_to(*command);
   StreamOptions::add_ball_radius(*command, from->ball_radius_mm)->needs(diagnosis);
   command->callback([options, from, &exit_code] {
     if (from->diagnosis.empty()) {
       if (options->scenario.empty()) throw CLI::RequiredError("scenario");
-      if (options->stream.empty()) throw CLI::RequiredError("--output");
       if (from->stream.says_anything())
         throw CLI::ValidationError("--diameter, --radius, --relative, --nominal-radius",
                                    "need --from");
+      options->json = from->json;
+      if (!options->json.empty() && options->json == options->stream)
+        throw CLI::ValidationError("--json", "cannot go where --output goes");
       exit_code = execute(*options);
       return;
     }

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "compensate/largest_on_way.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -25,25 +27,53 @@ AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double s) {
 }  // namespace
 
 BlockPath::BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
-                     const BlockEnd& to)
+                     const BlockEnd& to, bool same_setting)
     : task_(task),
       move_(move),
       from_(from),
       to_(to),
       setting_(task.axes.setting(move.modal)),
-      start_mm_(task.model.nominal(from.commanded, setting_).tip_mm),
+      same_setting_(same_setting),
+      start_mm_(same_setting ? from.tip_mm : task.model.nominal(from.commanded, setting_).tip_mm),
       end_mm_(to.tip_mm) {}
 
 Vector3 BlockPath::tip_at(double s) const { return mix(start_mm_, end_mm_, s); }
 
-/// Where a control is on the way: its axes go evenly, or the tip and the rotary axes do.
-AxisPositions BlockPath::between(const AxisPositions& from, const AxisPositions& to,
-                                 double s) const {
-  const AxisPositions axes = mix(from, to, s);
-  if (task_.axes.mode(move_.modal) == ProgramMode::axes) return axes;
-  const Vector3 tip =
-      mix(task_.model.nominal(from, setting_).tip_mm, task_.model.nominal(to, setting_).tip_mm, s);
-  return axes_for_tip(task_.model, tip, axes, setting_).value_or(axes);
+/// From axes to axes, as a control goes: its axes go evenly, or the tip and the rotary axes do.
+struct BlockPath::Way {
+  AxisPositions from, to;
+  bool along_tip = false;
+  Vector3 tip_from_mm{}, tip_to_mm{};  ///< nominal, where the tip goes evenly
+};
+
+BlockPath::Way BlockPath::way(const AxisPositions& from, const AxisPositions& to) const {
+  Way way{from, to, task_.axes.mode(move_.modal) == ProgramMode::tip, {}, {}};
+  if (!way.along_tip) return way;
+  way.tip_from_mm = task_.model.nominal(from, setting_).tip_mm;
+  way.tip_to_mm = task_.model.nominal(to, setting_).tip_mm;
+  return way;
+}
+
+Vector3 BlockPath::actual_tip_mm(const Way& way, double s) const {
+  AxisPositions axes = mix(way.from, way.to, s);
+  if (way.along_tip)
+    axes = axes_for_tip(task_.model, mix(way.tip_from_mm, way.tip_to_mm, s), axes, setting_)
+               .value_or(axes);
+  return task_.model.actual(axes, setting_).tip_mm;
+}
+
+/// How far two points are from each other across the line.
+double BlockPath::across_mm(const Vector3& a, const Vector3& b) const {
+  Vector3 along, off;
+  double length = 0.0, projected = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    along[i] = end_mm_[i] - start_mm_[i];
+    off[i] = a[i] - b[i];
+    length += along[i] * along[i];
+    projected += along[i] * off[i];
+  }
+  const double s = length > 0.0 ? projected / length : 0.0;
+  return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
 }
 
 double BlockPath::distance_mm(const Vector3& tip) const {
@@ -59,26 +89,79 @@ double BlockPath::distance_mm(const Vector3& tip) const {
   return std::hypot(off[0] - s * along[0], off[1] - s * along[1], off[2] - s * along[2]);
 }
 
+namespace {
+
+/// In how many parts a way bends no more than once each: 20° of rotary axes and what bends an
+/// error.
+double parts_of(const AxisPositions& from, const AxisPositions& to, const ErrorBends& bends) {
+  constexpr double even_rad = 20.0 * rad_per_deg;
+  double parts = 0.0;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const double way = std::abs(to[k] - from[k]);
+    parts += way / bends.length[k] + (is_rotary(static_cast<AxisName>(k)) ? way / even_rad : 0.0);
+  }
+  return parts;
+}
+
+/// Eq. 200: what a way has beside the parabola through its ends and middle, at most.
+double beside_parabola_mm(const AxisPositions& from, const AxisPositions& to,
+                          const ErrorBends& bends) {
+  constexpr double lever_mm = 1000.0;
+  double turn = 0.0, travel_mm = 0.0, corners_mm = 0.0;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const double way = std::abs(to[k] - from[k]);
+    (is_rotary(static_cast<AxisName>(k)) ? turn : travel_mm) += way;
+    corners_mm += bends.off_mm(k, from[k], to[k]);
+  }
+  const double third = turn * turn * (turn * lever_mm + 3.0 * travel_mm);
+  return third * std::sqrt(3.0) / 216.0 + corners_mm;
+}
+
+}  // namespace
+
 double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to,
+                               const Vector3& from_tip_mm, const Vector3& to_tip_mm,
                                double of_interest_mm) const {
-  const auto at = [&](double s) {
-    return distance_mm(task_.model.actual(between(from, to, s), setting_).tip_mm);
+  const Way on = way(from, to);
+  const double parts = parts_of(from, to, task_.bends);
+  const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, 500.0)));
+  const bool is_even = parts <= 0.5;
+  const double off_from_mm = distance_mm(from_tip_mm), off_to_mm = distance_mm(to_tip_mm);
+  Vector3 middle{};
+  if (is_even) {
+    middle = actual_tip_mm(on, 0.5);
+    const double bow_mm = across_mm(middle, mix(from_tip_mm, to_tip_mm, 0.5));
+    const double ends_mm = std::max(off_from_mm, off_to_mm);
+    const double seen_mm = std::max(ends_mm, distance_mm(middle));
+    const double most_mm = ends_mm + bow_mm + beside_parabola_mm(from, to, task_.bends);
+    if (most_mm < of_interest_mm || most_mm <= 1.01 * seen_mm) return seen_mm;
+  }
+  const auto off_mm = [&](double s) {
+    if (s == 0.0) return off_from_mm;
+    if (s == 1.0) return off_to_mm;
+    return distance_mm(s == 0.5 && is_even ? middle : actual_tip_mm(on, s));
   };
-  const double middle = at(0.5);
-  return middle < of_interest_mm ? middle : std::max({at(0.25), middle, at(0.75)});
+  return LargestOnWay(off_mm, looks).value(of_interest_mm);
 }
 
 double BlockPath::deviation_before_mm(double of_interest_mm) const {
-  return deviation_mm(from_.commanded, to_.commanded, of_interest_mm);
+  const auto& from_tip_mm =
+      same_setting_ ? from_.actual_mm : task_.model.actual(from_.commanded, setting_).tip_mm;
+  return deviation_mm(from_.commanded, to_.commanded, from_tip_mm, to_.actual_mm, of_interest_mm);
+}
+Vector3 BlockPath::written_from_mm() const {
+  return same_setting_ ? from_.written_mm : task_.model.actual(from_.written, setting_).tip_mm;
 }
 double BlockPath::deviation_after_mm(double of_interest_mm) const {
-  return deviation_mm(from_.written, to_.written, of_interest_mm);
+  return deviation_mm(from_.written, to_.written, written_from_mm(), to_.written_mm,
+                      of_interest_mm);
 }
 
-BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, Tally& tally) const {
+BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, double of_interest_mm,
+                                 Tally& tally) const {
   Pieces pieces;
   AxisPositions last = from_.written;
-  double last_off_mm = 0.0;
+  Vector3 last_mm = written_from_mm();
   for (const double s : ends) {
     if (s >= 1.0) break;
     const AxisPositions even = mix(from_.commanded, to_.commanded, s);
@@ -91,18 +174,14 @@ BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, Tally& tally) 
     const AxisPositions written =
         task_.axes.positions(nc::as_written(move_, pieces.words.back(), task_.write), move_.modal)
             .value_or(position.axes);
-    const double off_mm = distance_mm(task_.model.actual(written, setting_).tip_mm);
-    pieces.deviation_mm.push_back(std::max({deviation_mm(last, written), last_off_mm, off_mm}));
+    const Vector3 tip_mm = task_.model.actual(written, setting_).tip_mm;
+    pieces.deviation_mm.push_back(deviation_mm(last, written, last_mm, tip_mm, of_interest_mm));
     last = written;
-    last_off_mm = off_mm;
+    last_mm = tip_mm;
   }
-  pieces.deviation_mm.push_back(std::max(deviation_mm(last, to_.written), last_off_mm));
+  pieces.deviation_mm.push_back(
+      deviation_mm(last, to_.written, last_mm, to_.written_mm, of_interest_mm));
   return pieces;
-}
-
-double BlockPath::off_at_ends_mm() const {
-  return std::max(distance_mm(task_.model.actual(from_.written, setting_).tip_mm),
-                  distance_mm(task_.model.actual(to_.written, setting_).tip_mm));
 }
 
 namespace {
@@ -141,7 +220,8 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
                                              Tally& tally) const {
   if (deviation_mm <= tolerance_mm) return {};
   const bool must_be_equal = move_.modal.feed_mode == nc::FeedMode::inverse_time;
-  const double off_at_ends_mm = this->off_at_ends_mm();
+  const double off_at_ends_mm =
+      std::max(distance_mm(written_from_mm()), distance_mm(to_.written_mm));
   std::vector<double> ends{1.0}, deviations_mm{deviation_mm};
   for (int i = 0; i < most_rounds && off_at_ends_mm <= tolerance_mm; ++i) {
     double asked = 0.0;
@@ -152,7 +232,7 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
     if (count > most_pieces) break;
     ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
     Tally of_pieces;
-    Pieces pieces = cut(ends, of_pieces);
+    Pieces pieces = cut(ends, 0.9 * tolerance_mm, of_pieces);
     if (pieces.reached) deviation_mm = *std::ranges::max_element(pieces.deviation_mm);
     if (!pieces.reached || deviation_mm <= tolerance_mm) {
       tally.add(of_pieces);

@@ -11,12 +11,13 @@ namespace trueaxis {
 /// (Bohez's interpolation error), and the pieces that keep it near the line of the nominal tip.
 class BlockPath {
  public:
+  /// @param same_setting program frame and tool are those of the move before
   BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
-            const BlockEnd& to);
+            const BlockEnd& to, bool same_setting);
 
-  /// Largest distance, at quarters of the way, of the actual tip from the line between the nominal
-  /// ends: of the program as it was read, and as it is written in one piece. Where the middle is
-  /// below `of_interest_mm` it stands for the quarters, which an even curve has below it.
+  /// Largest distance of the actual tip from the line between the nominal ends: of the program as
+  /// it was read, and as it is written in one piece; to a hundredth where it is above
+  /// `of_interest_mm`, and else no more than that.
   double deviation_before_mm(double of_interest_mm) const;
   double deviation_after_mm(double of_interest_mm) const;
 
@@ -32,18 +33,23 @@ class BlockPath {
     std::vector<double> deviation_mm;   ///< of each
     bool reached = true;
   };
-  Pieces cut(const std::vector<double>& ends, Tally& tally) const;
-  double off_at_ends_mm() const;
+  Pieces cut(const std::vector<double>& ends, double of_interest_mm, Tally& tally) const;
   double deviation_mm(const AxisPositions& from, const AxisPositions& to,
-                      double of_interest_mm = 0.0) const;
+                      const Vector3& from_tip_mm, const Vector3& to_tip_mm,
+                      double of_interest_mm) const;
   double distance_mm(const Vector3& tip) const;
-  AxisPositions between(const AxisPositions& from, const AxisPositions& to, double s) const;
+  double across_mm(const Vector3& a, const Vector3& b) const;
+  struct Way;
+  Way way(const AxisPositions& from, const AxisPositions& to) const;
+  Vector3 actual_tip_mm(const Way& way, double s) const;
+  Vector3 written_from_mm() const;
   Vector3 tip_at(double s) const;
 
   const CompensationTask& task_;
   const nc::Move& move_;
   const BlockEnd &from_, &to_;
   Setting setting_;
+  bool same_setting_;
   Vector3 start_mm_{}, end_mm_{};  ///< nominal tips, in the frame of the block
 };
 

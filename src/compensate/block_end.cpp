@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
-namespace trueaxis {
+#include "machine/compensations.hpp"
 
+namespace trueaxis {
 CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                                    const CompensationOptions& options_of,
                                    const ProgramAxes& axes_of)
@@ -16,7 +18,8 @@ CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Progr
       axes(axes_of),
       write{options_of.decimals, options_of.angle_decimals, axes_of.axes()},
       by_error(SingleErrors::of_names(model_of)),
-      uncertainty(model_of) {}
+      uncertainty(model_of),
+      bends(bends_of(model_of.errors())) {}
 
 namespace {
 
@@ -60,11 +63,20 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   end.commanded = *commanded;
   const ToolPose target = task.model.nominal(end.commanded, setting);
   end.tip_mm = target.tip_mm;
-  const bool exactly = task.options.method == CompensationMethod::exact;
-  const auto position = compensate_position(task, end.commanded, setting);
-  const auto other = exactly ? compensate_by_differential(task.model, end.commanded, setting)
-                             : compensate_exactly(task.model, end.commanded, setting);
-  const ToolPose before = task.model.actual(end.commanded, setting);
+  CompensatedPosition position;
+  ToolPose before;
+  AxisPositions by_other_method;
+  if (task.options.method == CompensationMethod::exact) {
+    auto exact = compensate_exactly_with_before(task.model, target, end.commanded, setting);
+    position = std::move(exact.position);
+    before = exact.before;
+    by_other_method = axes_by_differential(task.model, end.commanded, setting);
+  } else {
+    position = compensate_by_differential(task.model, end.commanded, setting);
+    before = task.model.actual(end.commanded, setting);
+    by_other_method = compensate_exactly(task.model, target, end.commanded, setting).axes;
+  }
+  end.actual_mm = before.tip_mm;
   take(tally.sums.before, before, target, line);
   take_single_errors(task, end.commanded, setting, line, tally);
   end.reached = is_reached(position, line, tally);
@@ -75,9 +87,10 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
   for (std::size_t k = 0; k < axis_count; ++k) {
     if (!nc::has(task.axes.axes(), k)) continue;
     take(tally.sums.largest_change[k], end.words[k] - move.words[k], line);
-    take(tally.sums.exact_minus_differential[k], position.axes[k] - other.axes[k], line);
+    take(tally.sums.exact_minus_differential[k], position.axes[k] - by_other_method[k], line);
   }
   const ToolPose after = task.model.actual(end.written, setting);
+  end.written_mm = after.tip_mm;
   take(tally.sums.after, after, target, line);
   const bool there = position.tip_left_mm < 1e-11 && position.direction_left_rad < 1e-13;
   take(tally.sums.rounding, after, there ? target : task.model.actual(position.axes, setting),

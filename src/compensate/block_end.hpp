@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "compensate/error_bends.hpp"
 #include "compensate/program_axes.hpp"
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
@@ -18,6 +19,7 @@ struct CompensationTask {
   nc::WriteOptions write;
   SingleErrors by_error;
   TipUncertainty uncertainty;
+  ErrorBends bends;
 
   CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
                    const CompensationOptions& options_of, const ProgramAxes& axes_of);
@@ -30,6 +32,8 @@ struct BlockEnd {
   AxisPositions written{};    ///< by the new program, with its decimals
   nc::AxisValues words{};     ///< of the new program, before they are rounded
   Vector3 tip_mm{};           ///< nominal, at `commanded`
+  Vector3 actual_mm{};        ///< actual tip, at `commanded`
+  Vector3 written_mm{};       ///< actual tip, at `written`
   bool reached = false;
 };
 

@@ -76,12 +76,15 @@ class NewProgram {
   void take_way(std::size_t i, std::vector<nc::NewPosition>& pieces, Tally& tally) const {
     const nc::Move& move = moves_[i];
     if (!move.continues || move.modal.motion == nc::Motion::rapid) return;
-    const BlockPath path(task_, move, ends_[i - 1], ends_[i]);
+    const nc::ModalState& last = moves_[i - 1].modal;
+    const bool same_setting =
+        last.work_offset == move.modal.work_offset && last.tool == move.modal.tool;
+    const BlockPath path(task_, move, ends_[i - 1], ends_[i], same_setting);
     const std::size_t line = task_.line_of(move);
     LargestInProgram &before = tally.sums.between_before, &after = tally.sums.between_after;
     take(before, path.deviation_before_mm(before.value), line);
     const auto& tolerance_mm = task_.options.tolerance_mm;
-    double deviation_mm = path.deviation_after_mm(tolerance_mm ? 0.0 : after.value);
+    double deviation_mm = path.deviation_after_mm(tolerance_mm ? 0.9 * *tolerance_mm : after.value);
     if (tolerance_mm)
       for (const nc::AxisValues& words : path.split(*tolerance_mm, deviation_mm, tally))
         pieces.push_back({static_cast<std::uint32_t>(i), true, words});

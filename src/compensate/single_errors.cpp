@@ -23,10 +23,21 @@ double moved_by(const Joint& joint, const ComponentErrors& errors, const Vector3
   return 2.0 * radius * std::sin(0.5 * angle);
 }
 
+ComponentErrors only(const ComponentErrors& errors, std::size_t direction) {
+  ComponentErrors out;
+  const auto i = static_cast<Eigen::Index>(direction % 3);
+  if (direction < 3)
+    out.shift[i] = errors.shift[i];
+  else
+    out.rotation[i] = errors.rotation[i];
+  return out;
+}
+
 }  // namespace
 
 SingleErrors SingleErrors::of_names(const MachineModel& model) {
   SingleErrors out(model);
+  out.whole_ = true;
   const std::vector<ErrorTerm>& terms = model.errors().terms;
   for (auto term = terms.begin(); term != terms.end(); ++term) {
     const auto same = [&](const ErrorTerm& other) { return other.name == term->name; };
@@ -47,7 +58,7 @@ void SingleErrors::add(const ErrorName& name, std::vector<ErrorTerm> terms) {
     const auto found = std::ranges::find(joints, name.body, &Joint::axis);
     joint = static_cast<std::size_t>(found - joints.begin());
   }
-  errors_.push_back({MachineModel(all_.machine(), errors), joint, name.component});
+  errors_.push_back({MachineModel(all_.machine(), errors), joint, name.component, name.direction});
   names_.push_back(to_string(name));
 }
 
@@ -63,6 +74,9 @@ void SingleErrors::tip_mm(const AxisPositions& axes, const Setting& setting,
     point = joints[k].nominal(rigid::Motion{}, joints[k].position(axes)) * point;
     near[k] = point;
   }
+  std::array<ComponentErrors, axis_count> together;
+  for (std::size_t k = 0; whole_ && k < joints.size(); ++k)
+    together[k] = component_errors(joints[k], joints[k].position(axes));
   const Vector3d in_part = rigid::motion(setting.bed_from_program).inverse() * point;
   for (std::size_t i = 0; i < errors_.size(); ++i) {
     const One& one = errors_[i];
@@ -75,8 +89,10 @@ void SingleErrors::tip_mm(const AxisPositions& axes, const Setting& setting,
       const Joint& joint = alone.joints[one.joint];
       const double position = joint.position(axes);
       if (one.component) {
-        out[i] = moved_by(joint, component_errors(joint, position),
-                          joint.errors_first ? near[one.joint] : far[one.joint]);
+        out[i] = moved_by(
+            joint,
+            whole_ ? only(together[one.joint], one.direction) : component_errors(joint, position),
+            joint.errors_first ? near[one.joint] : far[one.joint]);
       } else {
         out[i] =
             (joint.actual(rigid::Motion{}, position) * far[one.joint] - near[one.joint]).norm();

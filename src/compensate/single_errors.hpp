@@ -26,10 +26,12 @@ class SingleErrors {
   void add(const ErrorName& name, std::vector<ErrorTerm> terms);
 
   MachineModel all_;
+  bool whole_ = false;  ///< every name with all of its terms: as `all_` has it
   struct One {
     MachineModel model;  ///< with this error only
     std::size_t joint;   ///< in the chain, or one of the two below
     bool component;
+    std::size_t direction;  ///< as of ErrorName
   };
   static constexpr std::size_t of_spindle = 100, of_workpiece = 101;
   std::vector<One> errors_;

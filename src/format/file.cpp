@@ -17,6 +17,8 @@
 
 namespace trueaxis {
 
+constexpr std::uintmax_t largest_at_once = std::uintmax_t{1} << 33;
+
 std::string read_file(const std::string& path) {
   if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
   std::error_code error;
@@ -24,7 +26,16 @@ std::string read_file(const std::string& path) {
     throw InputError(path, "is a folder: name a file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path, std::string("cannot be read (") + std::strerror(errno) + ")");
-  return {std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  std::error_code no_size;  // of a pipe; and what has one may have more by now
+  if (const auto size = std::filesystem::file_size(path, no_size);
+      !no_size && size < largest_at_once) {
+    text.resize(size);
+    in.read(text.data(), static_cast<std::streamsize>(size));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+  }
+  text.append(std::istreambuf_iterator<char>(in), {});
+  return text;
 }
 
 std::string content_hash(std::string_view bytes) {

@@ -53,8 +53,9 @@ inline Eigen::Matrix3d combined(const Eigen::Vector3d& v, double a, double b, do
 
 /// Turns by `angle_rad` about the unit vector `axis` (Rodrigues' formula).
 inline Eigen::Matrix3d turn(const Eigen::Vector3d& axis, double angle_rad) {
-  const double c = std::cos(angle_rad), half = std::sin(0.5 * angle_rad);
-  return combined(axis, c, std::sin(angle_rad), 2.0 * half * half);
+  const double c = std::cos(0.5 * angle_rad), s = std::sin(0.5 * angle_rad);
+  const double versine = 2.0 * s * s;
+  return combined(axis, 1.0 - versine, 2.0 * s * c, versine);
 }
 
 /// exp(w): turns by |w| about w. Below 0.01 rad by the series, whose next term is below 2e-16.

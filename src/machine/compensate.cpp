@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
+#include "machine/compensations.hpp"
 #include "machine/correction_step.hpp"
 #include "machine/limits.hpp"
 
@@ -66,7 +68,8 @@ struct Problem {
 
 struct Solution {
   AxisPositions change{};
-  rigid::Motion tool;  ///< with it
+  rigid::Motion tool;    ///< with it
+  rigid::Motion before;  ///< where the method began
   std::size_t weakest_rotary = 0;
 };
 
@@ -78,7 +81,7 @@ bool direction_met(const Left& left) { return left.direction.norm() <= exact_dir
 Solution newton(const Problem& problem, const AxisPositions& start) {
   const Compiled& machine = problem.machine;
   const ToolMotion motion = problem.motion(start);
-  Solution now{start, motion.tool};
+  Solution now{start, motion.tool, motion.tool};
   CorrectionStep step(machine, motion);
   bool fresh = true;
   double before = INFINITY;
@@ -122,6 +125,7 @@ Solution solve(const Problem& problem) {
         !(of_other.direction.norm() < left.direction.norm() * (1.0 - 1e-9)))
       continue;
     best = other;
+    best.before = first.before;
     left = of_other;
   }
   return best;
@@ -135,13 +139,16 @@ bool at_largest_change(const Machine& machine, const AxisPositions& change) {
   return false;
 }
 
+ToolPose pose_of(const Compiled& machine, const rigid::Motion& tool) {
+  return {rigid::array(tool.t), rigid::array(Vector3d(tool.R * machine.tool_direction)),
+          rigid::rows(tool.R)};
+}
+
 CompensatedPosition result_of(const MachineModel& model, const ToolPose& target,
                               const AxisPositions& near, const Solution& solution) {
   CompensatedPosition result;
   result.axes = sum(near, solution.change);
-  const Eigen::Matrix3d& R = solution.tool.R;
-  const ToolPose pose{rigid::array(solution.tool.t),
-                      rigid::array(Vector3d(R * model.compiled().tool_direction)), rigid::rows(R)};
+  const ToolPose pose = pose_of(model.compiled(), solution.tool);
   result.tip_left_mm = (solution.tool.t - rigid::eigen(target.tip_mm)).norm();
   result.direction_left_rad = angle_between_rad(pose.direction, target.direction);
   result.about_tool_axis_rad = about_tool_axis_rad(pose, target);
@@ -160,8 +167,9 @@ void refuse_outside(CompensatedPosition& result, const Machine& machine) {
 
 }  // namespace
 
-CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose& target,
-                                       const AxisPositions& near, const Setting& setting) {
+ExactCompensation compensate_exactly_with_before(const MachineModel& model, const ToolPose& target,
+                                                 const AxisPositions& near,
+                                                 const Setting& setting) {
   const Compiled& machine = model.compiled();
   const AxisPositions from = of_machine(machine.machine, near);
   const Target wanted{rigid::eigen(target.tip_mm), rigid::eigen(target.direction)};
@@ -174,7 +182,12 @@ CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose
     result.status = CompensationStatus::singular;
   }
   refuse_outside(result, machine.machine);
-  return result;
+  return {std::move(result), pose_of(machine, solution.before)};
+}
+
+CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose& target,
+                                       const AxisPositions& near, const Setting& setting) {
+  return compensate_exactly_with_before(model, target, near, setting).position;
 }
 
 CompensatedPosition compensate_exactly(const MachineModel& model, const AxisPositions& commanded,
@@ -182,17 +195,31 @@ CompensatedPosition compensate_exactly(const MachineModel& model, const AxisPosi
   return compensate_exactly(model, model.nominal(commanded, setting), commanded, setting);
 }
 
+namespace {
+
+AxisPositions differential_change(const Compiled& machine, const AxisPositions& from,
+                                  const Setting& setting) {
+  const ToolMotion motion = nominal_motion(machine, from, setting);
+  const Screw error = linear_error_screw(machine, from, setting);
+  const Left left{error.of_point(motion.tool.t), error.w.cross(motion.direction(machine))};
+  return CorrectionStep(machine, motion).total({}, left, machine.machine.max_rotary_change_rad);
+}
+
+}  // namespace
+
+AxisPositions axes_by_differential(const MachineModel& model, const AxisPositions& commanded,
+                                   const Setting& setting) {
+  const AxisPositions from = of_machine(model.machine(), commanded);
+  return sum(from, differential_change(model.compiled(), from, setting));
+}
+
 CompensatedPosition compensate_by_differential(const MachineModel& model,
                                                const AxisPositions& commanded,
                                                const Setting& setting) {
   const Compiled& machine = model.compiled();
   const AxisPositions from = of_machine(machine.machine, commanded);
-  const ToolMotion motion = nominal_motion(machine, from, setting);
-  const Screw error = linear_error_screw(machine, from, setting);
-  const Left left{error.of_point(motion.tool.t), error.w.cross(motion.direction(machine))};
   Solution solution;
-  solution.change =
-      CorrectionStep(machine, motion).total({}, left, machine.machine.max_rotary_change_rad);
+  solution.change = differential_change(machine, from, setting);
   solution.tool = actual_tool(machine, sum(from, solution.change), setting);
   CompensatedPosition result = result_of(model, model.nominal(from, setting), from, solution);
   if (corrects_direction(machine.machine) && at_largest_change(machine.machine, solution.change))

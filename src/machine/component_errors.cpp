@@ -26,15 +26,17 @@ rigid::Motion ComponentErrors::motion(const Joint& joint) const {
 
 ComponentErrors component_errors(const Joint& joint, double position) {
   ComponentErrors errors;
+  FirstWave wave;
   for (const Joint::Component& one : joint.components)
-    entry(errors, one.direction) += value_at(one.function, position);
+    entry(errors, one.direction) += value_at(one.function, position, wave);
   return errors;
 }
 
 ComponentErrorsAndSlopes component_errors_and_slopes(const Joint& joint, double position) {
   ComponentErrorsAndSlopes both;
+  FirstWave wave;
   for (const Joint::Component& one : joint.components) {
-    const ValueAndSlope at = value_and_slope(one.function, position);
+    const ValueAndSlope at = value_and_slope(one.function, position, wave);
     entry(both.errors, one.direction) += at.value;
     entry(both.slopes, one.direction) += at.slope;
   }

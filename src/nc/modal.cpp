@@ -55,7 +55,7 @@ std::string_view why_not_g(int g_tenths) {
 std::string_view why_not_m(int m) { return m == 97 || m == 98 || m == 198 ? macro : ""; }
 
 bool stops(int m) { return m <= 2 || m == 30 || m == 60 || m == 99; }
-bool is_repeatable(int m) { return (m >= 3 && m <= 5) || (m >= 7 && m <= 9); }
+bool starts(int m) { return m == 3 || m == 4 || m == 7 || m == 8; }
 
 void apply_g(ModalState& state, int g_tenths) {
   switch (group_of(g_tenths)) {

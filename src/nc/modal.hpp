@@ -58,10 +58,11 @@ std::string_view why_not_g(int g_tenths);
 /// The same of an M code that hides moves or blocks; "" for one that is read.
 std::string_view why_not_m(int m);
 
-/// M codes that stop after the block's move: M0 M1 M2 M30 M60 M99.
+/// M codes that act after the block's move on every control: M0 M1 M2 M30 M60 M99.
 bool stops(int m);
-/// M codes of spindle and coolant, which may be said twice: M3 M4 M5 M7 M8 M9.
-bool is_repeatable(int m);
+/// M codes that switch on before or with the block's move and may be said twice: M3 M4 M7 M8. (Off,
+/// M5 and M9, is after the move by ISO 6983-1 and before it on LinuxCNC.)
+bool starts(int m);
 
 /// Puts a G code that is read into force.
 void apply_g(ModalState& state, int g_tenths);

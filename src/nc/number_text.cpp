@@ -35,7 +35,11 @@ double rounded(double value, int decimals) {
   return out + 0.0;
 }
 
-double half_of(int decimals) { return 0.5 * std::pow(10.0, -decimals); }
+double half_of(int decimals) {
+  return decimals < static_cast<int>(power_of_ten.size())
+             ? 0.5 / power_of_ten[static_cast<std::size_t>(decimals)]
+             : 0.5 * std::pow(10.0, -decimals);
+}
 
 void append_number(std::string& text, double value, int decimals) {
   Digits digits;

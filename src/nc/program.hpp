@@ -62,9 +62,9 @@ struct Program {
 /// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80 G90 G91 G93-G95, G2 and G3 with
 /// an arc tolerance. A position is known when every axis of the machine has a word in force; none
 /// has after G28, G30, G53 and the end of a program, and the axes that the tool's length moves must
-/// be given again after G43, G43.4 and G49. After another work offset the machine stands where it
-/// stood, so that the words in force are others by the difference of the zeros; a tip must then be
-/// given again.
+/// be given again after G43, G43.4 and G49. Under G91 only G28 and G30 may have axis words, which
+/// are left alone. After another work offset the machine stands where it stood, so that the words
+/// in force are others by the difference of the zeros; a tip must then be given again.
 /// @throws InputError with everything that is not read, each with its line and column
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 

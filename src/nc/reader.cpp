@@ -151,11 +151,11 @@ class Reader {
     const bool circle = block_.named == 0 && is_arc(state_.motion) && centre_word() != nullptr;
     if ((block_.named == 0 && !circle) || block_.has_g(g_dwell)) return check_dwell();
     const Word& first = circle ? *centre_word() : first_axis_word();
-    const bool away =
-        block_.has_g(g_home) || block_.has_g(g_second_home) || block_.has_g(g_machine);
+    const bool home = block_.has_g(g_home) || block_.has_g(g_second_home);
+    const bool away = home || block_.has_g(g_machine);
     if (block_.refused) {
       // What it does is not known; its words are taken, so that the blocks after it are read.
-    } else if (state_.incremental) {
+    } else if (state_.incremental && !home) {
       complain_once(first, told_incremental_, "axis words under G91: write them under G90");
     } else if (state_.motion == Motion::none && !away) {
       complain_once(first, told_motion_, "axis words before G0 or G1: say how to move");
@@ -199,7 +199,7 @@ class Reader {
     made.decimals = decimals_;
     made.sets = sets_something();
     made.may_be_split =
-        std::ranges::all_of(block_.m, [](int code) { return stops(code) || is_repeatable(code); });
+        std::ranges::all_of(block_.m, [](int code) { return stops(code) || starts(code); });
     if (is_arc(state_.motion)) add_chords(first, made, from, before == options_.axes);
     made.words = words_;
     made.named = block_.named;
@@ -214,7 +214,7 @@ class Reader {
     if (is_arc(now.motion)) now.motion = Motion::feed;
     const bool same_feed = before.feed == now.feed || block_.word('F') == nullptr;
     before.feed = now.feed = 0.0;
-    return !same_feed || before != now || std::ranges::any_of(block_.m, is_repeatable) ||
+    return !same_feed || before != now || std::ranges::any_of(block_.m, starts) ||
            block_.word('S') != nullptr || block_.word('T') != nullptr ||
            block_.word('H') != nullptr;
   }

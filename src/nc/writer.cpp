@@ -12,7 +12,8 @@
 namespace trueaxis::nc {
 namespace {
 
-constexpr std::size_t longest_line = 255;
+/// Of LinuxCNC's interpreter with the CR of the line's end, the shortest limit that is known.
+constexpr std::size_t longest_line = 251;
 
 bool is_one_of(char letter, std::string_view letters) {
   return letters.find(letter) != std::string_view::npos;
@@ -54,8 +55,8 @@ class Writer {
     change_work_offset(move.modal.work_offset);
     if (positions.size() > 1 && !move.may_be_split)
       complain(line,
-               "is to be cut in pieces and has an M code that may be carried out once only: "
-               "give it a block of its own");
+               "is to be cut in pieces and has an M code of which controls do not agree when it "
+               "acts, or that may act once only: give it a block of its own");
     if (positions.size() > 1 && move.modal.feed_mode == FeedMode::inverse_time && !has_feed(line))
       complain(line, "is to be cut in pieces and has no F, which G93 asks for in every block");
     for (std::size_t k = 0; k + 1 < positions.size(); ++k) write_piece(line, positions[k], k == 0);
@@ -230,7 +231,7 @@ class Writer {
     if (length > longest_line)
       complain(line,
                "would have " + std::to_string(length) +
-                   " characters, and controls take 255: shorten it or ask for fewer decimals");
+                   " characters, and LinuxCNC takes 251: shorten it or ask for fewer decimals");
   }
   void complain(const Line& line, std::string why) {
     const auto index = static_cast<std::size_t>(&line - program_.lines.data());

@@ -48,7 +48,7 @@ struct Written {
 /// Before a block with inserted positions stand lines with their axis words; the first of them also
 /// has the words of the block that it needs where the block itself puts them into force (G1, F, S,
 /// M3), and under G93 every F is multiplied by the number of pieces. Arcs become G1.
-/// @throws InputError where a line would have more than 255 characters, or a block cannot be cut
+/// @throws InputError where a line would have more than 251 characters, or a block cannot be cut
 ///         in pieces
 Written write_program(const Program& program, std::span<const NewPosition> positions,
                       const WriteOptions& options);

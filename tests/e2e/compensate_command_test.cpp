@@ -257,6 +257,24 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfRandomPrograms) {
   }
 }
 
+// "G1 X100.0360 Y-50.0571 Z29.9684 A-35.00224 C70.04834 F1000 (" and ")" are 61 characters; with CR
+// LF a line of 252 is the longest that LinuxCNC takes.
+TEST_F(CompensateCommand, LinuxCncTakesTheLongestLine) {
+  if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
+  file("tool.tbl", "T1 P1 Z120 D1\n");
+  const std::string words = "G1 X100. Y-50. Z30. A-35. C70. F1000 (";
+  ASSERT_EQ(
+      compensate("p.nc", words + std::string(190, 'c') + ")\r\nM2\r\n", with_errors + "-o out.nc")
+          .exit_code,
+      0);
+  EXPECT_EQ(read_text(folder_ / "out.nc").find('\r'), 251u);
+  EXPECT_FALSE(calls(folder_, "out.nc").empty());
+  EXPECT_EQ(compensate("p.nc", words + std::string(191, 'c') + ")\r\nM2\r\n",
+                       with_errors + "-o out.nc --force")
+                .exit_code,
+            3);
+}
+
 TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
   if (shell("/usr/bin/python3 -c 'import gcode'").exit_code != 0)
     GTEST_SKIP() << "Python's gcode (linuxcnc) is not installed";

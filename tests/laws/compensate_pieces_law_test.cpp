@@ -63,6 +63,41 @@ TEST(CompensatePiecesLaw, PiecesStayWithinTheTolerance) {
   }
 }
 
+// Blocks of any length, in both modes, against 1000 points of each way: the largest is stated to a
+// hundredth.
+TEST(CompensatePiecesLaw, BetweenBlocksIsTheLargestOfAThousandPoints) {
+  for (std::uint64_t seed = 21; seed < 57; ++seed) {
+    ProgramCase one(layouts()[seed % 7], seed);
+    one.machine.work_offsets[0]->zero = {};
+    const bool tip = seed % 2 == 0;
+    if (tip) one.machine.mode = ProgramMode::tip;
+    const double size = std::pow(10.0, -static_cast<double>(seed % 4));
+    const AxisPositions a = one.draw.positions(one.machine);
+    AxisPositions b = a;
+    for (const MachineAxis& axis : one.machine.axes)
+      b[index_of(axis.name)] +=
+          size * (is_rotary(axis.name) ? one.draw.between(-3.0, 3.0) : one.draw.between(-500, 500));
+    const Vector3 start = one.nominal_tip(a), end = one.nominal_tip(b);
+    AxisPositions word_a = a, word_b = b;
+    if (tip) std::ranges::copy(start, word_a.begin()), std::ranges::copy(end, word_b.begin());
+    const auto result =
+        compensate_program(MachineModel(one.machine, one.errors),
+                           block(one.machine, word_a) + block(one.machine, word_b), "p.nc", fine());
+    ASSERT_TRUE(result.unreachable.empty()) << result.unreachable.front().why;
+    double largest = 0.0;
+    for (int j = 0; j <= 1000; ++j) {
+      AxisPositions words;
+      for (std::size_t k = 0; k < axis_count; ++k)
+        words[k] = std::lerp(word_a[k], word_b[k], j / 1000.0);
+      const AxisPositions q = tip ? one.axes_of_tip(words) : words;
+      const Vector3 there =
+          tip_of(ChainMatrices{one.machine, one.errors}.tool_in_part(q, one.setting));
+      largest = std::max(largest, from_line(there, start, end));
+    }
+    EXPECT_NEAR(result.between_before.value, largest, 0.01 * largest) << "seed " << seed;
+  }
+}
+
 // A block of half a turn, on which the curvature is anything but even.
 TEST(CompensatePiecesLaw, PiecesOfLongBlocksStayWithinTheTolerance) {
   for (const std::uint64_t seed : {11, 12, 13, 14, 15, 16}) {

@@ -46,7 +46,9 @@ TEST_P(NcRefused, WithItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Codes, NcRefused,
     ::testing::Values(
-        RefusedCase{"G91\nM8\nN5 X1\nY2\n", "4:4"}, RefusedCase{"G91 G28 Z0\n", "2:9"},
+        RefusedCase{"G91\nM8\nN5 X1\nY2\n", "4:4"}, RefusedCase{"G91 G53 Z0\n", "2:9"},
+        RefusedCase{"G91 G28 Z0\nX1\nG90 X1\n", "3:1 4:5"},
+        RefusedCase{"G28 G91 Z0.\nG30 X0 Y0\nG0 X1 Y1 Z1 A1 C1\n", "4:4"},
         RefusedCase{"G2 X1 Y1 I1\n", "2:1"}, RefusedCase{"N1 G03 X1 Y1 R5\n", "2:4"},
         RefusedCase{"G81 X1 Z-5 R2 F100\nG83 Z-3 Q1 R1\n", "2:1 3:1"},
         RefusedCase{"G73 Z1 Q1\nG74 Z1\nG76 P1\nG85 Z1\nG89 Z1\n", "2:1 3:1 4:1 5:1 6:1"},
@@ -129,6 +131,18 @@ TEST(NcReader, AnotherWorkOffsetLeavesTheMachineWhereItIs) {
     EXPECT_NEAR(second[k] + options.zeros[1][k], first[k] + options.zeros[0][k], 1e-14) << k;
   EXPECT_NEAR(third[0] + options.zeros[0][0], 7.0 + options.zeros[1][0], 1e-14);
   EXPECT_EQ(third[5], 1.0 * rad_per_deg);
+}
+
+// Distances to a point on the way home are no positions; what follows is read under G90.
+TEST(NcReader, GoesHomeUnderG91) {
+  for (const char* const home :
+       {"G91 G28 Z0\nG90\n", "G28 G91 Z0.\nG28 X0 Y0\nG90\n", "G91\nG30 Z5\nG90 "}) {
+    const Program program =
+        read_program(all + std::string(home) + "G0 X9 Y8 Z7 A6 C5\n", "p.nc", xyzac());
+    ASSERT_EQ(program.moves.size(), 2u) << home;
+    EXPECT_EQ(program.moves[1].words[2], 7.0);
+    EXPECT_FALSE(program.moves[1].continues);
+  }
 }
 
 TEST(NcReader, BehindTheSecondPercentIsNoProgram) {

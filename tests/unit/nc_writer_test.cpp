@@ -130,16 +130,20 @@ TEST(NcWriter, ArcsBecomeChords) {
       "X0.0000 Y10.0000\nX10 Y0.0000\nG1 X0\n");
 }
 
-TEST(NcWriter, LinesStayBelow256Characters) {
-  const std::string comment(233, 'c'), line = "G1 X1 Y1 Z1 A1 C1 (" + comment + ")\n";
+// "G1 X1.5000 Y1 Z1 A1 C1 (" and ")" are 25 characters.
+TEST(NcWriter, LinesStayWithin251Characters) {
+  const std::string fits = "G1 X1 Y1 Z1 A1 C1 (" + std::string(226, 'c') + ")\n",
+                    line = "G1 X1 Y1 Z1 A1 C1 (" + std::string(227, 'c') + ")\n";
   EXPECT_EQ(moved(line, {}), line);
+  EXPECT_EQ(moved(fits, {0.5, 0, 0, 0, 0, 0}).size(), 252u);
   EXPECT_THROW(moved(line, {0.5, 0, 0, 0, 0, 0}), InputError);
   const std::string longer = "G1 X1 Y1 Z1 A1 C1 (" + std::string(400, 'c') + ")\n";
   EXPECT_EQ(moved(longer, {}), longer) << "what is not changed is the user's";
 }
 
 TEST(NcWriter, BlocksWithCodesThatMayRunOnceAreNotSplit) {
-  EXPECT_THROW(split("G1 X0 Y0 Z0 A0 C0\nX1 M62 P1\n", 2), InputError);
+  for (const char* const code : {"M62 P1", "T2 M6", "M5", "M9"})
+    EXPECT_THROW(split("G1 X0 Y0 Z0 A0 C0\nX1 " + std::string(code) + "\n", 2), InputError) << code;
   EXPECT_THROW(split("G93 G1 X0 Y0 Z0 A0 C0 F1\nX1\n", 2), InputError);
 }
 

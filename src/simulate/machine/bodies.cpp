@@ -55,18 +55,6 @@ Vector3 three_of(const ErrorModel& errors, bool component, bool about, std::size
   return out;
 }
 
-Homogeneous inverse(const Homogeneous& m) {
-  Homogeneous out{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      out[row][column] = m[column][row];
-      out[row][3] -= m[column][row] * m[column][3];
-    }
-  }
-  out[3][3] = 1.0;
-  return out;
-}
-
 Vector3 negative(const Vector3& v) { return {-v[0], -v[1], -v[2]}; }
 
 Homogeneous about(const Vector3& point, const Homogeneous& turn) {
@@ -100,6 +88,18 @@ Homogeneous moved(const MachineAxis& axis, const ErrorModel& errors, double q, d
 }
 
 }  // namespace
+
+Homogeneous inverse(const Homogeneous& m) {
+  Homogeneous out{};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      out[row][column] = m[column][row];
+      out[row][3] -= m[column][row] * m[column][3];
+    }
+  }
+  out[3][3] = 1.0;
+  return out;
+}
 
 Homogeneous product(const Homogeneous& left, const Homogeneous& right) {
   Homogeneous out{};
@@ -162,6 +162,17 @@ Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions&
 double own_error(const ErrorModel& errors, AxisName axis, double position) {
   const std::size_t body = index_of(axis);
   return sum_of(errors, {true, body, body}, position) + sum_of(errors, {false, body, body}, 0.0);
+}
+
+Homogeneous part_on_table(const ErrorModel& errors) {
+  return product(translation(three_of(errors, false, false, workpiece_body, 0.0)),
+                 rotation(three_of(errors, false, true, workpiece_body, 0.0)));
+}
+
+void take_lost_motion(const AxisPositions& reversal, const AxisPositions& from,
+                      const AxisPositions& to, AxisPositions& lost) {
+  for (std::size_t i = 0; i < axis_count; ++i)
+    if (to[i] != from[i]) lost[i] = to[i] < from[i] ? reversal[i] : 0.0;
 }
 
 Vector3 tip_mm(const Machine& machine, const Ends& ends, double tool_length_mm) {

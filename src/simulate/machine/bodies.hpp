@@ -37,6 +37,17 @@ Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions&
 /// What an axis does beside its command along its own letter, mm or rad.
 double own_error(const ErrorModel& errors, AxisName axis, double position);
 
+/// Where the part is on its table beside where it should be.
+Homogeneous part_on_table(const ErrorModel& errors);
+
+/// Lost motion: an axis that comes from above stands by its reversal too high, and so it stays
+/// until it moves again.
+void take_lost_motion(const AxisPositions& reversal, const AxisPositions& from,
+                      const AxisPositions& to, AxisPositions& lost);
+
+/// The inverse of a rigid motion.
+Homogeneous inverse(const Homogeneous& motion);
+
 /// In M, of a tool of this length.
 Vector3 tip_mm(const Machine& machine, const Ends& ends, double tool_length_mm);
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "simulate/machine/linear_axes.hpp"
 #include "simulate/variates.hpp"
 #include "trueaxis/error.hpp"
 
@@ -13,12 +14,6 @@ constexpr std::uint32_t reading_noise = 31;  // purpose of the random numbers
 
 Vector3 minus(const Vector3& a, const Vector3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double determinant(const std::array<Vector3, 3>& columns) {
-  const auto& [a, b, c] = columns;
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 /// Plays a plan, row by row: where the axes come from and how long it took is remembered.
@@ -117,42 +112,23 @@ class Session {
     return d;
   }
 
-  /// The linear axes that put the tip `to_tip` off the ball, by Newton on differences; the rotary
-  /// ones stay.
+  /// The linear axes that put the tip `to_tip` off the ball; the rotary ones stay.
   AxisPositions following(World world, AxisPositions axes, std::size_t ball,
                           const Vector3& to_tip) const {
-    constexpr double step_mm = 1.0, close_mm = 1e-12;
-    for (int round = 0; round < 20; ++round) {
-      Vector3 off = deviation(world, axes, ball);
+    const auto off_mm = [&](const AxisPositions& at) {
+      Vector3 off = deviation(world, at, ball);
       for (std::size_t i = 0; i < 3; ++i) off[i] += to_tip[i];
-      if (std::hypot(off[0], off[1], off[2]) < close_mm) break;
-      std::array<Vector3, 3> columns{};
-      for (std::size_t k = 0; k < linear_.size() && k < 3; ++k) {
-        AxisPositions ahead = axes;
-        ahead[linear_[k]] += step_mm;
-        Vector3 there = deviation(world, ahead, ball);
-        for (std::size_t i = 0; i < 3; ++i) columns[k][i] = off[i] - (there[i] + to_tip[i]);
-      }
-      const double whole = determinant(columns);
-      if (linear_.size() < 3 || !(std::abs(whole) > 1e-6))
-        throw InputError(machine_.name,
-                         "the linear axes cannot follow a ball in space: a measurement of a ball "
-                         "needs three of them");
-      for (std::size_t k = 0; k < 3; ++k) {  // Cramer's rule
-        std::array<Vector3, 3> one = columns;
-        one[k] = off;
-        axes[linear_[k]] += step_mm * determinant(one) / whole;
-      }
-    }
+      return off;
+    };
+    if (!follow_with_linear_axes(machine_, off_mm, axes))
+      throw InputError(machine_.name,
+                       "the linear axes cannot follow a ball in space: a measurement of a ball "
+                       "needs three of them");
     return axes;
   }
 
-  /// Lost motion: an axis that comes from above stands by its reversal too high.
   void approach(const AxisPositions& to) {
-    for (std::size_t i = 0; i < axis_count; ++i) {
-      if (!rows_.empty() && to[i] != from_[i])
-        lost_[i] = to[i] < from_[i] ? plan_.disturbance.reversal[i] : 0.0;
-    }
+    if (!rows_.empty()) take_lost_motion(plan_.disturbance.reversal, from_, to, lost_);
     from_ = to;
   }
 

@@ -16,10 +16,10 @@ enum class MeasurementKind {
   axis    ///< commanded against actual position of one axis
 };
 
-/// What goes wrong while measuring and is no error of the machine's geometry.
+/// What goes wrong while measuring or cutting and is no error of the machine's geometry.
 struct Disturbance {
   AxisPositions reversal{};    ///< what an axis loses when it is approached from above, mm or rad
-  Vector3 drift_mm_per_s{};    ///< of the ball against the tip, linear in time
+  Vector3 drift_mm_per_s{};    ///< of the ball or the part against the tip, linear in time
   Vector3 slip_mm{};           ///< of the ball on the table …
   std::size_t slip_after = 0;  ///< … after so many rows; 0: never
 };

@@ -5,35 +5,19 @@
 #include <cmath>
 
 #include "format/toml_reader.hpp"
-#include "machine/files/errors_toml.hpp"
-#include "machine/files/machine_toml.hpp"
 
 namespace trueaxis {
 namespace {
 
-using virtual_machine::Disturbance;
 using virtual_machine::MeasurementKind;
 using virtual_machine::MeasurementPlan;
 
 Vector3 three(const std::vector<double>& list) { return {list[0], list[1], list[2]}; }
 
-/// A key of three numbers; zeros where it is not there.
-Vector3 triple(TomlTable& table, const std::string& key) {
-  const std::vector<double> list = table.numbers(key);
-  if (list.empty()) return {};
-  if (list.size() == 3) return three(list);
-  table.complain(key, "has three numbers, along X, Y and Z of the bed");
-  return {};
-}
-
 std::vector<Vector3> triples(TomlTable& table, const std::string& key) {
   std::vector<Vector3> out;
   for (const std::vector<double>& row : table.rows(key, 3)) out.push_back(three(row));
   return out;
-}
-
-std::string key_of(AxisName axis) {
-  return std::string(1, letter_of(axis)) + (is_rotary(axis) ? "_rad" : "_mm");
 }
 
 /// All combinations of the positions of the axes, the last axis of the chain the fastest; then the
@@ -55,20 +39,6 @@ std::vector<AxisPositions> read_positions(TomlTable table, const Machine& machin
   }
   if (table.flag("and_back", false)) all.insert(all.end(), all.rbegin(), all.rend());
   return all;
-}
-
-Disturbance read_disturbance(TomlTable table, const Machine& machine) {
-  Disturbance by;
-  if (std::optional<TomlTable> reversal = table.maybe_table("reversal")) {
-    for (const MachineAxis& axis : machine.axes)
-      by.reversal[index_of(axis.name)] = reversal->number(key_of(axis.name), 0.0);
-  }
-  by.drift_mm_per_s = triple(table, "drift_mm_per_s");
-  by.slip_mm = triple(table, "slip_mm");
-  by.slip_after = static_cast<std::size_t>(table.integer("slip_after_rows", 0, 0));
-  if (by.slip_after == 0 && table.has("slip_mm"))
-    table.complain("slip_mm", "needs `slip_after_rows`: after how many rows the ball slips");
-  return by;
 }
 
 std::optional<AxisName> axis_named(const std::string& word, const Machine& machine) {
@@ -126,17 +96,11 @@ MeasurementPlan read_plan(TomlTable table, const Machine& machine) {
   if (plan.kind == MeasurementKind::array) read_array(table, plan);
   plan.positions = read_positions(table.required_table("positions"), machine);
   if (std::optional<TomlTable> by = table.maybe_table("disturbance"))
-    plan.disturbance = read_disturbance(*by, machine);
+    plan.disturbance = read_disturbance(*by, machine, true);
   return plan;
 }
 
 }  // namespace
-
-bool is_measurement_scenario(const std::string& path) {
-  TomlDocument document(path);
-  const std::vector<std::string> keys = document.root().keys();
-  return std::ranges::find(keys, "machine") != keys.end();
-}
 
 MeasurementScenario read_measurement_toml(const std::string& path) {
   MeasurementScenario out;
@@ -144,20 +108,9 @@ MeasurementScenario read_measurement_toml(const std::string& path) {
   TomlTable root = document.root();
   const auto seed = root.integer("seed", 1, 0);
   TomlTable machine = root.required_table("machine");
-  const std::string file = machine.required_path("file");
-  const std::optional<std::string> errors = machine.maybe_path("errors");
   TomlTable measure = root.required_table("measure");
-  if (file.empty()) {
-    measure.ignore_rest();
-    document.finish();
-  }
-  out.read.push_back(file);
-  out.machine = read_machine_toml(file).machine;
-  if (errors) {
-    out.read.push_back(*errors);
-    out.errors = read_errors_toml(*errors, out.machine);
-  }
-  out.plan = read_plan(measure, out.machine);
+  out.of = read_scenario_machine(machine, measure, document);
+  out.plan = read_plan(measure, out.of.machine);
   out.plan.seed = static_cast<std::uint64_t>(seed);
   document.finish();
   return out;
