@@ -38,6 +38,8 @@ function machineFindingCard(finding, number, plans) {
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
   return element('div', {class: 'card'}, element('h4', {}, `${number}. ${finding.effect}`), paragraph(`${effectWords(finding.effect)}.`, 'quiet'), facts(list),
     table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
+    finding.alias ? paragraph(`These positions read ${finding.alias} alike.`) : null,
+    finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
     members.length > 1 ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(plans, finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
 }
 
@@ -58,13 +60,20 @@ function locationTable({extended, baseline}) {
 /** A sentence of a clause; the name of an effect stays as it is. */
 const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}.`;
 
+/** What might be taken for certain and is not, and checks of the data that found something. */
+function checksBlock({remarks = [], checks = []}) {
+  const found = checks.filter((check) => check.found);
+  if (!remarks.length && !found.length) return null;
+  return block('To be minded', element('ul', {}, [...remarks, ...found.map((check) => `${check.effect}: ${check.text}`)].map((text) => element('li', {}, joined(sentence(text))))));
+}
+
 function findingsSection({diagnosis}) {
   const {verdict, findings, unexplained, plans} = diagnosis;
   const cards = findings.map((f, i) => machineFindingCard(f, i + 1, plans));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
     paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
   return section('diagnosis', 'What the measurement shows', paragraph(machineVerdicts[verdict] ?? verdict, 'lead'),
-    cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
+    cards.length ? element('div', {class: 'cards'}, cards) : null, checksBlock(diagnosis), gainBlock(diagnosis), locationTable(diagnosis));
 }
 
 /** Effects that share their reason and the plans that show them. */

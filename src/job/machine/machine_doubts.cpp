@@ -118,6 +118,9 @@ std::vector<std::string> machine_reservations(const MachineJobResult& result) {
                     " was found: it goes on while the part is cut, so what it was "
                     "over the measurement is counted with U");
   }
+  all.insert(all.end(), result.diagnosis.remarks.begin(), result.diagnosis.remarks.end());
+  for (const MachineCheck& check : result.diagnosis.checks)
+    if (check.found) all.push_back(check.name + ": " + check.text);
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
     all.push_back(fmt::format("{} of {} that no effect explains, counted with U", one.pattern,
                               um_text(one.amplitude.value)));
