@@ -88,7 +88,7 @@ struct MachineJobResult {
   MachineJob job;
   MachineDiagnosis diagnosis;
   std::string implausible;  ///< why the errors cannot be right; empty: nothing speaks against them
-  ErrorModel errors;  ///< known and found, with what is uncertain of them
+  ErrorModel errors;        ///< known and found, with what is uncertain of them
   std::optional<ProgramCompensation> compensation;
   std::vector<AxisRange> ranges;
   std::optional<PartDisplacement> part;  ///< of the program as it was read

@@ -53,9 +53,11 @@ Truth truth_of(const MachineJobResult& result, const ErrorModel& truth) {
   return out;
 }
 
-// E|δ'|² = u² at every tip. Of 15 parameters and 40 measurements the mean of |δ'|²/u² has a
-// relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, five effective directions a
-// measurement; the bounds are five of these. A block is beyond 3.5 u once in 2000.
+// E|δ'|² = u² at every tip, were noise all that is uncertain: of 15 parameters and 40 measurements
+// the mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, five
+// effective directions a measurement, and the bounds are five of these. u also counts component
+// errors that this machine has not, as far as the data leave room for them, which makes it larger:
+// still no more than the lower bound allows. A tip is beyond 5 u once in a million.
 TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   constexpr std::uint64_t seed = 20261123;
   Draw draw(seed);
