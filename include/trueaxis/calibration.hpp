@@ -41,8 +41,17 @@ struct MachineMeasurement {
 
 /// A parameter that was estimated: a location error, or a coefficient of a component error.
 struct CalibratedParameter {
-  std::string name;   ///< X0C; EXX.poly2
-  Estimate estimate;  ///< mm or rad, from the errors that were given
+  std::string name;      ///< X0C; EXX.poly2
+  Estimate estimate;     ///< mm or rad, from the errors that were given
+  double u_noise = 0.0;  ///< of u, were there no component errors; 0: not told apart
+};
+
+/// A component error that the fit has beside its parameters, at its plausible size.
+struct CalibratedComponent {
+  std::string name;  ///< EXC
+  Estimate rms;      ///< of what the data show of it, over the axis' travel or a turn; mm or rad
+  double plausible = 0.0;  ///< RMS that machines as this one have
+  bool shown = false;      ///< some number of it is three u and more
 };
 
 /// What the measurement does not tell: at its largest plausible size it moves the readings by less
@@ -90,21 +99,26 @@ struct Calibration {
   std::vector<std::string> sources, input_hashes;
   std::vector<CalibratedParameter> parameters;
   std::vector<double> covariance;  ///< of `parameters` by rows, mm and rad
+  std::vector<CalibratedComponent> components;
+  double size_of_components = 1.0;  ///< of this machine's, against those of machines in good order
   std::vector<PlacedBall> balls;
   std::vector<NotDetermined> not_determined;
   std::string gauge;  ///< what was held, in words
   std::vector<AxisReadOut> read_outs;
-  ErrorModel errors;  ///< given and found together, with u
+  ErrorModel errors;  ///< given and found together, component errors too, with their covariance
   std::size_t equations = 0, unknowns = 0;
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  double noise_mm = 0.0;     ///< σ of one number that u is made of
-  std::string noise_source;  ///< "stated", "residuals"
+  double noise_mm = 0.0;         ///< σ of one number that u is made of
+  std::string noise_source;      ///< "stated", "residuals"
+  double stated_noise_mm = 0.0;  ///< σ that the files state; 0: one of them does not
 };
 
 /// Files given together are one measurement, in order. All location errors of the axes, X0S Y0S
 /// Z0S, A0S and B0S, every ball's centre and every bar's line are estimated together by
 /// Levenberg-Marquardt through the exact chain (Eqs. 170-176); of an array's axis its three
 /// straightness and position errors as polynomials too; an axis' read-out gives its position error.
+/// Then all component errors are random at their plausible size (Eqs. 210-215): u is what noise and
+/// they leave unknown, and what the data show of them is part of the errors.
 /// @throws InputError where there is too little to estimate from
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options = {});
@@ -112,5 +126,12 @@ Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement
 /// Why a calibration cannot be right: a size that, less its U, is fifty times the largest plausible
 /// one, as of inches for mm or a wrong tool length. Empty: nothing speaks against it.
 std::string implausible(const Calibration& found, const CalibrationOptions& options);
+
+/// The mistake in the columns that a measurement most likely has, and what to write: exchanged
+/// columns, wrong signs, radians as degrees, where mended they leave half of the RMS at most; and
+/// readings that scatter thirty times less than is stated. Empty: the data show none. That all
+/// deviations are negated they show only where the axes stood off the ball by more than its errors.
+std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
+                           const CalibrationOptions& options, const Calibration& found);
 
 }  // namespace trueaxis

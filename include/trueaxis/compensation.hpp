@@ -27,6 +27,7 @@ struct CompensationOptions {
   std::optional<double> arc_tolerance_mm{};
   int decimals = 4, angle_decimals = 5;  ///< of changed words, where the source has not more
   int threads = 0;                       ///< 0: as many as there are; the result is the same
+  bool keep_ends = false;                ///< ProgramCompensation::ends are wanted
   /// @throws ContractViolation
   void validate() const;
 };
@@ -58,6 +59,14 @@ struct ErrorAlone {
   LargestInProgram tip;
 };
 
+/// Where a move ends: in the program as it was read, and as it was written.
+struct ProgramEnd {
+  std::size_t line = 0;  ///< 1-based, of the program that was read
+  bool rapid = false;    ///< G0: no cut
+  AxisPositions commanded{}, written{};
+  Setting setting;
+};
+
 struct ProgramCompensation {
   std::string text;  ///< the new program; of one with unreachable blocks empty
   std::size_t blocks_read = 0, blocks_moved = 0, blocks_rewritten = 0, blocks_inserted = 0;
@@ -72,6 +81,7 @@ struct ProgramCompensation {
   std::vector<UnreachableBlock> unreachable;
   std::vector<ErrorAlone> by_error;       ///< the largest first
   std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
+  std::vector<ProgramEnd> ends;           ///< of every move that is reached, where they are wanted
 };
 
 /// Reads the program `text` (called `file` in diagnostics) and compensates every position.

@@ -160,10 +160,34 @@ enum class ErrorSign {
   tool_minus_workpiece  ///< of the tool against the table (a laser between them): inverted
 };
 
+/// A number by which an error is uncertain: it multiplies a function of size 1 mm or 1 rad.
+struct UncertainAmount {
+  enum class Shape {
+    constant,
+    legendre,  ///< P_order over `low` … `high`
+    cosine,    ///< cos(2π order q/period), period = high − low
+    sine
+  };
+  ErrorName name;
+  Shape shape = Shape::constant;
+  int order = 0;
+  double low = 0.0, high = 0.0;  ///< mm or rad
+
+  ErrorFunction unit() const;
+  bool operator==(const UncertainAmount&) const = default;
+};
+std::string to_string(const UncertainAmount& amount);  ///< X0C, EXX.poly2, EYC.cos1
+
+struct ErrorCovariance {
+  std::vector<UncertainAmount> amounts;  ///< each once
+  std::vector<double> matrix;            ///< of them by rows, mm and rad
+};
+
 struct ErrorModel {
   ErrorSign sign = ErrorSign::moving_part;
   std::array<Vector3, 3> reference_mm{};  ///< of X Y Z: pivot of their angular errors, in M
   std::vector<ErrorTerm> terms;           ///< those of one name add
+  ErrorCovariance covariance;  ///< beside the u of terms: u of a constant stands in one of the two
 
   double value(const ErrorName& name, const AxisPositions& axes) const;
 };

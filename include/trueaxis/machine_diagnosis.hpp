@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,24 +21,46 @@ struct MachineRival {
   double probability = 0.0;       ///< among the class
 };
 
+/// A number that says of what form a term is: an order, a degree, a range, a row.
+struct MachineShape {
+  std::string name;
+  double value = 0.0;
+  std::string unit;  ///< mm, rad, s or 1
+};
+
 struct MachineFinding {
   std::string effect;                           ///< of the best explanation
   std::vector<MachineRival> rivals;             ///< the rest of its class, the most probable first
   std::vector<CalibratedParameter> parameters;  ///< cos and sin, legendre, x y z …; mm or rad
   std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
-  double size = 0.0;              ///< amplitude, mm or rad
-  double p_value = 1.0;           ///< family-wise
-  double probability = 0.0;       ///< of the named effect in its class
-  double rms_mm = 0.0;            ///< of what it does to the readings beside what is always fitted
-  std::string separate_with;      ///< plan that tells the class apart best; empty: none is needed
+  std::string formula;            ///< of the term in its parameters
+  std::vector<MachineShape> shape;
+  std::vector<double> covariance;  ///< of `parameters` by rows
+  std::string alias;               ///< orders that these positions cannot tell from it
+  bool likely_order = true;        ///< its order is 95 % likely among them, 1/n² an order n
+  std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
+  double size = 0.0;                              ///< amplitude, mm or rad
+  double p_value = 1.0;                           ///< family-wise
+  double probability = 0.0;                       ///< of the named effect in its class
+  double rms_mm = 0.0;        ///< of what it does to the readings beside what is always fitted
+  std::string separate_with;  ///< plan that tells the class apart best; empty: none is needed
 
   std::vector<std::string> members() const;  ///< the class, the named one first
 };
 
 struct MachineUnexplained {
   std::string pattern;  ///< in words
-  Estimate amplitude;   ///< mm
+  Estimate amplitude;   ///< mm or rad
   double p_value = 1.0;
+  std::vector<CalibratedParameter> parameters;
+  std::vector<double> covariance;  ///< of `parameters` by rows
+};
+
+/// A check of the data's quality: never a name for an error.
+struct MachineCheck {
+  std::string name;
+  bool found = false;
+  std::string text;
 };
 
 struct MachineNotObservable {
@@ -48,6 +71,14 @@ struct MachineNotObservable {
   std::vector<std::string> plans;    ///< those after which it is seen
 };
 
+/// Where a further measurement goes.
+struct PlannedVisit {
+  int setup = 1, ball = 1;
+  Vector3 ball_mm{};  ///< centre on the workpiece's body, in M, zero position
+  double tool_length_mm = 0.0;
+  AxisPositions axes{};
+};
+
 /// A further measurement and what it would show.
 struct MachinePlan {
   std::string code;  ///< RV, L2, B2, AC
@@ -55,6 +86,7 @@ struct MachinePlan {
   double minutes = 0.0;
   std::vector<std::string> shows;      ///< effects that are not observable without it
   std::vector<std::string> separates;  ///< findings whose class it tells apart
+  std::vector<PlannedVisit> visits;    ///< in order
 };
 
 struct HeldOut {
@@ -72,6 +104,8 @@ struct MachineDiagnosis {
   std::vector<MachineFinding> findings;       ///< the most significant first
   std::vector<MachineUnexplained> unexplained;
   std::vector<MachineNotObservable> not_observable;
+  std::vector<std::string> remarks;  ///< what might be taken for certain and is not
+  std::vector<MachineCheck> checks;
   std::vector<MachinePlan> plans;
   std::string next_plan;  ///< that shows and separates most a minute; empty: none is needed
   double noise_mm = 0.0;  ///< σ of one number as the residuals show it
@@ -79,7 +113,9 @@ struct MachineDiagnosis {
   HeldOut held_out_before, held_out_after;
   std::size_t blocks = 0;  ///< of rotary positions, left out in turn
   std::size_t hypotheses = 0;
-  double false_alarm = 0.01, threshold = 0.0;  ///< p of one test that is a finding
+  double effective_hypotheses = 0.0;  ///< independent tests that those of effects are worth
+  double false_alarm = 0.01, threshold = 0.0;               ///< p of one test that is a finding
+  double typical_length_mm = 0.0, typical_angle_rad = 0.0;  ///< what was looked for
 };
 
 struct MachineDiagnoseOptions {
@@ -90,7 +126,7 @@ struct MachineDiagnoseOptions {
 };
 
 /// Every effect is tested beside what is always fitted (places, location errors): an exact F test
-/// with Bonferroni's correction (Eqs. 178-183). @throws InputError as `calibrate`
+/// with Bonferroni's correction (Eqs. 178-187). @throws InputError as `calibrate`
 MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const MachineMeasurement> data,
                                   const MachineDiagnoseOptions& options = {});
 

@@ -92,14 +92,15 @@ void weigh_plan(const Questions& q, const Plan& plan, const std::set<std::string
     const auto term = std::ranges::find(with.terms, one.effect, &Term::effect);
     if (term == with.terms.end()) continue;
     const auto at = static_cast<std::size_t>(term - with.terms.begin());
-    const auto size = detectable_size(with.regression, at, q.variance, q.search);
+    const auto size = surely_shown_size(with.regression, at, q.variance, q.search);
     if (!size || *size > typical(*term, q.options)) continue;
     one.plans.push_back(weighed.code);
     weighed.shows.push_back(one.effect);
   }
   for (MachineFinding& finding : out.findings) {
     const bool apart = std::ranges::all_of(finding.rivals, [&](const MachineRival& rival) {
-      return distance(with.regression, with.terms, finding, rival.effect, q.variance) >= told_apart;
+      return distance(with.regression, with.terms, finding, rival.effect, q.variance) >=
+             surely_told_apart;
     });
     if (finding.rivals.empty() || !apart) continue;
     weighed.separates.push_back(finding.effect);

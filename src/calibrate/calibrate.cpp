@@ -5,6 +5,7 @@
 
 #include "calibrate/read_out.hpp"
 #include "calibrate/tip_fit.hpp"
+#include "calibrate/total_uncertainty.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
@@ -161,6 +162,7 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   out.equations = static_cast<std::size_t>(problem.equations);
   out.unknowns = static_cast<std::size_t>(solution.jacobian.cols());
   const VectorXd sigma = problem.weights.cwiseInverse();
+  if (problem.noise_stated) out.stated_noise_mm = rms_mm(problem, sigma);
   out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
   out.rms_before_mm =
       rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
@@ -187,8 +189,14 @@ Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurem
 
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options) {
-  Calibration out = calibrate_detail::of_read_outs(machine, data, options);
-  calibrate_detail::fit_tips(machine, data, options, true, out);
+  using namespace calibrate_detail;
+  Calibration out = of_read_outs(machine, data, options);
+  const auto fit = fit_tips(machine, data, options, true, out);
+  if (!fit || !out.converged) return out;
+  const Eigen::VectorXd places = take_component_errors(*fit, out);
+  out.balls.clear();
+  place_balls(fit->problem, places, out);
+  out.rms_after_mm = rms_mm(fit->problem, fit->problem.residuals(out.errors, places));
   return out;
 }
 

@@ -6,6 +6,8 @@
 
 #include "calibrate/advise.hpp"
 #include "calibrate/explain.hpp"
+#include "calibrate/find.hpp"
+#include "calibrate/remarks.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
@@ -18,80 +20,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double share_of_scatter = 0.1;  // of the false alarm: scatter against the stated noise
-
-/// Terms, their products, and what was found.
-struct Search {
-  std::vector<Term> terms;
-  std::optional<Regression> regression;
-  Regression::Set found;
-  SearchOptions options;
-};
-
-void make_regression(const TipFit& fit, const MachineDiagnoseOptions& options, Search& search) {
-  search.regression.emplace(search.terms, fit.solution.jacobian, fit.problem.weights,
-                            options.calibration.largest_length_mm,
-                            options.calibration.largest_angle_rad);
-  search.regression->take(fit.solution.residuals);
-}
-
-/// The slip that was found at one of the rows tried, moved to the row where it is; false: none was.
-bool refine_slip(const TipFit& fit, const Geometry& geometry, const MachineDiagnoseOptions& options,
-                 Search& search) {
-  const auto slip = std::ranges::find_if(search.found, [&](std::size_t t) {
-    return search.terms[t].effect == "ball.slip" && search.terms[t].tests > 1.0;
-  });
-  if (slip == search.found.end()) return false;
-  Term& coarse = search.terms[*slip];
-  Search near;
-  Regression::Set others;
-  for (const std::size_t t : search.found) {
-    if (t == *slip) continue;
-    others.push_back(near.terms.size());
-    near.terms.push_back(search.terms[t]);
-  }
-  const std::size_t first = near.terms.size();
-  const auto reach = static_cast<std::size_t>(4.0 * coarse.tests) + 4;
-  for (std::size_t row = 1; row < fit.problem.rows.size(); ++row)
-    if (fit.problem.rows[row].target == coarse.target && row + reach > coarse.row &&
-        row < coarse.row + reach)
-      near.terms.push_back(slip_term(fit.problem, geometry, coarse.target, row));
-  make_regression(fit, options, near);
-  std::size_t best = first;
-  double most = -1.0;
-  for (std::size_t t = first; t < near.terms.size(); ++t) {
-    auto with = others;
-    with.push_back(t);
-    if (const double gain = near.regression->gain(with); gain > most) most = gain, best = t;
-  }
-  coarse = near.terms[best];
-  return true;
-}
-
-Search search_for(const TipFit& fit, const Geometry& geometry,
-                  const MachineDiagnoseOptions& options, bool timed) {
-  Search out;
-  out.terms = effect_terms(fit.problem, geometry, timed);
-  std::vector<Term> patterns = pattern_terms(fit.problem, geometry);
-  std::ranges::move(patterns, std::back_inserter(out.terms));
-  make_regression(fit, options, out);
-  out.options.tests = 0.0;
-  for (std::size_t t = 0; t < out.terms.size(); ++t)
-    if (out.regression->block(t).rank > 0) out.options.tests += out.terms[t].tests;
-  out.options.tests = std::max(1.0, out.options.tests);
-  out.options.false_alarm = options.false_alarm * (1.0 - share_of_scatter);
-  out.options.most = options.max_findings;
-  out.found = search(*out.regression, out.terms, out.options);
-  if (refine_slip(fit, geometry, options, out)) {
-    make_regression(fit, options, out);
-    out.found = search(*out.regression, out.terms, out.options);
-  }
-  return out;
-}
-
 /// Base and found terms fitted together: linear beside the base's solution, whose second order in
 /// effects of 10 µm stays below a nanometre.
-void fit_jointly(const TipFit& fit, const Search& search, MachineDiagnosis& out) {
+void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
   const Problem& problem = fit.problem;
   MatrixXd columns = fit.solution.jacobian;
   for (const std::size_t t : search.found) {
@@ -131,30 +62,59 @@ void fit_jointly(const TipFit& fit, const Search& search, MachineDiagnosis& out)
   out.blocks = after.blocks;
 }
 
-void state_findings(const TipFit& fit, const Search& search, MachineDiagnosis& out) {
+/// The axis of an effect by its letter; t of drifts and slips.
+char letter_of_effect(const std::string& effect) {
+  if (effect.starts_with("reversal.")) return effect.back();
+  return effect.front() == 'E' ? effect[2] : 't';
+}
+
+/// Why a finding is no name but part of something unknown: a pattern of the same axis is there, or
+/// three terms of one error, which is then no order or degree.
+bool of_unknown(const MachineFinding& finding, const Found& search) {
+  std::size_t alike = 0;
+  for (const std::size_t t : search.found) {
+    const Term& other = search.terms[t];
+    if (other.pattern && std::ranges::any_of(finding.members(), [&](const std::string& member) {
+          return other.letters.find(letter_of_effect(member)) != std::string::npos;
+        }))
+      return true;
+    alike += !other.errors.empty() && other.effect.starts_with(finding.effect.substr(0, 4)) ? 1 : 0;
+  }
+  return finding.effect.front() == 'E' && alike >= 3;
+}
+
+void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
+                    MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
                         static_cast<double>(fit.problem.equations);
   for (std::size_t at = 0; at < search.found.size(); ++at) {
     MachineFinding found =
         finding_of(*search.regression, search.terms, search.found, at, search.options);
     found.rms_mm *= to_rms;
-    if (search.terms[search.found[at]].pattern) {
-      double square = 0.0;
-      for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
-      out.unexplained.push_back(
-          {found.effect,
-           {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())), "mm", ""},
-           found.p_value});
+    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    weigh_aliases(fit.problem, search.terms[search.found[at]], found);
+    found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
+    const bool pattern = search.terms[search.found[at]].pattern;
+    if (!pattern && !of_unknown(found, search)) {
+      out.findings.push_back(std::move(found));
       continue;
     }
-    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
-    out.findings.push_back(std::move(found));
+    double square = 0.0;
+    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
+    out.unexplained.push_back(
+        {pattern ? found.effect : found.effect + ", which may be part of something unknown",
+         {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
+          found.parameters.front().estimate.unit, ""},
+         found.p_value,
+         found.parameters,
+         found.covariance});
   }
   std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
+  std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
 }
 
 /// Scatter that the stated noise does not explain: χ² of all that is left.
-void judge_scatter(const TipFit& fit, const Search& search, const MachineDiagnoseOptions& options,
+void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnoseOptions& options,
                    MachineDiagnosis& out) {
   if (!fit.problem.noise_stated) return;
   const Regression& r = *search.regression;
@@ -164,7 +124,9 @@ void judge_scatter(const TipFit& fit, const Search& search, const MachineDiagnos
   if (p >= options.false_alarm * share_of_scatter) return;
   out.unexplained.push_back({"scatter above the noise that is stated",
                              {out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""},
-                             std::min(1.0, p / share_of_scatter)});
+                             std::min(1.0, p / share_of_scatter),
+                             {},
+                             {}});
 }
 
 }  // namespace
@@ -195,12 +157,17 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
     return file.kind != MeasurementKind::axis && file.time_s.empty();
   });
   const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
-  const Search found = search_for(*fit, geometry, options, timed);
-  out.hypotheses = static_cast<std::size_t>(found.options.tests) + 1;
+  const Found found = find_terms(*fit, geometry, options, timed);
+  out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
   out.threshold = found.options.single_level();
   fit_jointly(*fit, found, out);
-  state_findings(*fit, found, out);
+  state_findings(*fit, found, options.calibration, out);
   judge_scatter(*fit, found, options, out);
+  out.effective_hypotheses = independent_tests(*found.regression, found.terms);
+  out.typical_length_mm = options.typical_length_mm;
+  out.typical_angle_rad = options.typical_angle_rad;
+  add_checks(*fit, *found.regression, found.found, timed, out);
+  add_remarks(out);
   out.verdict = !out.unexplained.empty() ? MachineVerdict::unexplained
                 : !out.findings.empty()  ? MachineVerdict::effects
                                          : MachineVerdict::ideal;

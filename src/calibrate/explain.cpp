@@ -97,7 +97,10 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const auto& block = regression.block(set[at]);
   MachineFinding out;
   out.effect = term.effect;
-  out.p_value = std::min(1.0, options.tests * chance(regression, others, set[at]));
+  out.formula = term.formula;
+  out.shape = term.shape;
+  out.p_value = std::min(1.0, options.measurement_alarm * chance(regression, others, set[at]) /
+                                  options.level_of(term));
   Class alike = class_of(regression, terms, set, at);
   out.rivals = std::move(alike.rivals);
   out.probability = alike.probability;
@@ -112,6 +115,7 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const MatrixXd covariance = variance * block.back *
                               G.completeOrthogonalDecomposition().pseudoInverse() *
                               block.back.transpose();
+  out.covariance.assign(covariance.data(), covariance.data() + covariance.size());
   for (Index k = 0; k < value.size(); ++k)
     out.parameters.push_back(
         {term.parameters[static_cast<std::size_t>(k)],
@@ -126,31 +130,50 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   return out;
 }
 
-double detectable_lambda(double rank, double freedom, double single_level) {
+double detectable_lambda(double rank, double freedom, double single_level, double power) {
   const boost::math::fisher_f central(rank, freedom);
   const double critical = quantile(complement(central, single_level));
   double low = 0.0, high = 1e4;
   for (int step = 0; step < 60; ++step) {
     const double middle = 0.5 * (low + high);
     const boost::math::non_central_f distribution(rank, freedom, middle);
-    (cdf(complement(distribution, critical)) < 0.5 ? low : high) = middle;
+    (cdf(complement(distribution, critical)) < power ? low : high) = middle;
   }
   return high;
 }
+
+namespace {
+
+/// The same for few ranks, remembered as long as the rest stays.
+double known_lambda(Index rank, double freedom, double single_level, double power) {
+  static thread_local std::array<std::pair<std::array<double, 3>, double>, 4> known{};
+  auto& [of, lambda] = known[static_cast<std::size_t>(std::min<Index>(rank, 3))];
+  const std::array now{freedom, single_level, power};
+  if (of != now) {
+    of = now;
+    const auto q = static_cast<double>(rank);
+    lambda = detectable_lambda(q, freedom - q, single_level, power);
+  }
+  return lambda;
+}
+
+}  // namespace
 
 std::optional<double> detectable_size(const Regression& regression, std::size_t term,
                                       double variance, const SearchOptions& options) {
   const auto& block = regression.block(term);
   if (block.rank == 0 || !(block.information > 0.0)) return std::nullopt;
-  const auto rank = static_cast<double>(block.rank);
-  static thread_local std::array<std::pair<std::array<double, 2>, double>, 4> known{};
-  auto& [of, lambda] = known[static_cast<std::size_t>(std::min<Index>(block.rank, 3))];
-  const std::array now{regression.freedom(), options.single_level()};
-  if (of != now) {
-    of = now;
-    lambda = detectable_lambda(rank, regression.freedom() - rank, options.single_level());
-  }
+  const double lambda = known_lambda(block.rank, regression.freedom(), options.single_level(), 0.5);
   return std::sqrt(lambda * variance / block.information);
+}
+
+std::optional<double> surely_shown_size(const Regression& regression, std::size_t term,
+                                        double variance, const SearchOptions& options) {
+  const auto& block = regression.block(term);
+  if (block.rank < block.back.rows() || !(block.weakest > 0.0)) return std::nullopt;
+  const double lambda =
+      known_lambda(block.rank, regression.freedom(), options.single_level(), sure_power);
+  return std::sqrt(lambda * variance / block.weakest);
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -152,6 +152,8 @@ class Planner {
     if (file.tool_length_mm.empty())
       file.tool_length_mm.assign(file.rows(), problem_.machine->tool.length_mm);
     for (const Position& one : positions) {
+      out.plan.visits.push_back({file.setup[rows_.front()->row], one.ball_number,
+                                 rigid::array(one.ball), one.tool_length_mm, one.axes});
       file.axes.push_back(one.axes);
       file.setup.push_back(file.setup[rows_.front()->row]);
       file.ball.push_back(one.ball_number);

@@ -63,7 +63,8 @@ Regression::Regression(const std::vector<Term>& terms, const MatrixXd& base,
     const double largest = term.angle ? largest_angle_rad : largest_length_mm;
     const MatrixXd gram = own.transpose() * own;
     const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
-    Block block{to, 0, MatrixXd::Zero(q, q), gram.trace() / static_cast<double>(q)};
+    Block block{to, 0, MatrixXd::Zero(q, q), gram.trace() / static_cast<double>(q),
+                std::max(0.0, eigen.eigenvalues()[0])};
     for (Index k = 0; k < q; ++k) {
       const double value = eigen.eigenvalues()[k];
       if (!(value * largest * largest >= 1.0)) continue;
@@ -81,9 +82,9 @@ Regression::Regression(const std::vector<Term>& terms, const MatrixXd& base,
 }
 
 void Regression::take(const VectorXd& residuals) {
-  const VectorXd left = residuals - basis_ * (basis_.transpose() * residuals);
-  right_ = orthonormal_.transpose() * left;
-  rss_ = left.squaredNorm();
+  residuals_ = residuals - basis_ * (basis_.transpose() * residuals);
+  right_ = orthonormal_.transpose() * residuals_;
+  rss_ = residuals_.squaredNorm();
 }
 
 std::vector<Index> Regression::columns_of(const Set& set) const {

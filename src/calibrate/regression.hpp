@@ -17,6 +17,7 @@ class Regression {
     Eigen::Index first = 0, rank = 0;
     Eigen::MatrixXd back;      ///< coefficients of the term from those of its orthonormal columns
     double information = 0.0;  ///< mean of |column|² per mm² or rad², over σ²
+    double weakest = 0.0;      ///< of the direction that is seen least
   };
 
   /// @param base columns over σ, of any rank
@@ -44,13 +45,19 @@ class Regression {
   };
   Beside beside(const Set& others) const;
   const Eigen::MatrixXd& products() const { return products_; }
+  const Eigen::MatrixXd& basis() const { return basis_; }  ///< orthonormal, of the base
+  /// The orthonormal columns of a set, over σ and beside the base.
+  Eigen::MatrixXd columns(const Set& set) const {
+    return orthonormal_(Eigen::all, columns_of(set));
+  }
+  const Eigen::VectorXd& residuals() const { return residuals_; }  ///< beside the base
 
  private:
   std::vector<Eigen::Index> columns_of(const Set& set) const;
 
   std::vector<Block> blocks_;
   Eigen::MatrixXd orthonormal_, basis_, products_;
-  Eigen::VectorXd right_;
+  Eigen::VectorXd right_, residuals_;
   double rss_ = 0.0, freedom_ = 0.0;
 };
 

@@ -18,7 +18,7 @@ constexpr double price_of_pattern = 4.0;
 
 double price(const Regression& regression, const Term& term, std::size_t at) {
   return 2.0 * static_cast<double>(regression.block(at).rank) +
-         (term.pattern ? price_of_pattern : 2.0 * std::log(term.tests));
+         (term.pattern ? price_of_pattern : 0.0) + 2.0 * std::log(term.tests);
 }
 
 struct Best {
@@ -26,15 +26,18 @@ struct Best {
   double criterion = std::numeric_limits<double>::infinity();
 };
 
-/// Of all terms the best one beside `others`.
-Best best_beside(const Regression& regression, const std::vector<Term>& terms, const Set& others) {
+/// Of all terms the best one beside `others`. @param effects_only without patterns
+Best best_beside(const Regression& regression, const std::vector<Term>& terms, const Set& others,
+                 bool effects_only = false) {
   const Regression::Beside left = regression.beside(others);
   double paid = 0.0;
   for (const std::size_t other : others) paid += price(regression, terms[other], other);
   Best best;
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const auto& block = regression.block(t);
-    if (block.rank == 0 || std::ranges::find(others, t) != others.end()) continue;
+    if (block.rank == 0 || terms[t].barred || (effects_only && terms[t].pattern) ||
+        std::ranges::find(others, t) != others.end())
+      continue;
     const double gain =
         gain_of(left.products.block(block.first, block.first, block.rank, block.rank),
                 left.right.segment(block.first, block.rank));
@@ -72,7 +75,8 @@ void exchange(const Regression& regression, const std::vector<Term>& terms, Set&
 Set best_pair(const Regression& regression, const std::vector<Term>& terms) {
   std::vector<std::pair<double, std::size_t>> alone;
   for (std::size_t t = 0; t < terms.size(); ++t)
-    if (regression.block(t).rank > 0) alone.emplace_back(-regression.gain({t}), t);
+    if (regression.block(t).rank > 0 && !terms[t].barred)
+      alone.emplace_back(-regression.gain({t}), t);
   std::ranges::sort(alone);
   if (alone.size() > of_pairs) alone.resize(of_pairs);
   Set best;
@@ -87,11 +91,12 @@ Set best_pair(const Regression& regression, const std::vector<Term>& terms) {
 }
 
 /// Whether every one of a set passes beside the others; the weakest goes where one does not.
-bool drop_weakest(const Regression& regression, const SearchOptions& options, Set& set) {
-  double worst = options.single_level();
+bool drop_weakest(const Regression& regression, const std::vector<Term>& terms,
+                  const SearchOptions& options, Set& set) {
+  double worst = 1.0;  // over the level
   std::size_t at = set.size();
   for (std::size_t i = 0; i < set.size(); ++i) {
-    const double p = chance(regression, without(set, i), set[i]);
+    const double p = chance(regression, without(set, i), set[i]) / options.level_of(terms[set[i]]);
     if (p >= worst) worst = p, at = i;
   }
   if (at == set.size()) return false;
@@ -102,7 +107,7 @@ bool drop_weakest(const Regression& regression, const SearchOptions& options, Se
 void settle(const Regression& regression, const std::vector<Term>& terms,
             const SearchOptions& options, Set& set) {
   exchange(regression, terms, set);
-  while (drop_weakest(regression, options, set)) exchange(regression, terms, set);
+  while (drop_weakest(regression, terms, options, set)) exchange(regression, terms, set);
 }
 
 }  // namespace
@@ -127,10 +132,13 @@ Set search(const Regression& regression, const std::vector<Term>& terms,
            const SearchOptions& options) {
   Set set;
   while (set.size() < options.most) {
-    const Best best = best_beside(regression, terms, set);
-    if (!std::isfinite(best.criterion) ||
-        chance(regression, set, best.term) >= options.single_level())
-      break;
+    const auto passes = [&](const Best& one) {
+      return std::isfinite(one.criterion) &&
+             chance(regression, set, one.term) < options.level_of(terms[one.term]);
+    };
+    Best best = best_beside(regression, terms, set);
+    if (!passes(best)) best = best_beside(regression, terms, set, true);
+    if (!passes(best)) break;
     Set more = set;
     more.push_back(best.term);
     settle(regression, terms, options, more);

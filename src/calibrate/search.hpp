@@ -7,16 +7,23 @@ namespace trueaxis::calibrate_detail {
 
 /// What the search is told and what its verdicts are worth.
 struct SearchOptions {
-  double false_alarm = 0.01;
-  double tests = 1.0;  ///< Bonferroni: all that are tried
+  double measurement_alarm = 0.01;  ///< of everything
+  double false_alarm = 0.006;       ///< of all effects together
+  double tests = 1.0;               ///< Bonferroni: all effects that are tried
+  double pattern_alarm = 0.003;     ///< of all patterns together
+  double pattern_tests = 1.0;
   std::size_t most = 6;
   double single_level() const { return false_alarm / tests; }
+  double level_of(const Term& term) const {
+    return term.pattern ? pattern_alarm / pattern_tests : single_level();
+  }
 };
 
 /// Chance of the F test of `term` beside `others` (Eq. 179).
 double chance(const Regression& regression, const Regression::Set& others, std::size_t term);
 
-/// −2 ln L of a set with its parameters paid for (Eq. 180): 2 a column, 4 more a pattern.
+/// −2 ln L of a set with its parameters and places paid for (Eq. 180): 2 a column, 4 more a
+/// pattern.
 double criterion(const Regression& regression, const std::vector<Term>& terms,
                  const Regression::Set& set);
 

@@ -11,9 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double whole_turn = 300.0 * rad_per_deg;  // from here on harmonics can be told
-constexpr double least_range = 1e-6;                // of an axis that moved
-constexpr std::size_t slips_a_target = 16;          // tried in the search, then refined
+constexpr double least_range = 1e-6;        // of an axis that moved
+constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
 
 /// Columns times a function of the row.
 template <class Function>
@@ -52,20 +51,38 @@ void add_polynomials(const Problem& problem, const Geometry& geometry, std::size
   const AxisRange range = axis_range(problem, axis);
   const ErrorName name{true, direction, index_of(axis)};
   const bool squareness = !is_rotary(axis) && direction < 3 && direction != index_of(axis);
-  for (int degree = squareness ? 2 : 1; degree <= last; ++degree)
+  const char* const unit = is_rotary(axis) ? "rad" : "mm";
+  for (int degree = squareness ? 2 : 1; degree <= last; ++degree) {
     terms.push_back(of_errors(problem, geometry, k,
                               to_string(name) + ".poly" + std::to_string(degree),
                               {{name, legendre(degree, range.low, range.high), 0.0}}));
+    terms.back().formula = "legendre P_degree((2 q - low - high)/(high - low))";
+    terms.back().shape = {{"degree", static_cast<double>(degree), "1"},
+                          {"low", range.low, unit},
+                          {"high", range.high, unit}};
+  }
 }
 
 void add_harmonics(const Problem& problem, const Geometry& geometry, std::size_t k,
                    std::size_t direction, std::vector<Term>& terms) {
   const ErrorName name{true, direction, index_of(problem.machine->axes[k].name)};
-  for (int order = 1; order <= 4; ++order)
+  for (int order = 1; order <= 4; ++order) {
     terms.push_back(
         of_errors(problem, geometry, k, to_string(name) + ".harmonic" + std::to_string(order),
                   {{name, FourierError{{{static_cast<double>(order), 1.0, 0.0}}, two_pi}, 0.0},
                    {name, FourierError{{{static_cast<double>(order), 0.0, 1.0}}, two_pi}, 0.0}}));
+    terms.back().formula = "cos cos(order q) + sin sin(order q)";
+    terms.back().shape = {{"order", static_cast<double>(order), "1"}};
+  }
+}
+
+/// The way in which an axis goes first: that in which it is taken to have come before.
+double first_way(const Problem& problem, std::size_t axis) {
+  for (const Row& row : problem.rows) {
+    const double move = row.axes[axis] - problem.rows.front().axes[axis];
+    if (std::abs(move) > 1e-9) return move > 0.0 ? 0.5 : -0.5;
+  }
+  return 0.0;
 }
 
 /// + or − half by the way in which the axis came, which files that follow each other go on with.
@@ -76,7 +93,7 @@ void add_reversal(const Problem& problem, const Geometry& geometry, std::size_t 
   VectorXd own = VectorXd::Zero(problem.equations);
   for (std::size_t i = 0; i < 3; ++i)
     own += axis.direction[i] * geometry.unit_errors.col(static_cast<Index>(6 * k + first + i));
-  double way = 0.0, last = problem.rows.front().axes[index];
+  double way = first_way(problem, index), last = problem.rows.front().axes[index];
   bool both = false;
   double seen = 0.0;
   Term term;
@@ -91,6 +108,7 @@ void add_reversal(const Problem& problem, const Geometry& geometry, std::size_t 
   if (!both) return;
   term.effect = std::string("reversal.") + letter_of(axis.name);
   term.parameters = {"size"};
+  term.formula = "size/2 where the axis came from below, -size/2 where from above";
   term.angle = first == 3;
   terms.push_back(std::move(term));
 }
@@ -103,6 +121,8 @@ void add_drifts(const Problem& problem, const Geometry& geometry, std::vector<Te
     Term term;
     term.effect = std::string("drift.") + "XYZ"[i];
     term.parameters = {"over_all"};
+    term.formula = "over_all (t - begin)/(end - begin)";
+    term.shape = {{"begin", begin, "s"}, {"end", begin + length, "s"}};
     term.columns = times_rows(problem, geometry.tip_shift.col(i),
                               [&](const Row& row) { return (row.time_s - begin) / length - 0.5; });
     terms.push_back(std::move(term));
@@ -122,26 +142,6 @@ void add_slips(const Problem& problem, const Geometry& geometry, std::vector<Ter
   }
 }
 
-/// A shift of the tip in M or of the part in its own frame, times a function of an axis.
-void add_pattern(const Problem& problem, const Geometry& geometry, AxisName axis,
-                 const std::string& words, const std::vector<ErrorFunction>& functions,
-                 std::vector<Term>& terms) {
-  for (const bool part : {false, true})
-    for (Index i = 0; i < 3; ++i) {
-      Term term;
-      term.effect = std::string(part ? "part " : "machine ") + "XYZ"[i] + ": " + words + " of " +
-                    letter_of(axis);
-      term.pattern = true;
-      term.columns.resize(problem.equations, static_cast<Index>(functions.size()));
-      for (std::size_t f = 0; f < functions.size(); ++f)
-        term.columns.col(static_cast<Index>(f)) = times_rows(
-            problem, (part ? geometry.part_shift : geometry.tip_shift).col(i),
-            [&](const Row& row) { return value_at(functions[f], row.axes[index_of(axis)]); });
-      term.parameters.assign(functions.size(), "amplitude");
-      terms.push_back(std::move(term));
-    }
-}
-
 }  // namespace
 
 Term slip_term(const Problem& problem, const Geometry& geometry, std::size_t target,
@@ -149,6 +149,12 @@ Term slip_term(const Problem& problem, const Geometry& geometry, std::size_t tar
   Term term;
   term.effect = "ball.slip";
   term.parameters = {"x", "y", "z"};
+  term.formula = "(x, y, z) from the row on";
+  const Row& from = problem.rows[row];
+  term.shape = {{"file", static_cast<double>(from.file + 1), "1"},
+                {"row", static_cast<double>(from.row + 1), "1"},
+                {"setup", static_cast<double>(problem.targets[target].setup), "1"},
+                {"ball", static_cast<double>(problem.targets[target].ball), "1"}};
   term.target = target;
   term.row = row;
   term.columns = geometry.part_shift;
@@ -177,27 +183,6 @@ std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
   }
   if (timed) add_drifts(problem, geometry, terms);
   add_slips(problem, geometry, terms);
-  return terms;
-}
-
-std::vector<Term> pattern_terms(const Problem& problem, const Geometry& geometry) {
-  std::vector<Term> terms;
-  for (const MachineAxis& axis : problem.machine->axes) {
-    const AxisRange range = axis_range(problem, axis.name);
-    if (range.length() < least_range) continue;
-    if (is_rotary(axis.name) && range.length() >= whole_turn) {
-      for (int order = 5; order <= 12; ++order) {
-        const auto n = static_cast<double>(order);
-        add_pattern(problem, geometry, axis.name, "harmonic " + std::to_string(order),
-                    {FourierError{{{n, 1.0, 0.0}}, two_pi}, FourierError{{{n, 0.0, 1.0}}, two_pi}},
-                    terms);
-      }
-    } else {
-      for (int degree = 4; degree <= 6; ++degree)
-        add_pattern(problem, geometry, axis.name, "polynomial of degree " + std::to_string(degree),
-                    {legendre(degree, range.low, range.high)}, terms);
-    }
-  }
   return terms;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -59,19 +58,6 @@ std::vector<Unknown> location_unknowns(const Machine& machine, double largest_le
   for (std::size_t direction = 0; direction < 5; ++direction) add(spindle_body, direction);
   std::ranges::stable_sort(unknowns, {}, [](const Unknown& u) { return rank_of(u.unit.name); });
   return unknowns;
-}
-
-// (k + 1) P_{k+1} = (2k + 1) s P_k − k P_{k−1}
-PolynomialError legendre(int degree, double low, double high) {
-  std::vector<double> before{}, now{1.0};
-  for (int k = 0; k < degree; ++k) {
-    std::vector<double> next(now.size() + 1, 0.0);
-    for (std::size_t i = 0; i < now.size(); ++i)
-      next[i + 1] += (2.0 * k + 1.0) / (k + 1.0) * now[i];
-    for (std::size_t i = 0; i < before.size(); ++i) next[i] -= k / (k + 1.0) * before[i];
-    before = std::exchange(now, std::move(next));
-  }
-  return {now, 0.5 * (low + high), 0.5 * (high - low)};
 }
 
 ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,

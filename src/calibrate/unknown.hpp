@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "trueaxis/machine.hpp"
+#include "machine/uncertainty.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -24,9 +24,6 @@ ErrorFunction scaled(const ErrorFunction& function, double factor);
 /// (X is the reference, as ISO 230-1 has it), zeros, the spindle.
 std::vector<Unknown> location_unknowns(const Machine& machine, double largest_length_mm,
                                        double largest_angle_rad);
-
-/// Legendre's polynomial P_degree(2 (q − low)/(high − low) − 1) as an error of size 1.
-PolynomialError legendre(int degree, double low, double high);
 
 /// `given` and what was found of each unknown, 0 left out.
 ErrorModel with(const ErrorModel& given, const std::vector<Unknown>& unknowns,

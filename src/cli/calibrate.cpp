@@ -5,6 +5,7 @@
 #include "calibrate/files/calibration_files.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "cli/commands.hpp"
+#include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
@@ -36,12 +37,12 @@ int execute(const Options& options) {
   outputs.may_write(options.json, "trueaxis.calibration");
   outputs.check();
   const Calibration found = calibrate(file.machine, data, calibration);
+  expect_no_mistake(file.machine, data, calibration, found);
   if (!found.converged) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;
   }
-  if (const std::string why = implausible(found, calibration); !why.empty()) throw Refusal(why);
-  outputs.write(options.output, errors_toml(found.errors));
+  outputs.write(options.output, errors_toml(found.errors, &file.machine));
   if (!options.json.empty()) outputs.write(options.json, calibration_json(found, file.machine));
   outputs.commit();
   if (options.json != "-" && options.output != "-") std::cout << calibration_text(found);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -10,11 +9,11 @@
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
+#include "cli/program_place.hpp"
 #include "compensate/files/compensation_json.hpp"
 #include "compensate/files/compensation_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "nc/skeleton.hpp"
 #include "trueaxis/compensation.hpp"
 #include "trueaxis/error.hpp"
 
@@ -28,19 +27,6 @@ struct Options {
   CompensationOptions compensation;
   bool force = false;
 };
-
-/// A program cannot say that TrueAxis wrote it, for all its bytes are the user's: what may be this
-/// one, compensated before, is replaced.
-void expect_no_other_program(const std::string& path, const std::string& program, bool force) {
-  std::error_code error;
-  if (force || is_standard_output(path) || !std::filesystem::is_regular_file(path, error) ||
-      std::filesystem::file_size(path, error) == 0 ||
-      nc::differ_in_axis_words_only(read_file(path), program))
-    return;
-  throw InputError(path,
-                   "is there and is another program: name another place for the result, or let it "
-                   "be replaced with --force");
-}
 
 std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
   std::vector<CompensationInput> inputs{

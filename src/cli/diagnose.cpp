@@ -6,6 +6,7 @@
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "cli/commands.hpp"
+#include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
@@ -16,6 +17,7 @@
 #include "job/files/job_results.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::cli {
@@ -86,12 +88,16 @@ int execute_machine(const Options& options) {
   outputs.may_write(options.errors_output, "trueaxis.errors");
   outputs.check();
   const MachineDiagnosis found = diagnose_machine(file.machine, data, diagnose_options);
+  expect_no_mistake(file.machine, data, diagnose_options.calibration, found.baseline);
   if (!found.baseline.converged) {
     std::cerr << options.data.front() << ": not converged: " << found.baseline.message << '\n';
     return numerical;
   }
+  if (const std::string why = implausible(found.baseline, diagnose_options.calibration);
+      !why.empty())
+    throw Refusal(why);
   if (!json.empty()) outputs.write(json, machine_diagnosis_json(found, file.machine));
-  outputs.write(options.errors_output, errors_toml(found.errors));
+  outputs.write(options.errors_output, errors_toml(found.errors, &file.machine));
   outputs.commit();
   if (json != "-" && options.errors_output != "-") std::cout << machine_diagnosis_text(found);
   return done;

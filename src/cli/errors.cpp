@@ -52,7 +52,7 @@ std::string schema_of(const std::string& format) {
 
 std::string converted(const Options& options, const Machine& machine, const ErrorModel& errors) {
   const auto sign = sign_of(options.output_sign);
-  if (options.format == "toml") return errors_toml(errors);
+  if (options.format == "toml") return errors_toml(errors, &machine);
   return options.format == "isg" ? isg_csv_text(errors, machine, *sign, options.points)
                                  : etalon_text(errors, machine, *sign, options.points);
 }

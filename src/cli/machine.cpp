@@ -34,7 +34,8 @@ int execute(const Options& options) {
   outputs.may_write(options.errors_output, "trueaxis.errors");
   outputs.check();
   outputs.write(options.output, machine_toml(file.machine));
-  if (has_errors) outputs.write(options.errors_output, errors_toml(file.parameter_errors));
+  if (has_errors)
+    outputs.write(options.errors_output, errors_toml(file.parameter_errors, &file.machine));
   outputs.commit();
   return done;
 }

@@ -6,10 +6,13 @@
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/run_machine.hpp"
 #include "cli/stream_options.hpp"
+#include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/machine/files/machine_job_toml.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
 
@@ -28,7 +31,10 @@ struct Options {
 };
 
 int execute(const Options& options) {
-  const Job job = read_job_toml(options.job);
+  const std::string content = read_file(options.job);
+  if (is_machine_job(content, options.job))
+    return run_machine(read_machine_job_toml(content, options.job), options.folder, options.force);
+  const Job job = read_job_toml(content, options.job);
   std::vector<ProbeStream> streams = read_streams(job);
   Outputs outputs(options.force);
   outputs.reads(options.job);
@@ -63,13 +69,16 @@ int execute(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  CLI::App* command =
-      app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
+  CLI::App* command = app.add_subcommand(
+      "run",
+      "the whole job: of a lathe fit, diagnosis, correction, report; of a machine "
+      "of several axes diagnosis, errors, program, report");
   auto options = std::make_shared<Options>();
   command->add_option("job", options->job, "job file (TOML)")->required();
   command
       ->add_option("-o,--output", options->folder,
-                   "folder for table.csv, result.json and report.html, made if need be")
+                   "folder for table.csv or the new program, result.json and report.html, made if "
+                   "need be")
       ->required()
       ->check(a_place());
   add_force(*command, options->force);

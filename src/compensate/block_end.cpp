@@ -18,7 +18,7 @@ CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Progr
       axes(axes_of),
       write{options_of.decimals, options_of.angle_decimals, axes_of.axes()},
       by_error(SingleErrors::of_names(model_of)),
-      uncertainties(SingleErrors::of_uncertainties(model_of)),
+      uncertainty(model_of),
       bends(bends_of(model_of.errors())) {}
 
 namespace {
@@ -30,12 +30,7 @@ void take_single_errors(const CompensationTask& task, const AxisPositions& axes,
   tally.by_error.resize(tip_mm.size());
   task.by_error.tip_mm(axes, setting, tip_mm);
   for (std::size_t i = 0; i < tip_mm.size(); ++i) take(tally.by_error[i], tip_mm[i], line);
-  if (task.uncertainties.names().empty()) return;
-  tip_mm.resize(task.uncertainties.names().size());
-  task.uncertainties.tip_mm(axes, setting, tip_mm);
-  double square = 0.0;
-  for (const double one : tip_mm) square += one * one;
-  take(tally.u_tip, std::sqrt(square), line);
+  if (task.uncertainty.stated()) take(tally.u_tip, task.uncertainty.u_mm(axes, setting), line);
 }
 
 }  // namespace

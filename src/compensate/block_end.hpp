@@ -5,6 +5,7 @@
 #include "compensate/program_axes.hpp"
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
+#include "machine/uncertainty.hpp"
 #include "nc/writer.hpp"
 
 namespace trueaxis {
@@ -16,7 +17,8 @@ struct CompensationTask {
   const CompensationOptions& options;
   ProgramAxes axes;
   nc::WriteOptions write;
-  SingleErrors by_error, uncertainties;
+  SingleErrors by_error;
+  TipUncertainty uncertainty;
   ErrorBends bends;
 
   CompensationTask(const MachineModel& model_of, const nc::Program& program_of,

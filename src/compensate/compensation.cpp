@@ -49,6 +49,7 @@ class NewProgram {
     out.blocks_moved =
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
+    if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
     return out;
   }
@@ -95,7 +96,17 @@ class NewProgram {
       out.by_error.push_back({task_.by_error.names()[i], tally.by_error[i]});
     std::ranges::stable_sort(out.by_error, std::ranges::greater{},
                              [](const ErrorAlone& one) { return one.tip.value; });
-    if (!task_.uncertainties.names().empty()) out.u_tip = tally.u_tip;
+    if (task_.uncertainty.stated()) out.u_tip = tally.u_tip;
+  }
+
+  void keep_ends(ProgramCompensation& out) const {
+    out.ends.reserve(moves_.size());
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      if (!ends_[i].reached) continue;
+      const nc::ModalState& modal = moves_[i].modal;
+      out.ends.push_back({task_.line_of(moves_[i]), modal.motion == nc::Motion::rapid,
+                          ends_[i].commanded, ends_[i].written, task_.axes.setting(modal)});
+    }
   }
 
   void write(ProgramCompensation& out) {

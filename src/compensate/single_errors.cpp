@@ -49,14 +49,6 @@ SingleErrors SingleErrors::of_names(const MachineModel& model) {
   return out;
 }
 
-SingleErrors SingleErrors::of_uncertainties(const MachineModel& model) {
-  SingleErrors out(model);
-  for (const ErrorTerm& term : model.errors().terms)
-    if (term.u > 0.0 && !without_effect(term.name))
-      out.add(term.name, {{term.name, ConstantError{term.u}, 0.0}});
-  return out;
-}
-
 void SingleErrors::add(const ErrorName& name, std::vector<ErrorTerm> terms) {
   ErrorModel errors = all_.errors();
   errors.terms = std::move(terms);

@@ -16,8 +16,6 @@ class SingleErrors {
  public:
   /// Of every name of the errors, in the order in which they come first.
   static SingleErrors of_names(const MachineModel& model);
-  /// Of every term that has u: a constant of u.
-  static SingleErrors of_uncertainties(const MachineModel& model);
 
   const std::vector<std::string>& names() const { return names_; }
   /// Displacement of the tip (mm) by each of them.

@@ -49,6 +49,19 @@ Motion actual_step(const Motion& frame, const Joint& joint, const AxisPositions&
                             : joint.actual(frame, position) * errors;
 }
 
+/// A joint with one location error of size 1.
+Joint with_unit_location(Joint joint, std::size_t direction) {
+  joint.shift = joint.tilt = none;
+  joint.offset = 0.0;
+  const auto own = joint.axis % 3 + (joint.rotary ? 3 : 0);
+  const auto along = static_cast<Eigen::Index>(direction % 3);
+  if (direction == own)
+    joint.offset = 1.0;
+  else
+    (direction < 3 ? joint.shift : joint.tilt)[along] = 1.0;
+  return joint;
+}
+
 }  // namespace
 
 Motion nominal_tool(const Compiled& machine, const AxisPositions& axes, const Setting& setting) {
@@ -123,6 +136,41 @@ Screw linear_error_screw(const Compiled& machine, const AxisPositions& axes,
   }
   sum += screw_in(frame, machine.gauge_point, machine.spindle_shift, machine.spindle_turn);
   return sum;
+}
+
+std::vector<UnitTips> unit_tips(const Compiled& machine, const AxisPositions& axes,
+                                const Setting& setting) {
+  std::vector<UnitTips> out(machine.joints.size() + 2, UnitTips::Zero());
+  const Motion tool = nominal_tool(machine, axes, setting);
+  Motion frame = program_from_bed(setting);
+  const auto unit = [](std::size_t direction) {
+    ComponentErrors errors;
+    (direction < 3 ? errors.shift : errors.rotation) =
+        Vector3d::Unit(static_cast<Eigen::Index>(direction % 3));
+    return errors;
+  };
+  for (std::size_t k = 0; k < machine.joints.size(); ++k) {
+    const Joint& joint = machine.joints[k];
+    const double position = joint.position(axes);
+    const Motion after = joint.nominal(frame, position);
+    for (std::size_t d = 0; d < 6; ++d) {
+      const auto column = static_cast<Eigen::Index>(d);
+      out[k].col(column) =
+          of_errors(joint.errors_first ? frame : after, joint, joint.pivot, unit(d))
+              .of_point(tool.t);
+      out[k].col(6 + column) =
+          location_screw(frame, with_unit_location(joint, d), position).of_point(tool.t);
+    }
+    frame = after;
+  }
+  UnitTips &spindle = out[machine.joints.size()], &workpiece = out.back();
+  for (std::size_t d = 0; d < 6; ++d) {
+    const auto column = static_cast<Eigen::Index>(6 + d);
+    const auto [shift, rotation] = unit(d);
+    spindle.col(column) = screw_in(frame, machine.gauge_point, shift, rotation).of_point(tool.t);
+    workpiece.col(column) = Screw{-shift, -rotation}.of_point(tool.t);
+  }
+  return out;
 }
 
 }  // namespace trueaxis

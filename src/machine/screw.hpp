@@ -60,4 +60,12 @@ ChainEnds actual_ends(const MachineModel::Compiled& machine, const AxisPositions
 Screw linear_error_screw(const MachineModel::Compiled& machine, const AxisPositions& axes,
                          const Setting& setting);
 
+/// What errors of 1 mm and 1 rad each do to the tip in the part, to first order: the component
+/// errors EX. EY. EZ. EA. EB. EC. of a joint, then its location errors X0. … C0.
+using UnitTips = Eigen::Matrix<double, 3, 12>;
+
+/// Of every joint of the chain, of the spindle and of the workpiece.
+std::vector<UnitTips> unit_tips(const MachineModel::Compiled& machine, const AxisPositions& axes,
+                                const Setting& setting);
+
 }  // namespace trueaxis

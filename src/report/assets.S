@@ -32,6 +32,16 @@ trueaxis_report_js_begin:
     .incbin "report/report.js"
 trueaxis_report_js_end:
 
+    .global trueaxis_machine_js_begin, trueaxis_machine_js_end
+trueaxis_machine_js_begin:
+    .incbin "report/format.js"
+    .incbin "report/page.js"
+    .incbin "report/charts.js"
+    .incbin "report/machine_charts.js"
+    .incbin "report/machine_diagnosis.js"
+    .incbin "report/machine_report.js"
+trueaxis_machine_js_end:
+
     .global trueaxis_sweep_js_begin, trueaxis_sweep_js_end
 trueaxis_sweep_js_begin:
     .incbin "report/format.js"

@@ -10,6 +10,7 @@ extern const char trueaxis_report_html_begin[], trueaxis_report_html_end[];
 extern const char trueaxis_report_css_begin[], trueaxis_report_css_end[];
 extern const char trueaxis_echarts_begin[], trueaxis_echarts_end[];
 extern const char trueaxis_report_js_begin[], trueaxis_report_js_end[];
+extern const char trueaxis_machine_js_begin[], trueaxis_machine_js_end[];
 extern const char trueaxis_sweep_js_begin[], trueaxis_sweep_js_end[];
 }
 
@@ -34,6 +35,9 @@ std::string substituted(std::string_view text, std::initializer_list<Substitute>
 }  // namespace
 
 std::string_view job_script() { return between(trueaxis_report_js_begin, trueaxis_report_js_end); }
+std::string_view machine_script() {
+  return between(trueaxis_machine_js_begin, trueaxis_machine_js_end);
+}
 std::string_view sweep_script() { return between(trueaxis_sweep_js_begin, trueaxis_sweep_js_end); }
 
 std::string page_of(std::string_view title, std::string_view verdict, const Json& data,

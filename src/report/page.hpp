@@ -11,8 +11,9 @@
 
 namespace trueaxis {
 
-/// The scripts of a job's page and of a sweep's, embedded by assets.S.
+/// The scripts of a job's page, of a machine's job and of a sweep, embedded by assets.S.
 std::string_view job_script();
+std::string_view machine_script();
 std::string_view sweep_script();
 
 /// One HTML page that opens offline: the template with its style, Apache ECharts, data and script.

@@ -23,6 +23,28 @@ Json covariance_json(const Calibration& c) {
   return {{"parameters", names}, {"unit", "mm and deg"}, {"matrix", rows}};
 }
 
+/// u and, of it, what noise alone would leave.
+Json calibrated_json(const std::vector<CalibratedParameter>& parameters) {
+  Json json = parameters_json(parameters);
+  for (const CalibratedParameter& one : parameters)
+    if (one.u_noise > 0.0)
+      json[one.name]["u_noise"] =
+          number(one.u_noise / (one.estimate.unit == "rad" ? rad_per_deg : 1.0));
+  return json;
+}
+
+Json components_json(const Calibration& c) {
+  Json json = Json::object();
+  for (const CalibratedComponent& one : c.components) {
+    Json& entry = json[one.name] = edge(one.rms);
+    entry["rms"] = entry["value"];
+    entry.erase("value");
+    entry["plausible"] = number(one.plausible / (one.rms.unit == "rad" ? rad_per_deg : 1.0));
+    entry["shown"] = one.shown;
+  }
+  return json;
+}
+
 Json ball_json(const PlacedBall& ball, const Calibration& c) {
   Json json{{"file", c.sources[ball.file]}, {"setup", ball.setup}};
   if (ball.ball != 0) json["ball"] = ball.ball;
@@ -64,10 +86,11 @@ std::string calibration_json(const Calibration& c, const Machine& machine) {
        {"machine", machine.name},
        {"inputs", inputs_json(c)},
        {"converged", c.converged},
-       {"parameters", parameters_json(c.parameters)},
+       {"parameters", calibrated_json(c.parameters)},
        {"not_determined", not_determined_json(c)},
        {"gauge", c.gauge},
        {"covariance", covariance_json(c)},
+       {"component_errors", components_json(c)},
        {"balls", balls},
        {"equations", c.equations},
        {"unknowns", c.unknowns},

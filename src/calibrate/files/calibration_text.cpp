@@ -15,8 +15,35 @@ std::string parameter_line(const CalibratedParameter& one) {
   const double factor = small_factor(one.estimate);
   const double U = 2.0 * factor * one.estimate.u;
   const int decimals = decimals_of(U, 1);
-  return fmt::format("  {:<12}{:>12.{}f} ± {:<10.{}f} {}\n", one.name, factor * one.estimate.value,
-                     decimals, U, decimals, unit_of(one.estimate));
+  std::string text =
+      fmt::format("  {:<12}{:>12.{}f} ± {:<10.{}f} {}", one.name, factor * one.estimate.value,
+                  decimals, U, decimals, unit_of(one.estimate));
+  if (one.u_noise > 0.0)
+    text += fmt::format("  (noise alone {:.{}f})", 2.0 * factor * one.u_noise,
+                        decimals_of(2.0 * factor * one.u_noise, 1));
+  return text + '\n';
+}
+
+/// What the data show of component errors, and what u counts of those that they do not show.
+std::string components_text(const Calibration& c) {
+  if (c.components.empty()) return "";
+  std::string shown;
+  std::size_t count = 0;
+  for (const CalibratedComponent& one : c.components)
+    if (one.shown) {
+      shown += fmt::format("{}{} {:.2g} {}", count++ == 0 ? "" : ", ", one.name,
+                           small_factor(one.rms) * one.rms.value, unit_of(one.rms));
+    }
+  std::string text = layout::wrapped(
+      "", fmt::format("U counts {} component errors as large as machines have them, of this one "
+                      "{:.2g} times that, by these data",
+                      c.components.size(), c.size_of_components));
+  if (count > 0)
+    text +=
+        '\n' + layout::wrapped(
+                   "", "The data show component errors, which the errors written have: " + shown +
+                           " RMS. trueaxis diagnose --machine tests and names them");
+  return text + '\n';
 }
 
 std::string read_out_text(const AxisReadOut& one) {
@@ -45,6 +72,7 @@ std::string calibration_text(const Calibration& c) {
                         layout::um(c.noise_mm), c.noise_source);
   if (!c.parameters.empty()) text += "parameters ± U (k = 2)\n";
   for (const CalibratedParameter& one : c.parameters) text += parameter_line(one);
+  text += components_text(c);
   if (!c.not_determined.empty()) text += "not determined\n";
   for (const NotDetermined& one : c.not_determined) text += layout::wrapped("  ", one.why) + "\n";
   if (!c.gauge.empty()) text += layout::wrapped("", c.gauge) + "\n";

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <set>
+
 #include "calibrate/files/edge_json.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 
@@ -19,9 +21,40 @@ Json rival_json(const MachineRival& rival) {
           {"probability", number(rival.probability)}};
 }
 
+/// The covariance in the units of `linear`.
+Json linear_json(const std::vector<CalibratedParameter>& parameters,
+                 const std::vector<double>& covariance) {
+  Json linear = Json::array(), rows = Json::array();
+  const auto to_edge = [&](std::size_t i) {
+    return parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    Json one = edge_size(parameters[i].estimate.value, parameters[i].estimate.unit);
+    one["name"] = parameters[i].name;
+    linear.push_back(one);
+    Json row = Json::array();
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      row.push_back(number(to_edge(i) * to_edge(j) * covariance[i * parameters.size() + j]));
+    rows.push_back(row);
+  }
+  return {{"linear", linear}, {"covariance", rows}};
+}
+
+Json term_json(const MachineFinding& finding) {
+  Json json = linear_json(finding.parameters, finding.covariance);
+  json["formula"] = finding.formula;
+  json["shape"] = Json::object();
+  for (const MachineShape& one : finding.shape)
+    json["shape"][one.name] = edge_size(one.value, one.unit);
+  return json;
+}
+
 Json finding_json(const MachineFinding& finding) {
   const std::string unit = finding.parameters.front().estimate.unit;
   return {{"effect", finding.effect},
+          {"term", term_json(finding)},
+          {"alias", finding.alias},
+          {"pairs", finding.pairs},
           {"class", finding.members()},
           {"parameters", parameters_json(finding.parameters)},
           {"size", edge_size(finding.size, unit)},
@@ -36,7 +69,8 @@ Json finding_json(const MachineFinding& finding) {
 Json unexplained_json(const MachineUnexplained& one) {
   return {{"pattern", one.pattern},
           {"amplitude", edge(one.amplitude)},
-          {"p_value", number(one.p_value)}};
+          {"p_value", number(one.p_value)},
+          {"term", linear_json(one.parameters, one.covariance)}};
 }
 
 Json not_observable_json(const MachineNotObservable& one) {
@@ -66,10 +100,48 @@ Json held_out_json(const HeldOut& rms) {
           {"unit", "mm"}};
 }
 
-Json next_json(const MachineDiagnosis& d) {
-  for (const MachinePlan& plan : d.plans)
-    if (plan.code == d.next_plan) return plan_json(plan);
+/// Where to go: a table with the columns of a measurement, and where the balls stand.
+Json measurement_json(const MachinePlan& plan, const Machine& machine) {
+  Json columns{"setup", "ball"}, rows = Json::array(), balls = Json::array();
+  std::vector<std::size_t> axes;
+  for (std::size_t k = 0; k < axis_count; ++k)
+    if (machine.find(static_cast<AxisName>(k)) != nullptr) axes.push_back(k);
+  for (const std::size_t k : axes)
+    columns.push_back(std::string(1, "XYZABC"[k]) + (k < 3 ? "[mm]" : "[deg]"));
+  columns.push_back("tool_length[mm]");
+  std::set<std::pair<int, int>> placed;
+  for (const PlannedVisit& visit : plan.visits) {
+    if (placed.insert({visit.setup, visit.ball}).second)
+      balls.push_back({{"setup", visit.setup},
+                       {"ball", visit.ball},
+                       {"centre", {{"value", visit.ball_mm}, {"unit", "mm"}}}});
+    Json row{visit.setup, visit.ball};
+    for (const std::size_t k : axes)
+      row.push_back(number(visit.axes[k] / (k < 3 ? 1.0 : rad_per_deg)));
+    row.push_back(number(visit.tool_length_mm));
+    rows.push_back(row);
+  }
+  return {{"columns", columns}, {"balls", balls}, {"rows", rows}};
+}
+
+Json next_json(const MachineDiagnosis& d, const Machine& machine) {
+  for (const MachinePlan& plan : d.plans) {
+    if (plan.code != d.next_plan) continue;
+    Json json = plan_json(plan);
+    json["measurement"] = measurement_json(plan, machine);
+    return json;
+  }
   return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
+}
+
+Json check_json(const MachineCheck& check) {
+  return {{"effect", check.name}, {"found", check.found}, {"text", check.text}};
+}
+
+Json options_json(const MachineDiagnosis& d) {
+  return {{"false_alarm", number(d.false_alarm)},
+          {"typical_length", with_unit(d.typical_length_mm, "mm")},
+          {"typical_angle", with_unit(d.typical_angle_rad / rad_per_deg, "deg")}};
 }
 
 Json baseline_json(const Calibration& c) {
@@ -89,12 +161,15 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
        {"version", TRUEAXIS_VERSION},
        {"machine", machine.name},
        {"inputs", inputs_json(d.baseline)},
+       {"options", options_json(d)},
        {"verdict", to_string(d.verdict)},
        {"baseline", baseline_json(d.baseline)},
        {"extended", {{"parameters", parameters_json(d.extended)}}},
        {"findings", list_of(d.findings, finding_json)},
        {"unexplained", list_of(d.unexplained, unexplained_json)},
        {"not_observable", list_of(d.not_observable, not_observable_json)},
+       {"remarks", d.remarks},
+       {"checks", list_of(d.checks, check_json)},
        {"noise",
         {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
        {"gain",
@@ -103,10 +178,11 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
          {"held_out_rms_before", held_out_json(d.held_out_before)},
          {"held_out_rms_after", held_out_json(d.held_out_after)},
          {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
-       {"next_measurement", next_json(d)},
+       {"next_measurement", next_json(d, machine)},
        {"plans", list_of(d.plans, plan_json)},
        {"false_alarm", number(d.false_alarm)},
        {"hypotheses", d.hypotheses},
+       {"effective_hypotheses", number(d.effective_hypotheses)},
        {"threshold", number(d.threshold)}});
 }
 

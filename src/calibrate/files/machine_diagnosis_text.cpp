@@ -57,7 +57,10 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const MachineFinding& finding : d.findings) text += finding_text(finding);
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
-                        layout::um(one.amplitude.value), one.p_value);
+                        size_text(one.amplitude.value, one.amplitude.unit), one.p_value);
+  for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark) + "\n";
+  for (const MachineCheck& check : d.checks)
+    if (check.found) text += layout::wrapped("check: ", check.text) + "\n";
   text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
                       layout::um(d.rms_before_mm), layout::um(d.rms_after_mm),
                       layout::um(d.held_out_before.value_mm), layout::um(d.held_out_after.value_mm),

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "format/file.hpp"
 #include "format/toml_reader.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
@@ -238,8 +239,10 @@ void read_cut(TomlTable root, Job& job, bool required) {
 
 }  // namespace
 
-Job read_job_toml(const std::string& path) {
-  TomlDocument document(path);
+Job read_job_toml(const std::string& path) { return read_job_toml(read_file(path), path); }
+
+Job read_job_toml(std::string_view content, const std::string& path) {
+  TomlDocument document(content, path);
   TomlTable root = document.root();
   Job job;
   job.path = path;
@@ -250,7 +253,9 @@ Job read_job_toml(const std::string& path) {
   for (TomlTable table : root.tables("reference"))
     job.references.push_back(read_reference(table, sensor, coverage));
   if (!root.has("reference"))
-    root.complain("reference", "is missing: add a [[reference]] with stream and surface");
+    root.complain("reference",
+                  "is missing: add a [[reference]] with stream and surface, or, for a machine of "
+                  "several axes, a [machine]");
   read_cut(root, job, false);
   for (const JobReference& reference : job.references) {
     if (job.target && reference.fit.surface == SurfaceKind::section) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "trueaxis/job.hpp"
 
@@ -10,6 +11,8 @@ namespace trueaxis {
 /// Reads a job (TOML, keys with their unit as suffix; docs/files.md lists them).
 /// @throws InputError with every diagnostic: unknown keys, wrong types, values out of range.
 Job read_job_toml(const std::string& path);
+/// The same of `content`; `path` names it and places relative file names.
+Job read_job_toml(std::string_view content, const std::string& path);
 
 /// Target, tool and actuator alone ("--target" of `correct`): the same keys as in a job; the other
 /// tables of a job may be there and are not read.

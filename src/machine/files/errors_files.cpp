@@ -6,6 +6,7 @@
 #include "machine/files/errors_toml.hpp"
 #include "machine/files/etalon.hpp"
 #include "machine/files/isg_csv.hpp"
+#include "machine/uncertainty.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -38,6 +39,7 @@ ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& ma
     try {
       const ErrorModel one = read_one(path, machine.machine, foreign_sign);
       all.terms.insert(all.terms.end(), one.terms.begin(), one.terms.end());
+      add_covariance(all.covariance, one.covariance);
       if (!has_components(one)) continue;
       if (!of_components.empty())
         wrong.push_back({path, 0, 0,
@@ -51,6 +53,7 @@ ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& ma
     }
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
+  gather_uncertainty(all);
   return all;
 }
 

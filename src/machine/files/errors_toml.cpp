@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "format/toml_units.hpp"
+#include "machine/files/covariance_toml.hpp"
 #include "machine/files/error_names.hpp"
+#include "machine/files/machine_identity.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
@@ -128,11 +130,13 @@ ErrorModel read_errors_toml(const std::string& path, const Machine& machine) {
   ErrorModel errors;
   root.required_choice<int>("schema", {{"trueaxis.errors/1", 1}});
   root.text("name");
+  check_machine_identity(root, machine);
   errors.sign = root.required_choice<ErrorSign>(
       "sign", {{"moving_part", ErrorSign::moving_part},
                {"tool_minus_workpiece", ErrorSign::tool_minus_workpiece}});
   read_reference(root, machine, errors);
   for (TomlTable table : root.tables("error")) read_error(table, machine, errors);
+  read_covariance(root, machine, errors);
   document.finish();
   return errors;
 }

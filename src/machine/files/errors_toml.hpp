@@ -8,11 +8,13 @@
 
 namespace trueaxis {
 
-/// Reads `trueaxis.errors/1` (docs/machine.md) of a machine.
+/// Reads `trueaxis.errors/1` (docs/machine.md) of a machine. Errors that are said to be of another
+/// one are refused.
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 ErrorModel read_errors_toml(const std::string& path, const Machine& machine);
 
-/// What `read_errors_toml` reads back.
-std::string errors_toml(const ErrorModel& errors);
+/// What `read_errors_toml` reads back. `of`: the machine that it will say the errors are of; errors
+/// of a workpiece alone are of none.
+std::string errors_toml(const ErrorModel& errors, const Machine* of = nullptr);
 
 }  // namespace trueaxis

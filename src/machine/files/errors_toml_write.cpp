@@ -2,7 +2,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "machine/files/covariance_toml.hpp"
 #include "machine/files/errors_toml.hpp"
+#include "machine/files/machine_identity.hpp"
 
 namespace trueaxis {
 namespace {
@@ -56,9 +61,21 @@ std::string lines(const TableError& error, const Units& units) {
                 error.periodic ? "periodic = true\n" : "");
 }
 
+/// u of an entry: its own, or in the last entry of its name that of the covariance.
+double u_of(const ErrorModel& errors, std::size_t entry) {
+  const ErrorName& name = errors.terms[entry].name;
+  const auto& amounts = errors.covariance.amounts;
+  const auto found = std::ranges::find(amounts, UncertainAmount{.name = name});
+  if (found == amounts.end()) return errors.terms[entry].u;
+  for (std::size_t later = entry + 1; later < errors.terms.size(); ++later)
+    if (errors.terms[later].name == name) return 0.0;
+  const auto at = static_cast<std::size_t>(found - amounts.begin());
+  return std::sqrt(errors.covariance.matrix[at * (amounts.size() + 1)]);
+}
+
 }  // namespace
 
-std::string errors_toml(const ErrorModel& errors) {
+std::string errors_toml(const ErrorModel& errors, const Machine* of) {
   std::string text =
       format("# schema: trueaxis.errors/1\nschema = \"trueaxis.errors/1\"\nsign = \"{}\"\n",
              errors.sign == ErrorSign::moving_part ? "moving_part" : "tool_minus_workpiece");
@@ -67,13 +84,16 @@ std::string errors_toml(const ErrorModel& errors) {
     if (x != 0.0 || y != 0.0 || z != 0.0)
       text += format("reference_mm.{} = [{}, {}, {}]\n", "XYZ"[i], x, y, z);
   }
-  for (const ErrorTerm& term : errors.terms) {
+  if (of != nullptr) text += machine_identity_toml(*of);
+  for (std::size_t i = 0; i < errors.terms.size(); ++i) {
+    const ErrorTerm& term = errors.terms[i];
     const Units units(term.name);
     text += format("\n[[error]]\nname = \"{}\"\n", to_string(term.name));
     text += std::visit([&](const auto& kind) { return lines(kind, units); }, term.function);
-    if (term.u > 0.0) text += format("u_{} = {}\n", units.value, term.u * units.per_value);
+    if (const double u = u_of(errors, i); u > 0.0)
+      text += format("u_{} = {}\n", units.value, u * units.per_value);
   }
-  return text;
+  return text + covariance_toml(errors.covariance);
 }
 
 }  // namespace trueaxis

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "machine/files/machine_toml.hpp"
+#include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
 namespace {
@@ -11,19 +12,6 @@ namespace {
 using fmt::format;
 
 std::string list(const Vector3& v) { return format("[{}, {}, {}]", v[0], v[1], v[2]); }
-
-/// A basic string of TOML.
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      out += format("\\u{:04X}", static_cast<unsigned char>(c));
-    else
-      out += c;
-  }
-  return out + '"';
-}
 
 double at_edge(AxisName axis, double position) {
   return is_rotary(axis) ? position / rad_per_deg : position;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "format/toml_reader.hpp"
@@ -41,5 +44,18 @@ inline std::optional<AxisName> axis_of(std::string_view letter) {
 
 /// From mm or degrees, in which files give positions of an axis, to inside.
 inline double edge_unit(AxisName axis) { return is_rotary(axis) ? rad_per_deg : 1.0; }
+
+/// A basic string of TOML.
+inline std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20)
+      out += fmt::format("\\u{:04X}", static_cast<unsigned char>(c));
+    else
+      out += c;
+  }
+  return out + '"';
+}
 
 }  // namespace trueaxis

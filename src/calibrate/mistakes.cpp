@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+#include "calibrate/tip_fit.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+using calibrate_detail::fit_tips;
+
+constexpr double far_better = 0.5;    // of the RMS: four times the χ²
+constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
+constexpr double far_too_small = 30;  // times less scatter than is stated
+
+/// A way in which columns are written wrongly, and how they are mended.
+struct Mistake {
+  std::string what, mend;
+  std::function<void(MachineMeasurement&)> undo;
+};
+
+std::string d(std::size_t i) { return std::string("d") + "XYZ"[i]; }
+
+Mistake exchanged_axes(AxisName a, AxisName b) {
+  const std::string both = std::string(1, letter_of(a)) + " and " + std::string(1, letter_of(b));
+  return {"the columns " + both + " are exchanged", "exchange them", [=](MachineMeasurement& file) {
+            for (AxisPositions& at : file.axes) std::swap(at[index_of(a)], at[index_of(b)]);
+          }};
+}
+
+Mistake scaled_axis(AxisName axis, double factor, const std::string& what,
+                    const std::string& mend) {
+  const std::string letter(1, letter_of(axis));
+  return {fmt::format(fmt::runtime(what), letter), fmt::format(fmt::runtime(mend), letter),
+          [=](MachineMeasurement& file) {
+            for (AxisPositions& at : file.axes) at[index_of(axis)] *= factor;
+          }};
+}
+
+void add_deviations(std::vector<Mistake>& list) {
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i + 1; j < 3; ++j)
+      list.push_back({"the columns " + d(i) + " and " + d(j) + " are exchanged", "exchange them",
+                      [=](MachineMeasurement& file) {
+                        for (Vector3& one : file.deviation_mm) std::swap(one[i], one[j]);
+                      }});
+  for (std::size_t i = 0; i < 3; ++i)
+    list.push_back({"the column " + d(i) + " has the wrong sign",
+                    "it is ball's centre - tip: turn its sign", [=](MachineMeasurement& file) {
+                      for (Vector3& one : file.deviation_mm) one[i] = -one[i];
+                    }});
+  list.push_back({"dX, dY and dZ have the wrong sign",
+                  "they are ball's centre - tip: turn their signs", [](MachineMeasurement& file) {
+                    for (Vector3& one : file.deviation_mm)
+                      for (double& size : one) size = -size;
+                  }});
+}
+
+/// Of every column that these files have.
+std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const MachineMeasurement> data) {
+  std::vector<Mistake> list;
+  const bool deviations = std::ranges::any_of(
+      data, [](const MachineMeasurement& file) { return !file.deviation_mm.empty(); });
+  if (deviations) add_deviations(list);
+  const auto& axes = machine.axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (std::size_t j = i + 1; j < axes.size(); ++j)
+      if (is_rotary(axes[i].name) == is_rotary(axes[j].name))
+        list.push_back(exchanged_axes(axes[i].name, axes[j].name));
+    list.push_back(scaled_axis(axes[i].name, -1.0, "the column {} runs the other way",
+                               "turn its sign, or axes.{}.direction of the machine"));
+    if (!is_rotary(axes[i].name)) continue;
+    list.push_back(scaled_axis(axes[i].name, 1.0 / rad_per_deg, "the column {} is in radians",
+                               "write {}[rad]"));
+    list.push_back(
+        scaled_axis(axes[i].name, rad_per_deg, "the column {} is in degrees", "write {}[deg]"));
+  }
+  for (const bool inch : {true, false})
+    list.push_back({std::string("X, Y and Z are in ") + (inch ? "inch" : "mm"),
+                    std::string("write [") + (inch ? "in]" : "mm]") + " behind their names",
+                    [=](MachineMeasurement& file) {
+                      for (AxisPositions& at : file.axes)
+                        for (std::size_t k = 0; k < 3; ++k)
+                          at[k] *= inch ? mm_per_inch : 1.0 / mm_per_inch;
+                    }});
+  return list;
+}
+
+/// RMS of the readings once location errors are fitted; none where there is no fit, or one of no
+/// machine.
+std::optional<double> left_mm(const Machine& machine, std::span<const MachineMeasurement> data,
+                              const CalibrationOptions& options, bool plausible) {
+  Calibration fitted;
+  fitted.errors = options.errors;
+  if (!fit_tips(machine, data, options, true, fitted) || !fitted.converged) return std::nullopt;
+  if (plausible && !implausible(fitted, options).empty()) return std::nullopt;
+  return fitted.rms_after_mm;
+}
+
+}  // namespace
+
+std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
+                           const CalibrationOptions& options, const Calibration& found) {
+  if (found.equations == 0) return "";
+  if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
+    return fmt::format(
+        "the readings scatter by {:.2g} µm and their noise is said to be {:.2g} µm: see whether "
+        "the unit of the deviations in the header is that of the numbers, and `# noise`",
+        found.rms_after_mm / mm_per_um, found.stated_noise_mm / mm_per_um);
+  const std::optional<double> as_read = left_mm(machine, data, options, false);
+  const bool wrong = !as_read || !implausible(found, options).empty();
+  if (!wrong && *as_read < well_fitted * found.stated_noise_mm) return "";
+  std::string best;
+  double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * *as_read;
+  for (const Mistake& mistake : mistakes_of(machine, data)) {
+    std::vector<MachineMeasurement> right(data.begin(), data.end());
+    for (MachineMeasurement& file : right)
+      if (file.kind != MeasurementKind::axis) mistake.undo(file);
+    const std::optional<double> again_mm = left_mm(machine, right, options, true);
+    if (!again_mm || !(*again_mm < least_mm)) continue;
+    least_mm = *again_mm;
+    best = fmt::format(
+        "{}, and {:.3g} µm are left if {}: {}",
+        as_read ? fmt::format("{:.3g} µm of the readings are left by the fit", *as_read / mm_per_um)
+                : "no machine fits the readings",
+        least_mm / mm_per_um, mistake.what, mistake.mend);
+  }
+  return best;
+}
+
+}  // namespace trueaxis

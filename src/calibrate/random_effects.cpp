@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/random_effects.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int most_iterations = 300;
+constexpr double settled = 1e-3;  // of ln t and of ln φ, a round
+
+/// The most probable x = ln t of `count` amounts whose squares over s² share add up to `square`,
+/// where x itself is normal about `centre`: square e^{−2x} − count − (x − centre)/τ² = 0.
+double best_log(double count, double square, double centre, double tau) {
+  double x = 0.5 * std::log(std::max(square, 1e-300) / count);
+  for (int step = 0; step < 50; ++step) {
+    const double e = square * std::exp(-2.0 * x), pull = 1.0 / (tau * tau);
+    const double move = (e - count - pull * (x - centre)) / (2.0 * e + pull);
+    x += std::clamp(move, -1.0, 1.0);
+    if (std::abs(move) < 1e-12) break;
+  }
+  return x;
+}
+
+/// Expectation-maximisation over the sizes: amounts over t s √share are standard normal.
+class Regressor {
+ public:
+  Regressor(const VectorXd& residuals, const MatrixXd& fixed, const MatrixXd& random,
+            const std::vector<RandomGroup>& groups, bool noise_stated, const SizeSpread& spread)
+      : groups_(groups),
+        fixed_(fixed.cols()),
+        random_(random.cols()),
+        equations_(fixed.rows()),
+        least_variance_(noise_stated ? 1.0 : 1e-12),
+        tau_(std::log(spread.group)),
+        tau_all_(std::log(spread.all)),
+        logs_(groups.size(), 0.0) {
+    MatrixXd all(equations_, fixed_ + random_);
+    all << fixed, random;
+    unit_ = VectorXd::Ones(all.cols());
+    // Fixed columns of length 1 keep the numbers of the normal matrix alike.
+    for (Index j = 0; j < fixed_; ++j) unit_[j] = 1.0 / std::max(all.col(j).norm(), 1e-300);
+    Index at = fixed_;
+    for (const RandomGroup& group : groups)
+      for (const double share : group.shares) unit_[at++] = group.size * std::sqrt(share);
+    all = all * unit_.asDiagonal();
+    products_ = all.transpose() * all;
+    right_ = all.transpose() * residuals;
+    square_ = residuals.squaredNorm();
+  }
+
+  RandomEffects run() {
+    for (int round = 0; round < most_iterations; ++round) {
+      solve();
+      if (improve() < settled) break;
+    }
+    solve();
+    const VectorXd back = scale_.cwiseProduct(unit_), x = back.cwiseProduct(mean_);
+    RandomEffects out;
+    out.fixed = x.head(fixed_);
+    out.random = x.tail(random_);
+    out.covariance = back.asDiagonal() * inverse_ * back.asDiagonal();
+    for (const double one : logs_) out.times.push_back(std::exp(one));
+    out.times_all = std::exp(common_);
+    out.variance = variance_;
+    return out;
+  }
+
+ private:
+  /// Mean and covariance at the sizes so far.
+  void solve() {
+    scale_ = VectorXd::Ones(fixed_ + random_);
+    Index at = fixed_;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      scale_.segment(at, groups_[g].shares.size()).setConstant(std::exp(logs_[g]));
+      at += groups_[g].shares.size();
+    }
+    MatrixXd normal = scale_.asDiagonal() * products_ * scale_.asDiagonal();
+    normal /= variance_;
+    normal.diagonal().tail(random_).array() += 1.0;
+    const Eigen::LLT<MatrixXd> factors(normal);
+    inverse_ = factors.solve(MatrixXd::Identity(normal.rows(), normal.cols()));
+    mean_ = factors.solve(scale_.cwiseProduct(right_) / variance_);
+  }
+
+  /// The sizes that are most probable given these; returns the largest change.
+  double improve() {
+    const VectorXd x = scale_.cwiseProduct(mean_);
+    const MatrixXd spread = scale_.asDiagonal() * inverse_ * scale_.asDiagonal();
+    const double left =
+        square_ - 2.0 * right_.dot(x) + x.dot(products_ * x) + products_.cwiseProduct(spread).sum();
+    const double variance = std::max(least_variance_, left / static_cast<double>(equations_));
+    double change = std::abs(std::log(variance / variance_)), sum = 0.0, count = 0.0;
+    variance_ = variance;
+    Index at = fixed_;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      const Index n = groups_[g].shares.size();
+      const double square = std::exp(2.0 * logs_[g]) * (mean_.segment(at, n).squaredNorm() +
+                                                        inverse_.diagonal().segment(at, n).sum());
+      at += n;
+      if (groups_[g].known) continue;
+      const double next = best_log(static_cast<double>(n), square, common_, tau_);
+      change = std::max(change, std::abs(next - logs_[g]));
+      logs_[g] = next;
+      sum += next;
+      count += 1.0;
+    }
+    common_ = sum / (count + tau_ * tau_ / (tau_all_ * tau_all_));
+    return change;
+  }
+
+  const std::vector<RandomGroup>& groups_;
+  Index fixed_, random_, equations_;
+  double least_variance_, tau_, tau_all_;
+  std::vector<double> logs_;  ///< ln t
+  VectorXd unit_, right_, scale_, mean_;
+  MatrixXd products_, inverse_;
+  double square_ = 0.0, variance_ = 1.0, common_ = 0.0;
+};
+
+}  // namespace
+
+RandomEffects regress(const VectorXd& residuals, const MatrixXd& fixed, const MatrixXd& random,
+                      const std::vector<RandomGroup>& groups, bool noise_stated,
+                      const SizeSpread& spread) {
+  return Regressor(residuals, fixed, random, groups, noise_stated, spread).run();
+}
+
+}  // namespace trueaxis::calibrate_detail

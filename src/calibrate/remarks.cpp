@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int highest_alias = 12;
+constexpr double sure_of_order = 0.95;
+constexpr double same_part = 1e-3;  // of a column's square that is left
+
+MatrixXd waves(const VectorXd& position, int order) {
+  MatrixXd out(position.size(), 2);
+  out << (order * position.array()).cos().matrix(), (order * position.array()).sin().matrix();
+  return out.rowwise() - out.colwise().mean();
+}
+
+/// Whether every column that is there lies in those of `basis`.
+bool within(const MatrixXd& columns, const MatrixXd& basis) {
+  const MatrixXd left = columns - basis * basis.completeOrthogonalDecomposition().solve(columns);
+  bool any = false;
+  for (Index j = 0; j < columns.cols(); ++j) {
+    const double whole = columns.col(j).squaredNorm();
+    if (whole < same_part * static_cast<double>(columns.rows())) continue;
+    any = true;
+    if (left.col(j).squaredNorm() > same_part * whole) return false;
+  }
+  return any;
+}
+
+std::string data_row(const TipFit& fit, Index equation) {
+  const auto row = std::ranges::find_if(fit.problem.rows, [&](const Row& one) {
+    return equation >= one.first && equation < one.first + one.equations();
+  });
+  return fmt::format("row {} of file {}", row->row + 1, row->file + 1);
+}
+
+}  // namespace
+
+void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding) {
+  if (term.shape.empty() || term.shape.front().name != "order") return;
+  const std::size_t axis = term.errors.front().name.body;
+  VectorXd position(static_cast<Index>(problem.rows.size()));
+  for (std::size_t i = 0; i < problem.rows.size(); ++i)
+    position[static_cast<Index>(i)] = problem.rows[i].axes[axis];
+  const double own = term.shape.front().value;
+  const MatrixXd basis = waves(position, static_cast<int>(own));
+  double sum = 1.0 / (own * own);
+  for (int order = 5; order <= highest_alias; ++order) {
+    if (!within(waves(position, order), basis)) continue;
+    sum += 1.0 / (order * order);
+    finding.alias += (finding.alias.empty() ? "order " : ", ") + std::to_string(order);
+  }
+  const double share = 1.0 / (own * own * sum);
+  finding.likely_order = share >= sure_of_order;
+  finding.probability *= share;
+  for (MachineRival& rival : finding.rivals) rival.probability *= share;
+}
+
+std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
+                                                   const std::vector<Term>& terms,
+                                                   const Regression::Set& set, std::size_t at,
+                                                   const MachineFinding& finding,
+                                                   const CalibrationOptions& options) {
+  constexpr std::size_t of_terms = 60, most = 5;
+  constexpr double least_part = 0.02;  // of a finding that a member makes alone
+  if (terms[set[at]].pattern) return {};
+  Regression::Set others = set;
+  others.erase(others.begin() + static_cast<std::ptrdiff_t>(at));
+  const Regression::Beside left = regression.beside(others);
+  const auto& own = regression.block(set[at]);
+  const VectorXd c = left.right.segment(own.first, own.rank);
+  const MatrixXd G = left.products.block(own.first, own.first, own.rank, own.rank);
+  const VectorXd a = G.completeOrthogonalDecomposition().solve(c);
+  const double whole = a.dot(G * a);
+  const double near = told_apart * told_apart * (left.rss - c.dot(a)) / left.freedom;
+  const auto listed = finding.members();
+  std::vector<std::pair<double, std::size_t>> alone;
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const auto& block = regression.block(t);
+    if (terms[t].pattern || block.rank == 0 || std::ranges::find(set, t) != set.end() ||
+        terms[t].effect == "ball.slip" ||
+        std::ranges::find(listed, terms[t].effect) != listed.end())
+      continue;
+    const VectorXd cross = left.products.block(block.first, own.first, block.rank, own.rank) * a;
+    const double gain =
+        gain_of(left.products.block(block.first, block.first, block.rank, block.rank), cross);
+    if (gain >= least_part * whole) alone.emplace_back(-gain, t);
+  }
+  std::ranges::sort(alone);
+  if (alone.size() > of_terms) alone.resize(of_terms);
+  std::vector<std::pair<double, std::array<std::string, 2>>> found;
+  for (std::size_t i = 0; i < alone.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const std::size_t pair[] = {alone[i].second, alone[j].second};
+      if (terms[pair[0]].effect == terms[pair[1]].effect) continue;
+      std::vector<Index> at_columns;
+      for (const std::size_t t : pair)
+        for (Index k = 0; k < regression.block(t).rank; ++k)
+          at_columns.push_back(regression.block(t).first + k);
+      const MatrixXd products = left.products(at_columns, at_columns);
+      const VectorXd cross = left.products(at_columns, Eigen::seqN(own.first, own.rank)) * a;
+      const double rest = whole - gain_of(products, cross);
+      if (rest >= near) continue;
+      const VectorXd share = products.completeOrthogonalDecomposition().solve(cross);
+      bool plausible = true;
+      Index from = 0;
+      for (const std::size_t t : pair) {
+        const auto& block = regression.block(t);
+        plausible = plausible &&
+                    (block.back * share.segment(from, block.rank)).norm() <=
+                        (terms[t].angle ? options.largest_angle_rad : options.largest_length_mm);
+        from += block.rank;
+      }
+      if (plausible) found.push_back({rest, {terms[pair[1]].effect, terms[pair[0]].effect}});
+    }
+  std::ranges::sort(found);
+  std::vector<std::array<std::string, 2>> out;
+  for (const auto& [rest, pair] : found)
+    if (out.size() < most) out.push_back(pair);
+  return out;
+}
+
+double independent_tests(const Regression& regression, const std::vector<Term>& terms) {
+  std::vector<Index> columns;
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    for (Index k = 0; k < regression.block(t).rank && !terms[t].pattern; ++k)
+      columns.push_back(regression.block(t).first + k);
+  if (columns.empty()) return 0.0;
+  const MatrixXd products = regression.products()(columns, columns);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(products, Eigen::EigenvaluesOnly);
+  double sum = 0.0;
+  for (const double value : eigen.eigenvalues())
+    if (value > 1e-9) sum += (value >= 1.0 ? 1.0 : 0.0) + value - std::floor(value);
+  return sum;
+}
+
+void add_checks(const TipFit& fit, const Regression& regression, const Regression::Set& found,
+                bool timed, MachineDiagnosis& out) {
+  const MatrixXd columns = regression.columns(found);
+  VectorXd left = regression.residuals();
+  if (columns.cols() > 0) left -= columns * columns.completeOrthogonalDecomposition().solve(left);
+  const double freedom = regression.freedom() - static_cast<double>(regression.rank(found));
+  const double sigma = std::sqrt(left.squaredNorm() / freedom);
+  MachineCheck noise{"noise", false, "no noise is stated: the residuals give it"};
+  if (fit.problem.noise_stated) {
+    const boost::math::chi_squared chi(freedom);
+    const double below = cdf(chi, left.squaredNorm());
+    noise.found = below < 1e-3 || below > 1.0 - 1e-3;
+    noise.text = fmt::format("the residuals are {:.3g} times the noise that is stated", sigma);
+  }
+  out.checks.push_back(noise);
+  Index worst = 0;
+  const double most = left.cwiseAbs().maxCoeff(&worst) / sigma;
+  const double p = std::min(
+      1.0, 2.0 * static_cast<double>(left.size()) * cdf(complement(boost::math::normal(), most)));
+  out.checks.push_back(
+      {"outlier", p < 0.01,
+       fmt::format("the largest residual is {:.3g} standard deviations ({}; p {:.2g})", most,
+                   data_row(fit, worst), p)});
+  out.checks.push_back({"times", !timed,
+                        timed ? "every row has its time"
+                              : "the rows have no times: drift and warming up are not looked for"});
+}
+
+void add_remarks(MachineDiagnosis& out) {
+  for (const MachineFinding& finding : out.findings) {
+    if (!finding.likely_order)
+      out.remarks.push_back(finding.effect + ": these positions read " + finding.alias +
+                            " alike, so that the order is the likeliest and not certain");
+    for (const auto& [one, other] : finding.pairs)
+      out.remarks.push_back(finding.effect + " is not told from " + one + " and " + other +
+                            " together");
+  }
+  for (const MachineUnexplained& one : out.unexplained)
+    if (one.pattern.ends_with("unknown"))
+      return out.remarks.push_back(
+          "what shares its axis with an unknown pattern may be part of it and is not named; it "
+          "stays in the model");
+}
+
+}  // namespace trueaxis::calibrate_detail

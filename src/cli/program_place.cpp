@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/program_place.hpp"
+
+#include <filesystem>
+
+#include "format/file.hpp"
+#include "nc/skeleton.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+
+void expect_no_other_program(const std::string& path, const std::string& program, bool force) {
+  std::error_code error;
+  if (force || is_standard_output(path) || !std::filesystem::is_regular_file(path, error) ||
+      std::filesystem::file_size(path, error) == 0 ||
+      nc::differ_in_axis_words_only(read_file(path), program))
+    return;
+  throw InputError(path,
+                   "is there and is another program: name another place for the result, or let it "
+                   "be replaced with --force");
+}
+
+}  // namespace trueaxis::cli

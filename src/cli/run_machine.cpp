@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/run_machine.hpp"
+
+#include <iostream>
+#include <utility>
+
+#include "calibrate/files/machine_diagnosis_files.hpp"
+#include "cli/guarded.hpp"
+#include "cli/program_place.hpp"
+#include "format/outputs.hpp"
+#include "job/machine/files/machine_job_results.hpp"
+#include "machine/files/errors_toml.hpp"
+#include "report/machine_report.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+void prepare(Outputs& outputs, const MachineJob& job, const std::string& folder, bool force) {
+  for (const JobInput& input : job.inputs) outputs.reads(input.file);
+  outputs.into(folder);
+  outputs.may_write_in_folder("result.json", "trueaxis.machine_run");
+  outputs.may_write_in_folder("report.html", "trueaxis.machine_report");
+  outputs.may_write_in_folder("diagnosis.json", "trueaxis.machine_diagnosis");
+  outputs.may_write_in_folder("errors.toml", "trueaxis.errors");
+  if (job.program) {
+    outputs.may_write_in_folder("compensation.json", "trueaxis.compensation");
+    outputs.may_write_in_folder(new_program_name(job), "");
+  }
+  outputs.check();
+  if (job.program)
+    expect_no_other_program(outputs.in_folder(new_program_name(job)), job.program->text, force);
+}
+
+void write_all(Outputs& outputs, const MachineJobResult& result) {
+  outputs.write(outputs.in_folder("result.json"), machine_job_json(result));
+  outputs.write(outputs.in_folder("report.html"), render_machine_report(result));
+  outputs.write(outputs.in_folder("diagnosis.json"),
+                machine_diagnosis_json(result.diagnosis, result.job.machine));
+  if (result.implausible.empty())
+    outputs.write(outputs.in_folder("errors.toml"),
+                  errors_toml(result.errors, &result.job.machine));
+  else
+    outputs.remove_earlier(outputs.in_folder("errors.toml"));
+  if (result.compensation)
+    outputs.write(outputs.in_folder("compensation.json"), job_compensation_json(result));
+  if (!result.job.program) return;
+  const std::string program = outputs.in_folder(new_program_name(result.job));
+  if (result.verdict.go())
+    outputs.open(program).write(result.compensation->text);
+  else
+    outputs.remove_earlier(program);  // one stands there only when it may be run
+}
+
+}  // namespace
+
+int run_machine(MachineJob job, const std::string& folder, bool force) {
+  Outputs outputs(force);
+  prepare(outputs, job, folder, force);
+  const MachineJobResult result = run_machine_job(std::move(job));
+  if (!result.diagnosis.baseline.converged) {
+    std::cerr << result.job.data.front().source
+              << ": not converged: " << result.diagnosis.baseline.message << '\n';
+    return numerical;
+  }
+  write_all(outputs, result);
+  outputs.commit();
+  std::cout << machine_job_text(result);
+  if (result.job.program && result.verdict.go())
+    std::cout << "program " << outputs.in_folder(new_program_name(result.job)) << '\n';
+  else if (result.job.program)
+    std::cout << "program not written: the verdict is " << to_string(result.verdict.decision)
+              << '\n';
+  if (result.implausible.empty())
+    std::cout << "errors  " << outputs.in_folder("errors.toml") << '\n';
+  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
+            << outputs.in_folder("report.html") << '\n';
+  return result.verdict.go() ? done : refused;
+}
+
+}  // namespace trueaxis::cli

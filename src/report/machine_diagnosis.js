@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the measurement shows of the machine, and what it does not.
+
+const machineVerdicts = {
+  ideal: 'Beside the errors of location nothing was found.',
+  effects: 'Beside the errors of location the machine has the errors named below.',
+  unexplained: 'Beside the errors of location the machine does something that no catalogued effect explains in full.',
+};
+const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)}${nbsp}%`;
+
+/** mm as µm, degrees as µrad: the sizes that errors of machines have. */
+function errorSize({value, u, unit}) {
+  if (!isNumber(value)) return 'not determined';
+  const [factor, shown] = unit === 'deg' ? [1e6 * Math.PI / 180, 'µrad'] : unit === 'mm' ? [1000, 'µm'] : [1, unit];
+  const decimals = isNumber(u) && u > 0 ? decimalsFor(2 * u * factor) : null;
+  const text = decimals === null ? significant(value * factor, 3) : fixed(value * factor, decimals);
+  return isNumber(u) && u > 0 ? `${text} ± ${significant(2 * u * factor, 2)}${nbsp}${shown}` : `${text}${nbsp}${shown}`;
+}
+
+function effectWords(effect) {
+  const [name, form] = effect.split('.');
+  if (name === 'reversal') return `difference between the two senses of ${form}`;
+  if (name === 'drift') return `drift of the tip along ${form}`;
+  if (effect === 'ball.slip') return 'a step of the ball on the table';
+  const words = errorWords(name);
+  if (!form) return words;
+  const order = form.replace(/\D/g, '');
+  return `${words}, ${form.startsWith('harmonic') ? `${order} times a turn` : `degree ${order}`}`;
+}
+
+const withWords = (effect) => element('span', {}, effect, element('small', {}, effectWords(effect)));
+const planWords = (plans, code) => { const plan = plans.find((p) => p.plan === code); return plan ? `${code}: ${plan.what}` : code; };
+
+function machineFindingCard(finding, number, plans) {
+  const list = [['Size', errorSize(finding.size)], ...Object.entries(finding.parameters).map(([name, p]) => [name, errorSize(p)]),
+    ['Part of the readings (RMS)', micrometres(finding.rms.value)],
+    ['False-alarm probability (all hypotheses counted)', finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)]];
+  const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
+  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${finding.effect}`), paragraph(`${effectWords(finding.effect)}.`, 'quiet'), facts(list),
+    table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
+    finding.alias ? paragraph(`These positions read ${finding.alias} alike.`) : null,
+    finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
+    members.length > 1 ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(plans, finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
+}
+
+function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
+  const held = ({value, low, high}) => `${micrometres(value)} (${significant(low * 1000, 2)} … ${significant(high * 1000, 2)})`;
+  return block('Gain', facts([['RMS of the readings, before → after', `${micrometres(gain.rms_before.value)} → ${micrometres(gain.rms_after.value)}`],
+    ['Held out, before', held(gain.held_out_rms_before)], ['Held out, after', held(gain.held_out_rms_after)], ['Left out in turn', gain.blocks],
+    ['σ of one number', micrometres(noise.sigma.value)], ['Tested', `${hypotheses} hypotheses, false alarm ${percent(alarm)}`]]));
+}
+
+function locationTable({extended, baseline}) {
+  const rows = Object.entries(extended.parameters).map(([name, p]) => [withWords(name), errorSize(p)]);
+  if (!rows.length) return null;
+  return block('Errors of location', paragraph(`Fitted together with what was found, ± U with k = 2. ${sentence(baseline.gauge)}`, 'quiet'),
+    table('Where the axes stand and point, against the machine\'s file', ['Error', 'Size ± U'], rows));
+}
+
+/** A sentence of a clause; the name of an effect stays as it is. */
+const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}.`;
+
+/** What might be taken for certain and is not, and checks of the data that found something. */
+function checksBlock({remarks = [], checks = []}) {
+  const found = checks.filter((check) => check.found);
+  if (!remarks.length && !found.length) return null;
+  return block('To be minded', element('ul', {}, [...remarks, ...found.map((check) => `${check.effect}: ${check.text}`)].map((text) => element('li', {}, joined(sentence(text))))));
+}
+
+function findingsSection({diagnosis}) {
+  const {verdict, findings, unexplained, plans} = diagnosis;
+  const cards = findings.map((f, i) => machineFindingCard(f, i + 1, plans));
+  unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
+    paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
+  return section('diagnosis', 'What the measurement shows', paragraph(machineVerdicts[verdict] ?? verdict, 'lead'),
+    cards.length ? element('div', {class: 'cards'}, cards) : null, checksBlock(diagnosis), gainBlock(diagnosis), locationTable(diagnosis));
+}
+
+/** Effects that share their reason and the plans that show them. */
+function notObservableRows({not_observable: all, plans}) {
+  const alike = new Map();
+  all.forEach((one) => { const key = JSON.stringify([one.why, one.separate_with]); alike.set(key, [...(alike.get(key) ?? []), one]); });
+  return [...alike.values()].map((group) => [group.map((one) => one.effect).join(', '), sentence(group[0].why), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
+}
+
+function rangesTable(ranges) {
+  const rows = Object.entries(ranges).map(([name, {measured, program, unit}]) => {
+    const text = (pair) => pair ? `${pair.map((v) => tick(Number(v.toPrecision(4)))).join(' … ')}${unit === 'deg' ? '' : nbsp}${unit === 'deg' ? '°' : unit}` : '–';
+    return [name, text(measured), text(program)];
+  });
+  return block('Where it was measured', table('Positions of the axes', ['Axis', 'Measured', 'Program'], rows));
+}
+
+function unknownSection({diagnosis, ranges}) {
+  const held = diagnosis.baseline.not_determined, unseen = notObservableRows(diagnosis), next = diagnosis.next_measurement;
+  return section('unknown', 'What is not known',
+    block('Not seen at these positions', unseen.length
+      ? table('Effects that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Effect', 'Why', 'Shown by'], unseen, 3)
+      : paragraph('Every effect that is looked for would have been found at 10 µm or 50 µrad.'),
+    paragraph(next.plan ? `Next measurement: ${next.plan}, ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
+    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(one.why)]), 2)) : null,
+    rangesTable(ranges));
+}

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the data of a machine's job in the page, builds it top to bottom, then draws the charts.
+
+const data = JSON.parse(document.getElementById('data').textContent);
+const outcomes = {
+  go: ['GO', 'good', '✓'],
+  reserved: ['GO with reservations', 'warning', '!'],
+  'not-proven': ['NOT PROVEN', 'warning', '?'],
+  'no-go': ['NO-GO', 'bad', '✗'],
+  done: ['DONE', 'neutral', '–']
+};
+
+function keyNumbers(verdict) {
+  if (!isNumber(verdict.before_um)) return null;
+  return facts(
+      [
+        ['Tip off with the program as it is, at the ends of blocks', micrometres(verdict.before_um / 1000, verdict.before_um / 1000)],
+        ['Tip off with the new program', `at most ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} in 95 of 100`],
+        [
+          'Tolerance',
+          isNumber(verdict.tolerance_um) ? `${tick(verdict.tolerance_um)}${nbsp}µm` : 'none given'
+        ]
+      ],
+      'numbers');
+}
+
+function banner({verdict}) {
+  const [word, kind, sign] = outcomes[verdict.outcome];
+  const [line] = verdict.reservations.length && verdict.outcome === 'reserved' ?
+      [verdict.line.split('; ')[0]] :
+      [verdict.line];
+  return element(
+      'div', {class: `banner ${kind}`, role: 'status'},
+      element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
+      paragraph(
+          line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, ''), 'line'),
+      keyNumbers(verdict),
+      element('p', {class: 'lead'}, element('strong', {}, 'Next: '), joined(verdict.next)));
+}
+
+function conditions({verdict: {reservations, remarks}}) {
+  const list = (items) => element('ul', {}, items.map((text) => element('li', {}, joined(text))));
+  if (!reservations.length && !remarks.length) return null;
+  return section(
+      'conditions', 'What the verdict rests on',
+      reservations.length ? block('Reservations', list(reservations.map(sentence))) : null,
+      remarks.length ? block('What holds for the numbers', list(remarks)) : null);
+}
+
+function programFacts({compensation: c, part, verdict, program}) {
+  const angle = ({value}) =>
+      isNumber(value) ? `${significant(value * 1e6 * Math.PI / 180, 3)}${nbsp}µrad` : '–';
+  const vector = (list, unit) => `${list.map((v) => fixed(v, 1)).join(', ')}${nbsp}${unit}`;
+  const list = [
+    ['Program', program],
+    [
+      'Blocks',
+      `${c.blocks.read} read, ${c.blocks.rewritten} rewritten, ${c.blocks.inserted} inserted`
+    ],
+    ['Method', c.method === 'exact' ? 'exact (Newton)' : 'total differential']
+  ];
+  if (isNumber(verdict.before_um))
+    list.push(
+        [
+          'Direction of the tool, before → after',
+          `${angle(c.error_before.direction)} → ${angle(c.error_after.direction)}`
+        ],
+        [
+          'Tip at the ends of blocks, before → after',
+          `${um(verdict.before_um)} → ${um(verdict.after_um)}`
+        ],
+        ['Between the ends, new program', um(verdict.between_um)],
+        ['U of the tip (k = 2)', um(verdict.U_um)]);
+  if (verdict.not_corrected_um > 0)
+    list.push(['Found, and not to be corrected', um(verdict.not_corrected_um)]);
+  if (part)
+    list.push(
+        ['Part as a whole: shift x, y, z', vector(part.shift_um, 'µm')],
+        ['Part as a whole: turn about x, y, z', vector(part.turn_urad, 'µrad')]);
+  return facts(list);
+}
+
+function programSection(all) {
+  const {compensation: c, tips, verdict} = all;
+  if (!c) return null;
+  const lost = c.unreachable.slice(0, 10).map(({line, why}) => [`line ${line}`, why]);
+  return section(
+      'program', 'The program before and after', programFacts(all),
+      lost.length ?
+          table(
+              `Blocks that cannot be reached: ${lost.length < c.unreachable.length ? `the first ${lost.length} of ` : ''}${c.unreachable.length}`,
+              ['Block', 'Why'], lost, 2) :
+          null,
+      tips ? alongProgram(tips, verdict) : null, tips ? pathViews(tips) : null);
+}
+
+function errorsSection({compensation: c}) {
+  const bars = c ? errorBars(c.by_error) : null;
+  return bars ? section('errors', 'The largest errors by name', bars) : null;
+}
+
+function mapSection({maps}) {
+  if (!maps.length) return null;
+  const drawn = (map, key, words) => volumeMap(
+      map, key, `${words}, ${map.across.name}–${map.up.name}`, roundUpFinely(largest(map[key])));
+  return section(
+      'map', 'The error over the volume',
+      paragraph(
+          'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: every map has its own.'),
+      ...maps.map(
+          (map) => element(
+              'div', {class: 'pair maps'}, drawn(map, 'before_um', 'Before'),
+              drawn(map, 'after_um', 'After, at most'))));
+}
+
+const inputsSection = ({inputs}) => section(
+    'inputs', 'What went in',
+    table(
+        'Files', ['What', 'File', 'Hash'], inputs.map(({what, file, hash}) => [what, file, hash]),
+        3));
+
+const machineGlossary = [
+  [
+    'Tip off by',
+    'The distance in the part of the tool\'s tip from where the program has it on a machine without errors, at the end of a block that cuts.'
+  ],
+  [
+    'Part as a whole',
+    'The one displacement that a rigid part would have had to make the tips\' errors least. It is taken off: probing the part\'s zero point finds it, a measurement of balls does not.'
+  ],
+  [
+    'At most, in 95 of 100',
+    'What is left, what was found and cannot be corrected, and U = 2u of the tip, with u² the trace of its covariance (ISO 14253-1: a go has a risk of 5 % at most).'
+  ],
+  ['Component error', 'EXC: the error along X as axis C moves (ISO 230-1); EAC: about X.'],
+  [
+    'Error of location',
+    'Y0A: where axis A stands along Y; C0A: how it is turned about Z. X0S: the spindle, X0W: the workpiece.'
+  ],
+  [
+    'Held',
+    'An error that moves these readings as others do, or not at all. It stays as it was given, and what depends on it is not known.'
+  ],
+  [
+    'Class',
+    'Where other effects explain the readings as well, all are listed with their chances: no name is better than the data.'
+  ],
+  ['Held-out RMS', 'What the model leaves in blocks of positions that it was not fitted to.']
+];
+
+function build() {
+  const sections = [
+    conditions(data), programSection(data), errorsSection(data), mapSection(data),
+    findingsSection(data), unknownSection(data), inputsSection(data),
+    section('terms', 'Terms and conventions', facts(machineGlossary, 'terms'))
+  ].filter(Boolean);
+  document.getElementById('page').replaceChildren(
+      element(
+          'header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`),
+          element('h1', {}, data.title),
+          facts(
+              [
+                ['Job', data.file],
+                ['Machine', `${data.machine || 'without a name'}: ${data.chain}`]
+              ],
+              'facts origin')),
+      banner(data),
+      element(
+          'nav', {'aria-label': 'Contents'},
+          sections.map((s) => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent))),
+      ...sections,
+      element(
+          'footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
+}
+
+build();
+startPage();

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors of a machine and of its workpiece from several files.
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class ErrorsFiles : public CommandTest {
+ protected:
+  /// The numbers of the only row of `pose` at the worked example of docs/machine.md.
+  std::vector<double> pose(const std::string& errors) {
+    const CommandStreams done =
+        command("pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv --errors " + errors);
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    std::istringstream lines(done.out);
+    std::string row;
+    std::getline(lines, row);
+    std::getline(lines, row);
+    std::vector<double> out;
+    std::istringstream fields(row);
+    for (std::string field; std::getline(fields, field, ',');) out.push_back(std::stod(field));
+    return out;
+  }
+  void expect_actual(const std::vector<double>& row) {
+    const double wanted[] = {-1.850358534818, 97.210312596243, 59.190929118170};
+    ASSERT_GE(row.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(row[i], wanted[i], 1e-11);
+  }
+
+  std::string data_ = TRUEAXIS_SOURCE "/data/five_axis/";
+  std::string machine_ = data_ + "trunnion_ac.toml";
+};
+
+// The worked example with the errors of the workpiece in a file of their own, which says
+// moving_part as `locate` and `datum` do: the sign is that of the file with component errors, in
+// either order.
+TEST_F(ErrorsFiles, OfTheWorkpieceHaveNoSign) {
+  const std::string all = read_text(data_ + "trunnion_ac_errors.toml");
+  const std::size_t from = all.find("[[error]]\nname = \"X0W\"");
+  ASSERT_NE(from, std::string::npos);
+  ASSERT_NE(all.find("tool_minus_workpiece"), std::string::npos);
+  file("machine.toml", all.substr(0, from));
+  file("part.toml", "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n" + all.substr(from));
+  expect_actual(pose("machine.toml --errors part.toml"));
+  expect_actual(pose("part.toml --errors machine.toml"));
+  // Written as one file they say the sign of the first.
+  ASSERT_EQ(command("errors " + machine_ + " --errors part.toml --errors machine.toml -o both.toml")
+                .exit_code,
+            0);
+  EXPECT_TRUE(contains(read_text(folder_ / "both.toml"), "sign = \"tool_minus_workpiece\""));
+  expect_actual(pose("both.toml"));
+}
+
+// What `locate` writes beside a machine's errors: both displacements, and both uncertainties.
+TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
+  ASSERT_EQ(command("locate " + data_ + "hong.toml -o part.toml").exit_code, 0);
+  ASSERT_EQ(command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o machine.toml")
+                .exit_code,
+            0);
+  const auto U_with = [&](const std::string& errors) {
+    const CommandStreams done = command("compensate " + data_ + "example.nc --machine " + machine_ +
+                                        " --errors " + errors + " -o cut.nc --json c.json --force");
+    EXPECT_EQ(done.exit_code, 0) << done.err;
+    return result("c.json").at("U").at("value").get<double>();
+  };
+  const double part = U_with("part.toml"), machine = U_with("machine.toml"),
+               both = U_with("part.toml --errors machine.toml");
+  // At the worst block of each: squares add there, and nowhere can they be more than of all.
+  EXPECT_LE(both, std::hypot(part, machine) * (1.0 + 1e-9));
+  EXPECT_GE(both, std::max(part, machine) * (1.0 - 1e-9));
+}
+
+TEST_F(ErrorsFiles, OfAnotherMachineAreRefused) {
+  ASSERT_EQ(
+      command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o e.toml").exit_code,
+      0);
+  std::string other = read_text(machine_);
+  const std::string point = "point_mm = [0, 15, -40]";
+  ASSERT_NE(other.find(point), std::string::npos);
+  other.replace(other.find(point), point.size(), "point_mm = [0, 15.2, -40]");
+  file("other.toml", other);
+  for (const std::string& call :
+       {"compensate " + data_ + "example.nc --machine other.toml --errors e.toml -o cut.nc",
+        "pose other.toml " + data_ + "trunnion_ac_positions.csv --errors e.toml",
+        "calibrate other.toml " + data_ + "trunnion_ac_ball.csv --errors e.toml -o f.toml"}) {
+    const CommandStreams done = command(call);
+    EXPECT_EQ(done.exit_code, 3) << call;
+    EXPECT_TRUE(contains(done.err, "e.toml:")) << done.err;
+    EXPECT_TRUE(contains(done.err,
+                         "\"A about 1 0 0 through 0 15 -40\", and this machine \"A about "
+                         "1 0 0 through 0 15.2 -40\""))
+        << done.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cut.nc"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "f.toml"));
+  // The workpiece's are of no machine.
+  ASSERT_EQ(command("locate " + data_ + "hong.toml -o part.toml").exit_code, 0);
+  EXPECT_EQ(command("compensate " + data_ +
+                    "example.nc --machine other.toml --errors part.toml -o cut.nc")
+                .exit_code,
+            0);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

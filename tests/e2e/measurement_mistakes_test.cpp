@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// A measurement of a machine whose columns are written wrongly, each in one way.
+#include <functional>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using Fields = std::map<std::string, std::string>;
+
+class MeasurementMistakes : public CommandTest {
+ protected:
+  void SetUp() override {
+    CommandTest::SetUp();
+    ASSERT_EQ(command("simulate " + data_ + "ball.toml -o ball.csv").exit_code, 0);
+    ASSERT_EQ(command("calibrate " + machine_ + " ball.csv -o right.toml").exit_code, 0);
+  }
+
+  /// ball.csv with its header and every row changed.
+  void write(const std::function<void(std::string&)>& header,
+             const std::function<void(Fields&)>& row) {
+    std::istringstream lines(read_text(folder_ / "ball.csv"));
+    std::vector<std::string> names;
+    std::string out;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with('#')) {
+        out += line + '\n';
+        continue;
+      }
+      std::vector<std::string> cells;
+      std::istringstream fields(line);
+      for (std::string field; std::getline(fields, field, ',');) cells.push_back(field);
+      if (names.empty()) {
+        for (const std::string& cell : cells) names.push_back(cell.substr(0, cell.find('[')));
+        header(line);
+        out += line + '\n';
+        continue;
+      }
+      Fields at;
+      for (std::size_t i = 0; i < names.size(); ++i) at[names[i]] = cells[i];
+      row(at);
+      for (std::size_t i = 0; i < names.size(); ++i) out += (i == 0 ? "" : ",") + at[names[i]];
+      out += '\n';
+    }
+    file("wrong.csv", out);
+  }
+  void rows(const std::function<void(Fields&)>& row) {
+    write([](std::string&) {}, row);
+  }
+  static void scale(std::string& field, double factor) {
+    char number[40];
+    std::snprintf(number, sizeof number, "%.12g", std::stod(field) * factor);
+    field = number;
+  }
+  static std::function<void(Fields&)> scaled(std::vector<std::string> names, double factor) {
+    return [=](Fields& at) {
+      for (const std::string& name : names) scale(at[name], factor);
+    };
+  }
+  static std::function<void(Fields&)> swapped(const char* a, const char* b) {
+    return [=](Fields& at) { std::swap(at[a], at[b]); };
+  }
+  static std::function<void(std::string&)> replaced(std::string what, std::string by) {
+    return [=](std::string& line) { line.replace(line.find(what), what.size(), by); };
+  }
+
+  /// Refused with all of these words and nothing written, by both commands.
+  void expect_refused(std::initializer_list<const char*> words) {
+    for (const std::string& call :
+         {"calibrate " + machine_ + " wrong.csv -o wrong.toml --json wrong.json",
+          "diagnose wrong.csv --machine " + machine_ + " -o wrong.toml --json wrong.json"}) {
+      const CommandStreams done = command(call);
+      EXPECT_EQ(done.exit_code, 1) << call << done.err;
+      for (const char* word : words)
+        EXPECT_TRUE(contains(done.err, word)) << word << '\n' << done.err;
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.toml"));
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "wrong.json"));
+    }
+  }
+
+  std::string data_ = TRUEAXIS_SOURCE "/data/five_axis/";
+  std::string machine_ = data_ + "trunnion_ac.toml";
+};
+
+TEST_F(MeasurementMistakes, ToolLengthOfAnother) {
+  rows([](Fields& at) {
+    ASSERT_EQ(at["tool_length"], "120");
+    at["tool_length"] = "60";
+  });
+  expect_refused({"Z0A would be 59.9", "no machine is so far from its model", "tool length"});
+}
+
+TEST_F(MeasurementMistakes, UnitsOfTheDeviations) {
+  rows(scaled({"dX", "dY", "dZ"}, 1e-3));  // mm under µm
+  expect_refused({"scatter by 0.001", "noise is said to be 1 µm", "unit of the deviations"});
+  write(replaced("dX[um],dY[um],dZ[um]", "dX[mm],dY[mm],dZ[mm]"), [](Fields&) {});
+  expect_refused({"X0C would be 2", "no machine is so far from its model", "units"});
+}
+
+TEST_F(MeasurementMistakes, UnitsOfThePositions) {
+  rows(scaled({"X", "Y", "Z"}, 1.0 / 25.4));
+  expect_refused({"X, Y and Z are in inch", "write [in] behind their names"});
+  write(replaced("X[mm],Y[mm],Z[mm]", "X[in],Y[in],Z[in]"), [](Fields&) {});
+  expect_refused({"X, Y and Z are in mm", "write [mm] behind their names"});
+  write(replaced("C[deg]", "C[rad]"), [](Fields&) {});
+  expect_refused({"the column C is in degrees", "write C[deg]"});
+  rows(scaled({"A"}, 3.14159265358979 / 180.0));
+  expect_refused({"the column A is in radians", "write A[rad]"});
+}
+
+TEST_F(MeasurementMistakes, SignsAndColumns) {
+  rows(scaled({"dX"}, -1.0));
+  expect_refused({"the column dX has the wrong sign", "turn its sign"});
+  rows(scaled({"C"}, -1.0));
+  expect_refused({"the column C runs the other way", "axes.C.direction"});
+  rows(swapped("dX", "dY"));
+  expect_refused({"the columns dX and dY are exchanged", "exchange them"});
+  rows(swapped("A", "C"));
+  expect_refused({"C and A are exchanged"});
+  rows(swapped("X", "Y"));
+  expect_refused({"Y and X are exchanged"});
+}
+
+// With the axes on the ball all signs turned are a machine with all errors turned: it fits as well.
+// Where the axes stand off the ball by more than its errors, as a probe leaves them, they do not.
+TEST_F(MeasurementMistakes, AllSigns) {
+  rows(scaled({"dX", "dY", "dZ"}, -1.0));
+  EXPECT_EQ(command("calibrate " + machine_ + " wrong.csv -o wrong.toml").exit_code, 0);
+  std::filesystem::remove(folder_ / "wrong.toml");
+  int count = 0;
+  rows([&](Fields& at) {
+    char number[40];
+    const double off_um[3] = {200.0 * std::cos(1.7 * count), 200.0 * std::sin(2.9 * count),
+                              200.0 * std::cos(4.1 * count + 1.0)};
+    const char* const axes[3] = {"X", "Y", "Z"};
+    const char* const deviations[3] = {"dX", "dY", "dZ"};
+    ++count;
+    for (int k = 0; k < 3; ++k) {  // Y carries the part: the table goes against +Y
+      std::snprintf(number, sizeof number, "%.12g", std::stod(at[axes[k]]) + 1e-3 * off_um[k]);
+      at[axes[k]] = number;
+      std::snprintf(number, sizeof number, "%.12g", std::stod(at[deviations[k]]) - off_um[k]);
+      at[deviations[k]] = number;
+    }
+  });
+  ASSERT_EQ(command("calibrate " + machine_ + " wrong.csv -o off.toml").exit_code, 0);
+  std::filesystem::rename(folder_ / "wrong.csv", folder_ / "ball.csv");
+  rows(scaled({"dX", "dY", "dZ"}, -1.0));
+  expect_refused({"dX, dY and dZ have the wrong sign", "turn their signs"});
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// The job of a machine against machines whose errors are drawn: tips by the test's own matrices,
+// with errors that the measurement holds among them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "support/ball_bench.hpp"
+#include "support/part_alignment.hpp"
+#include "trueaxis/machine_job.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+constexpr double sigma_mm = 1e-3;
+constexpr double hidden_cos_mm = 9e-3, hidden_sin_mm = -6e-3;
+
+/// A program that touches points of a part 80 mm wide at many tilts, a block each.
+std::string touching_program(const BallBench& nominal, Draw& draw) {
+  std::string text = "G21 G90 G94\n";
+  for (int i = 0; i < 60; ++i) {
+    AxisPositions q{};
+    q[3] = draw.between(-85.0, 25.0) * rad_per_deg, q[5] = draw.between(5.0, 310.0) * rad_per_deg;
+    const Vector3 point{draw.between(-40.0, 60.0), draw.between(-20.0, 70.0),
+                        draw.between(30.0, 90.0)};
+    nominal.follow(q, point, 120.0);
+    char block[160];
+    std::snprintf(block, sizeof block, "G1 X%.4f Y%.4f Z%.4f A%.5f C%.5f F500\n", q[0], q[1], q[2],
+                  q[3] / rad_per_deg, q[5] / rad_per_deg);
+    text += block;
+  }
+  return text;
+}
+
+struct Truth {
+  std::vector<Vector3> wanted, before, after;  ///< displacements by the machine itself
+};
+
+Truth truth_of(const MachineJobResult& result, const ErrorModel& truth) {
+  const ErrorModel none;
+  const ChainMatrices nominal{result.job.machine, none}, real{result.job.machine, truth};
+  Truth out;
+  for (const ProgramEnd& end : result.compensation->ends) {
+    const Vector3 want = tip_of(nominal.tool_in_part(end.commanded, end.setting)),
+                  was = tip_of(real.tool_in_part(end.commanded, end.setting)),
+                  is = tip_of(real.tool_in_part(end.written, end.setting));
+    out.wanted.push_back(want);
+    out.before.push_back({was[0] - want[0], was[1] - want[1], was[2] - want[2]});
+    out.after.push_back({is[0] - want[0], is[1] - want[1], is[2] - want[2]});
+  }
+  return out;
+}
+
+// E|δ'|² = u² at every tip, were noise all that is uncertain: of 15 parameters and 40 measurements
+// the mean of |δ'|²/u² has a relative standard deviation of about sqrt(2/(40 · 5)) = 0.1, five
+// effective directions a measurement, and the bounds are five of these. u also counts component
+// errors that this machine has not, as far as the data leave room for them, which makes it larger:
+// still no more than the lower bound allows. A tip is beyond 5 u once in a million.
+TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
+  constexpr std::uint64_t seed = 20261123;
+  Draw draw(seed);
+  std::printf("seed %ju\n", static_cast<std::uintmax_t>(seed));
+  const Machine machine = trunnion();
+  const ErrorModel none;
+  double sum = 0.0, most = 0.0;
+  std::size_t tips = 0;
+  for (int machine_number = 0; machine_number < 40; ++machine_number) {
+    ErrorModel truth = drawn_location_errors(machine, draw);
+    const ErrorName hidden = *parse_error_name("EYC");
+    truth.terms.push_back({hidden, FourierError{{{2.0, hidden_cos_mm, hidden_sin_mm}}, two_pi}});
+    MachineJob job;
+    job.machine = machine;
+    job.data = {measure_balls({machine, truth}, {}, sigma_mm, draw)};
+    job.program = MachineJobProgram{"touch.nc", touching_program({machine, none}, draw), {}};
+    job.program->options.decimals = 6, job.program->options.angle_decimals = 8;
+    const MachineJobResult result = run_machine_job(std::move(job));
+    ASSERT_EQ(result.tips.size(), 60U);
+    ASSERT_TRUE(std::ranges::any_of(result.diagnosis.findings, [](const MachineFinding& found) {
+      return found.effect == "EYC.harmonic2";
+    })) << machine_number;
+    const Truth real = truth_of(result, truth);
+    const auto before = without_rigid_body(real.wanted, real.before),
+               after = without_rigid_body(real.wanted, real.after);
+    EXPECT_NEAR(largest_norm(before), result.verdict.before_mm, 1.75 * result.verdict.U_mm);
+    EXPECT_LT(largest_norm(after), 0.2 * largest_norm(before));
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      const double share = after[i].norm() / result.tips[i].u_mm;
+      sum += share * share;
+      most = std::max(most, share);
+      ++tips;
+    }
+  }
+  const double mean = sum / static_cast<double>(tips);
+  std::printf("mean |d|^2/u^2 %.3f, largest |d|/u %.2f of %zu tips\n", mean, most, tips);
+  EXPECT_GT(mean, 0.5);
+  EXPECT_LT(mean, 1.5);
+  EXPECT_LT(most, 5.0);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
