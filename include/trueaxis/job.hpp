@@ -21,6 +21,8 @@ struct StreamReading {
   std::optional<bool> diameter;             ///< X_M is a diameter (true) or a radius (false)
   std::optional<Indication> indication;     ///< overrides the stream's `reading`
   std::optional<double> nominal_radius_mm;  ///< overrides the stream's `nominal_radius`
+  std::string columns{};       ///< of another program's file: "X=Diameter,C=Angle(°),Z=3[mm]"
+  std::size_t skip_lines = 0;  ///< of another program's file: lines above its table
 };
 
 /// One reference surface of a job and how its stream is to be read and fitted.

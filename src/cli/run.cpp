@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
+#include "job/evidence.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
@@ -23,15 +29,57 @@ int exit_code_of(const JobResult& result) {
 }
 
 struct Options {
-  std::string job, folder;
-  bool force = false;
+  StreamOptions stream;  ///< `path` is the job's, or a stream's
+  AssociationOptions association;
+  CLI::Option* surface = nullptr;
+  std::string folder;
+  bool force = false, verbose = false;
 };
 
+/// Whether a file is a job: its first line that is no comment is one of TOML.
+bool is_job(const std::string& path) {
+  if (path.ends_with(".toml")) return true;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::size_t word = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", first);
+    return line[first] == '[' || (word != std::string::npos && word > first &&
+                                  line.find_first_not_of(' ', word) == line.find('='));
+  }
+  return false;
+}
+
+/// The job of one stream that nothing else is said of.
+Job job_of_stream(const Options& options) {
+  const StreamReadOptions said = options.stream.said();
+  JobReference reference;
+  reference.stream = options.stream.path;
+  reference.read = {said.diameter, said.indication, said.nominal_radius_mm, options.stream.columns,
+                    options.stream.skip};
+  reference.fit = options.association.chosen();
+  Job job;
+  job.path = options.stream.path;
+  job.name = std::filesystem::path(options.stream.path).stem().string();
+  job.references.push_back(std::move(reference));
+  return job;
+}
+
 int execute(const Options& options) {
-  const Job job = read_job_toml(options.job);
+  const std::string& path = options.stream.path;
+  const bool said = is_job(path);
+  Job job = said ? read_job_toml(path) : job_of_stream(options);
   std::vector<ProbeStream> streams = read_streams(job);
+  if (!said) {
+    if (options.surface->count() == 0) {
+      const SurfaceEvidence evidence = surface_by_evidence(streams.front());
+      job.references.front().fit.surface = evidence.surface;
+      streams.front().read_as.push_back(evidence.why);
+    }
+    job.references.front().name = to_string(job.references.front().fit.surface);
+  }
   Outputs outputs(options.force);
-  outputs.reads(options.job);
+  outputs.reads(path);
   for (const JobReference& reference : job.references) outputs.reads(reference.stream);
   outputs.into(options.folder);
   for (const ResultName& file : job_file_names(job))
@@ -39,7 +87,7 @@ int execute(const Options& options) {
   outputs.may_write_in_folder("report.html", "trueaxis.report");
   outputs.check();
 
-  const JobResult result = run_job(job, std::move(streams));
+  const JobResult result = run_job(std::move(job), std::move(streams));
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
   files.insert(files.begin() + 1, {"report.html", render_report(result)});
@@ -48,16 +96,30 @@ int execute(const Options& options) {
   const bool tabled = files.back().name == "table.csv";
   if (!tabled) outputs.remove_earlier(table);  // one stands there only when it may be run
   outputs.commit();
-  std::cout << job_text(result);
-  if (tabled) {
-    std::cout << "table   " << table << '\n';
-  } else if (result.correction) {
-    std::cout << "table   not written: " << result.verdict.line << '\n';
+  if (options.verbose) {
+    std::cout << job_text(result);
+  } else {
+    print_screen(job_screen(result));
   }
-  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
+  if (tabled) {
+    std::cout << "table  " << table << '\n';
+  } else if (result.correction) {
+    std::cout << "table  not written: " << result.verdict.line << '\n';
+  }
+  std::cout << "result " << outputs.in_folder("result.json") << "\nreport "
             << outputs.in_folder("report.html") << '\n';
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);
+}
+
+/// What is said of a stream beside a job would be passed over in silence.
+void expect_no_stream_options(const CLI::App& command) {
+  constexpr std::string_view fine[] = {"--help", "--output", "--force", "--verbose", "stream"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
+    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
+  }
 }
 
 }  // namespace
@@ -66,14 +128,19 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("run", "the whole job: fit, diagnosis, correction, report");
   auto options = std::make_shared<Options>();
-  command->add_option("job", options->job, "job file (TOML)")->required();
+  options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
+  options->surface = options->association.add_to(*command);
   command
       ->add_option("-o,--output", options->folder,
                    "folder for table.csv, result.json and report.html, made if need be")
       ->required()
       ->check(a_place());
   add_force(*command, options->force);
-  command->callback([=, &exit_code] { exit_code = execute(*options); });
+  add_verbose(*command, options->verbose);
+  command->callback([=, &exit_code] {
+    if (is_job(options->stream.path)) expect_no_stream_options(*command);
+    exit_code = execute(*options);
+  });
 }
 
 }  // namespace trueaxis::cli

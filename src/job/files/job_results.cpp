@@ -9,7 +9,7 @@
 #include "fit/files/fit_files.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
-#include "measure/files/stream_csv.hpp"
+#include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -210,8 +210,11 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   for (const JobReference& reference : job.references) {
     try {
       const StreamReading& said = reference.read;
-      streams.push_back(read_stream_csv(
-          reference.stream, {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}));
+      streams.push_back(
+          read_recording(reference.stream,
+                         {said.columns,
+                          said.skip_lines,
+                          {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}}));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }

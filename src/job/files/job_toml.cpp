@@ -64,6 +64,8 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
         Indication::absolute);
   }
   reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
+  reference.read.columns = table.text("columns", "");
+  reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.fit.ball_radius_mm = sensor.ball_radius_mm;
