@@ -17,7 +17,7 @@ enum class RecordedRole { x, face, c, z, y, t, pass, setup };
 struct TakenColumn {
   RecordedRole role;
   std::size_t column = 0;
-  std::string unit{};                ///< as a stream writes it: "mm", "um", "deg"; empty of a count
+  std::string unit{};              ///< as a stream writes it: "mm", "um", "deg"; empty of a count
   bool unit_said = true;           ///< false: nobody says it, the default of a stream is taken
   std::optional<bool> diameter{};  ///< of x: what its name or unit says, if anything
 };
