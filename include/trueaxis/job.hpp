@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/control_table.hpp"
 #include "trueaxis/correction.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
@@ -61,6 +62,7 @@ struct Job {
   /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
   std::vector<std::string> include;
   AxisOfCut axis_of_cut = AxisOfCut::stated;
+  std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form

@@ -94,7 +94,11 @@ int execute(const Options& options) {
   for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);
   const std::string table = outputs.in_folder("table.csv");
   const bool tabled = files.back().name == "table.csv";
-  if (!tabled) outputs.remove_earlier(table);  // one stands there only when it may be run
+  if (!tabled) {  // they stand there only when they may be run
+    outputs.remove_earlier(table);
+    for (const ControlTable& output : result.job.outputs)
+      outputs.remove_earlier(outputs.in_folder(output.file));
+  }
   outputs.commit();
   if (options.verbose) {
     std::cout << job_text(result);
@@ -106,6 +110,9 @@ int execute(const Options& options) {
   } else if (result.correction) {
     std::cout << "table  not written: " << result.verdict.line << '\n';
   }
+  for (const ResultFile& file : files)
+    if (!file.note.empty())
+      std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
   std::cout << "result " << outputs.in_folder("result.json") << "\nreport "
             << outputs.in_folder("report.html") << '\n';
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';

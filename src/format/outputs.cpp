@@ -190,7 +190,8 @@ std::string_view schema_of_page(std::string_view text) {
 std::string schema_in(std::string_view head) {
   for (const auto of : {schema_of_json, schema_of_table, schema_of_page})
     if (const std::string_view found = of(head); !found.empty()) return std::string(found);
-  if (take(head, "// schema: ") || take(head, "<!-- schema: ")) return std::string(schema_at(head));
+  for (const char* comment : {"// schema: ", "<!-- schema: ", "; schema: ", "( schema: "})
+    if (take(head, comment)) return std::string(schema_at(head));
   return "";
 }
 

@@ -97,7 +97,7 @@ class Outputs {
 /// The schema that the file at `path` says of itself, without its version: "trueaxis.fit", or ""
 /// for a file that TrueAxis did not write or that is not there. In JSON it is the first member, in
 /// CSV a comment line `# schema: …` (a stream: `##`, which is no metadata), in HTML the meta tag
-/// `generator`, in Markdown a comment, in a control's own format a comment line `// schema: …`.
+/// `generator`, in Markdown a comment, in a control's own format a comment line `// schema: …`, `; schema: …` or `( schema: …`.
 std::string schema_of_file(const std::string& path);
 
 /// The same of the first bytes of a file.

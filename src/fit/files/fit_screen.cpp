@@ -42,6 +42,25 @@ std::string rejected_text(const FitResult& result) {
                      fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
 }
 
+/// For those without a servo: where the part stands out towards the probe, at the end that is
+/// farther off, and how far to tap it there. The run-out is twice the distance of the axis.
+std::string tap_screen(const FitResult& fit) {
+  double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
+  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
+    const auto at = fit.axis.axis.at(z);
+    const double off_mm = std::hypot(at[0], at[1]);
+    if (off_mm <= farthest_mm) continue;
+    farthest_mm = off_mm;
+    at_z_mm = z;
+    towards_rad = std::atan2(at[1], at[0]);
+  }
+  if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return "";
+  const double c_deg = std::fmod(towards_rad / rad_per_deg + 360.0, 360.0);
+  return fmt::format(
+      "tap    run-out {} at Z {:.6g} mm, high spot at the probe at C = {:.0f}°: tap there by {}\n",
+      um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
+}
+
 }  // namespace
 
 std::string axis_screen(const FitResult& fit) {
@@ -55,10 +74,13 @@ std::string axis_screen(const FitResult& fit) {
     text += fmt::format("{}x {:.{}f} µm, y {:.{}f} µm, U {:.{}f} µm",
                         text.empty() ? "axis   " : "       ", at[0] / mm_per_um, decimals,
                         at[1] / mm_per_um, decimals, U_um, decimals);
-    if (fit.position_min_mm == fit.position_max_mm) return text + "\n";
+    if (fit.position_min_mm == fit.position_max_mm) {
+      text += "\n";
+      break;
+    }
     text += fmt::format(" at Z {:.6g} mm\n", hundredths(z));
   }
-  return text;
+  return text + tap_screen(fit);
 }
 
 std::string fit_screen(const FitResult& result) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_results.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "correct/files/table_files.hpp"
@@ -232,12 +234,25 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   return streams;
 }
 
+namespace {
+
+/// The schema of the file for a control, as its first line says it.
+std::string control_schema(const ControlTable& output) {
+  constexpr const char* names[] = {"control_grid", "halstreamer", "servo_nc", "sinumerik_cec",
+                                   "beckhoff_crosscomp"};
+  return std::string("trueaxis.") + names[static_cast<std::size_t>(output.format)];
+}
+
+}  // namespace
+
 std::vector<ResultName> job_file_names(const Job& job) {
   std::vector<ResultName> names{{"result.json", "trueaxis.run"}};
   for (std::size_t i = 0; i < job.references.size(); ++i) {
     names.push_back({diagnosis_file(job, i), "trueaxis.diagnosis"});
     names.push_back({readings_file(job, i), "trueaxis.residuals"});
   }
+  for (const ControlTable& output : job.outputs)
+    names.push_back({output.file, control_schema(output)});
   names.push_back({"table.csv", "trueaxis.correction"});
   return names;
 }
@@ -251,8 +266,15 @@ std::vector<ResultFile> job_files(const JobResult& result) {
         {readings_file(result.job, i), residuals_csv(result.streams[i], *result.diagnoses[i],
                                                      &result.resimulations[i]->readings)});
   }
-  if (result.correction && result.verdict.go())
-    files.push_back({"table.csv", correction_csv(*result.correction)});
+  if (!result.correction || !result.verdict.go()) return files;
+  for (const ControlTable& output : result.job.outputs) {
+    MadeControlTable made = make_control_table(*result.correction, output);
+    files.push_back(
+        {output.file, std::move(made.text),
+         fmt::format("{}, rounded to {:.3g} µm, off by at most {:.3g} µm", to_string(output.format),
+                     made.rounding_mm / mm_per_um, made.off_mm / mm_per_um)});
+  }
+  files.push_back({"table.csv", correction_csv(*result.correction)});
   return files;
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "format/toml_reader.hpp"
+#include "job/files/output_toml.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -217,6 +218,21 @@ void read_correction(TomlTable table, Job& job) {
   }
 }
 
+/// Every `[[output]]`, held against the cut that it is of and the names beside it.
+void read_outputs(TomlTable root, Job& job) {
+  for (TomlTable table : root.tables("output")) {
+    ControlTable output = read_output(table);
+    if (const std::string why = objection_to(output, *job.target, job.tool); !why.empty())
+      table.complain("format", why);
+    const bool taken = std::ranges::any_of(
+        job.outputs, [&](const ControlTable& other) { return other.file == output.file; });
+    if (taken || output.file == "table.csv" || output.file == "result.json" ||
+        output.file == "report.html")
+      table.complain("file", "is the name of another result: give it one of its own");
+    job.outputs.push_back(std::move(output));
+  }
+}
+
 void read_cut(TomlTable root, Job& job, bool required) {
   auto target =
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
@@ -228,7 +244,12 @@ void read_cut(TomlTable root, Job& job, bool required) {
     check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
     if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
+    read_outputs(root, job);
   } else {
+    for (TomlTable table : root.tables("output")) {
+      table.complain("format", "is of no use without a [target]: add it, or remove this table");
+      table.ignore_rest();
+    }
     for (const char* key : {"cut", "actuator", "correction"}) {
       if (auto table = root.maybe_table(key)) {
         root.complain(key, "is of no use without a [target]: add it, or remove this table");
