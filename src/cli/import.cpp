@@ -35,7 +35,7 @@ int execute(const Options& options) {
   Outputs outputs(options.force);
   outputs.reads(options.stream.path);
   outputs.may_write(options.output, "trueaxis.stream");
-  outputs.may_write(job, "trueaxis.job");
+  outputs.may_begin(job);
   outputs.check();
   const ImportedRecording imported =
       import_recording(options.stream.path, options.stream.recording());

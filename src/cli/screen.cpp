@@ -48,8 +48,10 @@ void print_screen(const std::string& text) {
   for (std::string line; std::getline(lines, line); first = false) {
     const bool headed = !first && line.size() > text_column;
     const std::string head = headed ? line.substr(0, text_column) : std::string();
+    // A script takes the first line as it is.
+    const std::size_t to = first && isatty(STDOUT_FILENO) == 0 ? text.size() : width;
     std::string out =
-        layout::wrapped(head, headed ? std::string_view(line).substr(text_column) : line, width);
+        layout::wrapped(head, headed ? std::string_view(line).substr(text_column) : line, to);
     if (first && in_colour()) {
       const std::size_t end = std::min(out.find_first_of(":\n"), out.size());
       out = colour_of(line) + out.substr(0, end) + "\x1b[0m" + out.substr(end);

@@ -125,12 +125,6 @@ std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
   return findings_text(diagnosis) + (again ? resimulation_line(*result.resimulations[i]) : "");
 }
 
-std::string inclusion_text(const Inclusion& i) {
-  return (i.included ? "followed    " : "not followed ") + i.effect +
-         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
-         "\n";
-}
-
 }  // namespace
 
 Json correction_object(const Correction& correction) {
@@ -278,13 +272,20 @@ std::vector<ResultFile> job_files(const JobResult& result) {
   return files;
 }
 
+std::string inclusion_text(const Inclusion& i) {
+  return (i.included ? "followed " : "not followed ") + i.effect +
+         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
+         "\n";
+}
+
 std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
-  for (const Inclusion& inclusion : result.inclusions) text += inclusion_text(inclusion);
+  for (const Inclusion& inclusion : result.inclusions)
+    text += "motion      " + inclusion_text(inclusion);
   if (result.correction) text += correction_preview(*result.correction) + "\n";
   return text;
 }

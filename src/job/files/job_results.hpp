@@ -31,6 +31,9 @@ std::vector<ResultName> job_file_names(const Job& job);
 /// readings, and, when there is a go, the files for controls that the job asks for and table.csv.
 std::vector<ResultFile> job_files(const JobResult& result);
 
+/// "followed spindle.radial_synchronous of seat", or why it is not.
+std::string inclusion_text(const Inclusion& inclusion);
+
 /// The run for a person at a terminal: the verdict's line, fits and findings, what became of the
 /// motions asked into the correction, and the correction's extremes.
 std::string job_text(const JobResult& result);

@@ -9,6 +9,8 @@
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "format/text_layout.hpp"
+#include "job/agreement.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -73,6 +75,10 @@ std::string job_screen(const JobResult& result) {
   for (const std::string& reservation : result.verdict.reservations)
     text += "but    " + reservation + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
+  for (const Disagreement& apart : result.agreement.disagreements)
+    text += "apart  " + how_apart(result, apart) + "\n";
+  for (const Inclusion& inclusion : result.inclusions)
+    text += "motion " + inclusion_text(inclusion);
   if (result.correction) text += tool_screen(result.correction->margin);
   return text + next_screen(result);
 }

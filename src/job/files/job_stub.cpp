@@ -13,7 +13,6 @@ std::string job_stub(const std::string& path, const ProbeStream& stream,
   const std::string surface = to_string(evidence.surface);
   const std::string file = std::filesystem::path(path).filename().string();
   std::string text = fmt::format(
-      "# schema: trueaxis.job/1\n"
       "# trueaxis run THIS_FILE -o result\n"
       "name = \"{0}\"\n\n"
       "[sensor]\n"
