@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/control_table.hpp"
 #include "trueaxis/correction.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
@@ -21,6 +22,8 @@ struct StreamReading {
   std::optional<bool> diameter;             ///< X_M is a diameter (true) or a radius (false)
   std::optional<Indication> indication;     ///< overrides the stream's `reading`
   std::optional<double> nominal_radius_mm;  ///< overrides the stream's `nominal_radius`
+  std::string columns{};       ///< of another program's file: "X=Diameter,C=Angle(°),Z=3[mm]"
+  std::size_t skip_lines = 0;  ///< of another program's file: lines above its table
 };
 
 /// One reference surface of a job and how its stream is to be read and fitted.
@@ -59,6 +62,7 @@ struct Job {
   /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
   std::vector<std::string> include;
   AxisOfCut axis_of_cut = AxisOfCut::stated;
+  std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form

@@ -89,6 +89,9 @@ struct ProbeStream {
   /// Of a stream that was read from a file.
   std::optional<XConvention> x_convention;
 
+  /// Of a stream that was made of another program's recording: how, in sentences.
+  std::vector<std::string> read_as;
+
   std::string source;      ///< file name, or "-" for standard input
   std::string input_hash;  ///< "xxh3-64:<16 hex digits>" of the bytes read
 

@@ -7,6 +7,8 @@ namespace trueaxis::cli {
 
 // Each adds the command of its name to `app`; the code that it ends with goes to `exit_code`.
 void add_run(CLI::App& app, int& exit_code);
+void add_init(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app, int& exit_code);
 void add_diagnose(CLI::App& app, int& exit_code);
 void add_advise(CLI::App& app, int& exit_code);

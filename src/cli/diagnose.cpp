@@ -10,8 +10,10 @@
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
+#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
@@ -31,6 +33,7 @@ struct Options {
   ResultOptions result;
   MachineOptions machine;
   std::string errors_output;
+  bool verbose = false;
 };
 
 /// The fit that broke, or nullptr.
@@ -56,7 +59,8 @@ int execute(const Options& options) {
   if (!json.empty()) outputs.write(json, diagnosis_json(diagnosis));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, diagnosis));
   outputs.commit();
-  if (!options.result.printed()) std::cout << diagnosis_text(diagnosis);
+  if (!options.result.printed() && options.verbose) std::cout << diagnosis_text(diagnosis);
+  if (!options.result.printed() && !options.verbose) print_screen(diagnosis_screen(diagnosis));
   if (const FitResult* fit = broken_fit(diagnosis)) {
     std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
     return numerical;
@@ -147,6 +151,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       ->check(a_place());
   add_false_alarm(*command, options->false_alarm);
   options->result.add_to(*command, "what is left before and after here (CSV)");
+  add_verbose(*command, options->verbose);
   command->callback([options, command, surface, &exit_code] {
     exit_code = execute_either(*command, *options, surface->count() > 0);
   });

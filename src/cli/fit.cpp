@@ -7,8 +7,10 @@
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "fit/files/fit_files.hpp"
+#include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
 
@@ -19,6 +21,7 @@ struct Options {
   StreamOptions stream;
   AssociationOptions association;
   ResultOptions result;
+  bool verbose = false;
 };
 
 int execute(const Options& options) {
@@ -34,7 +37,11 @@ int execute(const Options& options) {
   if (!json.empty()) outputs.write(json, fit_json(result));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, result));
   outputs.commit();
-  if (!options.result.printed()) std::cout << fit_text(result);
+  if (!options.result.printed() && options.verbose) std::cout << fit_text(result);
+  if (!options.result.printed() && !options.verbose)
+    print_screen(fit_screen(result) + "next   trueaxis diagnose " + options.stream.path +
+                 " --surface " + options.association.surface +
+                 ": what the surface does not explain\n");
   if (result.status != FitStatus::converged) {
     std::cerr << stream.source << ": " << to_string(result.status) << ": " << result.message
               << '\n';
@@ -51,6 +58,7 @@ void add_fit(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command);
   options->association.add_to(*command)->required();
   options->result.add_to(*command, "its residual here (CSV)");
+  add_verbose(*command, options->verbose);
   command->callback([options, &exit_code] {
     options->result.expect_apart();
     exit_code = execute(*options);

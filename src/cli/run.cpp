@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/run_machine.hpp"
+#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "job/evidence.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
 #include "report/report.hpp"
@@ -26,18 +32,65 @@ int exit_code_of(const JobResult& result) {
 }
 
 struct Options {
-  std::string job, folder;
-  bool force = false;
+  StreamOptions stream;  ///< `path` is the job's, or a stream's
+  AssociationOptions association;
+  CLI::Option* surface = nullptr;
+  std::string folder;
+  bool force = false, verbose = false;
 };
 
+/// Whether a file is a job, as standard input is: its first line that is no comment is one of TOML.
+bool is_job(const std::string& path) {
+  if (path == "-" || path.ends_with(".toml")) return true;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first == std::string::npos || line[first] == '#') continue;
+    const std::size_t word = line.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", first);
+    return line[first] == '[' || (word != std::string::npos && word > first &&
+                                  line.find_first_not_of(' ', word) == line.find('='));
+  }
+  return false;
+}
+
+/// The job of one stream that nothing else is said of.
+Job job_of_stream(const Options& options) {
+  const StreamReadOptions said = options.stream.said();
+  JobReference reference;
+  reference.stream = options.stream.path;
+  reference.read = {said.diameter, said.indication, said.nominal_radius_mm, options.stream.columns,
+                    options.stream.skip};
+  reference.fit = options.association.chosen();
+  Job job;
+  job.path = options.stream.path;
+  job.name = std::filesystem::path(options.stream.path).stem().string();
+  job.references.push_back(std::move(reference));
+  return job;
+}
+
 int execute(const Options& options) {
-  const std::string content = read_file(options.job);
-  if (is_machine_job(content, options.job))
-    return run_machine(read_machine_job_toml(content, options.job), options.folder, options.force);
-  const Job job = read_job_toml(content, options.job);
+  const std::string& path = options.stream.path;
+  const bool said = is_job(path);
+  Job job;
+  if (said) {
+    const std::string content = read_file(path);
+    if (is_machine_job(content, path))
+      return run_machine(read_machine_job_toml(content, path), options.folder, options.force);
+    job = read_job_toml(content, path);
+  } else {
+    job = job_of_stream(options);
+  }
   std::vector<ProbeStream> streams = read_streams(job);
+  if (!said) {
+    if (options.surface->count() == 0) {
+      const SurfaceEvidence evidence = surface_by_evidence(streams.front());
+      job.references.front().fit.surface = evidence.surface;
+      streams.front().read_as.push_back(evidence.why);
+    }
+    job.references.front().name = to_string(job.references.front().fit.surface);
+  }
   Outputs outputs(options.force);
-  outputs.reads(options.job);
+  outputs.reads(path);
   for (const JobReference& reference : job.references) outputs.reads(reference.stream);
   outputs.into(options.folder);
   for (const ResultName& file : job_file_names(job))
@@ -45,25 +98,46 @@ int execute(const Options& options) {
   outputs.may_write_in_folder("report.html", "trueaxis.report");
   outputs.check();
 
-  const JobResult result = run_job(job, std::move(streams));
+  const JobResult result = run_job(std::move(job), std::move(streams));
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
   files.insert(files.begin() + 1, {"report.html", render_report(result)});
   for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);
   const std::string table = outputs.in_folder("table.csv");
   const bool tabled = files.back().name == "table.csv";
-  if (!tabled) outputs.remove_earlier(table);  // one stands there only when it may be run
-  outputs.commit();
-  std::cout << job_text(result);
-  if (tabled) {
-    std::cout << "table   " << table << '\n';
-  } else if (result.correction) {
-    std::cout << "table   not written: " << result.verdict.line << '\n';
+  if (!tabled) {  // they stand there only when they may be run
+    outputs.remove_earlier(table);
+    for (const ControlTable& output : result.job.outputs)
+      outputs.remove_earlier(outputs.in_folder(output.file));
   }
-  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
+  outputs.commit();
+  if (options.verbose) {
+    std::cout << job_text(result);
+  } else {
+    print_screen(job_screen(result));
+  }
+  if (tabled) {
+    std::cout << "table  " << table << '\n';
+  } else if (result.correction) {
+    std::cout << "table  not written: " << result.verdict.line << '\n';
+  }
+  for (const ResultFile& file : files)
+    if (!file.note.empty())
+      std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
+  std::cout << "result " << outputs.in_folder("result.json") << "\nreport "
             << outputs.in_folder("report.html") << '\n';
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);
+}
+
+/// What is said of a stream beside a job would be passed over in silence.
+void expect_no_stream_options(const CLI::App& command) {
+  constexpr std::string_view fine[] = {"--help", "--output", "--force", "--verbose", "stream"};
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
+    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
+  }
 }
 
 }  // namespace
@@ -74,7 +148,8 @@ void add_run(CLI::App& app, int& exit_code) {
       "the whole job: of a lathe fit, diagnosis, correction, report; of a machine "
       "of several axes diagnosis, errors, program, report");
   auto options = std::make_shared<Options>();
-  command->add_option("job", options->job, "job file (TOML)")->required();
+  options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
+  options->surface = options->association.add_to(*command);
   command
       ->add_option("-o,--output", options->folder,
                    "folder for table.csv or the new program, result.json and report.html, made if "
@@ -82,7 +157,11 @@ void add_run(CLI::App& app, int& exit_code) {
       ->required()
       ->check(a_place());
   add_force(*command, options->force);
-  command->callback([=, &exit_code] { exit_code = execute(*options); });
+  add_verbose(*command, options->verbose);
+  command->callback([=, &exit_code] {
+    if (is_job(options->stream.path)) expect_no_stream_options(*command);
+    exit_code = execute(*options);
+  });
 }
 
 }  // namespace trueaxis::cli

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
-#include "measure/files/stream_csv.hpp"
+#include "recording/import.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -18,6 +18,8 @@ struct StreamOptions {
   std::string path;
   bool diameter = false, radius = false, relative = false;
   double nominal_radius_mm = 0.0;
+  std::string columns;
+  std::size_t skip = 0;
 
   void add_to(CLI::App& command,
               const std::string& what = "probe stream (CSV), '-' for standard input") {
@@ -32,6 +34,13 @@ struct StreamOptions {
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
     command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")
         ->check(positive_length());
+    command
+        .add_option("--columns", columns,
+                    "of another program's file: which is which, by name or number, such as "
+                    "\"X=Diameter,C=Angle(°),Z=3[mm]\"")
+        ->check(a_place());
+    command.add_option("--skip", skip, "of another program's file: lines above its table")
+        ->check(CLI::Range(0, 1000000));
   }
 
   /// `--ball-radius` of a command that reads a diagnosed stream again.
@@ -42,7 +51,9 @@ struct StreamOptions {
         ->check(a_length());
   }
 
-  bool says_anything() const { return diameter || radius || relative || nominal_radius_mm > 0.0; }
+  bool says_anything() const {
+    return diameter || radius || relative || nominal_radius_mm > 0.0 || recording().says_anything();
+  }
 
   /// What the options say of a stream.
   StreamReadOptions said() const {
@@ -53,7 +64,10 @@ struct StreamOptions {
     return options;
   }
 
-  ProbeStream read() const { return read_stream_csv(path, said()); }
+  /// The same of another program's file.
+  RecordingOptions recording() const { return {columns, skip, said()}; }
+
+  ProbeStream read() const { return read_recording(path, recording()); }
 };
 
 /// How a stream is to be associated, the same for every command that fits one.

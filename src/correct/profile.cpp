@@ -90,6 +90,11 @@ double Profile::at(double c_rad, double position_mm) const {
          side_of_tool(tool_.angle_from_probe_rad) * followed;
 }
 
+double Profile::programmed_mm(double position_mm) const {
+  return target_.kind == TargetKind::face ? target_.z_face_mm + tool_.nose_radius_mm
+                                          : nose_centre_mm(about_spindle_, 0.0, position_mm);
+}
+
 // A face is touched at the X of the nose's centre: its section has no slope.
 double Profile::centre_over_mm(double z_mm) const {
   const Intersection hit = intersect(about_spindle_, 0.0, z_mm, tool_.height_mm);

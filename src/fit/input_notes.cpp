@@ -75,7 +75,7 @@ std::string exchanged_columns(const ProbeStream& stream) {
 }  // namespace
 
 std::vector<std::string> notes_on_input(const ProbeStream& stream, const SurfaceInfo& info) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = stream.read_as;
   if (!stream.x_convention) return notes;
   const auto add = [&](std::string note) {
     if (!note.empty()) notes.push_back(std::move(note));

@@ -62,6 +62,9 @@ class Outputs {
   void may_write(const std::string& path, const std::string& schema);
   /// The same for a file of the folder of the results.
   void may_write_in_folder(const std::string& name, const std::string& schema);
+  /// A file that whoever gets it then changes, a job: one that is there, and not empty, is replaced
+  /// only with `force`. It says no schema.
+  void may_begin(const std::string& path);
   std::string in_folder(const std::string& name) const;  ///< its path
 
   /// @throws InputError with every place that must not or cannot be written.
@@ -81,6 +84,7 @@ class Outputs {
  private:
   struct Place {
     std::string path, schema;
+    bool to_be_changed = false;
   };
   std::string objection(const Place& place) const;
   std::string of_folder() const;
@@ -97,7 +101,8 @@ class Outputs {
 /// The schema that the file at `path` says of itself, without its version: "trueaxis.fit", or ""
 /// for a file that TrueAxis did not write or that is not there. In JSON it is the first member, in
 /// CSV a comment line `# schema: …` (a stream: `##`, which is no metadata), in HTML the meta tag
-/// `generator`, in Markdown a comment, in a control's own format a comment line `// schema: …`.
+/// `generator`, in Markdown a comment, in a control's own format a comment line `// schema: …`, `;
+/// schema: …` or `( schema: …`.
 std::string schema_of_file(const std::string& path);
 
 /// The same of the first bytes of a file.

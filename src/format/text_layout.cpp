@@ -23,7 +23,7 @@ std::string padded(std::string_view text, std::size_t to) {
   return out;
 }
 
-std::string wrapped(const std::string& head, std::string_view text) {
+std::string wrapped(const std::string& head, std::string_view text, std::size_t to) {
   const std::size_t indent = width(head);
   std::string out = head;
   std::size_t at = indent;
@@ -31,7 +31,7 @@ std::string wrapped(const std::string& head, std::string_view text) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);
     const std::size_t needs = width(word);
-    if (at > indent && at + 1 + needs > columns) {
+    if (at > indent && at + 1 + needs > to) {
       out += '\n' + std::string(indent, ' ');
       at = indent;
     }

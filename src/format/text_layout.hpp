@@ -17,8 +17,8 @@ std::size_t width(std::string_view text);
 /// `text` with blanks behind it up to `to` characters.
 std::string padded(std::string_view text, std::size_t to);
 
-/// `head` and then `text`, broken at blanks to `columns`; further lines start below the text.
-std::string wrapped(const std::string& head, std::string_view text);
+/// `head` and then `text`, broken at blanks to `to` columns; further lines start below the text.
+std::string wrapped(const std::string& head, std::string_view text, std::size_t to = columns);
 
 /// A length in µm: "99.2 µm"; "not determined".
 std::string um(double length_mm);

@@ -105,7 +105,7 @@ TEST_F(FitCommand, JsonToAFileIsTheJsonPrinted) {
   const CommandStreams written = command("fit cone.csv --surface cone --json fit.json");
   EXPECT_EQ(printed.out, read_text(folder_ / "fit.json"));
   EXPECT_EQ(printed.err, "");
-  EXPECT_TRUE(contains(written.out, "half_angle"));
+  EXPECT_TRUE(contains(written.out, "\nangle  "));
   EXPECT_EQ(files_in(folder_), (std::vector<std::string>{"cone.csv", "fit.json"}));
 }
 

@@ -67,7 +67,8 @@ TEST_F(RunRefusals, ARadialSlipIsSaid) {
   ASSERT_TRUE(contains(line, said)) << line;
   const double step_um = std::stod(line.substr(line.find(said) + said.size()));
   EXPECT_NEAR(step_um, 20.0, 5.0 * u_um) << line;
-  EXPECT_TRUE(contains(done.out, "the axis is that of the part as it stands after the slip"));
+  EXPECT_TRUE(contains(done.out, "\nmoved  the part slipped in the chuck at 12.0 s by "))
+      << done.out;
 }
 
 TEST_F(RunRefusals, TwoSlipsAreNotSure) {
@@ -114,8 +115,7 @@ TEST_F(RunRefusals, AHeightThatIsImplausibleMovesNoAxis) {
   EXPECT_EQ(done.exit_code, 0) << done.err;
   const json diagnosis = result("out/diagnosis_1_seat.json");
   EXPECT_FALSE(contains(diagnosis.at("findings").dump(), "probe.height")) << done.out;
-  for (std::size_t at = 0; (at = done.out.find("probe.height", at)) != std::string::npos; ++at)
-    EXPECT_EQ(done.out.substr(at, 35), "probe.height, too small to be found") << done.out;
+  EXPECT_FALSE(contains(done.out, "probe.height")) << done.out;
   EXPECT_LT(simulated_again().at("after").at("share_of_variance").get<double>(), 0.5);
   const json axis = diagnosis.at("extended").at("axis");
   // An angle that errs by ε cos C shifts the axis by ε² and less of e; U of x is some 0.5 µm.

@@ -19,7 +19,7 @@ class RunResimulation : public CommandTest {
     file("part.toml", hidden_.scenario());
     ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
     file("job.toml", simple_job(cylinder_reference));
-    done_ = command("run job.toml -o out");
+    done_ = command("run job.toml -o out --verbose");
     ASSERT_EQ(done_.exit_code, 0) << done_.err;
     EXPECT_EQ(done_.err, "");
   }

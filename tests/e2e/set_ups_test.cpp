@@ -46,7 +46,7 @@ class SetUpsCommand : public CommandTest {};
 TEST_F(SetUpsCommand, EachIsListedAndTheLastIsTheResult) {
   file("part.toml", two_set_ups);
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
-  const CommandStreams text = command("fit part.csv --surface cone");
+  const CommandStreams text = command("fit part.csv --surface cone --verbose");
   EXPECT_NE(text.out.find("set-up 1         front: x0"), std::string::npos) << text.out;
   EXPECT_NE(text.out.find("set-up 2         rear:  x0"), std::string::npos) << text.out;
   const json fit = json::parse(command("fit part.csv --surface cone --json -").out);

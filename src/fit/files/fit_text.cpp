@@ -36,8 +36,9 @@ void append_parameters(std::string& text, const std::vector<FitParameter>& param
     } else if (!std::isfinite(U)) {
       append(text, "  {:<16} {:16.6f}  {:<3}  ({})\n", p.name, e.value, e.unit, e.why_not);
     } else {
-      append(text, "  {:<16} {:16.{}f} ± {:<10.2g} {}{}\n", p.name, e.value, decimals_of(U), U,
-             e.unit, ends(e, U));
+      const int decimals = decimals_of(U, 0);
+      append(text, "  {:<16} {:16.{}f} ± {:<10} {}{}\n", p.name, e.value, decimals,
+             fmt::format("{:.{}f}", U, decimals), e.unit, ends(e, U));
     }
   }
 }
@@ -53,7 +54,8 @@ void append_set_up(std::string& text, const SetUpFit& one, double k) {
     if (!e.determined() || !std::isfinite(U)) {
       append(text, "{} -", p.name);
     } else {
-      append(text, "{} {:.{}f} ± {:.2g}{}{}", p.name, e.value, decimals_of(U), U,
+      const int decimals = decimals_of(U, 0);
+      append(text, "{} {:.{}f} ± {:.{}f}{}{}", p.name, e.value, decimals, U, decimals,
              e.unit == "1" ? "" : " " + e.unit, ends(e, U));
     }
   }

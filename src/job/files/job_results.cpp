@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/job_results.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "correct/files/table_files.hpp"
@@ -9,7 +11,7 @@
 #include "fit/files/fit_files.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
-#include "measure/files/stream_csv.hpp"
+#include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -123,12 +125,6 @@ std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
   return findings_text(diagnosis) + (again ? resimulation_line(*result.resimulations[i]) : "");
 }
 
-std::string inclusion_text(const Inclusion& i) {
-  return (i.included ? "followed    " : "not followed ") + i.effect +
-         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
-         "\n";
-}
-
 }  // namespace
 
 Json correction_object(const Correction& correction) {
@@ -210,8 +206,11 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   for (const JobReference& reference : job.references) {
     try {
       const StreamReading& said = reference.read;
-      streams.push_back(read_stream_csv(
-          reference.stream, {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}));
+      streams.push_back(
+          read_recording(reference.stream,
+                         {said.columns,
+                          said.skip_lines,
+                          {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}}));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
@@ -229,12 +228,25 @@ std::vector<ProbeStream> read_streams(const Job& job) {
   return streams;
 }
 
+namespace {
+
+/// The schema of the file for a control, as its first line says it.
+std::string control_schema(const ControlTable& output) {
+  constexpr const char* names[] = {"control_grid", "halstreamer", "servo_nc", "sinumerik_cec",
+                                   "beckhoff_crosscomp"};
+  return std::string("trueaxis.") + names[static_cast<std::size_t>(output.format)];
+}
+
+}  // namespace
+
 std::vector<ResultName> job_file_names(const Job& job) {
   std::vector<ResultName> names{{"result.json", "trueaxis.run"}};
   for (std::size_t i = 0; i < job.references.size(); ++i) {
     names.push_back({diagnosis_file(job, i), "trueaxis.diagnosis"});
     names.push_back({readings_file(job, i), "trueaxis.residuals"});
   }
+  for (const ControlTable& output : job.outputs)
+    names.push_back({output.file, control_schema(output)});
   names.push_back({"table.csv", "trueaxis.correction"});
   return names;
 }
@@ -248,9 +260,22 @@ std::vector<ResultFile> job_files(const JobResult& result) {
         {readings_file(result.job, i), residuals_csv(result.streams[i], *result.diagnoses[i],
                                                      &result.resimulations[i]->readings)});
   }
-  if (result.correction && result.verdict.go())
-    files.push_back({"table.csv", correction_csv(*result.correction)});
+  if (!result.correction || !result.verdict.go()) return files;
+  for (const ControlTable& output : result.job.outputs) {
+    MadeControlTable made = make_control_table(*result.correction, output);
+    files.push_back(
+        {output.file, std::move(made.text),
+         fmt::format("{}, rounded to {:.3g} µm, off by at most {:.3g} µm", to_string(output.format),
+                     made.rounding_mm / mm_per_um, made.off_mm / mm_per_um)});
+  }
+  files.push_back({"table.csv", correction_csv(*result.correction)});
   return files;
+}
+
+std::string inclusion_text(const Inclusion& i) {
+  return (i.included ? "followed " : "not followed ") + i.effect +
+         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
+         "\n";
 }
 
 std::string job_text(const JobResult& result) {
@@ -259,7 +284,8 @@ std::string job_text(const JobResult& result) {
     text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
-  for (const Inclusion& inclusion : result.inclusions) text += inclusion_text(inclusion);
+  for (const Inclusion& inclusion : result.inclusions)
+    text += "motion      " + inclusion_text(inclusion);
   if (result.correction) text += correction_preview(*result.correction) + "\n";
   return text;
 }

@@ -16,6 +16,7 @@ std::vector<ProbeStream> read_streams(const Job& job);
 /// A file of a folder of results.
 struct ResultFile {
   std::string name, text;
+  std::string note{};  ///< of a file for a control: how it is rounded and how far it is off
 };
 
 /// The name of one, and its schema without the version.
@@ -27,8 +28,11 @@ struct ResultName {
 std::vector<ResultName> job_file_names(const Job& job);
 
 /// What a run leaves behind: result.json, of each diagnosed reference its diagnosis and its
-/// readings, and table.csv when there is a go.
+/// readings, and, when there is a go, the files for controls that the job asks for and table.csv.
 std::vector<ResultFile> job_files(const JobResult& result);
+
+/// "followed spindle.radial_synchronous of seat", or why it is not.
+std::string inclusion_text(const Inclusion& inclusion);
 
 /// The run for a person at a terminal: the verdict's line, fits and findings, what became of the
 /// motions asked into the correction, and the correction's extremes.

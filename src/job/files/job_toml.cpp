@@ -10,6 +10,7 @@
 
 #include "format/file.hpp"
 #include "format/toml_reader.hpp"
+#include "job/files/output_toml.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 
@@ -65,6 +66,8 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
         Indication::absolute);
   }
   reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
+  reference.read.columns = table.text("columns", "");
+  reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.fit.ball_radius_mm = sensor.ball_radius_mm;
@@ -216,6 +219,21 @@ void read_correction(TomlTable table, Job& job) {
   }
 }
 
+/// Every `[[output]]`, held against the cut that it is of and the names beside it.
+void read_outputs(TomlTable root, Job& job) {
+  for (TomlTable table : root.tables("output")) {
+    ControlTable output = read_output(table);
+    if (const std::string why = objection_to(output, *job.target, job.tool); !why.empty())
+      table.complain("format", why);
+    const bool taken = std::ranges::any_of(
+        job.outputs, [&](const ControlTable& other) { return other.file == output.file; });
+    if (taken || output.file == "table.csv" || output.file == "result.json" ||
+        output.file == "report.html")
+      table.complain("file", "is the name of another result: give it one of its own");
+    job.outputs.push_back(std::move(output));
+  }
+}
+
 void read_cut(TomlTable root, Job& job, bool required) {
   auto target =
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
@@ -227,7 +245,12 @@ void read_cut(TomlTable root, Job& job, bool required) {
     check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
     if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
+    read_outputs(root, job);
   } else {
+    for (TomlTable table : root.tables("output")) {
+      table.complain("format", "is of no use without a [target]: add it, or remove this table");
+      table.ignore_rest();
+    }
     for (const char* key : {"cut", "actuator", "correction"}) {
       if (auto table = root.maybe_table(key)) {
         root.complain(key, "is of no use without a [target]: add it, or remove this table");

@@ -196,4 +196,22 @@ ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& op
   return stream;
 }
 
+ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
+                                 const StreamReadOptions& options) {
+  ProbeStream stream;
+  stream.source = source;
+  CsvDiagnostics diagnostics(source, options.max_diagnostics);
+  LineReader lines(stream, diagnostics);
+  StreamingHash hash;
+  hash.add(text.data(), text.size());
+  const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
+  if (lines.block(text.data(), text.data() + whole) && whole < text.size()) {
+    const std::string last = std::string(text.substr(whole)) + '\n';
+    lines.block(last.data(), last.data() + last.size());
+  }
+  lines.finish(options);
+  stream.input_hash = hash.text();
+  return stream;
+}
+
 }  // namespace trueaxis

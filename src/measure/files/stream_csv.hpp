@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/probe_stream.hpp"
@@ -23,5 +24,9 @@ struct StreamReadOptions {
 /// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
+
+/// The same from its text; `source` is the file that it is of.
+ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
+                                 const StreamReadOptions& options = {});
 
 }  // namespace trueaxis

@@ -29,6 +29,17 @@ std::string with_point(std::string_view text) {
   return csv_number(point.data(), end, value, error) == end ? point : std::string{};
 }
 
+/// A message without what it quotes and counts: the same for every row with the same mistake.
+std::string kind_of(std::string_view message) {
+  std::string kind;
+  bool quoted = false;
+  for (const char c : message) {
+    if (c == '\'') quoted = !quoted;
+    if (!quoted && (c < '0' || c > '9') && c != '.' && c != '-') kind += c;
+  }
+  return kind;
+}
+
 }  // namespace
 
 CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics)
@@ -157,7 +168,8 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
                          " fields, the header names " + std::to_string(count) +
                          (fields_.size() == 2 * count && header_.separator == ','
                               ? ": write decimal points, no decimal commas"
-                              : ": write one field per column"));
+                              : ": write one field per column"),
+                     "fields");
     return;
   }
   bool good = true;
@@ -173,7 +185,10 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
       }
       last_time_ = row_[k];
     }
-    if (!fine) diagnostics_.add(line_number, csv_character(line, fields_[k].byte), std::move(why));
+    if (!fine) {
+      const std::string kind = kind_of(why);
+      diagnostics_.add(line_number, csv_character(line, fields_[k].byte), std::move(why), kind);
+    }
     good = good && fine;
   }
   if (good && all_known_) append();

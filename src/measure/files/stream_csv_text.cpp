@@ -2,6 +2,7 @@
 #include "measure/files/stream_csv_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <tuple>
@@ -115,7 +116,15 @@ std::string csv_quoted(std::string_view text) {
   return out + (cut < text.size() ? "…'" : "'");
 }
 
-void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string message) {
+void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string message,
+                         const std::string& kind) {
+  constexpr std::size_t most_lines = 6;
+  if (const auto same = kinds_.find(kind); !kind.empty() && same != kinds_.end()) {
+    ++same->second.count;
+    if (same->second.lines.size() < most_lines) same->second.lines.push_back(line);
+    return;
+  }
+  if (!kind.empty()) kinds_[kind].at = found_.size();
   if (found_.size() < max_) {
     found_.push_back({file_, line, column, std::move(message)});
   } else {
@@ -125,6 +134,14 @@ void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string messa
 
 void CsvDiagnostics::throw_if_any() {
   if (!any()) return;
+  for (const auto& [kind, further] : kinds_) {
+    if (further.count == 0 || further.at >= found_.size()) continue;
+    const bool all = further.count == further.lines.size();
+    found_[further.at].message +=
+        fmt::format(" (so too in {} further place{}, in line{} {}{})", further.count,
+                    further.count == 1 ? "" : "s", further.count == 1 ? "" : "s",
+                    fmt::join(further.lines, ", "), all ? "" : " …");
+  }
   std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,11 +40,13 @@ std::string csv_utf8(std::string_view text);
 std::string csv_quoted(std::string_view text);
 
 /// Collects what is wrong with one file; at most `max` places in it are listed, the rest counted.
+/// Of places of one `kind` the first is listed, with how many further lines have the same and where
+/// they begin.
 class CsvDiagnostics {
  public:
   CsvDiagnostics(std::string file, std::size_t max) : file_(std::move(file)), max_(max) {}
 
-  void add(std::size_t line, std::size_t column, std::string message);
+  void add(std::size_t line, std::size_t column, std::string message, const std::string& kind = "");
   bool any() const { return !found_.empty() || more_ != 0; }
   /// Throws InputError with everything found, in line order, if anything was.
   void throw_if_any();
@@ -52,6 +55,11 @@ class CsvDiagnostics {
   std::string file_;
   std::size_t max_, more_ = 0;
   std::vector<Diagnostic> found_;
+  struct Further {
+    std::size_t at = 0, count = 0;   ///< of the first place in `found_`; lines beside it
+    std::vector<std::size_t> lines;  ///< the first of them
+  };
+  std::map<std::string, Further> kinds_;
 };
 
 }  // namespace trueaxis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/import.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/stream_options.hpp"
+#include "format/outputs.hpp"
+#include "format/text_layout.hpp"
+#include "job/evidence.hpp"
+#include "job/files/job_stub.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  StreamOptions stream;
+  std::string output, job;
+  bool force = false;
+};
+
+/// Beside the stream, with another ending.
+std::string job_place(const Options& options) {
+  if (!options.job.empty() || options.output == "-") return options.job;
+  return std::filesystem::path(options.output).replace_extension(".toml").string();
+}
+
+int execute(const Options& options) {
+  const std::string job = job_place(options);
+  Outputs outputs(options.force);
+  outputs.reads(options.stream.path);
+  outputs.may_write(options.output, "trueaxis.stream");
+  outputs.may_begin(job);
+  outputs.check();
+  const ImportedRecording imported =
+      import_recording(options.stream.path, options.stream.recording());
+  outputs.write(options.output, imported.text);
+  if (!job.empty())
+    outputs.write(job,
+                  job_stub(options.output, imported.stream, surface_by_evidence(imported.stream)));
+  outputs.commit();
+  if (options.output == "-") return done;
+  for (const std::string& note : imported.notes) std::cout << layout::wrapped("", note);
+  std::cout << fmt::format("stream  {} ({} readings)\n", options.output, imported.stream.size());
+  if (!job.empty()) std::cout << "job     " << job << "  (trueaxis run " << job << " -o result)\n";
+  return done;
+}
+
+}  // namespace
+
+void add_import(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "import", "another program's recording as a stream, and a job to begin with");
+  auto options = std::make_shared<Options>();
+  options->stream.add_to(*command,
+                         "spreadsheet (CSV or text), LinuxCNC probe log or halsampler file, DPRNT, "
+                         "camonitor, TwinCAT Scope");
+  command->add_option("-o,--output", options->output, "the stream (CSV), '-' prints it")
+      ->required()
+      ->check(a_place());
+  command->add_option("--job", options->job, "the job (TOML); else beside the stream")
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "format/outputs.hpp"
+#include "job/files/starter.hpp"
+
+namespace trueaxis::cli {
+
+void add_init(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string folder;
+    bool force = false;
+  };
+  CLI::App* command = app.add_subcommand(
+      "init",
+      "files to begin with: a scenario, its job, its cut, a sweep; commented, and they run");
+  auto options = std::make_shared<Options>();
+  command->add_option("-o,--output", options->folder, "folder, made if need be")
+      ->required()
+      ->check(a_place());
+  add_force(*command, options->force);
+  command->callback([options, &exit_code] {
+    Outputs outputs(options->force);
+    outputs.into(options->folder);
+    for (const StarterFile& file : starter_files())
+      outputs.may_begin(outputs.in_folder(std::string(file.name)));
+    outputs.check();
+    for (const StarterFile& file : starter_files())
+      outputs.write(outputs.in_folder(std::string(file.name)), file.text);
+    outputs.commit();
+    for (const StarterFile& file : starter_files())
+      std::cout << outputs.in_folder(std::string(file.name)) << '\n';
+    exit_code = done;
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/screen.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+#include "format/text_layout.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+constexpr std::size_t text_column = 7;  // where the text of a line stands behind its word
+
+std::size_t width_of_terminal() {
+  winsize size{};
+  if (isatty(STDOUT_FILENO) == 0 || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 ||
+      size.ws_col == 0)
+    return layout::columns;
+  return std::clamp<std::size_t>(size.ws_col, 50, 140);
+}
+
+bool in_colour() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }
+
+/// The escape code of a verdict: green for a go, red for a stop, yellow for what lies between.
+const char* colour_of(const std::string& line) {
+  const auto starts = [&](const char* with) { return line.starts_with(with); };
+  if (starts("GO with") || starts("NOT PROVEN") || starts("EFFECTS")) return "\x1b[1;33m";
+  if (starts("GO") || starts("IDEAL") || starts("DONE")) return "\x1b[1;32m";
+  if (starts("NO-GO") || starts("UNEXPLAINED") || starts("NOT DIAGNOSED")) return "\x1b[1;31m";
+  return "\x1b[1m";
+}
+
+}  // namespace
+
+CLI::Option* add_verbose(CLI::App& command, bool& verbose) {
+  return command.add_flag("-v,--verbose", verbose, "print everything, not what fits a screen");
+}
+
+void print_screen(const std::string& text) {
+  const std::size_t width = width_of_terminal();
+  std::istringstream lines(text);
+  bool first = true;
+  for (std::string line; std::getline(lines, line); first = false) {
+    const bool headed = !first && line.size() > text_column;
+    const std::string head = headed ? line.substr(0, text_column) : std::string();
+    // A script takes the first line as it is.
+    const std::size_t to = first && isatty(STDOUT_FILENO) == 0 ? text.size() : width;
+    std::string out =
+        layout::wrapped(head, headed ? std::string_view(line).substr(text_column) : line, to);
+    if (first && in_colour()) {
+      const std::size_t end = std::min(out.find_first_of(":\n"), out.size());
+      out = colour_of(line) + out.substr(0, end) + "\x1b[0m" + out.substr(end);
+    }
+    std::cout << out;
+  }
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/files/diagnosis_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnose/files/diagnosis_text.hpp"
+#include "diagnose/files/seen.hpp"
+#include "fit/files/fit_screen.hpp"
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+using namespace layout;
+namespace {
+
+constexpr std::size_t most_findings = 3, most_causes = 2;
+
+std::string line(const std::string& head, const std::string& text) { return head + text + "\n"; }
+
+std::string verdict_line(const Diagnosis& d) {
+  const auto found = d.findings.size(), unexplained = d.unexplained.size();
+  const std::string rms = fmt::format(
+      "residuals {} RMS, noise of a reading {}",
+      um(d.verdict == DiagnosisVerdict::ideal ? d.baseline.rms_mm : d.gain.rms_after_mm),
+      um(d.noise.sigma_mm));
+  if (d.verdict == DiagnosisVerdict::ideal)
+    return std::string("IDEAL: the readings show a ") + to_string(d.baseline.surface) +
+           " and nothing else; " + rms;
+  std::string text = d.verdict == DiagnosisVerdict::effects ? "EFFECTS: " : "UNEXPLAINED: ";
+  text += fmt::format("{} thing{} seen that the ideal {} has not", found + unexplained,
+                      found + unexplained == 1 ? "" : "s", to_string(d.baseline.surface));
+  if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
+  return text + "; " + rms;
+}
+
+}  // namespace
+
+std::string findings_screen(const Diagnosis& d, std::size_t most) {
+  const double k = d.baseline.coverage_factor;
+  std::string text;
+  std::size_t shown = 0;
+  for (const Finding& finding : d.findings) {
+    if (shown++ == most) break;
+    text += line(
+        "seen   ",
+        seen_text(finding, k) +
+            (finding.cosmetic
+                 ? ""
+                 : "; " + finding_axis_bias(finding, k, d.baseline.surface == SurfaceKind::plane)));
+    for (const std::string& cause : cause_lines(finding, most_causes))
+      text += line("       - ", cause);
+  }
+  for (const Unexplained& pattern : d.unexplained) {
+    if (shown++ >= most) break;
+    text += line("seen   ", seen_text(pattern, k));
+  }
+  const std::size_t all = d.findings.size() + d.unexplained.size();
+  if (all > most) text += fmt::format("       and {} more (--verbose)\n", all - most);
+  return text;
+}
+
+std::string diagnosis_screen(const Diagnosis& d) {
+  if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
+  std::string text = line("", verdict_line(d));
+  for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
+  text += findings_screen(d, most_findings) + axis_screen(d.extended);
+  if (d.verdict == DiagnosisVerdict::ideal) return text + "next   nothing: the axis may be used\n";
+  if (!d.next.plan.empty())
+    text += line("next   ",
+                 fmt::format("{}: {:.0f} min, and the right cause is told with a chance of {} "
+                             "instead of {}",
+                             d.next.what, std::ceil(d.next.minutes),
+                             probability(d.next.power_after), probability(d.next.power_before)));
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/diagnosis.hpp"
+
+namespace trueaxis {
+
+/// A diagnosis in some ten lines for a person: verdict, what was seen and its causes, the axis,
+/// what to do next. Lines are not broken (the command does). diagnosis_text() has the rest.
+std::string diagnosis_screen(const Diagnosis& diagnosis);
+
+/// The part of it about what was seen, at most `most` findings.
+std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
+
+}  // namespace trueaxis

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "diagnose/files/seen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/files/consequences.hpp"
+#include "diagnose/files/diagnosis_text.hpp"
+#include "format/text_layout.hpp"
+#include "trueaxis/effect.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+using namespace layout;
+namespace {
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// The size that is reported first: an amplitude, else the first parameter that has a U.
+const FitParameter* size_of(const Finding& finding) {
+  const auto named = std::ranges::find(finding.parameters, "amplitude", &FitParameter::name);
+  if (named != finding.parameters.end()) return &*named;
+  const auto first = std::ranges::find_if(finding.parameters, [](const FitParameter& parameter) {
+    return parameter.estimate.determined() && parameter.estimate.u > 0.0;
+  });
+  return first == finding.parameters.end() ? nullptr : &*first;
+}
+
+std::string size_text(const Finding& finding, double k) {
+  const FitParameter* size = size_of(finding);
+  if (size == nullptr) return um(finding.rms_mm) + " RMS";
+  const Estimate& e = size->estimate;
+  const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
+  return plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
+}
+
+/// A title up to what explains it: "roundness of the part".
+std::string short_title(const Effect& effect) {
+  return std::string(effect.title.substr(0, effect.title.find(':')));
+}
+
+std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const std::string& size) {
+  const double order = harmonic.fixed_order > 0.0 ? harmonic.fixed_order : shape.order;
+  const bool whole = std::abs(order - std::round(order)) < 1e-6;
+  const std::string count =
+      order == 1.0 ? "one undulation" : fmt::format("{:.{}g} undulations", order, whole ? 6 : 4);
+  std::string along;
+  switch (harmonic.envelope) {
+    case Harmonic::Envelope::constant:
+      along =
+          harmonic.port == Port::z ? "along Z with the slope of the surface" : "the same along Z";
+      break;
+    case Harmonic::Envelope::growing:
+      along = "changing along Z";
+      break;
+    case Harmonic::Envelope::lever:
+      along = "growing with the distance from a point of the axis";
+      break;
+    case Harmonic::Envelope::jaws:
+      along = "fading away from the jaws";
+      break;
+    case Harmonic::Envelope::parabola:
+      along = "bent along Z";
+      break;
+    case Harmonic::Envelope::square:
+      along = "growing to the rim";
+      break;
+  }
+  return count + (whole ? " per revolution, " : " per revolution (not a whole number), ") + size +
+         ", " + along;
+}
+
+}  // namespace
+
+std::string seen_text(const Finding& finding, double k) {
+  const TermShape& shape = finding.term.shape;
+  const std::string size = size_text(finding, k);
+  const std::string title = short_title(*finding.term.effect);
+  return std::visit(
+      Overloaded{
+          [&](const Harmonic& harmonic) { return of_harmonic(harmonic, shape, size); },
+          [&](const PeriodicInZ& periodic) {
+            return periodic.turns == 0.0
+                       ? fmt::format("a wave along Z, {:.4g} mm long, {}", shape.period_mm, size)
+                       : fmt::format("a spiral of {:.4g} mm a turn, {}", shape.period_mm, size);
+          },
+          [&](const PeriodicInTime&) {
+            return fmt::format("a vibration of {:.4g} Hz, {}", shape.frequency_hz, size);
+          },
+          [&](const GrowthInTime&) { return "a drift with time, " + size; },
+          [&](const PartStep&) {
+            return fmt::format("the part moved {:.4g} s after the start, {}", shape.onset_s, size);
+          },
+          [&](const PolynomialInZ&) { return "a curve along Z, the same all around, " + size; },
+          [&](const auto&) { return title + ", " + size; }},
+      finding.term.effect->term);
+}
+
+std::string seen_text(const Unexplained& pattern, double k) {
+  return harmonic_text(pattern.term.pattern) + ", " + dependence_text(pattern.term.pattern) + ", " +
+         plus_minus(pattern.amplitude, k, 1.0 / mm_per_um, "µm") + ": of no known cause";
+}
+
+std::vector<std::string> cause_lines(const Finding& finding, std::size_t most) {
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& id, double chance) {
+    const auto catalogue = effect_catalogue();
+    const auto effect = std::ranges::find(catalogue, id, &Effect::id);
+    std::string line = effect == catalogue.end() ? id : short_title(*effect);
+    if (std::isfinite(chance) && !finding.rivals.empty()) line += " (" + probability(chance) + ")";
+    if (const auto consequence = consequence_of(id); !consequence.empty())
+      line += ": " + std::string(consequence);
+    lines.push_back(line + " [" + id + "]");
+  };
+  add(finding.effect(), finding.probability);
+  for (const Rival& rival : finding.rivals) {
+    if (lines.size() == most) {
+      lines.push_back(fmt::format("or {} more, less likely", finding.rivals.size() + 1 - most));
+      break;
+    }
+    add(rival.effect, rival.probability);
+  }
+  return lines;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/files/fit_screen.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/hundredths.hpp"
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+using namespace layout;
+namespace {
+
+/// "radius 32.00396 ± 0.00013 mm", of a length below 1 mm in µm; empty where there is none.
+std::string parameter_line(const FitResult& result, const std::string& name,
+                           const std::string& label) {
+  for (const auto* list : {&result.parameters, &result.derived}) {
+    const auto found = std::ranges::find(*list, name, &FitParameter::name);
+    if (found == list->end()) continue;
+    const Estimate& e = found->estimate;
+    const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
+    return padded(label, 7) +
+           plus_minus(e, result.coverage_factor, small ? 1.0 / mm_per_um : 1.0,
+                      small ? "µm" : e.unit) +
+           "\n";
+  }
+  return "";
+}
+
+std::string rejected_text(const FitResult& result) {
+  constexpr std::size_t most = 5;
+  std::vector<std::size_t> rows;
+  for (const Rejected& one : result.rejected)
+    if (rows.size() < most) rows.push_back(one.row);
+  if (rows.empty()) return "";
+  return fmt::format(", {} left out as outliers (rows {}{})", result.rejected.size(),
+                     fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
+}
+
+/// For those without a servo: where the part stands out towards the probe, at the end that is
+/// farther off, and how far to tap it there. The run-out is twice the distance of the axis.
+std::string tap_screen(const FitResult& fit) {
+  double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
+  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
+    const auto at = fit.axis.axis.at(z);
+    const double off_mm = std::hypot(at[0], at[1]);
+    if (off_mm <= farthest_mm) continue;
+    farthest_mm = off_mm;
+    at_z_mm = z;
+    towards_rad = std::atan2(at[1], at[0]);
+  }
+  if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return "";
+  const double c_deg = std::fmod(towards_rad / rad_per_deg + 360.0, 360.0);
+  return fmt::format(
+      "tap    run-out {} at Z {:.6g} mm, high spot at the probe at C = {:.0f}°: tap there by {}\n",
+      um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
+}
+
+}  // namespace
+
+std::string axis_screen(const FitResult& fit) {
+  if (fit.status != FitStatus::converged) return "";
+  if (fit.surface == SurfaceKind::plane) return parameter_line(fit, "tilt", "tilt");
+  std::string text;
+  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
+    const auto at = fit.axis.axis.at(z);
+    const double U_um = fit.coverage_factor * fit.axis.u_at(z) / mm_per_um;
+    const int decimals = decimals_of(U_um, 0);
+    text += fmt::format("{}x {:.{}f} µm, y {:.{}f} µm, U {:.{}f} µm",
+                        text.empty() ? "axis   " : "       ", at[0] / mm_per_um, decimals,
+                        at[1] / mm_per_um, decimals, U_um, decimals);
+    if (fit.position_min_mm == fit.position_max_mm) {
+      text += "\n";
+      break;
+    }
+    text += fmt::format(" at Z {:.6g} mm\n", hundredths(z));
+  }
+  return text + tap_screen(fit);
+}
+
+std::string fit_screen(const FitResult& result) {
+  std::string text =
+      fmt::format("{} of {}: {} readings, residuals {} RMS{}\n", to_string(result.surface),
+                  result.source, result.points, um(result.rms_mm), rejected_text(result));
+  if (result.status != FitStatus::converged) return text + result.message + "\n";
+  text += axis_screen(result);
+  if (result.surface == SurfaceKind::cone) {
+    text += parameter_line(result, "radius_mid", "radius") +
+            parameter_line(result, "half_angle", "angle");
+  } else {
+    text += parameter_line(result, "radius", "radius");
+  }
+  if (result.surface != SurfaceKind::plane) text += parameter_line(result, "tilt", "tilt");
+  for (const std::string& note : result.input_notes) text += "input  " + note + "\n";
+  for (const std::string& note : result.notes) text += "note   " + note + "\n";
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/job_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "diagnose/files/diagnosis_screen.hpp"
+#include "fit/files/fit_screen.hpp"
+#include "format/text_layout.hpp"
+#include "job/agreement.hpp"
+#include "job/files/job_results.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using namespace layout;
+
+constexpr std::size_t most_findings = 2;
+constexpr double least_mm = 1e-5;  // what nobody measures
+
+/// Of a reference: its name, what was seen of it, and its axis where it is the only one.
+std::string reference_screen(const JobResult& result, std::size_t i) {
+  const FitResult& fit = fit_used(result, i);
+  const std::string& name = result.job.references[i].name;
+  const std::string surface = to_string(fit.surface);
+  std::string text = "seat   " + name + (name == surface ? "" : ", a " + surface) +
+                     fmt::format(": {} readings", fit.points);
+  if (fit.status != FitStatus::converged) return text + ", " + fit.message + "\n";
+  const auto& diagnosis = result.diagnoses[i];
+  const bool ideal = diagnosis && diagnosis->verdict == DiagnosisVerdict::ideal;
+  text += ", residuals " + um(diagnosis && !ideal ? diagnosis->gain.rms_after_mm : fit.rms_mm) +
+          " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
+  for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
+  if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
+  if (result.fits.size() == 1) text += axis_screen(fit);
+  return text;
+}
+
+std::string tool_screen(const ActuatorMargin& margin) {
+  return fmt::format("tool   stroke {:.3g} of {:.3g} µm, {}\n", margin.stroke_used_mm / mm_per_um,
+                     margin.stroke_available_mm / mm_per_um,
+                     margin.follows
+                         ? "the actuator follows to " + (margin.following_mm < least_mm
+                                                             ? "less than " + um(least_mm)
+                                                             : um(margin.following_mm))
+                         : "the actuator cannot follow: " + margin.breaks);
+}
+
+/// The measurement that the diagnoses ask for, the most telling of them.
+std::string next_screen(const JobResult& result) {
+  if (!result.verdict.what_would_prove.empty())
+    return "next   " + result.verdict.what_would_prove + "\n";
+  const NextMeasurement* best = nullptr;
+  for (const auto& diagnosis : result.diagnoses) {
+    if (!diagnosis || diagnosis->next.plan.empty() || diagnosis->findings.empty()) continue;
+    const auto gain = [](const NextMeasurement& next) {
+      return next.power_after - next.power_before;
+    };
+    if (best == nullptr || gain(diagnosis->next) > gain(*best)) best = &diagnosis->next;
+  }
+  if (best != nullptr)
+    return fmt::format("next   to tell the causes apart: {} ({:.0f} min)\n", best->what,
+                       std::ceil(best->minutes));
+  return "";
+}
+
+}  // namespace
+
+std::string job_screen(const JobResult& result) {
+  std::string text = result.verdict.line + "\n";
+  if (!result.verdict.moved.empty()) text += "moved  " + result.verdict.moved + "\n";
+  for (const std::string& reservation : result.verdict.reservations)
+    text += "but    " + reservation + "\n";
+  for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
+  for (const Disagreement& apart : result.agreement.disagreements)
+    text += "apart  " + how_apart(result, apart) + "\n";
+  for (const Inclusion& inclusion : result.inclusions)
+    text += "motion " + inclusion_text(inclusion);
+  if (result.correction) text += tool_screen(result.correction->margin);
+  return text + next_screen(result);
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/output_toml.hpp"
+
+#include <filesystem>
+#include <string>
+
+#include "format/file.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+const char* usual_name(ControlFormat format) {
+  constexpr const char* names[] = {"grid.csv", "halstreamer.txt", "servo.nc", "cec.ini",
+                                   "crosscomp2.lis"};
+  return names[static_cast<std::size_t>(format)];
+}
+
+/// What the shop has before and behind the blocks: a template with a line `( CUTTING BLOCK )`.
+void read_template(TomlTable& table, ControlTable& out) {
+  const auto path = table.maybe_path("template");
+  if (!path) {
+    out.head = "G90\n";
+    out.tail = "M30\n";
+    return;
+  }
+  constexpr std::string_view place = "( CUTTING BLOCK )";
+  std::string text;
+  try {
+    text = read_file(*path);
+  } catch (const InputError& error) {
+    return table.complain("template", error.diagnostics().front().message);
+  }
+  const std::size_t at = text.find(place);
+  if (at == std::string::npos || text.find(place, at + 1) != std::string::npos)
+    return table.complain("template",
+                          "must hold the line ( CUTTING BLOCK ) once, where the blocks go");
+  out.head = text.substr(0, at);
+  const std::size_t rest = text.find('\n', at);
+  out.tail = rest == std::string::npos ? "" : text.substr(rest + 1);
+}
+
+}  // namespace
+
+ControlTable read_output(TomlTable table) {
+  ControlTable out;
+  out.format = table.required_choice<ControlFormat>(
+      "format", {{"grid", ControlFormat::grid},
+                 {"halstreamer", ControlFormat::halstreamer},
+                 {"servo_nc", ControlFormat::servo_nc},
+                 {"sinumerik_cec", ControlFormat::sinumerik_cec},
+                 {"beckhoff_crosscomp2", ControlFormat::beckhoff_crosscomp2}});
+  out.file = table.text("file", usual_name(out.format));
+  if (out.file.empty() || out.file != std::filesystem::path(out.file).filename().string() ||
+      out.file == "..")
+    table.complain("file", "is no plain name: it goes into the folder of the results");
+  const bool cec = out.format == ControlFormat::sinumerik_cec;
+  const bool gridded =
+      cec || out.format == ControlFormat::grid || out.format == ControlFormat::beckhoff_crosscomp2;
+  if (gridded) {
+    out.c_step_rad = table.number("c_step_rad", (cec ? 2.0 : 1.0) * rad_per_deg, Range::positive());
+    out.position_step_mm = cec ? table.required_number("band_mm", Range::positive())
+                               : table.number("position_step_mm", 1.0, Range::positive());
+  }
+  if (out.format == ControlFormat::servo_nc) {
+    out.x_is_diameter = table.required_choice<bool>("x", {{"radius", false}, {"diameter", true}});
+    out.minutes = table.required_choice<bool>(
+        "f", {{"blocks_per_minute", false}, {"minutes_per_block", true}});
+    read_template(table, out);
+  }
+  if (out.format == ControlFormat::beckhoff_crosscomp2) {
+    const auto axis = [&](const char* key) {
+      if (!table.has(key))
+        table.complain(key,
+                       std::string(key) + " is missing: the number of the axis in the control");
+      return static_cast<int>(table.integer(key, 1, 1, 1000));
+    };
+    out.x_axis = axis("x_axis");
+    out.c_axis = axis("c_axis");
+    out.z_axis = axis("z_axis");
+  }
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "measure/files/stream_csv_text.hpp"
+#include "recording/column_names.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// "column 3 (Angle(°))", as messages speak of it.
+std::string described(const Recording& recording, std::size_t column) {
+  const std::string& whole = recording.columns[column].whole;
+  return fmt::format("column {}{}", column + 1, whole.empty() ? "" : " (" + whole + ")");
+}
+
+/// The column that a name of the header or a number means.
+std::optional<std::size_t> find_column(const Recording& recording, const std::string& name) {
+  for (std::size_t k = 0; k < recording.columns.size(); ++k)
+    if (recording.columns[k].whole == name) return k;
+  for (std::size_t k = 0; k < recording.columns.size(); ++k)
+    if (!name.empty() && recording.columns[k].name == name) return k;
+  std::size_t number = 0;
+  const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error != std::errc{} || stop != name.data() + name.size() || number == 0 ||
+      number > recording.columns.size())
+    return {};
+  return number - 1;
+}
+
+/// The unit of a column as a stream writes it; what is not clear is said.
+void take_unit(const Recording& recording, TakenColumn& taken,
+               const std::optional<std::string>& said, std::vector<std::string>& unclear) {
+  const std::string unit = said.value_or(recording.columns[taken.column].unit);
+  if (unit.empty()) {
+    taken.unit = default_unit(taken.role);
+    taken.unit_said = false;
+    return;
+  }
+  if (const auto known = stream_unit(taken.role, unit)) {
+    taken.unit = *known;
+    if (known->ends_with(" dia")) {
+      taken.unit = known->substr(0, known->size() - 4);
+      taken.diameter = true;
+    }
+  } else {
+    unclear.push_back(
+        fmt::format("{} has the unit {}, which is none of {}: write {}={}[{}] in --columns",
+                    described(recording, taken.column), csv_quoted(unit),
+                    taken.role == RecordedRole::c   ? "deg, rad and rev"
+                    : taken.role == RecordedRole::t ? "s and ms"
+                                                    : "mm, um, m and in",
+                    word_of(taken.role), taken.column + 1, default_unit(taken.role)));
+  }
+}
+
+std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& said,
+                                 std::vector<std::string>& unclear) {
+  std::vector<TakenColumn> taken;
+  const bool face = std::ranges::any_of(
+      said.items, [](const auto& item) { return role_of_word(item.role) == RecordedRole::face; });
+  for (const ColumnsSaid::Item& item : said.items) {
+    const auto role = role_of_word(item.role);
+    const auto column = find_column(recording, item.column);
+    if (!role) {
+      unclear.push_back("--columns names '" + item.role +
+                        "': it takes X, C, Z, Y, t, pass, setup, and Z_M of a face");
+      continue;
+    }
+    if (!column) {
+      unclear.push_back(
+          fmt::format("there is no column {}: name one of the header, or its number, 1 to {}",
+                      csv_quoted(item.column), recording.columns.size()));
+      continue;
+    }
+    if (std::ranges::find(taken, *role, &TakenColumn::role) != taken.end())
+      unclear.push_back(std::string("--columns names ") + word_of(*role) + " twice: keep one");
+    TakenColumn one{*role, *column};
+    const auto named = role_of_name(recording.columns[*column].name);
+    if (*role == RecordedRole::x && named) one.diameter = named->diameter;
+    if (face && *role == RecordedRole::z)
+      unclear.emplace_back("a face has Z_M, C and X, and no Z beside them");
+    take_unit(recording, one, item.unit, unclear);
+    taken.push_back(std::move(one));
+  }
+  return taken;
+}
+
+std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::string>& unclear) {
+  std::vector<TakenColumn> taken;
+  for (std::size_t k = 0; k < recording.columns.size(); ++k) {
+    const auto named = role_of_name(recording.columns[k].name);
+    if (!named) continue;
+    if (named->gauge) {
+      unclear.push_back(described(recording, k) + " is of an indicator: say X=" +
+                        std::to_string(k + 1) + ", --relative and --nominal-radius");
+      continue;
+    }
+    const auto other = std::ranges::find(taken, named->role, &TakenColumn::role);
+    if (other != taken.end()) {
+      unclear.push_back(fmt::format("{} and {} could both be {}: say which in --columns",
+                                    described(recording, other->column), described(recording, k),
+                                    word_of(named->role)));
+      continue;
+    }
+    TakenColumn one{named->role, k};
+    one.diameter = named->diameter;
+    take_unit(recording, one, std::nullopt, unclear);
+    taken.push_back(std::move(one));
+  }
+  return taken;
+}
+
+}  // namespace
+
+ColumnsSaid read_columns_said(const std::string& text) {
+  ColumnsSaid said;
+  std::size_t begin = 0;
+  int depth = 0;
+  const auto take = [&](std::string_view item) {
+    const std::size_t equals = item.find('=');
+    if (equals == std::string_view::npos || csv_trimmed(item.substr(equals + 1)).empty())
+      throw InputError(
+          "--columns",
+          csv_quoted(item) + " is no column: write it as in \"X=Diameter,C=Angle(°),Z=3[mm]\"");
+    ColumnsSaid::Item one;
+    one.role = csv_trimmed(item.substr(0, equals));
+    std::string_view column = csv_trimmed(item.substr(equals + 1));
+    const std::size_t open = column.find('[');
+    if (open != std::string_view::npos && open > 0 && column.back() == ']' &&
+        column.substr(0, open).find_first_not_of("0123456789") == std::string_view::npos) {
+      one.unit = csv_trimmed(column.substr(open + 1, column.size() - open - 2));
+      column = column.substr(0, open);
+    }
+    one.column = column;
+    said.items.push_back(std::move(one));
+  };
+  const std::string_view all = text;
+  for (std::size_t i = 0; i <= all.size(); ++i) {
+    if (i < all.size() && (all[i] == '[' || all[i] == '(')) ++depth;
+    if (i < all.size() && (all[i] == ']' || all[i] == ')')) --depth;
+    if (i < all.size() && (all[i] != ',' || depth > 0)) continue;
+    take(csv_trimmed(all.substr(begin, i - begin)));
+    begin = i + 1;
+  }
+  return said;
+}
+
+std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
+                                      std::vector<std::string>& unclear) {
+  std::vector<TakenColumn> taken =
+      said.items.empty() ? as_named(recording, unclear) : as_said(recording, said, unclear);
+  const auto has = [&](RecordedRole role) {
+    return std::ranges::find(taken, role, &TakenColumn::role) != taken.end();
+  };
+  if (!has(RecordedRole::x))
+    unclear.emplace_back("no column is called X, Radius or Diameter: say which holds the readings");
+  if (!has(RecordedRole::c))
+    unclear.emplace_back("no column is called C or Angle: say which holds the spindle angle");
+  return taken;
+}
+
+std::string columns_suggested(const Recording& recording) {
+  std::string x = "X=…", c = "C=…", z = "Z=…";
+  for (std::size_t k = 0; k < recording.columns.size(); ++k) {
+    const auto named = role_of_name(recording.columns[k].name);
+    if (!named) continue;
+    std::string* item = named->role == RecordedRole::x   ? &x
+                        : named->role == RecordedRole::c ? &c
+                        : named->role == RecordedRole::z ? &z
+                                                         : nullptr;
+    if (item != nullptr && item->ends_with("…"))
+      *item = std::string(word_of(named->role)) + "=" + std::to_string(k + 1);
+  }
+  return x + "," + c + "," + z;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+
+/// What a column of a recording becomes in a stream. `y` is the transverse coordinate of a point,
+/// from which reading and angle follow together.
+enum class RecordedRole { x, face, c, z, y, t, pass, setup };
+
+/// A column and what it is taken for.
+struct TakenColumn {
+  RecordedRole role;
+  std::size_t column = 0;
+  std::string unit{};              ///< as a stream writes it: "mm", "um", "deg"; empty of a count
+  bool unit_said = true;           ///< false: nobody says it, the default of a stream is taken
+  std::optional<bool> diameter{};  ///< of x: what its name or unit says, if anything
+};
+
+/// `--columns "X=Diameter,C=Angle(°),Z=3[mm]"`: a stream's column and, behind '=', the name in the
+/// file's header or the number of the column, with a unit in brackets if the file says none.
+struct ColumnsSaid {
+  struct Item {
+    std::string role, column;
+    std::optional<std::string> unit;
+  };
+  std::vector<Item> items;
+};
+
+/// @throws InputError with what is wrong with the text and an example.
+ColumnsSaid read_columns_said(const std::string& text);
+
+/// The columns as they were said, or as their names tell. What is not clear is said in `unclear`,
+/// one sentence each; nothing is taken then.
+std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
+                                      std::vector<std::string>& unclear);
+
+/// "X=…,C=…,Z=…" as far as the columns are clear, dots elsewhere: for a message.
+std::string columns_suggested(const Recording& recording);
+
+}  // namespace trueaxis

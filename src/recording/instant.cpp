@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/instant.hpp"
+
+#include <charconv>
+#include <chrono>
+
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// The whole number in front of `until`, which is taken off; nothing where there is none.
+std::optional<int> number_before(std::string_view& text, char until) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc{} || stop == end || *stop != until || value < 0) return {};
+  text.remove_prefix(static_cast<std::size_t>(stop - text.data()) + 1);
+  return value;
+}
+
+}  // namespace
+
+std::optional<double> instant_s(std::string_view text) {
+  double days_s = 0.0;
+  const std::size_t date_end = text.find_first_of(" T");
+  if (date_end != std::string_view::npos) {
+    const auto year = number_before(text, '-'), month = number_before(text, '-');
+    const auto day = number_before(text, text[text.find_first_of(" T")]);
+    if (!year || !month || !day) return {};
+    const std::chrono::year_month_day date{std::chrono::year(*year),
+                                           std::chrono::month(static_cast<unsigned>(*month)),
+                                           std::chrono::day(static_cast<unsigned>(*day))};
+    if (!date.ok()) return {};
+    days_s = 86400.0 * static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count());
+  }
+  const auto hours = number_before(text, ':');
+  const auto minutes = hours ? number_before(text, ':') : std::nullopt;
+  double seconds = 0.0;
+  const char decimal = text.find(',') == std::string_view::npos ? '.' : ',';
+  if (!minutes || *minutes > 59 || !recorded_number(text, decimal, seconds) || seconds < 0.0 ||
+      seconds >= 61.0)
+    return {};
+  return days_s + 3600.0 * *hours + 60.0 * *minutes + seconds;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+
+/// The text of a file of another program: UTF-8 whatever it was saved as, cut into lines.
+struct RecordedText {
+  explicit RecordedText(const std::string& bytes);
+  RecordedText(const RecordedText&) = delete;  // `lines` point into `text`
+  RecordedText& operator=(const RecordedText&) = delete;
+
+  std::string text;
+  std::vector<std::string_view> lines;  ///< without line ends; line n of the file is lines[n - 1]
+};
+
+/// A column of a recording, as its file names it.
+struct RecordedColumn {
+  std::string name;        ///< without its unit; empty where the file has no names
+  std::string unit;        ///< as written; empty where the file says none
+  std::string whole;       ///< the field as it stands in the header
+  bool is_number = false;  ///< most of its fields are numbers
+};
+
+/// What a file of another program holds, whatever its layout: a table of fields, row by row.
+/// Nothing is converted yet but what the layout itself says (a scale, an instant).
+struct Recording {
+  std::string
+      producer;  ///< what it was recognised as: "a table with semicolons and decimal commas"
+  std::vector<RecordedColumn> columns;
+  std::vector<std::string_view> cells;  ///< row by row, columns.size() each
+  std::vector<std::size_t> lines;       ///< of each row, 1-based
+  char decimal = '.';
+  std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
+  std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
+  std::deque<std::string> made;       ///< text of cells that stand in no file
+  std::vector<Diagnostic> wrong;      ///< rows that do not fit; no file named
+
+  std::size_t rows() const { return lines.size(); }
+  std::string_view cell(std::size_t row, std::size_t column) const {
+    return cells[row * columns.size() + column];
+  }
+};
+
+/// A cell read as a number, its decimal comma a point. False where it is none.
+bool recorded_number(std::string_view cell, char decimal, double& value);
+
+/// "name", "unit" of "Angle (°)", "C[deg]", "X / mm", "X in mm", "X mm".
+RecordedColumn recorded_column(std::string_view header_field);
+
+// Each reads a layout into `out`; false where the text is none of its kind. A text that is of the
+// kind and broken leaves the places in `wrong`.
+
+/// Beckhoff TwinCAT Scope's text export: keyed rows, then "TICKS;v1;v2;…".
+bool read_twincat_scope(const RecordedText& text, Recording& out);
+/// EPICS camonitor: "PV date time value", channels interleaved and of unequal rates. The slower
+/// ones are interpolated linearly at the instants of the fastest.
+bool read_camonitor(const RecordedText& text, Recording& out);
+/// Words of a letter and a number, "X   10.0012 C   30.0000": DPRNT, point lists of RS-274.
+bool read_words(const RecordedText& text, Recording& out);
+/// Fields between separators, with or without names: spreadsheets, LinuxCNC's PROBEOPEN and
+/// halsampler. The first `skip` lines are not looked at.
+bool read_table(const RecordedText& text, std::size_t skip, Recording& out);
+
+}  // namespace trueaxis

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "recording/stream_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/files/stream_csv_number.hpp"
+#include "recording/column_names.hpp"
+#include "recording/instant.hpp"
+
+namespace trueaxis {
+namespace {
+
+const TakenColumn* find(const std::vector<TakenColumn>& taken, RecordedRole role) {
+  const auto found = std::ranges::find(taken, role, &TakenColumn::role);
+  return found == taken.end() ? nullptr : &*found;
+}
+
+/// The header of a stream; a face is Z_M, C, X, everything else X_M, C, Z.
+std::string header_of(const std::vector<TakenColumn>& taken, bool diameter) {
+  const bool face = find(taken, RecordedRole::face) != nullptr;
+  std::string header;
+  for (const TakenColumn& column : taken) {
+    if (column.role == RecordedRole::y) continue;
+    if (!header.empty()) header += ',';
+    const bool x = column.role == RecordedRole::x;
+    header += x ? (face ? "X" : "X_M") : word_of(column.role);
+    if (!column.unit.empty()) header += "[" + column.unit + (x && diameter ? " dia]" : "]");
+  }
+  return header;
+}
+
+/// A number of the file as a stream writes it: the same digits, a decimal point.
+std::string with_point(std::string_view cell) {
+  std::string text(cell.starts_with('+') ? cell.substr(1) : cell);
+  std::ranges::replace(text, ',', '.');
+  return text;
+}
+
+class RowMaker {
+ public:
+  RowMaker(const Recording& recording, const RecordedText& text,
+           const std::vector<TakenColumn>& taken, bool diameter, CsvDiagnostics& diagnostics)
+      : recording_(recording),
+        text_(text),
+        taken_(taken),
+        diameter_(diameter),
+        diagnostics_(diagnostics),
+        points_(find(taken, RecordedRole::y) != nullptr) {}
+
+  /// False where a cell is wrong.
+  bool row(std::size_t i, std::string& out) {
+    out.clear();
+    double x = 0.0, y = 0.0, c = 0.0;
+    bool good = true;
+    if (points_) {
+      good = number(i, *find(taken_, RecordedRole::x), x) &&
+             number(i, *find(taken_, RecordedRole::y), y) &&
+             number(i, *find(taken_, RecordedRole::c), c);
+      if (good && x == 0.0)
+        good = wrong(i, *find(taken_, RecordedRole::x), "X is 0 beside Y: the point has no side",
+                     "zero");
+    }
+    for (const TakenColumn& column : taken_) {
+      if (column.role == RecordedRole::y) continue;
+      if (!out.empty()) out += ',';
+      if (points_ && good && column.role == RecordedRole::x) {
+        const double scale = diameter_ ? 2.0 : 1.0;
+        csv_append(out, scale * std::copysign(std::hypot(x / scale, y), x));
+      } else if (points_ && good && column.role == RecordedRole::c) {
+        const double turn = csv_find_unit(CsvQuantity::angle, column.unit)->turn;
+        csv_append(out, c + std::atan(y / (diameter_ ? 0.5 * x : x)) * turn / two_pi);
+      } else {
+        double value = 0.0;
+        const bool fine = number(i, column, value);
+        good = good && fine;
+        if (fine) append(out, i, column, value);
+      }
+    }
+    return good;
+  }
+
+ private:
+  void append(std::string& out, std::size_t i, const TakenColumn& column, double value) const {
+    const std::string_view cell = recording_.cell(i, column.column);
+    if (column.role == RecordedRole::t && !recording_.columns[column.column].is_number) {
+      out += fmt::format("{:.9g}", value);
+    } else {
+      out += with_point(cell);
+    }
+  }
+
+  bool number(std::size_t i, const TakenColumn& column, double& value) {
+    const std::string_view cell = recording_.cell(i, column.column);
+    const std::string name = word_of(column.role);
+    if (column.role == RecordedRole::t && !recording_.columns[column.column].is_number) {
+      const auto at_s = instant_s(cell);
+      if (!at_s)
+        return wrong(i, column, "t: " + csv_quoted(cell) + " is no time of day: write 13:55:48.325",
+                     "instant");
+      if (first_s_ != first_s_) first_s_ = *at_s;
+      value = *at_s - first_s_;
+      return true;
+    }
+    if (recorded_number(cell, recording_.decimal, value)) return true;
+    if (cell.empty())
+      return wrong(i, column, name + " is empty: write a number or remove the row",
+                   name + " empty");
+    return wrong(i, column, name + ": " + csv_quoted(cell) + " is not a number",
+                 name + " no number");
+  }
+
+  bool wrong(std::size_t i, const TakenColumn& column, std::string message,
+             const std::string& kind) {
+    const std::size_t line = recording_.lines[i];
+    const std::string_view whole = text_.lines[line - 1];
+    const std::string_view cell = recording_.cell(i, column.column);
+    const bool inside = cell.data() >= whole.data() && cell.data() <= whole.data() + whole.size();
+    const auto byte = inside ? static_cast<std::size_t>(cell.data() - whole.data()) : whole.size();
+    diagnostics_.add(line, csv_character(whole, byte), std::move(message), kind);
+    return false;
+  }
+
+  const Recording& recording_;
+  const RecordedText& text_;
+  const std::vector<TakenColumn>& taken_;
+  bool diameter_;
+  CsvDiagnostics& diagnostics_;
+  bool points_;
+  double first_s_ = std::nan("");
+};
+
+/// A column Y that is 0 throughout says nothing.
+void drop_y_of_zeros(const Recording& recording, std::vector<TakenColumn>& taken) {
+  const TakenColumn* y = find(taken, RecordedRole::y);
+  if (y == nullptr) return;
+  for (std::size_t i = 0; i < recording.rows(); ++i) {
+    double value = 0.0;
+    if (!recorded_number(recording.cell(i, y->column), recording.decimal, value) || value != 0.0)
+      return;
+  }
+  std::erase_if(taken, [](const TakenColumn& column) { return column.role == RecordedRole::y; });
+}
+
+}  // namespace
+
+StreamRows stream_rows(const Recording& recording, const RecordedText& text,
+                       std::vector<TakenColumn> taken, bool diameter, CsvDiagnostics& diagnostics) {
+  drop_y_of_zeros(recording, taken);
+  std::ranges::stable_sort(taken, {}, &TakenColumn::role);
+  StreamRows out;
+  if (const TakenColumn* y = find(taken, RecordedRole::y)) {
+    const TakenColumn* x = find(taken, RecordedRole::x);
+    if (x->unit != y->unit) {
+      diagnostics.add(0, 0, "X is in " + x->unit + " and Y in " + y->unit + ": give both one unit");
+      return out;
+    }
+    out.notes.emplace_back(
+        "X and Y are points: each reading is the distance from the spindle axis, at the angle "
+        "C + arctan(Y/X)");
+  }
+  out.header = header_of(taken, diameter);
+  RowMaker maker(recording, text, taken, diameter, diagnostics);
+  out.rows.resize(recording.rows());
+  for (std::size_t i = 0; i < recording.rows(); ++i) maker.row(i, out.rows[i]);
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/files/stream_csv_text.hpp"
+#include "recording/columns.hpp"
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+
+/// The rows of a stream, as text with decimal points, made of the columns that were taken.
+struct StreamRows {
+  std::string header;             ///< "X_M[mm dia],C[deg],Z[mm]"
+  std::vector<std::string> rows;  ///< without line ends
+  std::vector<std::string> notes;
+};
+
+/// What is no number goes to `diagnostics`, one place and a count of each kind. Where there is a
+/// column Y, (X, Y) at C is a point: the reading is its distance from the spindle axis, signed as
+/// X, at the angle C + arctan(Y/X), which is the same point of the part.
+StreamRows stream_rows(const Recording& recording, const RecordedText& text,
+                       std::vector<TakenColumn> taken, bool diameter, CsvDiagnostics& diagnostics);
+
+}  // namespace trueaxis

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "measure/files/stream_csv_text.hpp"
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double s_per_tick = 1e-7;  // 100 ns
+
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t stop = std::min(line.find(';', at), line.size());
+    fields.push_back(csv_trimmed(line.substr(at, stop - at)));
+    at = stop + 1;
+  }
+  while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+/// A whole number of ticks, some 1.3e17 of them since 1601: more than a double tells apart.
+std::optional<std::int64_t> ticks_in(std::string_view field) {
+  std::int64_t ticks = 0;
+  const char* end = field.data() + field.size();
+  const auto [stop, error] = std::from_chars(field.data(), end, ticks);
+  return error == std::errc{} && stop == end ? std::optional(ticks) : std::nullopt;
+}
+
+/// The number in a field of a keyed row, `otherwise` where the row or the field is not there.
+double keyed_number(const std::map<std::string, std::vector<std::string_view>>& keyed,
+                    const std::string& key, std::size_t at, char decimal, double otherwise) {
+  const auto row = keyed.find(key);
+  double value = 0.0;
+  if (row == keyed.end() || at >= row->second.size()) return otherwise;
+  return recorded_number(row->second[at], decimal, value) ? value : otherwise;
+}
+
+}  // namespace
+
+bool read_twincat_scope(const RecordedText& text, Recording& out) {
+  const auto starts = [&](std::size_t line, std::string_view with) {
+    return line < text.lines.size() && text.lines[line].starts_with(with);
+  };
+  std::size_t head = 0;
+  while (head < std::min<std::size_t>(text.lines.size(), 10) &&
+         !starts(head, "Starttime of export"))
+    ++head;
+  if (!starts(head, "Starttime of export") || !starts(0, "Name;")) return false;
+
+  std::map<std::string, std::vector<std::string_view>> keyed;
+  std::size_t first = head;
+  for (; first < text.lines.size(); ++first) {
+    const auto fields = fields_of(text.lines[first]);
+    if (fields.size() > 1 && ticks_in(fields[0])) break;
+    if (fields.size() > 1) keyed[std::string(fields[0])] = fields;
+  }
+  const auto names = keyed.find("Name");
+  if (names == keyed.end() || first == text.lines.size()) return false;
+  out.decimal =
+      text.text.find(',', static_cast<std::size_t>(text.lines[first].data() - text.text.data())) ==
+              std::string::npos
+          ? '.'
+          : ',';
+  const std::size_t columns = names->second.size();
+  out.columns.push_back({"t", "s", "t", true});
+  const auto unit_row = keyed.find("Unit");
+  for (std::size_t k = 1; k < columns; ++k) {
+    RecordedColumn column = recorded_column(names->second[k]);
+    if (unit_row != keyed.end() && k < unit_row->second.size() && column.unit.empty())
+      column.unit = unit_row->second[k];
+    column.is_number = true;
+    out.columns.push_back(std::move(column));
+  }
+  std::int64_t start_ticks = 0;
+  for (std::size_t i = first; i < text.lines.size(); ++i) {
+    auto fields = fields_of(text.lines[i]);
+    if (fields.size() == 1 && fields[0].empty()) continue;
+    const auto ticks = ticks_in(fields[0]);
+    if (!ticks || fields.size() > columns) {
+      out.wrong.push_back({"", i + 1, 0, "is no row of TICKS and values: remove it"});
+      continue;
+    }
+    if (out.lines.empty()) start_ticks = *ticks;
+    fields.resize(columns);
+    out.lines.push_back(i + 1);
+    out.cells.push_back(out.made.emplace_back(
+        fmt::format("{:.17g}", static_cast<double>(*ticks - start_ticks) * s_per_tick)));
+    for (std::size_t k = 1; k < columns; ++k) {
+      const double scale = keyed_number(keyed, "ScaleFactor", k, out.decimal, 1.0);
+      const double offset = keyed_number(keyed, "Offset", k, out.decimal, 0.0);
+      double value = 0.0;
+      const bool number = recorded_number(fields[k], out.decimal, value);
+      out.cells.push_back(
+          number && (scale != 1.0 || offset != 0.0)
+              ? out.made.emplace_back(fmt::format("{:.17g}", scale * value + offset))
+              : fields[k]);
+    }
+  }
+  // Cells that were made have points; the others' commas are theirs.
+  if (out.decimal == ',')
+    for (std::string& made : out.made) std::ranges::replace(made, '.', ',');
+  out.producer = "a TwinCAT Scope export";
+  return true;
+}
+
+}  // namespace trueaxis

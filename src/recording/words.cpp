@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "measure/files/stream_csv_number.hpp"
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+namespace {
+
+struct Word {
+  char letter;
+  std::string_view number;
+};
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+/// The words of a line that holds nothing else; empty for any other line. A control writes blanks
+/// between a letter and its number (FANUC, Haas: DPRNT pads with them).
+std::vector<Word> words_of(std::string_view line) {
+  std::vector<Word> words;
+  std::size_t at = 0;
+  const auto skip = [&] {
+    while (at < line.size() && (csv_is_blank(line[at]) || line[at] == '*')) ++at;
+  };
+  for (skip(); at < line.size(); skip()) {
+    const char letter = line[at];
+    if (!is_letter(letter)) return {};
+    ++at;
+    skip();
+    double value = 0.0;
+    std::errc error{};
+    const char* begin = line.data() + at;
+    const char* end = line.data() + line.size();
+    const char* stop = csv_number(begin, end, value, error);
+    if (stop == begin) return {};
+    words.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(letter))),
+                     {begin, static_cast<std::size_t>(stop - begin)}});
+    at += static_cast<std::size_t>(stop - begin);
+  }
+  return words;
+}
+
+}  // namespace
+
+bool read_words(const RecordedText& text, Recording& out) {
+  std::size_t others = 0;
+  std::string first_other;
+  std::vector<char> letters;
+  for (std::size_t i = 0; i < text.lines.size(); ++i) {
+    const std::string_view line = csv_trimmed(text.lines[i]);
+    if (line.empty() || line == "%") continue;
+    if (line.starts_with('#')) {
+      out.metadata.emplace_back(line);
+      continue;
+    }
+    const std::vector<Word> words = words_of(line);
+    if (words.size() < 2) {
+      if (others++ == 0) first_other = csv_quoted(line);
+      continue;
+    }
+    if (letters.empty())
+      for (const Word& word : words) letters.push_back(word.letter);
+    std::vector<std::string_view> row(letters.size());
+    for (const Word& word : words) {
+      const auto found = std::ranges::find(letters, word.letter);
+      if (found == letters.end()) {
+        out.wrong.push_back({"", i + 1, 0,
+                             fmt::format("the word {} is in no earlier row: record the same words "
+                                         "in every row",
+                                         word.letter)});
+      } else {
+        row[static_cast<std::size_t>(found - letters.begin())] = word.number;
+      }
+    }
+    out.lines.push_back(i + 1);
+    out.cells.insert(out.cells.end(), row.begin(), row.end());
+  }
+  if (out.rows() < 2 || others > out.rows()) return false;
+  for (const char letter : letters) {
+    const std::string name(1, letter == 'T' ? 't' : letter);
+    out.columns.push_back({name, "", name, true});
+  }
+  if (others > 0)
+    out.notes.push_back(fmt::format("{} lines that are no words of numbers are passed over: {}{}",
+                                    others, first_other, others > 1 ? " …" : ""));
+  out.producer = "words of a letter and a number, as DPRNT prints them";
+  return true;
+}
+
+}  // namespace trueaxis
