@@ -43,7 +43,7 @@ std::string components_text(const Calibration& c) {
         '\n' + layout::wrapped(
                    "", "The data show component errors, which the errors written have: " + shown +
                            " RMS. trueaxis diagnose --machine tests and names them");
-  return text + '\n';
+  return text;
 }
 
 std::string read_out_text(const AxisReadOut& one) {
