@@ -9,6 +9,7 @@
 #include "calibrate/find.hpp"
 #include "calibrate/remarks.hpp"
 #include "calibrate/tip_fit.hpp"
+#include "calibrate/total_uncertainty.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
@@ -47,9 +48,10 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
     out.extended.push_back({one.name, {value, u, one.unit.name.angular() ? "rad" : "mm", ""}});
     ErrorTerm term = one.unit;
     term.function = scaled(term.function, value);
-    term.u = u;
     out.errors.terms.push_back(std::move(term));
   }
+  state_covariance(fit, search.terms, search.found, variance * inverse * inverse.transpose(),
+                   out.errors);
   const VectorXd sigma = problem.weights.cwiseInverse();
   const auto n = static_cast<double>(problem.equations);
   out.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);

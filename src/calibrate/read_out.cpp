@@ -2,6 +2,7 @@
 #include "calibrate/read_out.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -98,6 +99,23 @@ Choice best_period(const PeriodicFit& fit, int max_orders) {
   return best;
 }
 
+/// u of one coefficient, along every direction that the axis has a part in.
+void add_uncertainty(const std::array<double, 3>& factors, UncertainAmount amount, double u,
+                     ErrorCovariance& covariance) {
+  ErrorCovariance one;
+  std::vector<double> sizes;
+  const std::size_t first = amount.name.direction;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (factors[i] == 0.0) continue;
+    amount.name.direction = first + i;
+    one.amounts.push_back(amount);
+    sizes.push_back(factors[i] * u);
+  }
+  for (const double a : sizes)
+    for (const double b : sizes) one.matrix.push_back(a * b);
+  add_covariance(covariance, one);
+}
+
 /// E_KK in the machine's directions of the position error along the axis: what the moving part does
 /// (docs/calibration.md, signs).
 void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibration& out) {
@@ -115,8 +133,22 @@ void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibratio
   FourierError fourier{{}, read_out.period};
   for (const AxisReadOut::Order& one : read_out.orders)
     fourier.terms.push_back({static_cast<double>(one.order), one.cos.value, one.sin.value});
+  std::array<double, 3> factors{};
+  for (std::size_t i = 0; i < 3; ++i) factors[i] = (against ? -1.0 : 1.0) * axis.direction[i];
+  const ErrorName along{true, first, body};
+  using Shape = UncertainAmount::Shape;
+  for (std::size_t degree = 1; degree < read_out.polynomial.size(); ++degree)
+    add_uncertainty(factors,
+                    {along, Shape::legendre, static_cast<int>(degree), read_out.low, read_out.high},
+                    read_out.polynomial[degree].u, out.errors.covariance);
+  for (const AxisReadOut::Order& one : read_out.orders) {
+    add_uncertainty(factors, {along, Shape::cosine, one.order, 0.0, read_out.period}, one.cos.u,
+                    out.errors.covariance);
+    add_uncertainty(factors, {along, Shape::sine, one.order, 0.0, read_out.period}, one.sin.u,
+                    out.errors.covariance);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
-    const double factor = (against ? -1.0 : 1.0) * axis.direction[i];
+    const double factor = factors[i];
     if (factor == 0.0) continue;
     const ErrorName name{true, first + i, body};
     out.errors.terms.push_back({name, scaled(polynomial, factor), 0.0});

@@ -255,6 +255,42 @@ UncertainAmount amount_of(const ErrorTerm& unit) {
   return out;
 }
 
+void state_covariance(const TipFit& fit, const std::vector<Term>& terms,
+                      const std::vector<std::size_t>& found, const MatrixXd& of_columns,
+                      ErrorModel& errors) {
+  ErrorCovariance covariance;
+  std::vector<Index> which;
+  std::vector<double> unit;
+  for (const std::size_t k : fit.solution.determined.kept) {
+    covariance.amounts.push_back(amount_of(fit.unknowns[k].unit));
+    unit.push_back(fit.unknowns[k].largest);
+    which.push_back(static_cast<Index>(which.size()));
+  }
+  Index at = fit.solution.jacobian.cols();
+  for (const std::size_t t : found) {
+    for (const ErrorTerm& error : terms[t].errors) {
+      covariance.amounts.push_back(amount_of(error));
+      unit.push_back(1.0);
+      which.push_back(at + static_cast<Index>(&error - terms[t].errors.data()));
+    }
+    at += terms[t].columns.cols();
+  }
+  const auto back =
+      Eigen::Map<const VectorXd>(unit.data(), static_cast<Index>(unit.size())).asDiagonal();
+  const MatrixXd matrix = back * MatrixXd(of_columns(which, which)) * back;
+  covariance.matrix.assign(matrix.data(), matrix.data() + matrix.size());
+  const Given given(fit);
+  errors.covariance = given.others;
+  ErrorCovariance components{given.components, {}};
+  const MatrixXd of_components = given.root * given.root.transpose();
+  components.matrix.assign(of_components.data(), of_components.data() + of_components.size());
+  for (ErrorTerm& term : errors.terms)
+    if (is_kept(fit, term.name)) term.u = 0.0;
+  add_covariance(errors.covariance, components);
+  add_covariance(errors.covariance, covariance);
+  gather_uncertainty(errors);
+}
+
 VectorXd take_component_errors(const TipFit& fit, Calibration& out) {
   const Together together(fit, out.errors);
   together.write(out);

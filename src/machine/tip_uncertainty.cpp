@@ -14,21 +14,33 @@ using Eigen::Matrix3Xd;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// L of Σ = L Lᵀ, also where Σ has no inverse.
-MatrixXd root_of(const MatrixXd& covariance) {
-  const Eigen::LDLT<MatrixXd> factors(covariance);
-  const VectorXd d = factors.vectorD().cwiseMax(0.0).cwiseSqrt();
-  MatrixXd L = factors.matrixL();
-  L = L * d.asDiagonal();
-  return factors.transpositionsP().transpose() * L;
-}
+/// Σ = L Lᵀ with the amounts in the order that makes L triangular, also where Σ has no inverse.
+struct Root {
+  Eigen::VectorXi order;
+  MatrixXd lower;
+
+  explicit Root(const MatrixXd& covariance) {
+    const Eigen::LDLT<MatrixXd> factors(covariance);
+    order =
+        factors.transpositionsP() *
+        Eigen::VectorXi::LinSpaced(covariance.rows(), 0, static_cast<int>(covariance.rows()) - 1);
+    lower = MatrixXd(factors.matrixL()) * factors.vectorD().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  }
+};
 
 }  // namespace
 
 TipUncertainty::TipUncertainty(const MachineModel& model) : model_(model) {
   const ErrorModel& errors = model.errors();
-  for (const UncertainAmount& amount : errors.covariance.amounts) add(amount.name, amount.unit());
-  if (!amounts_.empty()) root_ = root_of(matrix_of(errors.covariance));
+  const auto& correlated = errors.covariance.amounts;
+  if (!correlated.empty()) {
+    const Root root(matrix_of(errors.covariance));
+    for (const int i : root.order) {
+      const UncertainAmount& amount = correlated[static_cast<std::size_t>(i)];
+      add(amount.name, amount.unit());
+    }
+    root_ = root.lower.cast<float>();
+  }
   std::vector<double> u;
   for (const ErrorTerm& term : errors.terms) {
     if (!(term.u > 0.0) || without_effect(term.name)) continue;
@@ -64,13 +76,26 @@ Matrix3Xd TipUncertainty::moved(const AxisPositions& axes, const Setting& settin
 Matrix3Xd TipUncertainty::causes(const AxisPositions& axes, const Setting& setting) const {
   Matrix3Xd all = moved(axes, setting);
   all.rightCols(u_.size()) *= u_.asDiagonal();
-  if (root_.size() > 0) all.leftCols(root_.rows()) *= root_;
+  const Index n = root_.rows();
+  const Eigen::MatrixXd root = root_.triangularView<Eigen::Lower>().toDenseMatrix().cast<double>();
+  if (n > 0) all.leftCols(n) = (all.leftCols(n) * root).eval();
   return all;
 }
 
 Matrix3 TipUncertainty::covariance_mm2(const AxisPositions& axes, const Setting& setting) const {
-  const Matrix3Xd all = causes(axes, setting);
-  return rigid::rows(all * all.transpose());
+  const Matrix3Xd all = moved(axes, setting);
+  const Matrix3Xd alone = all.rightCols(u_.size()) * u_.asDiagonal();
+  Eigen::Matrix3d sum = alone * alone.transpose();
+  const Index n = root_.rows();
+  const Eigen::MatrixX3f together = all.leftCols(n).transpose().cast<float>();
+  for (Index j = 0; j < n; ++j) {
+    const auto below = root_.col(j).tail(n - j);
+    const Eigen::Vector3d one(together.col(0).tail(n - j).dot(below),
+                              together.col(1).tail(n - j).dot(below),
+                              together.col(2).tail(n - j).dot(below));
+    sum += one * one.transpose();
+  }
+  return rigid::rows(sum);
 }
 
 double TipUncertainty::u_mm(const AxisPositions& axes, const Setting& setting) const {

@@ -46,7 +46,7 @@ class TipUncertainty {
 
   MachineModel model_;
   std::vector<Amount> amounts_;  ///< the correlated ones first
-  Eigen::MatrixXd root_;         ///< L of those: Σ = L Lᵀ
+  Eigen::MatrixXf root_;         ///< lower L of those, Σ = L Lᵀ; single: U to six digits, fast
   Eigen::VectorXd u_;            ///< of the others
 };
 

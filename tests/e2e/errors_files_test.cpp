@@ -72,6 +72,52 @@ TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
   EXPECT_GE(both, std::max(part, machine) * (1.0 - 1e-9));
 }
 
+// Found terms are uncertain together with the location errors: EXC of order 2 in the example.
+TEST_F(ErrorsFiles, DiagnoseWritesTheCovarianceOfWhatItFinds) {
+  ASSERT_EQ(command("diagnose " + data_ + "trunnion_ac_ball.csv --machine " + machine_ +
+                    " -o d.toml --json d.json")
+                .exit_code,
+            0);
+  const std::string text = read_text(folder_ / "d.toml");
+  EXPECT_TRUE(contains(text, "[covariance]"));
+  EXPECT_TRUE(contains(text, "{name = \"EXC\", cos = 2, period_deg = 360},"));
+  EXPECT_TRUE(contains(text, "name = \"trunnion AC\""));
+  const CommandStreams done = command("compensate " + data_ + "example.nc --machine " + machine_ +
+                                      " --errors d.toml -o cut.nc --json c.json");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_GT(result("c.json").at("U").at("value").get<double>(), 0.0);
+}
+
+// A second calibration by the same readings moves nothing by more than its u, and what it writes
+// counts no uncertainty twice: what is estimated anew is not added to what it was.
+TEST_F(ErrorsFiles, CalibrateGoesOnFromItsOwnErrors) {
+  const std::string ball = data_ + "trunnion_ac_ball.csv";
+  const auto once = command("calibrate " + machine_ + ' ' + ball + " -o e.toml --json e.json");
+  ASSERT_EQ(once.exit_code, 0) << once.err;
+  const auto again =
+      command("calibrate " + machine_ + ' ' + ball + " --errors e.toml -o f.toml --json f.json");
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const nlohmann::json first = result("e.json").at("parameters"),
+                       second = result("f.json").at("parameters");
+  ASSERT_EQ(first.size(), second.size());
+  for (const auto& [name, one] : second.items()) {
+    const double u = first.at(name).at("u"), now = one.at("u");
+    EXPECT_LT(std::abs(one.at("value").get<double>()), u) << name;
+    EXPECT_LE(now, 1.01 * u) << name;
+    EXPECT_GE(u, first.at(name).at("u_noise").get<double>() * 0.999) << name;
+  }
+  // X0C once with a u, that of its last entry.
+  const std::string text = read_text(folder_ / "f.toml");
+  std::size_t entries = 0, amounts = 0;
+  for (std::size_t at = 0; (at = text.find("[[error]]\nname = \"X0C\"", at)) != std::string::npos;
+       ++at)
+    ++entries;
+  for (std::size_t at = 0; (at = text.find("{name = \"X0C\"}", at)) != std::string::npos; ++at)
+    ++amounts;
+  EXPECT_EQ(entries, 2U);
+  EXPECT_EQ(amounts, 1U);
+}
+
 TEST_F(ErrorsFiles, OfAnotherMachineAreRefused) {
   ASSERT_EQ(
       command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o e.toml").exit_code,

@@ -39,11 +39,10 @@ std::string components_text(const Calibration& c) {
                       "{:.2g} times that, by these data",
                       c.components.size(), c.size_of_components));
   if (count > 0)
-    text +=
-        '\n' + layout::wrapped(
-                   "", "The data show component errors, which the errors written have: " + shown +
-                           " RMS. trueaxis diagnose --machine tests and names them");
-  return text + '\n';
+    text += layout::wrapped(
+        "", "The data show component errors, which the errors written have: " + shown +
+                " RMS. trueaxis diagnose --machine tests and names them");
+  return text;
 }
 
 std::string read_out_text(const AxisReadOut& one) {
