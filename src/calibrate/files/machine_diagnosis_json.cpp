@@ -156,34 +156,37 @@ Json baseline_json(const Calibration& c) {
 }  // namespace
 
 std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& machine) {
-  return json_text(
-      {{"schema", "trueaxis.machine_diagnosis/1"},
-       {"version", TRUEAXIS_VERSION},
-       {"machine", machine.name},
-       {"inputs", inputs_json(d.baseline)},
-       {"options", options_json(d)},
-       {"verdict", to_string(d.verdict)},
-       {"baseline", baseline_json(d.baseline)},
-       {"extended", {{"parameters", parameters_json(d.extended)}}},
-       {"findings", list_of(d.findings, finding_json)},
-       {"unexplained", list_of(d.unexplained, unexplained_json)},
-       {"not_observable", list_of(d.not_observable, not_observable_json)},
-       {"remarks", d.remarks},
-       {"checks", list_of(d.checks, check_json)},
-       {"noise",
-        {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
-       {"gain",
-        {{"rms_before", with_unit(d.rms_before_mm, "mm")},
-         {"rms_after", with_unit(d.rms_after_mm, "mm")},
-         {"held_out_rms_before", held_out_json(d.held_out_before)},
-         {"held_out_rms_after", held_out_json(d.held_out_after)},
-         {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
-       {"next_measurement", next_json(d, machine)},
-       {"plans", list_of(d.plans, plan_json)},
-       {"false_alarm", number(d.false_alarm)},
-       {"hypotheses", d.hypotheses},
-       {"effective_hypotheses", number(d.effective_hypotheses)},
-       {"threshold", number(d.threshold)}});
+  return json_text(machine_diagnosis_object(d, machine));
+}
+
+Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine) {
+  return {{"schema", "trueaxis.machine_diagnosis/1"},
+          {"version", TRUEAXIS_VERSION},
+          {"machine", machine.name},
+          {"inputs", inputs_json(d.baseline)},
+          {"options", options_json(d)},
+          {"verdict", to_string(d.verdict)},
+          {"baseline", baseline_json(d.baseline)},
+          {"extended", {{"parameters", parameters_json(d.extended)}}},
+          {"findings", list_of(d.findings, finding_json)},
+          {"unexplained", list_of(d.unexplained, unexplained_json)},
+          {"not_observable", list_of(d.not_observable, not_observable_json)},
+          {"remarks", d.remarks},
+          {"checks", list_of(d.checks, check_json)},
+          {"noise",
+           {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
+          {"gain",
+           {{"rms_before", with_unit(d.rms_before_mm, "mm")},
+            {"rms_after", with_unit(d.rms_after_mm, "mm")},
+            {"held_out_rms_before", held_out_json(d.held_out_before)},
+            {"held_out_rms_after", held_out_json(d.held_out_after)},
+            {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
+          {"next_measurement", next_json(d, machine)},
+          {"plans", list_of(d.plans, plan_json)},
+          {"false_alarm", number(d.false_alarm)},
+          {"hypotheses", d.hypotheses},
+          {"effective_hypotheses", number(d.effective_hypotheses)},
+          {"threshold", number(d.threshold)}};
 }
 
 }  // namespace trueaxis
