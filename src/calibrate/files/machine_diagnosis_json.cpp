@@ -78,7 +78,9 @@ Json not_observable_json(const MachineNotObservable& one) {
   if (one.detectable)
     detectable = edge_size(*one.detectable, one.unit);
   else
-    detectable = {{"value", nullptr}, {"why", "no size of it would be found"}};
+    detectable = {{"value", nullptr},
+                  {"unit", one.unit == "rad" ? "deg" : "mm"},
+                  {"why", "no size of it would be found"}};
   return {{"effect", one.effect},
           {"why", one.why},
           {"detectable", detectable},
@@ -112,9 +114,7 @@ Json measurement_json(const MachinePlan& plan, const Machine& machine) {
   std::set<std::pair<int, int>> placed;
   for (const PlannedVisit& visit : plan.visits) {
     if (placed.insert({visit.setup, visit.ball}).second)
-      balls.push_back({{"setup", visit.setup},
-                       {"ball", visit.ball},
-                       {"centre", {{"value", visit.ball_mm}, {"unit", "mm"}}}});
+      balls.push_back({{"setup", visit.setup}, {"ball", visit.ball}, {"centre_mm", visit.ball_mm}});
     Json row{visit.setup, visit.ball};
     for (const std::size_t k : axes)
       row.push_back(number(visit.axes[k] / (k < 3 ? 1.0 : rad_per_deg)));
