@@ -69,6 +69,8 @@ struct MachineNotObservable {
   std::optional<double> detectable;  ///< size found with power ½; none: no size
   std::string unit;                  ///< mm or rad
   std::vector<std::string> plans;    ///< those after which it is seen
+  std::vector<ErrorTerm> errors;     ///< of size 1; empty: no error of the machine, or not tested
+  double hidden = 0.0;               ///< size that could hide: detectable, the largest plausible
 };
 
 /// Where a further measurement goes.
@@ -87,6 +89,14 @@ struct MachinePlan {
   std::vector<std::string> shows;      ///< effects that are not observable without it
   std::vector<std::string> separates;  ///< findings whose class it tells apart
   std::vector<PlannedVisit> visits;    ///< in order
+  std::vector<double> covariance;      ///< of `MachineDiagnosis::uncertain` with it
+};
+
+/// A number that the tip depends on, before the measurement of a plausible size.
+struct UncertainParameter {
+  std::string effect;
+  ErrorTerm unit;      ///< of size 1 mm or 1 rad
+  double prior = 0.0;  ///< mm or rad
 };
 
 struct HeldOut {
@@ -116,6 +126,10 @@ struct MachineDiagnosis {
   double effective_hypotheses = 0.0;  ///< independent tests that those of effects are worth
   double false_alarm = 0.01, threshold = 0.0;               ///< p of one test that is a finding
   double typical_length_mm = 0.0, typical_angle_rad = 0.0;  ///< what was looked for
+  /// Location errors, what was found and what these rows do not show, with their covariance after
+  /// the measurement by rows (Eq. 189); only where `covariances` is asked for.
+  std::vector<UncertainParameter> uncertain;
+  std::vector<double> covariance;
 };
 
 struct MachineDiagnoseOptions {
@@ -123,11 +137,17 @@ struct MachineDiagnoseOptions {
   double false_alarm = 0.01;  ///< per measurement, over all hypotheses
   std::size_t max_findings = 6;
   double typical_length_mm = 0.01, typical_angle_rad = 50e-6;  ///< that must be seen
+  bool covariances = false;  ///< of what a program's tip depends on, with every plan
 };
 
 /// Every effect is tested beside what is always fitted (places, location errors): an exact F test
 /// with Bonferroni's correction (Eqs. 178-187). @throws InputError as `calibrate`
 MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const MachineMeasurement> data,
                                   const MachineDiagnoseOptions& options = {});
+
+/// The plan of a machine that was not measured yet: a ball at a grid of rotary positions and back
+/// (plan B1, 1 µm), what it does not show, and what would. @throws InputError for a machine without
+/// a rotary axis or three linear ones
+MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptions& options = {});
 
 }  // namespace trueaxis

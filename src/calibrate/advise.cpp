@@ -7,6 +7,8 @@
 #include <map>
 #include <set>
 
+#include "calibrate/uncertain.hpp"
+
 namespace trueaxis::calibrate_detail {
 namespace {
 
@@ -18,13 +20,20 @@ double typical(const Term& term, const MachineDiagnoseOptions& options) {
   return term.angle ? options.typical_angle_rad : options.typical_length_mm;
 }
 
+/// The size that could hide: what is found with power one half, or the largest plausible one.
+double hidden_size(const std::optional<double>& detectable, const Term& term,
+                   const CalibrationOptions& options) {
+  const double largest = term.angle ? options.largest_angle_rad : options.largest_length_mm;
+  return detectable ? std::min(*detectable, largest) : largest;
+}
+
 /// What effects a machine of this kind may have, whatever these rows show.
 void expect_untested(const Problem& problem, const std::vector<Term>& terms,
                      std::vector<MachineNotObservable>& out) {
   std::set<std::string> tested;
   for (const Term& term : terms) tested.insert(term.effect);
   const auto add = [&](const std::string& effect, const std::string& why, const char* unit) {
-    if (!tested.contains(effect)) out.push_back({effect, why, std::nullopt, unit, {}});
+    if (!tested.contains(effect)) out.push_back({effect, why, std::nullopt, unit, {}, {}, 0.0});
   };
   for (const MachineAxis& axis : problem.machine->axes) {
     const std::string letter(1, letter_of(axis.name));
@@ -64,8 +73,10 @@ double distance(const Regression& regression, const std::vector<Term>& terms,
 struct Extended {
   std::vector<Term> terms;
   Regression regression;
+  std::vector<double> covariance;
 };
-Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted) {
+Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
+                  const std::vector<UncertainParameter>& uncertain) {
   const Problem problem = make_problem(*q.fit.problem.machine, plan.data, q.fit.given);
   const Geometry geometry = geometry_of(problem, q.fit.given, problem.start);
   std::vector<Term> terms = effect_terms(
@@ -81,13 +92,15 @@ Extended extended(const Questions& q, const Plan& plan, const std::set<std::stri
   base.rightCols(problem.places) = all.rightCols(problem.places);
   Regression regression(terms, base, problem.weights, q.options.calibration.largest_length_mm,
                         q.options.calibration.largest_angle_rad);
-  return {std::move(terms), std::move(regression)};
+  return {std::move(terms), std::move(regression),
+          covariance_of(q.fit, problem, geometry, all, uncertain, q.variance)};
 }
 
 void weigh_plan(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
                 MachineDiagnosis& out) {
-  const Extended with = extended(q, plan, wanted);
+  Extended with = extended(q, plan, wanted, out.uncertain);
   MachinePlan weighed = plan.plan;
+  weighed.covariance = std::move(with.covariance);
   for (MachineNotObservable& one : out.not_observable) {
     const auto term = std::ranges::find(with.terms, one.effect, &Term::effect);
     if (term == with.terms.end()) continue;
@@ -137,7 +150,9 @@ void advise(const Questions& q, const Regression& regression, const std::vector<
                                       : "these positions show it less than the noise does",
                                   size,
                                   terms[t].angle ? "rad" : "mm",
-                                  {}});
+                                  {},
+                                  terms[t].errors,
+                                  hidden_size(size, terms[t], q.options.calibration)});
   }
   expect_untested(q.fit.problem, terms, out.not_observable);
   for (const MachineNotObservable& one : out.not_observable) wanted.insert(one.effect);
@@ -146,7 +161,16 @@ void advise(const Questions& q, const Regression& regression, const std::vector<
     wanted.insert(finding.effect);
     for (const MachineRival& rival : finding.rivals) wanted.insert(rival.effect);
   }
-  if (wanted.empty()) return;
+  if (q.options.covariances) {
+    const Problem& problem = q.fit.problem;
+    out.uncertain = uncertain_of(q.fit, out, q.options);
+    out.covariance =
+        covariance_of(q.fit, problem, geometry_of(problem, q.fit.given, problem.start),
+                      weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start),
+                      out.uncertain, q.variance);
+  } else if (wanted.empty()) {
+    return;
+  }
   for (const Plan& plan : plans_for(q.fit.problem, q.data, q.fit.given, q.fit.problem.start))
     weigh_plan(q, plan, wanted, out);
   choose_next(out);

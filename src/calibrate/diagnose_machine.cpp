@@ -70,19 +70,19 @@ char letter_of_effect(const std::string& effect) {
   return effect.front() == 'E' ? effect[2] : 't';
 }
 
-/// Why a finding is no name but part of something unknown: a pattern of the same axis is there, or
-/// three terms of one error, which is then no order or degree.
-bool of_unknown(const MachineFinding& finding, const Found& search) {
-  std::size_t alike = 0;
-  for (const std::size_t t : search.found) {
-    const Term& other = search.terms[t];
-    if (other.pattern && std::ranges::any_of(finding.members(), [&](const std::string& member) {
-          return other.letters.find(letter_of_effect(member)) != std::string::npos;
-        }))
-      return true;
-    alike += !other.errors.empty() && other.effect.starts_with(finding.effect.substr(0, 4)) ? 1 : 0;
-  }
-  return finding.effect.front() == 'E' && alike >= 3;
+/// Why a finding is no name but part of something unknown: a member of its class shares its axis
+/// with a pattern, or is the third term of one error, which is then no order or degree.
+bool of_unknown(const MachineFinding& finding, std::size_t at, const Found& search) {
+  return std::ranges::any_of(finding.members(), [&](const std::string& member) {
+    std::size_t alike = 1;
+    for (const std::size_t t : search.found) {
+      const Term& other = search.terms[t];
+      if (other.pattern && other.letters.find(letter_of_effect(member)) != std::string::npos)
+        return true;
+      alike += t != at && !other.errors.empty() && other.effect.starts_with(member.substr(0, 4));
+    }
+    return member.front() == 'E' && alike >= 3;
+  });
 }
 
 void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
@@ -97,7 +97,7 @@ void state_findings(const TipFit& fit, const Found& search, const CalibrationOpt
     weigh_aliases(fit.problem, search.terms[search.found[at]], found);
     found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
     const bool pattern = search.terms[search.found[at]].pattern;
-    if (!pattern && !of_unknown(found, search)) {
+    if (!pattern && !of_unknown(found, search.found[at], search)) {
       out.findings.push_back(std::move(found));
       continue;
     }

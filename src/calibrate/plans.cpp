@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <ranges>
 
 #include "machine/screw.hpp"
@@ -14,6 +15,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double planned_noise_mm = 1e-3;
 constexpr double seconds_a_position = 6.0, longer_tool_mm = 70.0, further_ball_mm = 60.0;
 
 /// One position of a plan, in place of a row of the data.
@@ -61,6 +63,26 @@ class Planner {
                          "a grid of " + std::to_string(grid.size()) +
                              " rotary positions: five of one axis by every 30 deg of the other",
                          2.0, followed(grid)));
+    return out;
+  }
+
+  /// The grid and back from nothing but a ball's place.
+  Plan from_nothing() {
+    auto grid = rotary_grid();
+    for (Position& one : grid) one.apart = Vector3d::Zero();
+    grid = followed(grid);
+    const auto there = grid;
+    grid.insert(grid.end(), there.rbegin(), there.rend());
+    data_.clear();
+    data_.emplace_back();
+    data_.front().source = "plan B1";
+    Plan out = made(
+        "B1", "a ball at a grid of " + std::to_string(there.size()) + " rotary positions and back",
+        10.0, grid);
+    MachineMeasurement& file = out.data.front();
+    file.noise_mm = planned_noise_mm;
+    for (std::size_t i = 0; i < file.rows(); ++i)
+      file.time_s.push_back(seconds_a_position * static_cast<double>(i));
     return out;
   }
 
@@ -152,10 +174,11 @@ class Planner {
     if (file.tool_length_mm.empty())
       file.tool_length_mm.assign(file.rows(), problem_.machine->tool.length_mm);
     for (const Position& one : positions) {
-      out.plan.visits.push_back({file.setup[rows_.front()->row], one.ball_number,
-                                 rigid::array(one.ball), one.tool_length_mm, one.axes});
+      const int setup = file.setup.empty() ? 1 : file.setup.front();
+      out.plan.visits.push_back(
+          {setup, one.ball_number, rigid::array(one.ball), one.tool_length_mm, one.axes});
       file.axes.push_back(one.axes);
-      file.setup.push_back(file.setup[rows_.front()->row]);
+      file.setup.push_back(setup);
       file.ball.push_back(one.ball_number);
       file.tool_length_mm.push_back(one.tool_length_mm);
       if (!file.time_s.empty()) file.time_s.push_back(file.time_s.back() + step_s);
@@ -174,6 +197,35 @@ class Planner {
 };
 
 }  // namespace
+
+std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors) {
+  if (machine.linear_count() != 3 || machine.rotary_count() == 0) return std::nullopt;
+  // Where the grid's ball stands: 80 mm off the line of the first rotary axis and 60 mm up along
+  // it.
+  MachineMeasurement seed;
+  const auto axis = std::ranges::find_if(
+      machine.axes, [](const MachineAxis& one) { return is_rotary(one.name); });
+  const Vector3d up = rigid::eigen(axis->direction);
+  const Vector3d ball = rigid::eigen(axis->point_mm) + 80.0 * up.unitOrthogonal() + 60.0 * up;
+  const MachineModel model(machine, errors);
+  for (const double apart : {0.0, 1.0}) {
+    AxisPositions axes{};
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      const MachineAxis* const one = machine.find(static_cast<AxisName>(k));
+      if (one != nullptr) axes[k] = std::clamp(k < 3 ? apart : 0.0, one->low, one->high);
+    }
+    const ChainEnds ends = actual_ends(model.compiled(), axes);
+    Setting setting;
+    setting.tool_length_mm = machine.tool.length_mm;
+    seed.axes.push_back(axes);
+    seed.setup.push_back(1);
+    seed.ball.push_back(1);
+    seed.deviation_mm.push_back(
+        rigid::array(ends.workpiece * ball - ends.tool * model.compiled().tip(setting)));
+  }
+  const Problem problem = make_problem(machine, std::span(&seed, 1), errors);
+  return Planner(problem, std::span(&seed, 1), errors, problem.start).from_nothing();
+}
 
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
                             const ErrorModel& errors, const Eigen::VectorXd& places) {

@@ -19,4 +19,8 @@ struct Plan {
 std::vector<Plan> plans_for(const Problem& problem, std::span<const MachineMeasurement> data,
                             const ErrorModel& errors, const Eigen::VectorXd& places);
 
+/// B1: a ball on the workpiece's body at a grid of rotary positions and back; nothing for a machine
+/// that cannot.
+std::optional<Plan> first_plan(const Machine& machine, const ErrorModel& errors);
+
 }  // namespace trueaxis::calibrate_detail

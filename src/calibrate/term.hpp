@@ -48,6 +48,10 @@ struct Geometry {
 Geometry geometry_of(const Problem& problem, const ErrorModel& errors,
                      const Eigen::VectorXd& places);
 
+/// The column of a component error of axis k that is a function of its position.
+Eigen::VectorXd error_column(const Problem& problem, const Geometry& geometry, std::size_t k,
+                             const ErrorTerm& error);
+
 /// Every effect of docs/calibration.md for this machine and these rows: polynomials and harmonics
 /// of the errors of the axes, reversal, drift where there are times, slips of the balls at some
 /// rows.

@@ -22,15 +22,6 @@ MatrixXd times_rows(const Problem& problem, const MatrixXd& columns, const Funct
   return out;
 }
 
-/// The column of a component error that is a function of its axis' position.
-VectorXd error_column(const Problem& problem, const Geometry& geometry, std::size_t k,
-                      const ErrorTerm& error) {
-  const std::size_t axis = error.name.body;
-  return times_rows(problem,
-                    geometry.unit_errors.col(static_cast<Index>(6 * k + error.name.direction)),
-                    [&](const Row& row) { return value_at(error.function, row.axes[axis]); });
-}
-
 Term of_errors(const Problem& problem, const Geometry& geometry, std::size_t k,
                const std::string& effect, std::vector<ErrorTerm> errors) {
   Term term;
@@ -143,6 +134,14 @@ void add_slips(const Problem& problem, const Geometry& geometry, std::vector<Ter
 }
 
 }  // namespace
+
+VectorXd error_column(const Problem& problem, const Geometry& geometry, std::size_t k,
+                      const ErrorTerm& error) {
+  const std::size_t axis = error.name.body;
+  return times_rows(problem,
+                    geometry.unit_errors.col(static_cast<Index>(6 * k + error.name.direction)),
+                    [&](const Row& row) { return value_at(error.function, row.axes[axis]); });
+}
 
 Term slip_term(const Problem& problem, const Geometry& geometry, std::size_t target,
                std::size_t row) {

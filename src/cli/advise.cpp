@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
+#include "cli/machine_diagnosed.hpp"
 #include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
@@ -20,6 +21,8 @@ namespace trueaxis::cli {
 namespace {
 
 struct Options {
+  std::vector<std::string> data;  ///< a stream or a job; with --machine measurements, or none
+  MachineDiagnosed machine;
   StreamOptions stream;
   AssociationOptions association;
   double false_alarm = DiagnoseOptions{}.false_alarm;
@@ -66,16 +69,45 @@ int advise_job(const Options& options) {
   return worst;
 }
 
+/// Options of the one beside the other would be passed over in silence.
+bool is_of_machine(const CLI::App& command, const Options& options) {
+  const bool machine = !options.machine.machine.machine.empty();
+  if (!machine && options.data.empty()) throw CLI::RequiredError("stream");
+  if (!machine && options.data.size() > 1)
+    throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    const bool of_machine = name == "--errors" || name == "--sign" || name == "--program";
+    const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm";
+    if (option->count() == 0 || of_both || of_machine == machine || name == "--help") continue;
+    throw CLI::ValidationError(name, machine ? "is of a stream: --machine has none"
+                                             : "is of a machine: name it with --machine");
+  }
+  return machine;
+}
+
 }  // namespace
 
 void add_advise(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("advise", "the next measurement, and what every other one would tell");
   auto options = std::make_shared<Options>();
-  options->stream.add_to(*command, "probe stream (CSV), '-' for standard input, or a job (.toml)");
+  command->add_option(
+      "stream", options->data,
+      "probe stream (CSV), '-' for standard input, or a job (.toml); with --machine "
+      "its measurements (CSV), or none before any");
+  options->stream.add_meaning_to(*command);
+  options->machine.add_to(*command);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
-  command->callback([options, surface, &exit_code] {
+  command->callback([options, command, surface, &exit_code] {
+    if (is_of_machine(*command, *options)) {
+      options->machine.data = options->data;
+      options->machine.false_alarm = options->false_alarm;
+      exit_code = options->machine.advise();
+      return;
+    }
+    options->stream.path = options->data.front();
     if (options->stream.path.ends_with(".toml")) {
       exit_code = advise_job(*options);
       return;

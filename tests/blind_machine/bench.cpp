@@ -140,7 +140,7 @@ Plan plan_of(const std::string& name, const Layout& layout, std::uint64_t seed) 
 std::vector<double> readings(const Machine& machine, const Plan& plan, const Fault& fault) {
   std::vector<double> out;
   AxisPositions from = plan.visits.front().axes, lost{};
-  const double end_s = fault.end_s > 0.0 ? fault.end_s : plan.visits.back().time_s;
+  const double end_s = fault.end_s > 0.0 ? fault.end_s : std::max(1.0, plan.visits.back().time_s);
   ErrorModel errors = fault.errors;
   for (std::size_t i = 0; i < plan.visits.size(); ++i) {
     const Visit& visit = plan.visits[i];

@@ -16,7 +16,7 @@ struct Arguments {
   std::vector<std::string> kinds;
   std::string command = TRUEAXIS_COMMAND, scratch = TRUEAXIS_SCRATCH, json, only;
   int jobs = 2;
-  bool keep = false, quiet = false;
+  bool keep = false, quiet = false, elsewhere = false;
 };
 
 void run(const Arguments& arguments) {
@@ -35,6 +35,7 @@ void run(const Arguments& arguments) {
   options.scratch = std::filesystem::path(arguments.scratch) / "blind_machine";
   options.keep = arguments.keep || !arguments.only.empty();
   options.jobs = arguments.jobs;
+  options.elsewhere = arguments.elsewhere;
   options.progress = [&](std::size_t done, const Result& result) {
     if (!arguments.only.empty() ||
         (result.outcome != Outcome::correct && result.outcome != Outcome::no_advice))
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
   app.add_option("--command", to.command, "the trueaxis command to judge");
   app.add_option("--scratch", to.scratch, "folder of the measurements");
   app.add_option("--only", to.only, "one case by its id, KIND-MACHINE-PLAN-SEED; kept");
+  app.add_flag("--elsewhere", to.elsewhere, "how far the errors found are off at other positions");
   app.add_flag("--keep", to.keep, "keep measurements, truths and answers");
   app.add_flag("--quiet", to.quiet, "no progress");
   CLI11_PARSE(app, argc, argv);

@@ -29,8 +29,7 @@ Advice advice_from(const Json& next) {
         visit.axes[axis] = value * (axis < 3 ? 1.0 : rad_per_deg);
     }
     for (const Json& ball : measurement.at("balls"))
-      if (ball.at("ball") == visit.ball)
-        visit.centre_mm = ball.at("centre").at("value").get<Vector3>();
+      if (ball.at("ball") == visit.ball) visit.centre_mm = ball.at("centre_mm").get<Vector3>();
     out.visits.push_back(visit);
   }
   return out;

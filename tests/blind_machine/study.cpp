@@ -10,6 +10,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "blind_machine/elsewhere.hpp"
+#include "machine/files/errors_toml.hpp"
+#include "support/command.hpp"
+
 namespace trueaxis::blind_machine {
 namespace {
 
@@ -72,6 +76,22 @@ Outcome follow_advice(Result& result, const StudyOptions& options,
   return now > 0 && (absorbed || now < before) ? Outcome::correct : Outcome::unresolved;
 }
 
+void look_elsewhere(Result& result, const StudyOptions& options,
+                    const std::filesystem::path& folder) {
+  const std::string at = '"' + folder.string();
+  const auto off = [&](const std::string& arguments, const char* file) {
+    const auto ran = testing::shell('"' + options.command + "\" " + arguments + " -o " + at + '/' +
+                                    file + "\" --force");
+    if (ran.exit_code != 0) throw std::runtime_error(ran.output);
+    return error_elsewhere_mm(
+        result.made, read_errors_toml((folder / file).string(), result.made.layout->machine));
+  };
+  result.calibrated_mm =
+      off("calibrate " + at + "/machine.toml\" " + at + "/data.csv\"", "calibrated.toml");
+  result.diagnosed_mm =
+      off("diagnose " + at + "/data.csv\" --machine " + at + "/machine.toml\"", "diagnosed.toml");
+}
+
 }  // namespace
 
 std::vector<Wanted> select(const std::vector<Kind>& kinds, std::size_t cases, std::uint64_t seed) {
@@ -103,6 +123,7 @@ Result run_case(const Wanted& wanted, const StudyOptions& options) {
   const std::filesystem::path folder = options.scratch / wanted.id();
   out.answer = run_command(out.made, out.made.plan, wanted.seed, options.command, folder);
   out.seconds = out.answer.seconds;
+  if (options.elsewhere && out.answer.exit_code == 0) look_elsewhere(out, options, folder);
   out.outcome = wanted.kind == Kind::advised ? follow_advice(out, options, folder)
                                              : score(out.made, out.answer, out.members, out.far);
   if (!options.keep) {

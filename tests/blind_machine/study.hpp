@@ -26,7 +26,6 @@ struct Answer {
   std::vector<std::string> unexplained;
   std::set<std::string> not_observable;
   std::optional<Advice> advice;
-  ErrorModel errors;  ///< of -o
   double seconds = 0.0;
 };
 
@@ -50,8 +49,7 @@ struct Result {
   Answer answer, advised;
   Outcome outcome = Outcome::crash;
   std::size_t members = 0, far = 0;  ///< listed beside the truth; those with d ≥ 6.6
-  /// RMS of the tip over the work space beside the truth, mm: without a diagnosis, with what was
-  /// always fitted, with the diagnosis; only where it is asked for.
+  double calibrated_mm = 0.0, diagnosed_mm = 0.0;  ///< error of the tip elsewhere; 0: not asked
   double seconds = 0.0;
   std::string line() const;
 };
@@ -60,6 +58,7 @@ struct StudyOptions {
   std::string command;
   std::filesystem::path scratch;
   bool keep = false;
+  bool elsewhere = false;  ///< how far `calibrate` and `diagnose` are off at other positions
   int jobs = 2;
   std::function<void(std::size_t done, const Result&)> progress;
 };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <map>
 
@@ -43,6 +44,17 @@ Json by(const std::map<Key, Cell>& cells) {
   return out;
 }
 
+/// Which of the four unknowns.
+std::string what(const Result& result) {
+  const std::string& truth = result.made.truth.front();
+  return truth.substr(0, truth.find_first_of(" ,"));
+}
+
+double median(std::vector<double> list) {
+  std::ranges::sort(list);
+  return 0.5 * (list[(list.size() - 1) / 2] + list[list.size() / 2]);
+}
+
 }  // namespace
 
 std::string to_string(Outcome outcome) {
@@ -81,13 +93,23 @@ Json tables(const std::vector<Result>& results) {
     count(grid[kind][result.made.layout->name], result);
     count(plans[result.made.wanted.plan], result);
     if (result.made.wanted.kind == Kind::unknown)
-      count(unknowns[result.made.truth.front().substr(
-                0, result.made.truth.front().find_first_of(" ,"))],
-            result);
+      count(unknowns[what(result)], result);
     if (result.outcome != Outcome::correct) wrong.push_back(result.line());
+  }
+  std::map<std::string, std::vector<double>> calibrated, diagnosed;
+  for (const Result& result : results) {
+    if (!(result.calibrated_mm > 0.0)) continue;
+    std::string kind = to_string(result.made.wanted.kind);
+    if (result.made.wanted.kind == Kind::unknown) kind = "unknown: " + what(result);
+    calibrated[kind].push_back(result.calibrated_mm);
+    diagnosed[kind].push_back(result.diagnosed_mm);
   }
   Json out{{"kinds", by(kinds)}, {"plans", by(plans)}, {"unknown", by(unknowns)}};
   for (const auto& [kind, cells] : grid) out["grid"][kind] = by(cells);
+  for (const auto& [kind, list] : calibrated)
+    out["elsewhere"][kind] = {{"cases", list.size()},
+                              {"calibrated_um", 1e3 * median(list)},
+                              {"diagnosed_um", 1e3 * median(diagnosed[kind])}};
   for (const Kind kind : all_kinds()) out["goals"][to_string(kind)] = goal(kind);
   out["cases"] = results.size();
   out["members"] = {{"listed", members}, {"far", far}};

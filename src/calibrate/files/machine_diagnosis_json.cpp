@@ -78,7 +78,9 @@ Json not_observable_json(const MachineNotObservable& one) {
   if (one.detectable)
     detectable = edge_size(*one.detectable, one.unit);
   else
-    detectable = {{"value", nullptr}, {"why", "no size of it would be found"}};
+    detectable = {{"value", nullptr},
+                  {"unit", one.unit == "rad" ? "deg" : "mm"},
+                  {"why", "no size of it would be found"}};
   return {{"effect", one.effect},
           {"why", one.why},
           {"detectable", detectable},
@@ -112,9 +114,7 @@ Json measurement_json(const MachinePlan& plan, const Machine& machine) {
   std::set<std::pair<int, int>> placed;
   for (const PlannedVisit& visit : plan.visits) {
     if (placed.insert({visit.setup, visit.ball}).second)
-      balls.push_back({{"setup", visit.setup},
-                       {"ball", visit.ball},
-                       {"centre", {{"value", visit.ball_mm}, {"unit", "mm"}}}});
+      balls.push_back({{"setup", visit.setup}, {"ball", visit.ball}, {"centre_mm", visit.ball_mm}});
     Json row{visit.setup, visit.ball};
     for (const std::size_t k : axes)
       row.push_back(number(visit.axes[k] / (k < 3 ? 1.0 : rad_per_deg)));
@@ -156,34 +156,37 @@ Json baseline_json(const Calibration& c) {
 }  // namespace
 
 std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& machine) {
-  return json_text(
-      {{"schema", "trueaxis.machine_diagnosis/1"},
-       {"version", TRUEAXIS_VERSION},
-       {"machine", machine.name},
-       {"inputs", inputs_json(d.baseline)},
-       {"options", options_json(d)},
-       {"verdict", to_string(d.verdict)},
-       {"baseline", baseline_json(d.baseline)},
-       {"extended", {{"parameters", parameters_json(d.extended)}}},
-       {"findings", list_of(d.findings, finding_json)},
-       {"unexplained", list_of(d.unexplained, unexplained_json)},
-       {"not_observable", list_of(d.not_observable, not_observable_json)},
-       {"remarks", d.remarks},
-       {"checks", list_of(d.checks, check_json)},
-       {"noise",
-        {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
-       {"gain",
-        {{"rms_before", with_unit(d.rms_before_mm, "mm")},
-         {"rms_after", with_unit(d.rms_after_mm, "mm")},
-         {"held_out_rms_before", held_out_json(d.held_out_before)},
-         {"held_out_rms_after", held_out_json(d.held_out_after)},
-         {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
-       {"next_measurement", next_json(d, machine)},
-       {"plans", list_of(d.plans, plan_json)},
-       {"false_alarm", number(d.false_alarm)},
-       {"hypotheses", d.hypotheses},
-       {"effective_hypotheses", number(d.effective_hypotheses)},
-       {"threshold", number(d.threshold)}});
+  return json_text(machine_diagnosis_object(d, machine));
+}
+
+Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine) {
+  return {{"schema", "trueaxis.machine_diagnosis/1"},
+          {"version", TRUEAXIS_VERSION},
+          {"machine", machine.name},
+          {"inputs", inputs_json(d.baseline)},
+          {"options", options_json(d)},
+          {"verdict", to_string(d.verdict)},
+          {"baseline", baseline_json(d.baseline)},
+          {"extended", {{"parameters", parameters_json(d.extended)}}},
+          {"findings", list_of(d.findings, finding_json)},
+          {"unexplained", list_of(d.unexplained, unexplained_json)},
+          {"not_observable", list_of(d.not_observable, not_observable_json)},
+          {"remarks", d.remarks},
+          {"checks", list_of(d.checks, check_json)},
+          {"noise",
+           {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
+          {"gain",
+           {{"rms_before", with_unit(d.rms_before_mm, "mm")},
+            {"rms_after", with_unit(d.rms_after_mm, "mm")},
+            {"held_out_rms_before", held_out_json(d.held_out_before)},
+            {"held_out_rms_after", held_out_json(d.held_out_after)},
+            {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
+          {"next_measurement", next_json(d, machine)},
+          {"plans", list_of(d.plans, plan_json)},
+          {"false_alarm", number(d.false_alarm)},
+          {"hypotheses", d.hypotheses},
+          {"effective_hypotheses", number(d.effective_hypotheses)},
+          {"threshold", number(d.threshold)}};
 }
 
 }  // namespace trueaxis

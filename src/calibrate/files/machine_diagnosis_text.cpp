@@ -25,7 +25,7 @@ std::string finding_text(const MachineFinding& finding) {
   for (const MachineRival& rival : finding.rivals)
     rivals += (rivals.empty() ? "" : ", ") + rival.effect + " (" +
               layout::probability(rival.probability) + ")";
-  text += layout::wrapped("  not told from ", rivals) + "\n";
+  text += layout::wrapped("  not told from ", rivals);
   text += finding.separate_with.empty() ? "  none of the plans tells them apart\n"
                                         : "  plan " + finding.separate_with + " tells them apart\n";
   return text;
@@ -39,11 +39,10 @@ std::string not_observable_text(const MachineDiagnosis& d) {
   std::string text;
   for (const auto& [why, effects] : alike)
     text += layout::wrapped(
-                "  ", fmt::format("{}: {}; {}", fmt::join(effects, " "), why.first,
-                                  why.second.empty()
-                                      ? "none of the plans shows them"
-                                      : fmt::format("shown by {}", fmt::join(why.second, ", ")))) +
-            "\n";
+        "  ",
+        fmt::format("{}: {}; {}", fmt::join(effects, " "), why.first,
+                    why.second.empty() ? "none of the plans shows them"
+                                       : fmt::format("shown by {}", fmt::join(why.second, ", "))));
   return text;
 }
 
@@ -58,9 +57,9 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
                         size_text(one.amplitude.value, one.amplitude.unit), one.p_value);
-  for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark) + "\n";
+  for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark);
   for (const MachineCheck& check : d.checks)
-    if (check.found) text += layout::wrapped("check: ", check.text) + "\n";
+    if (check.found) text += layout::wrapped("check: ", check.text);
   text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
                       layout::um(d.rms_before_mm), layout::um(d.rms_after_mm),
                       layout::um(d.held_out_before.value_mm), layout::um(d.held_out_after.value_mm),
@@ -69,6 +68,26 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const MachinePlan& plan : d.plans)
     if (plan.code == d.next_plan)
       text += fmt::format("next: {}, {} ({:.0f} min)\n", plan.code, plan.what, plan.minutes);
+  return text;
+}
+
+std::string machine_advice_text(const MachineDiagnosis& d) {
+  std::string text;
+  for (const MachinePlan& plan : d.plans)
+    if (plan.code == d.next_plan)
+      text += layout::wrapped("next: ", fmt::format("{}, {} ({} readings, {:.0f} min)", plan.code,
+                                                    plan.what, plan.visits.size(), plan.minutes));
+  if (text.empty()) text = "next: no plan shows or separates anything more\n";
+  for (const MachinePlan& plan : d.plans) {
+    std::string what = fmt::format("{:.0f} min", plan.minutes);
+    if (!plan.separates.empty())
+      what += fmt::format("; tells apart what is alike {}", fmt::join(plan.separates, ", "));
+    what += plan.shows.empty() ? "; shows nothing more"
+                               : fmt::format("; shows {}", fmt::join(plan.shows, " "));
+    text += layout::wrapped(fmt::format("  {}: ", plan.code), what);
+  }
+  for (const MachineFinding& finding : d.findings) text += finding_text(finding);
+  if (!d.not_observable.empty()) text += "not seen at these positions\n" + not_observable_text(d);
   return text;
 }
 

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/machine_options.hpp"
+
+namespace trueaxis::cli {
+
+/// What `diagnose --machine` and `advise --machine` are told.
+struct MachineDiagnosed {
+  MachineOptions machine;
+  std::vector<std::string> data;  ///< measurements; none: a plan before any
+  std::string program;            ///< a part on which the harm is weighed
+  std::string json, errors_output;
+  double false_alarm = 0.01;
+  bool force = false;
+
+  void add_to(CLI::App& command);
+
+  /// Diagnoses the data and writes what is asked for. @returns the exit code
+  int diagnose() const;
+  /// Prints the next measurement and what every other would show. @returns the exit code
+  int advise() const;
+};
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// `diagnose --machine` and `advise --machine` as a user meets them.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/command.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::string data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
+const std::string machine = data + "trunnion_ac.toml", ball = data + "trunnion_ac_ball.csv";
+
+json diagnosed(const std::string& more = "") {
+  const auto folder = fresh_folder("machine_diagnosis");
+  const std::string out = (folder / "diagnosis.json").string();
+  const auto ran = trueaxis_command("diagnose " + ball + " --machine " + machine + " --json " + out + more);
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  return read_json(out);
+}
+
+std::set<std::string> keys(const json& object) {
+  std::set<std::string> out;
+  for (const auto& [key, value] : object.items()) out.insert(key);
+  return out;
+}
+
+// Every key of a surface's diagnosis is one of a machine's, but those that speak of a surface.
+TEST(MachineDiagnosisCommand, HasTheKeysOfADiagnosis) {
+  const auto folder = fresh_folder("machine_diagnosis_keys");
+  write_text(folder / "part.toml",
+             "seed = 1\n[part]\nkind = \"cylinder\"\nradius_mm = 40\n[noise]\nsigma_um = 2\n"
+             "[[pass]]\nz_start_mm = 0\nz_end_mm = 60\nfeed_mm_per_rev = 1\n"
+             "readings_per_revolution = 23.7\nspeed_rpm = 60\n"
+             "[[effect]]\nid = \"part.roundness\"\norder = 3\namplitude_um = 5\nphase_deg = 10\n");
+  const std::string at = folder.string();
+  auto ran = trueaxis_command("simulate " + at + "/part.toml -o " + at + "/part.csv");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  ran = trueaxis_command("diagnose " + at + "/part.csv --surface cylinder --json " + at + "/part.json");
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const json of_surface = read_json(folder / "part.json"), of_machine = diagnosed();
+  const auto expect_keys = [](const json& from, const json& in, std::set<std::string> less) {
+    const auto there = keys(in);
+    for (const std::string& key : keys(from))
+      EXPECT_TRUE(less.contains(key) || there.contains(key)) << key;
+  };
+  expect_keys(of_surface, of_machine, {"input", "named", "shares", "u_frame", "spectrum"});
+  ASSERT_FALSE(of_surface.at("findings").empty());
+  ASSERT_FALSE(of_machine.at("findings").empty());
+  const json &one = of_surface.at("findings")[0], &other = of_machine.at("findings")[0];
+  expect_keys(one, other, {"axis_bias", "frame"});
+  expect_keys(one.at("term"), other.at("term"), {"slot"});
+  expect_keys(of_surface.at("checks")[0], of_machine.at("checks")[0], {});
+}
+
+TEST(MachineDiagnosisCommand, SaysTheTermWithItsNumbers) {
+  const json d = diagnosed();
+  const json& term = d.at("findings")[0].at("term");
+  EXPECT_EQ(d.at("findings")[0].at("effect"), "EXC.harmonic2");
+  EXPECT_EQ(term.at("shape").at("order").at("value"), 2.0);
+  ASSERT_EQ(term.at("linear").size(), 2U);
+  const double u = d.at("findings")[0].at("parameters").at("cos").at("u");
+  EXPECT_NEAR(term.at("covariance")[0][0].get<double>(), u * u, 1e-9 * u * u);
+  EXPECT_GT(d.at("effective_hypotheses").get<double>(), 10.0);
+  EXPECT_LT(d.at("effective_hypotheses").get<double>(), d.at("hypotheses").get<double>());
+  // Every 30 degrees order 10 reads as order 2.
+  EXPECT_EQ(d.at("findings")[0].at("alias"), "order 10");
+}
+
+// EXC is a motion along X before C turns the part: its size is what it does to a tip, wherever the
+// program has C where the harmonic peaks; at every block it is that or less.
+TEST(MachineDiagnosisCommand, WeighsTheHarmOnAProgram) {
+  const json d = diagnosed(" --program " + data + "blade.nc");
+  const json& program = d.at("program");
+  const json& first = program.at("by_effect")[0];
+  EXPECT_EQ(first.at("effect"), "EXC.harmonic2");
+  EXPECT_TRUE(first.at("found").get<bool>());
+  const double size = d.at("findings")[0].at("size").at("value"), tip = first.at("tip").at("value");
+  EXPECT_LE(tip, size * (1 + 1e-9));
+  EXPECT_GT(tip, 0.95 * size);
+  const double U = program.at("U").at("value");
+  EXPECT_GT(U, 0.0);
+  ASSERT_EQ(program.at("plans").size(), d.at("plans").size());
+  for (const json& plan : program.at("plans"))  // further readings never tell less
+    EXPECT_LE(plan.at("U").at("value").get<double>(), U * (1 + 1e-6)) << plan;
+}
+
+TEST(MachineDiagnosisCommand, AdvisesBeforeAnyDataAndAfter) {
+  auto ran = trueaxis_command("advise --machine " + machine + " --program " + data + "blade.nc");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_EQ(ran.output.find("next: B1"), 0U) << ran.output;
+  EXPECT_NE(ran.output.find("U of the tip"), std::string::npos);
+  ran = trueaxis_command("advise " + ball + " --machine " + machine);
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_NE(ran.output.find("L2: "), std::string::npos) << ran.output;
+}
+
+TEST(MachineDiagnosisCommand, RefusesWhatIsOfTheOther) {
+  EXPECT_EQ(trueaxis_command("advise").exit_code, 2);
+  EXPECT_EQ(trueaxis_command("advise " + ball + " --surface cone --machine " + machine).exit_code, 2);
+  EXPECT_EQ(trueaxis_command("diagnose " + ball + " --surface cone --program p.nc").exit_code, 2);
+  const auto ran =
+      trueaxis_command("diagnose " + ball + " --machine " + machine + " --program " + machine);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_NE(ran.output.find("trunnion_ac.toml:2:"), std::string::npos) << ran.output;
+}
+
+// Readings in µm that are called mm: no machine is so far from its model.
+TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
+  const auto folder = fresh_folder("machine_diagnosis_refused");
+  std::string text = read_text(ball);
+  for (std::size_t at; (at = text.find("[um]")) != std::string::npos;) text.replace(at, 4, "[mm]");
+  write_text(folder / "ball.csv", text);
+  const std::string at = folder.string();
+  const auto ran = trueaxis_command("diagnose " + at + "/ball.csv --machine " + machine + " --json " +
+                                    at + "/out.json -o " + at + "/errors.toml");
+  EXPECT_EQ(ran.exit_code, 1) << ran.output;
+  EXPECT_NE(ran.output.find("no machine is so far from its model"), std::string::npos) << ran.output;
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "errors.toml"));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
