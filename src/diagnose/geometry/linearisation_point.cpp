@@ -182,7 +182,8 @@ TermContext LinearisationPoint::context(const PointPart& part) const {
 void LinearisationPoint::fill_base(const PointPart& at, std::span<double* const> columns) const {
   const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
   const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
-  for (double* column : columns) std::fill_n(column, at.size(), 0.0);
+  if (base.axes > 1)
+    for (double* column : columns) std::fill_n(column, at.size(), 0.0);
   for (std::size_t k = 0; k < at.size() && base.face; ++k) {
     const std::size_t own = at.axis[k] * per_axis;
     columns[own][k] = -at.z[k] * at.cosine[k];
