@@ -127,8 +127,9 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 /// A range of frequencies of a scan, at most most_bins of them, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
-  std::size_t bins = 0, first_bin = 0;      ///< the latter counted through all bands
-  std::shared_ptr<const FourierSums> plan;  ///< made where it is wanted, and kept of few readings
+  std::size_t bins = 0, first_bin = 0;                ///< the latter counted through all bands
+  bool kept = true;                                   ///< the plan, of few readings
+  mutable std::shared_ptr<const FourierSums> plan{};  ///< made where it is wanted
 };
 
 /// Scans of one variable and one set of bands.
@@ -206,13 +207,14 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
       const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
       for (std::size_t from = 0; from < bins; from += most_bins)
         job.bands.push_back({band.low + df * static_cast<double>(from), df,
-                             std::min(most_bins, bins - from), job.bins(), nullptr});
+                             std::min(most_bins, bins - from), job.bins(), !is_condensed(point)});
     }
     jobs_.push_back(std::move(job));
   }
 }
 
-Scans LineScanner::operator()(const NormalEquations& equations, std::vector<double> remainder_mm) {
+Scans LineScanner::operator()(const NormalEquations& equations,
+                              std::vector<double> remainder_mm) const {
   const LinearisationPoint& point = problem_.point;
   const std::vector<double> left = weighted(equations, std::move(remainder_mm));
   std::vector<std::vector<Tops>> tops(jobs_.size());  // of every band of every job
@@ -224,7 +226,7 @@ Scans LineScanner::operator()(const NormalEquations& equations, std::vector<doub
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
-    Job& job = jobs_[j];
+    const Job& job = jobs_[j];
     tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], equations, left)
                              : tops_of(job, job.bands[b], equations, left);
   });
@@ -234,7 +236,7 @@ Scans LineScanner::operator()(const NormalEquations& equations, std::vector<doub
   return out;
 }
 
-LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, Band& band,
+LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, const Band& band,
                                                const NormalEquations& equations,
                                                const Column& left) const {
   const std::vector<FringeCell> cells =
@@ -246,8 +248,8 @@ LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, Band& band,
   std::vector<Top>& best = tops.front();
   for (const FringeCell& cell : cells) {
     if (best.size() >= job.kept() && cell.most < best[job.kept() - 1].gain) break;
-    Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
-              band.first_bin + cell.first, nullptr};
+    const Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
+                    band.first_bin + cell.first, false};
     const Tops more = tops_of(job, part, equations, left);
     best.insert(best.end(), more.front().begin(), more.front().end());
     std::ranges::stable_sort(best, std::greater<>(), &Top::gain);
@@ -255,16 +257,28 @@ LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, Band& band,
   return tops;
 }
 
-LineScanner::Tops LineScanner::tops_of(const Job& job, Band& band, const NormalEquations& equations,
-                                       const Column& left) const {
+std::shared_ptr<const FourierSums> LineScanner::plan_of(const Job& job, const Band& band) const {
+  if (band.kept) {
+    const std::lock_guard lock(plans_);
+    if (band.plan) return band.plan;
+  }
+  const LinearisationPoint& point = problem_.point;
+  auto made = std::make_shared<const FourierSums>(source_of(point, job.scans.front().x),
+                                                  point.size(), job.middle, two_pi * band.low,
+                                                  two_pi * band.df, band.bins);
+  if (band.kept) {
+    const std::lock_guard lock(plans_);
+    band.plan = made;
+  }
+  return made;
+}
+
+LineScanner::Tops LineScanner::tops_of(const Job& job, const Band& band,
+                                       const NormalEquations& equations, const Column& left) const {
   const LinearisationPoint& point = problem_.point;
   const PointColumn x = job.scans.front().x;
   const LineNorms norms(equations, x, problem_.means);
-  if (!band.plan)
-    band.plan = std::make_shared<FourierSums>(source_of(point, x), point.size(), job.middle,
-                                              two_pi * band.low, two_pi * band.df, band.bins);
-  const std::shared_ptr<const FourierSums> plan = band.plan;
-  if (is_condensed(point)) band.plan = nullptr;
+  const std::shared_ptr<const FourierSums> plan = plan_of(job, band);
   TurnedSums turned;
   Tops tops;
   for (const Scan& scan : job.scans) {
