@@ -68,10 +68,10 @@ FastFourier::Complex FastFourier::root(std::size_t power) const {
 FastFourier::Workspace FastFourier::workspace() const {
   Workspace made;
   const bool steps = n1_ > 1;
-  made.in.resize(steps ? block * n1_ : n_);
-  made.out.resize(steps ? std::max(n1_, block * n2_) : 0);
-  made.turned.resize(steps ? n_ : 0);
-  made.result.resize(n_);
+  made.in = hwy::AllocateAligned<Complex>(steps ? block * n1_ : n_);
+  made.out = hwy::AllocateAligned<Complex>(steps ? std::max(n1_, block * n2_) : 1);
+  made.turned = hwy::AllocateAligned<Complex>(steps ? n_ : 1);
+  made.result = hwy::AllocateAligned<Complex>(n_);
   made.plan = plan_;
   return made;
 }
@@ -89,7 +89,7 @@ void FastFourier::in_four_steps(std::span<const double> real, std::span<const do
       }
     }
     for (std::size_t c = 0; c < columns; ++c) {
-      plan.fwd(out.data(), in.data() + c * n1_, static_cast<Eigen::Index>(n1_));
+      plan.fwd(out.get(), in.get() + c * n1_, static_cast<Eigen::Index>(n1_));
       for (std::size_t k1 = 0; k1 < n1_; ++k1) {
         in[c * n1_ + k1] = times(out[k1], root((first + c) * k1));
       }
@@ -101,7 +101,7 @@ void FastFourier::in_four_steps(std::span<const double> real, std::span<const do
   for (std::size_t first = 0; first < n1_; first += block) {
     const std::size_t rows = std::min(block, n1_ - first);
     for (std::size_t r = 0; r < rows; ++r) {
-      plan.fwd(out.data() + r * n2_, turned.data() + (first + r) * n2_,
+      plan.fwd(out.get() + r * n2_, turned.get() + (first + r) * n2_,
                static_cast<Eigen::Index>(n2_));
     }
     for (std::size_t k2 = 0; k2 < n2_; ++k2) {
@@ -117,9 +117,9 @@ std::span<const Complex> FastFourier::operator()(std::span<const double> real,
     in_four_steps(real, imaginary, with);
   } else {
     for (std::size_t j = 0; j < n_; ++j) with.in[j] = {real[j], imaginary[j]};
-    with.plan.fwd(with.result.data(), with.in.data(), static_cast<Eigen::Index>(n_));
+    with.plan.fwd(with.result.get(), with.in.get(), static_cast<Eigen::Index>(n_));
   }
-  return with.result;
+  return {with.result.get(), n_};
 }
 
 }  // namespace trueaxis

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hwy/aligned_allocator.h>
+
 #include <complex>
 #include <cstddef>
 #include <span>
@@ -24,7 +26,7 @@ class FastFourier {
 
   /// What one thread works with; kept from one transform to the next.
   struct Workspace {
-    std::vector<Complex> in, out, turned, result;
+    hwy::AlignedFreeUniquePtr<Complex[]> in, out, turned, result;
     Eigen::FFT<double> plan;
   };
   Workspace workspace() const;

@@ -7,6 +7,7 @@
 #include <complex>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "math/fourier_sums.hpp"
 #include "math/sincos.hpp"
@@ -51,16 +52,24 @@ void add_between(const std::vector<double>& coarse, std::size_t stride, std::vec
 
 }  // namespace
 
-LineNorms::LineNorms(const NormalEquations& equations, PointColumn x, const Means* means)
-    : equations_(equations), x_(x) {
-  const LinearisationPoint& point = equations.point();
+std::vector<double> readings_that_count(const NormalEquations& equations) {
   const ObservationMask& mask = equations.mask();
-  for (std::size_t p = 0; p < point.passes.size(); ++p) {
-    const Pass& pass = point.passes[p];
+  std::vector<double> out;
+  for (const Pass& pass : equations.point().passes) {
     double count = 0.0;
     for (std::size_t i = pass.begin; i < pass.end; ++i)
       count += mask.used[i] && mask.run[i] >= equations.autoregression().size();
-    used_.push_back(count);
+    out.push_back(count);
+  }
+  return out;
+}
+
+LineNorms::LineNorms(const NormalEquations& equations, std::vector<double> counts, PointColumn x,
+                     const Means* means)
+    : equations_(equations), x_(x), used_(std::move(counts)) {
+  const LinearisationPoint& point = equations.point();
+  for (std::size_t p = 0; p < point.passes.size(); ++p) {
+    const Pass& pass = point.passes[p];
     // Means follow each other within a turn, and then leave some turns out.
     std::size_t last = pass.end - 1;
     if (means && means->of_pass[p].turns > 0.0)

@@ -25,7 +25,8 @@ constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of 
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
 constexpr std::size_t near_bins = 5;  // two cells: a peak's own
 constexpr double finer = 4.0;
-constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
+constexpr std::size_t most_bins = std::size_t{1} << 20;        // whose sums are made at a time,
+constexpr std::size_t most_bins_of_fewer = 3 * most_bins / 2;  // of less than very many readings
 
 double variance(const LinearisationPoint& point, PointColumn column, int threads) {
   const std::vector<double> all = point.column(column, threads);
@@ -36,14 +37,20 @@ double variance(const LinearisationPoint& point, PointColumn column, int threads
   return sum / static_cast<double>(all.size());
 }
 
+/// Whether behind the readings are of the other sign than in front; of one side it is no matter.
+bool is_turned_round(const Scan& scan, const LinearisationPoint& point) {
+  return scan.form && point.two_sided;
+}
+
 /// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
 struct TurnedSums {
   double order = 0.0;
-  bool spindle = false, form = false;
+  bool spindle = false, turned_round = false;
   FourierSums::Sums cosine, sine;
 
-  bool serves(const Scan& scan) const {
-    return !cosine.empty() && order == std::abs(scan.turns) && form == scan.form &&
+  bool serves(const Scan& scan, const LinearisationPoint& point) const {
+    return !cosine.empty() && order == std::abs(scan.turns) &&
+           turned_round == is_turned_round(scan, point) &&
            (order == 0.0 || spindle == scan.spindle);
   }
 };
@@ -52,14 +59,16 @@ struct TurnedSums {
 TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point, const Scan& scan,
                        const Column& left) {
   const double order = std::abs(scan.turns);
+  const bool turned_round = is_turned_round(scan, point);
   const auto columns = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
+    const std::span<const double> here = std::span(left).subspan(begin, size);
+    if (order == 0.0 && !turned_round) return void(std::ranges::copy(here, out[0]));
     PointRoom room;
     const PointPart at = point.part(begin, begin + size, room);
-    Column phase(size),
-        g(left.begin() + static_cast<long>(begin), left.begin() + static_cast<long>(begin + size));
+    Column phase(size), g(here.begin(), here.end());
     for (std::size_t i = 0; i < size; ++i) {
       phase[i] = order * (scan.spindle ? at.c[i] : at.theta[i]);
-      if (scan.form && at.rear[i]) g[i] = -g[i];
+      if (turned_round && at.rear[i]) g[i] = -g[i];
     }
     if (order == 0.0) return void(std::ranges::copy(g, out[0]));
     sincos(phase, {out[1], size}, {out[0], size});
@@ -67,7 +76,7 @@ TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point,
   };
   std::vector<FourierSums::Sums> sums = plan.of(columns, order == 0.0 ? 1 : 2);
   sums.resize(2);
-  return {order, scan.spindle, scan.form, std::move(sums[0]), std::move(sums[1])};
+  return {order, scan.spindle, turned_round, std::move(sums[0]), std::move(sums[1])};
 }
 
 /// Of a single pass at constant feed a line of C is also one of an order along Z.
@@ -124,7 +133,7 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 
 }  // namespace
 
-/// A range of frequencies of a scan, at most most_bins of them, and its sums.
+/// A range of frequencies of a scan, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
   std::size_t bins = 0, first_bin = 0;                ///< the latter counted through all bands
@@ -205,9 +214,10 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     const double df = 1.0 / ((job.fringes ? finer : 1.0) * oversampling * range.length());
     for (const Extent& band : bands) {
       const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
-      for (std::size_t from = 0; from < bins; from += most_bins)
+      const std::size_t most = point.size() < very_many ? most_bins_of_fewer : most_bins;
+      for (std::size_t from = 0; from < bins; from += most)
         job.bands.push_back({band.low + df * static_cast<double>(from), df,
-                             std::min(most_bins, bins - from), job.bins(), !is_condensed(point)});
+                             std::min(most, bins - from), job.bins(), !is_condensed(point)});
     }
     jobs_.push_back(std::move(job));
   }
@@ -223,12 +233,14 @@ Scans LineScanner::operator()(const NormalEquations& equations,
     tops[j].resize(jobs_[j].bands.size());
     for (std::size_t b = 0; b < tops[j].size(); ++b) bands.emplace_back(j, b);
   }
+  const std::vector<double> counts = readings_that_count(equations);
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
     const Job& job = jobs_[j];
-    tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], equations, left)
-                             : tops_of(job, job.bands[b], equations, left);
+    const LineNorms norms(equations, counts, job.scans.front().x, problem_.means);
+    tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], norms, left)
+                             : tops_of(job, job.bands[b], norms, left);
   });
   Scans out;
   for (std::size_t j = 0; j < jobs_.size(); ++j) add_peaks(jobs_[j], tops[j], out);
@@ -237,20 +249,19 @@ Scans LineScanner::operator()(const NormalEquations& equations,
 }
 
 LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, const Band& band,
-                                               const NormalEquations& equations,
-                                               const Column& left) const {
+                                               const LineNorms& norms, const Column& left) const {
   const std::vector<FringeCell> cells =
       job.scans.size() > 1
           ? std::vector<FringeCell>{}
-          : fringe_cells(equations, job.scans[0], left, band.low, band.df, band.bins);
-  if (cells.empty()) return tops_of(job, band, equations, left);
+          : fringe_cells(norms, problem_.point, job.scans[0], left, band.low, band.df, band.bins);
+  if (cells.empty()) return tops_of(job, band, norms, left);
   Tops tops(1);
   std::vector<Top>& best = tops.front();
   for (const FringeCell& cell : cells) {
     if (best.size() >= job.kept() && cell.most < best[job.kept() - 1].gain) break;
     const Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
                     band.first_bin + cell.first, false};
-    const Tops more = tops_of(job, part, equations, left);
+    const Tops more = tops_of(job, part, norms, left);
     best.insert(best.end(), more.front().begin(), more.front().end());
     std::ranges::stable_sort(best, std::greater<>(), &Top::gain);
   }
@@ -273,22 +284,21 @@ std::shared_ptr<const FourierSums> LineScanner::plan_of(const Job& job, const Ba
   return made;
 }
 
-LineScanner::Tops LineScanner::tops_of(const Job& job, const Band& band,
-                                       const NormalEquations& equations, const Column& left) const {
+LineScanner::Tops LineScanner::tops_of(const Job& job, const Band& band, const LineNorms& norms,
+                                       const Column& left) const {
   const LinearisationPoint& point = problem_.point;
-  const PointColumn x = job.scans.front().x;
-  const LineNorms norms(equations, x, problem_.means);
   const std::shared_ptr<const FourierSums> plan = plan_of(job, band);
   TurnedSums turned;
   Tops tops;
   for (const Scan& scan : job.scans) {
-    if (!turned.serves(scan)) turned = turned_sums(*plan, point, scan, left);
+    if (!turned.serves(scan, point)) turned = turned_sums(*plan, point, scan, left);
     // Σ g exp(−i(2πfx − turns θ))
-    const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
+    const double turn = scan.turns > 0.0 ? 1.0 : -1.0;
     Column gain = norms.of(scan, band.low, band.df, band.bins);
     for (std::size_t k = 0; k < band.bins; ++k) {
       std::complex<double> sum = turned.cosine[k];
-      if (!turned.sine.empty()) sum += turn * turned.sine[k];
+      if (!turned.sine.empty())
+        sum += std::complex(-turn * turned.sine[k].imag(), turn * turned.sine[k].real());
       gain[k] = std::norm(sum) / gain[k];  // of cos and of sin: norm2 each
     }
     if (job.sieved) job.sieve(band, gain);

@@ -27,6 +27,8 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+class LineNorms;
+
 /// A bin of a scan, and what its line takes off the sum of squares.
 struct Top {
   std::size_t bin;
@@ -52,10 +54,10 @@ class LineScanner {
   struct Job;
   using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
   std::shared_ptr<const FourierSums> plan_of(const Job& job, const Band& band) const;
-  Tops tops_of(const Job& job, const Band& band, const NormalEquations& equations,
+  Tops tops_of(const Job& job, const Band& band, const LineNorms& norms,
                const std::vector<double>& left) const;
   /// The same of a band of fringes, looked at cell by cell.
-  Tops tops_of_fringes(const Job& job, const Band& band, const NormalEquations& equations,
+  Tops tops_of_fringes(const Job& job, const Band& band, const LineNorms& norms,
                        const std::vector<double>& left) const;
   void add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const;
 
