@@ -21,11 +21,12 @@ class LineNorms {
   LineNorms(const NormalEquations& equations, std::vector<double> counts, PointColumn x,
             const Means* means);
 
+  const std::vector<double>& autoregression() const { return equations_.autoregression(); }
   /// Of cos as of sin (2π f x − turns θ), f = low, low + df …
   std::vector<double> of(const Scan& scan, double low, double df, std::size_t bins) const;
 
  private:
-  double by_mean_step(double frequency, double turns) const;
+  std::vector<double> by_mean_step(const Scan& scan, double low, double df, std::size_t bins) const;
   std::vector<double> by_every_step(const Scan& scan, double low, double df,
                                     std::size_t bins) const;
 

@@ -133,12 +133,19 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 
 }  // namespace
 
+/// Norms of the lines of a band in noise of one kind, scan by scan.
+struct LineScanner::Norms {
+  std::vector<double> phi;
+  std::vector<Column> of_scan;
+};
+
 /// A range of frequencies of a scan, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
   std::size_t bins = 0, first_bin = 0;                ///< the latter counted through all bands
   bool kept = true;                                   ///< the plan, of few readings
   mutable std::shared_ptr<const FourierSums> plan{};  ///< made where it is wanted
+  mutable std::shared_ptr<const Norms> norms{};       ///< likewise
 };
 
 /// Scans of one variable and one set of bands.
@@ -284,17 +291,34 @@ std::shared_ptr<const FourierSums> LineScanner::plan_of(const Job& job, const Ba
   return made;
 }
 
+std::shared_ptr<const LineScanner::Norms> LineScanner::norms_of(const Job& job, const Band& band,
+                                                                const LineNorms& norms) const {
+  if (!band.kept) return nullptr;
+  {
+    const std::lock_guard lock(plans_);
+    if (band.norms && band.norms->phi == norms.autoregression()) return band.norms;
+  }
+  auto made = std::make_shared<Norms>();
+  made->phi = norms.autoregression();
+  for (const Scan& scan : job.scans)
+    made->of_scan.push_back(norms.of(scan, band.low, band.df, band.bins));
+  const std::lock_guard lock(plans_);
+  band.norms = made;
+  return made;
+}
+
 LineScanner::Tops LineScanner::tops_of(const Job& job, const Band& band, const LineNorms& norms,
                                        const Column& left) const {
   const LinearisationPoint& point = problem_.point;
   const std::shared_ptr<const FourierSums> plan = plan_of(job, band);
+  const std::shared_ptr<const Norms> kept = norms_of(job, band, norms);
   TurnedSums turned;
   Tops tops;
   for (const Scan& scan : job.scans) {
     if (!turned.serves(scan, point)) turned = turned_sums(*plan, point, scan, left);
     // Σ g exp(−i(2πfx − turns θ))
     const double turn = scan.turns > 0.0 ? 1.0 : -1.0;
-    Column gain = norms.of(scan, band.low, band.df, band.bins);
+    Column gain = kept ? kept->of_scan[tops.size()] : norms.of(scan, band.low, band.df, band.bins);
     for (std::size_t k = 0; k < band.bins; ++k) {
       std::complex<double> sum = turned.cosine[k];
       if (!turned.sine.empty())

@@ -54,6 +54,9 @@ class LineScanner {
   struct Job;
   using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
   std::shared_ptr<const FourierSums> plan_of(const Job& job, const Band& band) const;
+  struct Norms;
+  std::shared_ptr<const Norms> norms_of(const Job& job, const Band& band,
+                                        const LineNorms& norms) const;
   Tops tops_of(const Job& job, const Band& band, const LineNorms& norms,
                const std::vector<double>& left) const;
   /// The same of a band of fringes, looked at cell by cell.
