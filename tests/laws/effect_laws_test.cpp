@@ -177,6 +177,17 @@ std::vector<std::vector<double>> columns_of(const Term& term, const TermContext&
   return columns;
 }
 
+TEST(EffectLaws, CountsItsLinearParameters) {
+  for (const Effect& effect : effect_catalogue()) {
+    for (const int degree : {0, 2, 5}) {
+      TermShape shape;
+      shape.degree = degree;
+      EXPECT_EQ(linear_count(effect.term, shape), linear_parameters(effect.term, shape).size())
+          << effect.id << ' ' << degree;
+    }
+  }
+}
+
 TEST(EffectLaws, ACentredCylinderShowsOnlyWhatItCan) {
   const Bench bench;
   TermShape shape;
