@@ -43,8 +43,7 @@ std::vector<Candidate> judge(const NormalEquations& equations, const Solution& t
   std::vector<Candidate> out;
   for (std::size_t h = 0; h < list.size(); ++h) {
     const Score s = score(projection, places[h]);
-    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
-    c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
+    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0, true, projection.rss, freedom};
     if (s.rank > 0) {
       const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
@@ -53,6 +52,10 @@ std::vector<Candidate> judge(const NormalEquations& equations, const Solution& t
     out.push_back(std::move(c));
   }
   return out;
+}
+
+double log_p_of(const Candidate& c) {
+  return log_p_value(c.gain, static_cast<double>(c.rank), c.rss, c.freedom);
 }
 
 void erase_impossible(std::vector<Candidate>& list) {
@@ -163,7 +166,7 @@ void average_over_noise(const Problem& problem, const std::vector<double>& phi, 
     other[0] = std::tanh(std::atanh(first) + d) * (1.0 - second);
     const std::vector<Candidate> judged =
         Judge(problem, other, terms)(hypotheses_of(list, list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(judged[i].log_p) / 6.0;
+    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(log_p_of(judged[i])) / 6.0;
   }
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
 }
@@ -386,6 +389,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
     std::vector<Candidate> best = judged_at_once(judge, list);
     best.resize(std::min(best.size(), best_refined));
     to = refined(judge, std::move(best));
+    for (Candidate& c : to) c.log_p = log_p_of(c);
     average_over_noise(problem_, phi, dictionary_->noise_freedom, terms, to);
   };
   for_each_index(2, threads, [&](std::size_t k) {

@@ -20,9 +20,10 @@ struct Candidate {
   Hypothesis hypothesis;
   double gain = 0.0;  ///< decrease of the residual sum of squares
   std::size_t rank = 0;
-  double log_p = 0.0;      ///< ln of its own p-value
-  double criterion = 0.0;  ///< change of the extended BIC; negative is better
-  bool possible = true;    ///< whether its sizes are
+  double log_p = 0.0;               ///< ln of its own p-value, of a proposal
+  double criterion = 0.0;           ///< change of the extended BIC; negative is better
+  bool possible = true;             ///< whether its sizes are
+  double rss = 0.0, freedom = 0.0;  ///< what is left without it
 };
 
 /// The best next hypotheses beside some terms, refined, best first.
