@@ -151,8 +151,6 @@ struct LinearParameter {
 /// factors of cos and sin: a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ) (a cos φ, −a sin
 /// φ).
 std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape);
-/// How many there are.
-std::size_t linear_count(const Term& term, const TermShape& shape);
 
 /// Writes ∂X_M/∂(linear parameter) at zero amplitude over the readings of `context`;
 /// `columns[j]` has room for context.size() values. What a term needs of the context must be there.

@@ -6,6 +6,7 @@
 #include "base/edit_distance.hpp"
 #include "effect/entries.hpp"
 #include "effect/kinds.hpp"
+#include "effect/linear_count.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -123,7 +123,7 @@ LatheEffects of_effect(TermValue term, const LatheFrame& frame) {
   const auto known = virtual_lathe::effect_kinds();
   if (std::ranges::find(known, id, &virtual_lathe::EffectKind::id) == known.end())
     throw InputError("diagnosis", "the virtual lathe has no `" + id + "`");
-  if (term.linear.size() != linear_count(term.effect->term, term.shape))
+  if (term.linear.size() != linear_parameters(term.effect->term, term.shape).size())
     throw InputError("diagnosis", "the term of " + id + " is not fitted");
   term.free.clear();  // those that were not free are 0
   if (id == "part.roundness" || id == "part.face_lobes")

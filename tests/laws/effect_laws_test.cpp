@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "effect/linear_count.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"

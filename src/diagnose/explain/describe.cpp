@@ -56,7 +56,7 @@ TermValue fitted(const Hypothesis& h, const Eigen::VectorXd& coefficients,
   TermValue out = h;
   const auto free = static_cast<std::size_t>(coefficients.size());
   const std::size_t count =
-      h.effect && !h.free.empty() ? linear_count(h.effect->term, h.shape) : free;
+      h.effect && !h.free.empty() ? linear_parameters(h.effect->term, h.shape).size() : free;
   const auto place = [&](std::size_t j) { return count == free ? j : h.free[j]; };
   out.linear.assign(count, 0.0);
   for (std::size_t j = 0; j < free; ++j)

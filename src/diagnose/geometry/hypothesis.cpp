@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/threads.hpp"
+#include "effect/linear_count.hpp"
 #include "math/exponential.hpp"
 #include "math/sincos.hpp"
 #include "trueaxis/error.hpp"

@@ -24,73 +24,15 @@ constexpr double step_shrink = 0.4;
 constexpr int rounds = 4;
 constexpr double finest = 1e-4;  // a slip that leads is dated to this share of the time
 
-void append_columns(Columns& to, const std::vector<Columns>& from) {
-  for (const Columns& own : from) to.insert(to.end(), own.begin(), own.end());
-}
-
 std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
   std::vector<Hypothesis> out(a);
   out.insert(out.end(), b.begin(), b.end());
   return out;
 }
 
-/// Scores of hypotheses beside columns that are taken, from one projection.
-std::vector<Candidate> judge(const NormalEquations& equations, const Solution& taken,
-                             const std::vector<Columns>& places,
-                             const std::vector<Hypothesis>& list) {
-  const Projection projection(equations.total(), taken);
-  const auto freedom = static_cast<double>(equations.count() - projection.rank);
-  std::vector<Candidate> out;
-  for (std::size_t h = 0; h < list.size(); ++h) {
-    const Score s = score(projection, places[h]);
-    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0, true, projection.rss, freedom};
-    if (s.rank > 0) {
-      const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
-      c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
-      c.possible = weighed.possible;
-    }
-    out.push_back(std::move(c));
-  }
-  return out;
-}
-
-double log_p_of(const Candidate& c) {
-  return log_p_value(c.gain, static_cast<double>(c.rank), c.rss, c.freedom);
-}
-
 void erase_impossible(std::vector<Candidate>& list) {
   std::erase_if(list, [](const Candidate& c) { return !c.possible; });
 }
-/// Judges lists of hypotheses beside the same terms.
-class Judge {
- public:
-  Judge(const Problem& problem, const std::vector<double>& phi,
-        const std::vector<Hypothesis>& terms)
-      : problem_(&problem),
-        equations_(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
-        taken_(solve_with(terms)) {
-    equations_.keep_columns();
-  }
-  std::vector<Candidate> operator()(const std::vector<Hypothesis>& list) {
-    const auto columns = static_cast<std::size_t>(equations_.total().rows());
-    const std::vector<Columns> places = equations_.append(list, 0);
-    std::vector<Candidate> out = judge(equations_, taken_, places, list);
-    equations_.shrink(columns);
-    return out;
-  }
-  const Problem& problem() const { return *problem_; }
-
- private:
-  Solution solve_with(const std::vector<Hypothesis>& terms) {
-    Columns taken = equations_.base();
-    append_columns(taken, equations_.append(terms));
-    return solve(equations_.total(), taken);
-  }
-
-  const Problem* problem_;
-  NormalEquations equations_;
-  Solution taken_;
-};
 
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 

@@ -8,23 +8,13 @@
 #include <vector>
 
 #include "diagnose/search/dictionary.hpp"
+#include "diagnose/search/judge.hpp"
 #include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/scan_bumps.hpp"
 #include "diagnose/search/statistic.hpp"
 
 namespace trueaxis::diagnose_detail {
-
-/// A hypothesis beside the terms of a model.
-struct Candidate {
-  Hypothesis hypothesis;
-  double gain = 0.0;  ///< decrease of the residual sum of squares
-  std::size_t rank = 0;
-  double log_p = 0.0;               ///< ln of its own p-value, of a proposal
-  double criterion = 0.0;           ///< change of the extended BIC; negative is better
-  bool possible = true;             ///< whether its sizes are
-  double rss = 0.0, freedom = 0.0;  ///< what is left without it
-};
 
 /// The best next hypotheses beside some terms, refined, best first.
 struct Proposal {

@@ -11,8 +11,8 @@
 #include "diagnose/search/line_norms.hpp"
 #include "diagnose/search/scan_fringes.hpp"
 #include "diagnose/search/scan_list.hpp"
+#include "diagnose/search/turned_sums.hpp"
 #include "math/fourier_sums.hpp"
-#include "math/sincos.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -35,48 +35,6 @@ double variance(const LinearisationPoint& point, PointColumn column, int threads
   mean /= static_cast<double>(all.size());
   for (const double v : all) sum += (v - mean) * (v - mean);
   return sum / static_cast<double>(all.size());
-}
-
-/// Whether behind the readings are of the other sign than in front; of one side it is no matter.
-bool is_turned_round(const Scan& scan, const LinearisationPoint& point) {
-  return scan.form && point.two_sided;
-}
-
-/// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
-struct TurnedSums {
-  double order = 0.0;
-  bool spindle = false, turned_round = false;
-  FourierSums::Sums cosine, sine;
-
-  bool serves(const Scan& scan, const LinearisationPoint& point) const {
-    return !cosine.empty() && order == std::abs(scan.turns) &&
-           turned_round == is_turned_round(scan, point) &&
-           (order == 0.0 || spindle == scan.spindle);
-  }
-};
-
-/// @param left of every reading, of a form to be turned round behind
-TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point, const Scan& scan,
-                       const Column& left) {
-  const double order = std::abs(scan.turns);
-  const bool turned_round = is_turned_round(scan, point);
-  const auto columns = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
-    const std::span<const double> here = std::span(left).subspan(begin, size);
-    if (order == 0.0 && !turned_round) return void(std::ranges::copy(here, out[0]));
-    PointRoom room;
-    const PointPart at = point.part(begin, begin + size, room);
-    Column phase(size), g(here.begin(), here.end());
-    for (std::size_t i = 0; i < size; ++i) {
-      phase[i] = order * (scan.spindle ? at.c[i] : at.theta[i]);
-      if (turned_round && at.rear[i]) g[i] = -g[i];
-    }
-    if (order == 0.0) return void(std::ranges::copy(g, out[0]));
-    sincos(phase, {out[1], size}, {out[0], size});
-    for (std::size_t i = 0; i < size; ++i) out[0][i] *= g[i], out[1][i] *= g[i];
-  };
-  std::vector<FourierSums::Sums> sums = plan.of(columns, order == 0.0 ? 1 : 2);
-  sums.resize(2);
-  return {order, scan.spindle, turned_round, std::move(sums[0]), std::move(sums[1])};
 }
 
 /// Of a single pass at constant feed a line of C is also one of an order along Z.
