@@ -6,6 +6,7 @@
 #include "base/edit_distance.hpp"
 #include "effect/entries.hpp"
 #include "effect/kinds.hpp"
+#include "effect/linear_count.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -82,6 +83,10 @@ std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape
   return std::visit([&](const auto& of) { return kind::parameters(of, shape).linear; }, term);
 }
 
+std::size_t linear_count(const Term& term, const TermShape& shape) {
+  return std::visit([&](const auto& of) { return kind::count(of, shape); }, term);
+}
+
 std::vector<std::string> shape_parameters(const Term& term) {
   return std::visit([](const auto& of) { return kind::parameters(of, {}).shape; }, term);
 }
@@ -89,7 +94,7 @@ std::vector<std::string> shape_parameters(const Term& term) {
 void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
                   std::span<double* const> columns) {
   check(term, context);
-  expects(columns.size() == linear_parameters(term, shape).size(), "one column a linear parameter");
+  expects(columns.size() == linear_count(term, shape), "one column a linear parameter");
   std::vector<double*> out(columns.begin(), columns.end());
   for (std::size_t from = 0; from < context.size(); from += kind::chunk_size) {
     const std::size_t count = std::min(kind::chunk_size, context.size() - from);
@@ -123,7 +128,7 @@ std::size_t TermValue::columns() const {
     const bool line = pattern.kind == Pattern::Kind::line;
     return pattern.kind == Pattern::Kind::bump || (!line && pattern.order == 0.0) ? 1 : 2;
   }
-  return free.empty() ? linear_parameters(effect->term, shape).size() : free.size();
+  return free.empty() ? linear_count(effect->term, shape) : free.size();
 }
 
 std::span<const Effect> effect_catalogue() {

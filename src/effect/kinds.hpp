@@ -28,6 +28,7 @@ struct Parameters {
 };
 
 inline Parameters parameters(const std::monostate&, const TermShape&) { return {}; }
+inline std::size_t count(const std::monostate&, const TermShape&) { return 0; }
 inline void fill(const std::monostate&, const TermContext&, const TermShape&, Columns) {}
 
 // Functions of angle, Z and time: position_terms.cpp.
@@ -42,11 +43,22 @@ void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape
 void fill(const PeriodicInTime& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const GrowthInTime& term, const TermContext& at, const TermShape& shape, Columns out);
 
+/// As many as `parameters` are linear, without their names.
+std::size_t count(const Harmonic& term, const TermShape& shape);
+std::size_t count(const PolynomialInZ& term, const TermShape& shape);
+inline std::size_t count(const PeriodicInZ&, const TermShape&) { return 2; }
+inline std::size_t count(const PeriodicInTime&, const TermShape&) { return 2; }
+inline std::size_t count(const GrowthInTime&, const TermShape&) { return 2; }
+
 // What measures, and where the part is: measuring_terms.cpp.
 Parameters parameters(const ArgumentShift& term, const TermShape& shape);
 Parameters parameters(const ProbeLine& term, const TermShape& shape);
 Parameters parameters(const Response& term, const TermShape& shape);
 Parameters parameters(const PartStep& term, const TermShape& shape);
+std::size_t count(const ArgumentShift& term, const TermShape& shape);
+inline std::size_t count(const ProbeLine&, const TermShape&) { return 1; }
+std::size_t count(const Response& term, const TermShape& shape);
+inline std::size_t count(const PartStep&, const TermShape&) { return 3; }
 void fill(const ArgumentShift& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const ProbeLine& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out);

@@ -70,6 +70,10 @@ Parameters parameters(const ArgumentShift& term, const TermShape&) {
   return {{{"angle", "rad"}}};
 }
 
+std::size_t count(const ArgumentShift& term, const TermShape&) {
+  return term.by == By::backlash ? 2 : 1;
+}
+
 void fill(const ArgumentShift& term, const TermContext& at, const TermShape&, Columns out) {
   switch (term.by) {
     case By::angle:
@@ -130,6 +134,20 @@ Parameters parameters(const Response& term, const TermShape&) {
       break;
   }
   return {{{"gain", "1"}}, {"reference_x_mm"}};
+}
+
+std::size_t count(const Response& term, const TermShape&) {
+  switch (term.of) {
+    case Of::nonlinearity:
+    case Of::cyclic:
+      return 2;
+    case Of::pretravel:
+      return 3;
+    case Of::gain:
+    case Of::lag:
+      break;
+  }
+  return 1;
 }
 
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out) {

@@ -106,6 +106,12 @@ Parameters parameters(const Harmonic& term, const TermShape&) {
   return out;
 }
 
+std::size_t count(const Harmonic& term, const TermShape&) {
+  const bool two = term.envelope == Envelope::growing || term.envelope == Envelope::lever ||
+                   term.envelope == Envelope::jaws;
+  return two ? 4 : 2;
+}
+
 void fill(const Harmonic& term, const TermContext& at, const TermShape& shape, Columns out) {
   const double n = order_of(term, shape);
   const std::span<const double> angle = angle_of(term.angle, at);
@@ -135,6 +141,12 @@ Parameters parameters(const PolynomialInZ& term, const TermShape& shape) {
   for (int l = term.first; l <= last_degree(term, shape); ++l)
     out.linear.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
   return out;
+}
+
+std::size_t count(const PolynomialInZ& term, const TermShape& shape) {
+  if (term.plain) return 1;
+  const int degrees = std::max(0, last_degree(term, shape) - term.first + 1);
+  return static_cast<std::size_t>(degrees) + (term.dish ? 1 : 0);
 }
 
 // Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.

@@ -19,43 +19,65 @@ constexpr double five_percent = 3.84;
 // likelihood that could not be worked out was one of white noise.
 constexpr double rounding = 1e-12;
 
-/// The likelihoods of autoregressions beside the columns of a Gram matrix.
-struct Likelihood {
-  const LaggedGram& gram;
-
-  /// Of the regression by the columns behind the first.
-  struct Regression {
-    double rss, logdet;
-    Eigen::Index columns;
-  };
-  std::optional<Regression> regression(double phi1, double phi2) const {
-    const Matrix all = gram.whitened(phi1, phi2);
-    const Eigen::Index m = all.rows() - 1;
-    Matrix normal = all.bottomRightCorner(m, m);
-    normal.diagonal() *= 1.0 + rounding;
-    const Eigen::LLT<Matrix> factor(normal);
-    if (factor.info() != Eigen::Success) return {};
-    const Eigen::VectorXd half = factor.matrixL().solve(all.col(0).tail(m));
-    return Regression{all(0, 0) - half.squaredNorm(),
-                      2.0 * factor.matrixLLT().diagonal().array().log().sum(), m};
+/// The columns that are independent beside those before them, by a Cholesky decomposition of the
+/// Gram matrix without pivoting that leaves out where its pivot vanishes: a singular normal matrix
+/// has no likelihood.
+std::vector<Eigen::Index> independent(const Matrix& gram) {
+  std::vector<Eigen::Index> kept;
+  Matrix left = gram;
+  for (Eigen::Index j = 1; j < gram.rows(); ++j) {
+    if (!(left(j, j) > 1e-6 * gram(j, j))) continue;
+    kept.push_back(j);
+    const Eigen::VectorXd column = left.col(j) / std::sqrt(left(j, j));
+    left.noalias() -= column * column.transpose();
   }
+  return kept;
+}
+
+/// The likelihoods of autoregressions beside the columns of a Gram matrix that are independent.
+class Likelihood {
+ public:
+  explicit Likelihood(const LaggedGram& gram)
+      : columns_(independent(gram.at(0, 0))),
+        rows_(gram.rows()),
+        first_rows_(gram.first_rows()),
+        second_rows_(gram.second_rows()),
+        whitened_(gram, columns_) {}
 
   /// Twice the restricted log likelihood, up to a constant (Eq. 65).
-  double restricted2(double phi1, double phi2) const {
+  double restricted2(double phi1, double phi2) {
     const auto r = regression(phi1, phi2);
     if (!r) return -1e300;
     const RunStart start(phi1, phi2);
-    return -(gram.rows() - static_cast<double>(r->columns)) * std::log(r->rss) - r->logdet +
-           2.0 * gram.first_rows() * std::log(start.first) +
-           2.0 * gram.second_rows() * std::log(start.second);
+    return -freedom() * std::log(r->rss) - r->logdet + 2.0 * first_rows_ * std::log(start.first) +
+           2.0 * second_rows_ * std::log(start.second);
   }
 
   /// The noise with what it leaves.
-  Autoregression with_remainder(std::vector<double> phi) const {
+  Autoregression with_remainder(std::vector<double> phi) {
     const auto r = regression(phi.empty() ? 0.0 : phi[0], phi.size() < 2 ? 0.0 : phi[1]);
     if (!r) return {std::move(phi)};
-    return {std::move(phi), r->rss, gram.rows() - static_cast<double>(r->columns)};
+    return {std::move(phi), r->rss, freedom()};
   }
+
+ private:
+  /// Of the first column by the others.
+  struct Regression {
+    double rss, logdet;
+  };
+  std::optional<Regression> regression(double phi1, double phi2) {
+    LowerTriangle& gram = whitened_.by(phi1, phi2);
+    for (std::size_t j = 0; j < columns_.size(); ++j) gram(j, j) *= 1.0 + rounding;
+    if (!gram.eliminate(columns_.size())) return {};
+    Regression out{gram(columns_.size(), columns_.size()), 0.0};
+    for (std::size_t j = 0; j < columns_.size(); ++j) out.logdet += 2.0 * std::log(gram(j, j));
+    return out;
+  }
+  double freedom() const { return rows_ - static_cast<double>(columns_.size()); }
+
+  std::vector<Eigen::Index> columns_;
+  double rows_, first_rows_, second_rows_;
+  WhitenedGram whitened_;
 };
 
 /// Where a likelihood is largest, by the golden section. (Brent's parabolas step over to another
@@ -73,21 +95,6 @@ double maximise(Function f, double low, double high) {
     }
   }
   return 0.5 * (low + high);
-}
-
-/// The columns that are independent beside those before them, by a Cholesky decomposition of the
-/// Gram matrix without pivoting that leaves out where its pivot vanishes: a singular normal matrix
-/// has no likelihood.
-std::vector<Eigen::Index> independent(const Matrix& gram) {
-  std::vector<Eigen::Index> kept;
-  Matrix left = gram;
-  for (Eigen::Index j = 1; j < gram.rows(); ++j) {
-    if (!(left(j, j) > 1e-6 * gram(j, j))) continue;
-    kept.push_back(j);
-    const Eigen::VectorXd column = left.col(j) / std::sqrt(left(j, j));
-    left.noalias() -= column * column.transpose();
-  }
-  return kept;
 }
 
 }  // namespace
@@ -199,28 +206,38 @@ void LaggedGram::add_transformed(const LaggedGram& other, const Matrix& t) {
   first_rows_ += other.first_rows_, second_rows_ += other.second_rows_;
 }
 
-LaggedGram LaggedGram::of_independent_columns() const {
-  std::vector<Eigen::Index> kept = independent(gram_[0][0]);
-  kept.insert(kept.begin(), 0);
-  LaggedGram out = *this;
-  out.change(*this, [&](Matrix& to, const Matrix& from) { to = Matrix(from(kept, kept)); });
-  return out;
+WhitenedGram::WhitenedGram(const LaggedGram& gram, std::vector<Eigen::Index> columns)
+    : whitened_(columns.size() + 1) {
+  columns.push_back(0);
+  const auto add = [&](Of rows, std::size_t a, std::size_t b, const Matrix& products) {
+    LowerTriangle made(columns.size());
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      for (std::size_t i = j; i < columns.size(); ++i)
+        made(i, j) = a == b ? products(columns[i], columns[j])
+                            : products(columns[i], columns[j]) + products(columns[j], columns[i]);
+    parts_.push_back({rows, a, b, std::move(made)});
+  };
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = a; b < 3; ++b) add(Of::later, a, b, gram.gram_[a][b]);
+  if (gram.first_rows_ > 0.0) add(Of::first, 0, 0, gram.first_[0][0]);
+  for (std::size_t a = 0; a < 2 && gram.second_rows_ > 0.0; ++a)
+    for (std::size_t b = a; b < 2; ++b) add(Of::second, a, b, gram.second_[a][b]);
 }
 
-Matrix LaggedGram::whitened(double phi1, double phi2) const {
-  Matrix sum = Matrix::Zero(gram_[0][0].rows(), gram_[0][0].cols());
-  const auto add = [&sum](const Lags& lags, const std::array<double, 3>& c) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (c[a] != 0.0) sum += c[a] * c[a] * lags[a][a];
-      for (std::size_t b = a + 1; b < 3; ++b)
-        if (c[a] * c[b] != 0.0) sum += c[a] * c[b] * (lags[a][b] + lags[a][b].transpose());
-    }
-  };
+LowerTriangle& WhitenedGram::by(double phi1, double phi2) {
   const RunStart start(phi1, phi2);
-  add(gram_, {1.0, -phi1, -phi2});
-  if (first_rows_ > 0.0) add(first_, {start.first, 0.0, 0.0});
-  if (second_rows_ > 0.0) add(second_, {start.second, -start.second * start.partial, 0.0});
-  return sum;
+  const std::array<std::array<double, 3>, 3> weight{
+      {{1.0, -phi1, -phi2},
+       {start.first, 0.0, 0.0},
+       {start.second, -start.second * start.partial, 0.0}}};
+  std::vector<LowerTriangle::Part> sum;
+  for (const Part& part : parts_) {
+    const std::array<double, 3>& of = weight[static_cast<std::size_t>(part.rows)];
+    const double factor = of[part.a] * of[part.b];
+    if (factor != 0.0) sum.push_back({factor, &part.products});
+  }
+  whitened_.become_sum(sum);
+  return whitened_;
 }
 
 RunStart::RunStart(double phi1, double phi2)
@@ -228,10 +245,9 @@ RunStart::RunStart(double phi1, double phi2)
   first = second * std::sqrt(1.0 - partial * partial);
 }
 
-Autoregression find_autoregression(const LaggedGram& of_all_columns,
+Autoregression find_autoregression(const LaggedGram& gram,
                                    const std::function<bool(double, double)>& is_form) {
-  const LaggedGram gram = of_all_columns.of_independent_columns();
-  const Likelihood of{gram};
+  Likelihood of(gram);
   const double white = of.restricted2(0.0, 0.0);
   const double first = maximise([&](double p) { return of.restricted2(p, 0.0); }, -0.99, 0.995);
   const double one = of.restricted2(first, 0.0);

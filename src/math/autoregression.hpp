@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "math/lower_triangle.hpp"
+
 namespace trueaxis {
 
 /// φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white.
@@ -68,11 +70,8 @@ class LaggedGram {
   double second_rows() const { return second_rows_; }
   const Eigen::MatrixXd& at(std::size_t a, std::size_t b) const { return gram_[a][b]; }
 
-  /// Only the columns that are independent of those before them.
-  LaggedGram of_independent_columns() const;
-  Eigen::MatrixXd whitened(double phi1, double phi2) const;
-
  private:
+  friend class WhitenedGram;
   using Lags = std::array<std::array<Eigen::MatrixXd, 3>, 3>;  ///< products of the lags a ≤ b
   static void add(const LaggedColumns& x, std::size_t at, Lags& to);
   static void add_cross(const LaggedColumns& before, const LaggedColumns& last, Lags& to);
@@ -85,11 +84,31 @@ class LaggedGram {
   double rows_ = 0.0, first_rows_ = 0.0, second_rows_ = 0.0;
 };
 
+/// Products of some columns of a LaggedGram and of its first, which comes last, as whitening makes
+/// them: sums of the products of lags times those of 1, −φ₁, −φ₂.
+class WhitenedGram {
+ public:
+  WhitenedGram(const LaggedGram& gram, std::vector<Eigen::Index> columns);
+  /// Those of ε_i − φ₁ ε_{i−1} − φ₂ ε_{i−2}, of the first readings of runs as RunStart has them;
+  /// the caller may change them.
+  LowerTriangle& by(double phi1, double phi2);
+
+ private:
+  enum class Of { later, first, second };  ///< readings of a run
+  struct Part {
+    Of rows;
+    std::size_t a, b;  ///< lags
+    LowerTriangle products;
+  };
+  std::vector<Part> parts_;
+  LowerTriangle whitened_;
+};
+
 /// Autoregression of the first column beside the others by restricted maximum likelihood (Patterson
 /// and Thompson 1971): order 0, 1 or 2, each one only where the likelihood ratio passes 5 %, the
 /// second only where it is noise and `is_form(φ₁, φ₂)` does not take it for something else (Eqs.
 /// 64, 65).
-Autoregression find_autoregression(const LaggedGram& of_all_columns,
+Autoregression find_autoregression(const LaggedGram& gram,
                                    const std::function<bool(double, double)>& is_form);
 
 /// Whether an autoregression of the second order rings with the spindle, whose angles at the

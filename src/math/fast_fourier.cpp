@@ -3,15 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
-constexpr std::size_t longest_in_one_step = 16384;
-constexpr std::size_t root_step = 1024;
-constexpr std::size_t block = 8;  // columns moved at a time: whole lines of the cache
+constexpr std::size_t batch = BatchFourier::batch;  // whole lines of the cache
 
 using Complex = FastFourier::Complex;
 
@@ -47,79 +46,77 @@ std::size_t smooth_even_size(std::size_t least) {
   return best;
 }
 
-FastFourier::FastFourier(std::size_t n) : n_(n), n2_(n) {
-  if (n > longest_in_one_step) {
-    n1_ = divisor_below_root(n);
-    n2_ = n / n1_;
-    for (std::size_t m = 0; m < root_step; ++m) fine_.push_back(unit_root(m, n));
-    for (std::size_t m = 0; m < n; m += root_step) coarse_.push_back(unit_root(m, n));
-  }
-  for (const std::size_t length : {n1_, n2_}) {  // makes the roots
-    if (length == 1) continue;
-    std::vector<Complex> in(length), out(length);
-    plan_.fwd(out.data(), in.data(), static_cast<Eigen::Index>(length));
-  }
+FastFourier::FastFourier(std::size_t n)
+    : n_(n), n1_(divisor_below_root(n)), n2_(n / n1_), over_columns_(n1_), over_rows_(n2_) {
+  for (std::size_t m = 0; m < n2_; ++m) fine_.push_back(unit_root(m, n));
+  for (std::size_t m = 0; m < n; m += n2_) coarse_.push_back(unit_root(m, n));
+  for (std::size_t k1 = 0; k1 < n1_; ++k1)
+    for (std::size_t c = 0; c < batch; ++c) turns_.push_back(root(c * k1 % n));
 }
 
 FastFourier::Complex FastFourier::root(std::size_t power) const {
-  return times(coarse_[power / root_step], fine_[power % root_step]);
+  return times(coarse_[power / n2_], fine_[power % n2_]);
 }
 
 FastFourier::Workspace FastFourier::workspace() const {
   Workspace made;
-  const bool steps = n1_ > 1;
-  made.in.resize(steps ? block * n1_ : n_);
-  made.out.resize(steps ? std::max(n1_, block * n2_) : 0);
-  made.turned.resize(steps ? n_ : 0);
-  made.result.resize(n_);
-  made.plan = plan_;
+  for (auto& values : made.batches)
+    values = hwy::AllocateAligned<double>(batch * std::max(n1_, n2_));
+  made.turned_real = hwy::AllocateAligned<double>(n_);
+  made.turned_imaginary = hwy::AllocateAligned<double>(n_);
+  made.result = hwy::AllocateAligned<Complex>(n_);
   return made;
 }
 
 // j = j1 n2 + j2, k = k1 + n1 k2: transforms over j1, turned by exp(−2πi j2 k1/n), then over j2.
-void FastFourier::in_four_steps(std::span<const double> real, std::span<const double> imaginary,
-                                Workspace& with) const {
-  auto& [in, out, turned, result, plan] = with;
-  for (std::size_t first = 0; first < n2_; first += block) {
-    const std::size_t columns = std::min(block, n2_ - first);
-    for (std::size_t j1 = 0; j1 < n1_; ++j1) {
-      const std::size_t from = j1 * n2_ + first;
-      for (std::size_t c = 0; c < columns; ++c) {
-        in[c * n1_ + j1] = {real[from + c], imaginary[from + c]};
-      }
-    }
-    for (std::size_t c = 0; c < columns; ++c) {
-      plan.fwd(out.data(), in.data() + c * n1_, static_cast<Eigen::Index>(n1_));
-      for (std::size_t k1 = 0; k1 < n1_; ++k1) {
-        in[c * n1_ + k1] = times(out[k1], root((first + c) * k1));
-      }
-    }
-    for (std::size_t k1 = 0; k1 < n1_; ++k1) {
-      for (std::size_t c = 0; c < columns; ++c) turned[k1 * n2_ + first + c] = in[c * n1_ + k1];
-    }
-  }
-  for (std::size_t first = 0; first < n1_; first += block) {
-    const std::size_t rows = std::min(block, n1_ - first);
-    for (std::size_t r = 0; r < rows; ++r) {
-      plan.fwd(out.data() + r * n2_, turned.data() + (first + r) * n2_,
-               static_cast<Eigen::Index>(n2_));
-    }
-    for (std::size_t k2 = 0; k2 < n2_; ++k2) {
-      for (std::size_t r = 0; r < rows; ++r) result[first + r + n1_ * k2] = out[r * n2_ + k2];
-    }
-  }
-}
-
 std::span<const Complex> FastFourier::operator()(std::span<const double> real,
                                                  std::span<const double> imaginary,
                                                  Workspace& with) const {
-  if (n1_ > 1) {
-    in_four_steps(real, imaginary, with);
-  } else {
-    for (std::size_t j = 0; j < n_; ++j) with.in[j] = {real[j], imaginary[j]};
-    with.plan.fwd(with.result.data(), with.in.data(), static_cast<Eigen::Index>(n_));
+  const BatchFourier::Values room{with.batches[0].get(), with.batches[1].get()},
+      other{with.batches[2].get(), with.batches[3].get()};
+  // Columns of a matrix with rows of `length`, some from `first` on; those beyond its end are 0.
+  const auto load = [&](std::span<const double> of_real, std::span<const double> of_imaginary,
+                        std::size_t first, std::size_t length) {
+    const std::size_t count = std::min(batch, length - first);
+    for (std::size_t row = 0; row * length < n_; ++row) {
+      for (const auto& [from, to] :
+           {std::pair(of_real, room.real), {of_imaginary, room.imaginary}}) {
+        std::copy_n(from.data() + row * length + first, count, to + row * batch);
+        std::fill_n(to + row * batch + count, batch - count, 0.0);
+      }
+    }
+    return count;
+  };
+  for (std::size_t first = 0; first < n2_; first += batch) {
+    const std::size_t count = load(real, imaginary, first, n2_);
+    const BatchFourier::Values sums = over_columns_(room, other);
+    for (std::size_t k1 = 0; k1 < n1_; ++k1) {
+      const Complex begin = root(first * k1);
+      for (std::size_t c = 0; c < batch; ++c) {
+        const std::size_t i = k1 * batch + c;
+        const Complex turned = times({sums.real[i], sums.imaginary[i]}, times(begin, turns_[i]));
+        sums.real[i] = turned.real(), sums.imaginary[i] = turned.imag();
+      }
+    }
+    for (std::size_t c = 0; c < count; ++c) {
+      double *to_real = with.turned_real.get() + (first + c) * n1_,
+             *to_imaginary = with.turned_imaginary.get() + (first + c) * n1_;
+      for (std::size_t k1 = 0; k1 < n1_; ++k1) {
+        to_real[k1] = sums.real[k1 * batch + c];
+        to_imaginary[k1] = sums.imaginary[k1 * batch + c];
+      }
+    }
   }
-  return with.result;
+  for (std::size_t first = 0; first < n1_; first += batch) {
+    const std::size_t count =
+        load({with.turned_real.get(), n_}, {with.turned_imaginary.get(), n_}, first, n1_);
+    const BatchFourier::Values sums = over_rows_(room, other);
+    for (std::size_t k2 = 0; k2 < n2_; ++k2)
+      for (std::size_t r = 0; r < count; ++r)
+        with.result[first + r + n1_ * k2] = {sums.real[k2 * batch + r],
+                                             sums.imaginary[k2 * batch + r]};
+  }
+  return {with.result.get(), n_};
 }
 
 }  // namespace trueaxis

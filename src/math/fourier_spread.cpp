@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "math/fourier_spread.cpp"  // compiled once for every instruction set
 #include <hwy/foreach_target.h>
@@ -41,6 +44,85 @@ HWY_INLINE void add(double factor, const double* kernel, double* grid) {
   }
 }
 
+/// A number and what it rounds away.
+template <class V>
+struct Twofold {
+  V high, low;
+};
+
+template <class V>
+HWY_INLINE Twofold<V> difference(V a, V b) {  // Knuth's (1969)
+  const V high = hn::Sub(a, b), back = hn::Sub(high, a);
+  return {high, hn::Sub(hn::Sub(a, hn::Sub(high, back)), hn::Add(b, back))};
+}
+
+template <class V>
+HWY_INLINE Twofold<V> product(V a, V b) {
+  const V high = hn::Mul(a, b);
+#if HWY_NATIVE_FMA
+  return {high, hn::MulSub(a, b, high)};
+#else  // Dekker's (1971)
+  const auto head = [](V x) {
+    const V large = hn::Mul(hn::Set(hn::DFromV<V>(), 134217729.0), x);
+    return hn::Sub(large, hn::Sub(large, x));
+  };
+  const V a1 = head(a), b1 = head(b), a2 = hn::Sub(a, a1), b2 = hn::Sub(b, b1);
+  const V cross =
+      hn::Add(hn::Add(hn::Sub(hn::Mul(a1, b1), high), hn::Mul(a1, b2)), hn::Mul(a2, b1));
+  return {high, hn::Add(cross, hn::Mul(a2, b2))};
+#endif
+}
+
+/// Turns of t less whole turns, −1/2 … 1/2: a double of many turns alone would lose them.
+template <class V>
+HWY_INLINE Twofold<V> part_of_turn(Twofold<V> turns, Twofold<V> t) {
+  const Twofold<V> whole = product(turns.high, t.high);
+  const V rest = hn::Add(hn::Mul(turns.high, t.low), hn::Mul(turns.low, t.high));
+  return {hn::Sub(whole.high, hn::Round(whole.high)), hn::Add(whole.low, rest)};
+}
+
+void place_all(const SpreadGrid& grid, std::span<const double> t, std::uint32_t* first,
+               double* distance, double* angle_rad) {
+  const Tag tag;
+  using V = hn::Vec<Tag>;
+  const hn::Rebind<std::int32_t, Tag> whole;
+  const hn::Rebind<std::uint32_t, Tag> index;
+  const auto twofold = [&](long double value) {
+    const auto high = static_cast<double>(value);
+    return Twofold<V>{hn::Set(tag, high), hn::Set(tag, static_cast<double>(value - high))};
+  };
+  const Twofold<V> turns = twofold(grid.turns), middle_turns = twofold(grid.middle_turns);
+  const V size = hn::Set(tag, grid.size), middle = hn::Set(tag, grid.middle);
+  const V half_width = hn::Set(tag, 0.5 * static_cast<double>(spread_width));
+  const auto one_vector = [&](const double* of_t, std::uint32_t* of_first, double* of_distance,
+                              double* of_angle) {
+    const Twofold<V> from_middle = difference(hn::LoadU(tag, of_t), middle);
+    const Twofold<V> part = part_of_turn(turns, from_middle);
+    const Twofold<V> points = product(part.high, size);
+    const V rest = hn::MulAdd(part.low, size, points.low);
+    const V begin = hn::Ceil(hn::Sub(hn::Add(points.high, rest), half_width));
+    hn::StoreU(hn::Sub(hn::Sub(begin, points.high), rest), tag, of_distance);
+    const V in_grid = hn::IfThenElse(hn::Lt(begin, hn::Zero(tag)), hn::Add(begin, size), begin);
+    hn::StoreU(hn::BitCast(index, hn::DemoteTo(whole, in_grid)), index, of_first);
+    const Twofold<V> angle = part_of_turn(middle_turns, from_middle);
+    hn::StoreU(hn::Mul(hn::Add(angle.high, angle.low), hn::Set(tag, -two_pi)), tag, of_angle);
+  };
+  constexpr std::size_t most_lanes = 4;
+  const std::size_t lanes = hn::Lanes(tag);
+  std::size_t i = 0;
+  for (; i + lanes <= t.size(); i += lanes)
+    one_vector(t.data() + i, first + i, distance + i, angle_rad + i);
+  if (i == t.size()) return;
+  double last[most_lanes] = {}, last_distance[most_lanes], last_angle[most_lanes];
+  std::uint32_t last_first[most_lanes];
+  std::ranges::copy(t.subspan(i), last);
+  one_vector(last, last_first, last_distance, last_angle);
+  for (std::size_t j = i; j < t.size(); ++j) {
+    first[j] = last_first[j - i];
+    distance[j] = last_distance[j - i], angle_rad[j] = last_angle[j - i];
+  }
+}
+
 void spread_columns(const SpreadPoints& points, std::span<const SpreadColumn> columns) {
   double kernel[batch][spread_width];
   for (std::size_t from = 0; from < points.first.size(); from += batch) {
@@ -63,6 +145,14 @@ HWY_AFTER_NAMESPACE();
 namespace trueaxis {
 
 HWY_EXPORT(spread_columns);
+HWY_EXPORT(place_all);
+
+void place(const SpreadGrid& grid, std::span<const double> t, std::span<std::uint32_t> first,
+           std::span<double> distance, std::span<double> angle_rad) {
+  expects(t.size() == first.size() && t.size() == distance.size() && t.size() == angle_rad.size(),
+          "columns of one length");
+  HWY_DYNAMIC_DISPATCH(place_all)(grid, t, first.data(), distance.data(), angle_rad.data());
+}
 
 // Interpolation at the Chebyshev nodes, its series in T_n summed into powers.
 const SpreadPolynomials& spread_polynomials() {

@@ -19,6 +19,17 @@ inline constexpr std::size_t spread_degree = 15;
 using SpreadPolynomials = std::array<std::array<double, spread_width>, spread_degree + 1>;
 const SpreadPolynomials& spread_polynomials();
 
+/// What abscissae are placed by: a turn of t is `size` points of the grid and one of the kernel's.
+struct SpreadGrid {
+  double middle;                    ///< of t: it is counted from there
+  long double turns, middle_turns;  ///< a unit of t, of a step of the orders and of their middle
+  double size;                      ///< points of a turn of a step
+};
+/// Places abscissae: columns of one length, those of SpreadPoints and the angle (rad, −π … π) of
+/// the phase factor.
+void place(const SpreadGrid& grid, std::span<const double> t, std::span<std::uint32_t> first,
+           std::span<double> distance, std::span<double> angle_rad);
+
 /// Values to spread: each has its first grid point, the distance of that point from the abscissa,
 /// −width/2 … 1 − width/2 in steps of the grid, and a phase factor.
 struct SpreadPoints {

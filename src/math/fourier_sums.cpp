@@ -156,26 +156,16 @@ void FourierSums::Spreading::for_each_part(const Work& work) const {
 
 // Orders are counted from the middle one, abscissae from the middle of t.
 void FourierSums::Spreading::place(std::size_t begin, std::size_t end, Places& out) const {
-  const auto grid = static_cast<long double>(transform.size());
-  const long double turns = turns_per_rad * dw;
-  const long double middle_turns = turns_per_rad * (w0 + static_cast<long double>(orders / 2) * dw);
+  const SpreadGrid grid{middle, turns_per_rad * dw,
+                        turns_per_rad * (w0 + static_cast<long double>(orders / 2) * dw),
+                        static_cast<double>(transform.size())};
   const std::size_t count = end - begin;
   std::vector<double> t(count), angle(count);
   double* const column = t.data();
   abscissae(begin, count, {&column, 1});
   out.first.resize(count), out.distance.resize(count);
   out.cosine.resize(count), out.sine.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const long double from_middle = static_cast<long double>(t[i]) - middle;
-    angle[i] = -two_pi * part_of_turn(middle_turns * from_middle);
-    const long double part = turns * from_middle;
-    const long double at = (part - std::rint(part)) * grid;  // −n/2 … n/2
-    const double first =
-        std::ceil(static_cast<double>(at) - 0.5 * static_cast<double>(spread_width));
-    out.distance[i] = static_cast<double>(first - at);
-    out.first[i] =
-        static_cast<std::uint32_t>(first < 0.0 ? first + static_cast<double>(grid) : first);
-  }
+  trueaxis::place(grid, t, out.first, out.distance, angle);
   sincos(angle, out.sine, out.cosine);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "effect/linear_count.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -175,6 +176,17 @@ std::vector<std::vector<double>> columns_of(const Term& term, const TermContext&
   for (auto& column : columns) rows.push_back(column.data());
   fill_columns(term, at, shape, rows);
   return columns;
+}
+
+TEST(EffectLaws, CountsItsLinearParameters) {
+  for (const Effect& effect : effect_catalogue()) {
+    for (const int degree : {0, 2, 5}) {
+      TermShape shape;
+      shape.degree = degree;
+      EXPECT_EQ(linear_count(effect.term, shape), linear_parameters(effect.term, shape).size())
+          << effect.id << ' ' << degree;
+    }
+  }
 }
 
 TEST(EffectLaws, ACentredCylinderShowsOnlyWhatItCan) {

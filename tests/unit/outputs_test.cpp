@@ -41,8 +41,14 @@ TEST(Outputs, TellsItsOwnFilesByTheirFirstLines) {
   EXPECT_EQ(schema_in("# schema: trueaxis.correction/1\n# version: 1\n"), "trueaxis.correction");
   EXPECT_EQ(schema_in("## schema: trueaxis.stream/1\n"), "trueaxis.stream");
   EXPECT_EQ(schema_in("<!-- schema: trueaxis.axis_bias/2 -->\n"), "trueaxis.axis_bias");
+  EXPECT_EQ(schema_in("# mine\n# schema: trueaxis.stream/1\nX_M[mm]\n"), "trueaxis.stream");
+  EXPECT_EQ(schema_in("// schema: trueaxis.path/1\n"), "trueaxis.path");
+  EXPECT_EQ(schema_in("<!doctype html>\n<meta name=\"generator\" content=\"trueaxis.report/2\">"),
+            "trueaxis.report");
   for (const char* other :
-       {"", "mine", "{\"of\": {\"schema\": \"trueaxis.fit/1\"}}", "{\"schema\": \"theirs.fit/1\"}",
+       {"", "mine", "# schema: trueaxis.stream", "# schema: trueaxis./1", "{\"schema\"",
+        "<!doctype html><meta name=\"generator\" content=\"pen\">",
+        "{\"of\": {\"schema\": \"trueaxis.fit/1\"}}", "{\"schema\": \"theirs.fit/1\"}",
         "X_M[mm]\n1\n# schema: trueaxis.stream/1\n", "# from trueaxis.fit/1\n",
         "<p>trueaxis.report/2</p>"})
     EXPECT_EQ(schema_in(other), "") << other;

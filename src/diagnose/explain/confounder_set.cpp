@@ -44,11 +44,12 @@ Distance distance(const NormalEquations& equations, const Columns& others, const
 
 }  // namespace
 
-ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t term) {
+ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::size_t term,
+                          int threads) {
   std::vector<Hypothesis> others = model.terms;
   others.erase(others.begin() + static_cast<long>(term));
   const Hypothesis& named = model.terms[term];
-  std::vector<Candidate> causes = proposer.rivals(named, others, model.phi);
+  std::vector<Candidate> causes = proposer.rivals(named, others, threads);
   std::erase_if(causes, [](const Candidate& c) { return c.rank == 0; });
   // The search has weighed the named one against all others jointly; its own refined form leads.
   const auto own = std::ranges::find_if(

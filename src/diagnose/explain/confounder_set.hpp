@@ -30,8 +30,10 @@ struct AmbiguousFinding {
 
 /// The class of a term of the model that was searched. A rival belongs to it when its best fit is
 /// nearer to the named prediction than d with Φ(d/2) = 0.95, or when the data's own likelihood
-/// ratio does not tell (Eqs. 87–93).
-ConfounderSet distinguish(Proposer& proposer, const Model& model, std::size_t term);
+/// ratio does not tell (Eqs. 87–93). May be asked by several threads.
+/// @param proposer prepared for the noise of the model
+ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::size_t term,
+                          int threads);
 
 /// The class of one of two effects that are one in the first order with what the second order says:
 /// −2 ln of the likelihood of the other over that of the named one (Eq. 94).

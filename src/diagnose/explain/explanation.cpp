@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/threads.hpp"
 #include "diagnose/explain/confounder_set.hpp"
 #include "diagnose/explain/describe.hpp"
 #include "diagnose/regression/size_prior.hpp"
@@ -73,6 +74,27 @@ void add_improbable(const Problem& problem, const Joint& joint, const Confounder
   }
 }
 
+bool has_class(const Hypothesis& term, const Problem& problem) {
+  return term.effect && !is_rounding(term, problem.point, problem.rounding_mm);
+}
+
+/// Of all terms, on threads; empty where a term has none.
+std::vector<ConfounderSet> classes_of(CoarseToFineSearch& search, const Model& searched,
+                                      const Problem& problem) {
+  std::vector<std::size_t> terms;
+  for (std::size_t t = 0; t < searched.terms.size(); ++t)
+    if (has_class(searched.terms[t], problem)) terms.push_back(t);
+  std::vector<ConfounderSet> out(searched.terms.size());
+  if (terms.empty()) return out;
+  Proposer& proposer = search.proposer();
+  proposer.prepare(searched.phi);
+  for_each_index(terms.size(), proposer.threads(), [&](std::size_t k) {
+    out[terms[k]] =
+        distinguish(proposer, searched, terms[k], terms.size() > 1 ? 1 : proposer.threads());
+  });
+  return out;
+}
+
 }  // namespace
 
 Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
@@ -80,6 +102,7 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
   const Model& model = search.model;
   const Model searched = search.searched_model();
   const Joint& joint = fit.joint();
+  const std::vector<ConfounderSet> classes = classes_of(search, searched, fit.problem());
   Explanation out;
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     if (!model.terms[t].effect) {
@@ -87,8 +110,8 @@ Explanation explain(CoarseToFineSearch& search, const RelinearisedFit& fit,
       out.unexplained.back().p_value = model.p_values[t];
       continue;
     }
-    if (is_rounding(model.terms[t], fit.problem().point, fit.problem().rounding_mm)) continue;
-    ConfounderSet found = distinguish(search.proposer(), searched, t);
+    if (!has_class(model.terms[t], fit.problem())) continue;
+    ConfounderSet found = classes[t];
     if (timing && timing->term == t) narrow(found, timing->likelihood_ratio);
     out.findings.push_back(finding_of(fit.problem(), model, joint, found, t));
     if (!fit.problem().point.base.face)

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <boost/math/special_functions/legendre.hpp>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "base/threads.hpp"
+#include "effect/linear_count.hpp"
+#include "math/exponential.hpp"
 #include "math/sincos.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -18,7 +21,6 @@ namespace {
 
 constexpr std::size_t most_parameters = 8;
 constexpr std::size_t chunk = 512, part_rows = 64 * chunk;  // of a thread
-constexpr double nothing_left = 80.0;  // a bump 9 widths away is below the rounding of its top
 
 /// An angle of few turns in −π … π.
 double wrapped(double angle_rad) {
@@ -27,43 +29,65 @@ double wrapped(double angle_rad) {
   return angle_rad;
 }
 
-/// By Bonnet's recursion, which also holds a little outside [−1, 1], where a probe may overrun.
-double legendre(int degree, double u) {
-  double before = 1.0, now = u;
-  if (degree == 0) return 1.0;
-  for (int l = 1; l < degree; ++l)
-    before =
-        std::exchange(now, boost::math::legendre_next(static_cast<unsigned>(l), u, now, before));
-  return now;
+/// Columns of numbers of some readings, not yet set.
+std::unique_ptr<double[]> room_for(std::size_t count) {
+  return std::make_unique_for_overwrite<double[]>(count);
+}
+
+/// The polynomial of a degree at every u, by Bonnet's recursion, which also holds a little outside
+/// [−1, 1], where a probe may overrun.
+/// @param room of two columns, in one of which the values then are
+std::span<const double> legendre(int degree, std::span<const double> u, double* room) {
+  const std::size_t count = u.size();
+  double *now = room, *before = room + count;
+  std::fill_n(now, count, 1.0);
+  if (degree > 0) std::ranges::copy(u, now), std::fill_n(before, count, 1.0);
+  for (int l = 1; l < degree; ++l) {
+    for (std::size_t k = 0; k < count; ++k)
+      before[k] = boost::math::legendre_next(static_cast<unsigned>(l), u[k], now[k], before[k]);
+    std::swap(now, before);
+  }
+  return {now, count};
+}
+
+void fill_bump(const Pattern& of, const LinearisationPoint& point, const PointPart& at,
+               double* column) {
+  const bool along = point.has_position && of.length_mm > 0.0;
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    const double v = wrapped(at.theta[k] - of.angle_rad) / of.width_rad;
+    const double w = along ? (at.s[k] - of.position_mm) / of.length_mm : 0.0;
+    column[k] = -0.5 * (v * v + w * w);
+  }
+  exponential({column, at.size()}, {column, at.size()});
+  for (std::size_t k = 0; k < at.size(); ++k) column[k] *= of.spindle ? 1.0 : at.dx_dnormal[k];
 }
 
 void fill_pattern(const Pattern& of, const LinearisationPoint& point, const PointPart& at,
                   std::span<double* const> columns) {
-  const double first = point.time.front(), lasted = point.time.back() - first;
+  if (of.kind == Pattern::Kind::bump) return fill_bump(of, point, at, columns[0]);
   const std::size_t count = at.size();
-  std::vector<double> angle(count), sine(count), cosine(count);
+  const std::unique_ptr<double[]> room = room_for(6 * count);
+  const auto column = [&](std::size_t k) { return std::span(room.get() + k * count, count); };
+  const std::span<double> angle = column(0), sine = column(1), cosine = column(2);
   for (std::size_t k = 0; k < count; ++k) {
     angle[k] = of.order * (of.spindle ? at.c[k] : at.theta[k]);
     if (of.kind == Pattern::Kind::line)
       angle[k] -= two_pi * of.frequency * (of.in_time ? at.time[k] : at.s[k]);
   }
-  if (of.kind != Pattern::Kind::bump) sincos(angle, sine, cosine);
+  sincos(angle, sine, cosine);
+  std::span<const double> envelope;
+  if (of.kind == Pattern::Kind::fourier_legendre) {
+    const double first = point.time.front(), lasted = point.time.back() - first;
+    const std::span<double> u = column(3);
+    for (std::size_t k = 0; k < count; ++k)
+      u[k] = !of.in_time    ? (at.s[k] - point.z_mid_mm) / point.z_half_mm
+             : lasted > 0.0 ? 2.0 * (at.time[k] - first) / lasted - 1.0
+                            : 0.0;
+    envelope = legendre(of.degree, u, column(4).data());
+  }
   for (std::size_t k = 0; k < count; ++k) {
     double size = of.spindle ? 1.0 : at.dx_dnormal[k];
-    if (of.kind == Pattern::Kind::bump) {
-      const double v = wrapped(at.theta[k] - of.angle_rad) / of.width_rad;
-      const double w = point.has_position && of.length_mm > 0.0
-                           ? (at.s[k] - of.position_mm) / of.length_mm
-                           : 0.0;
-      const double away = v * v + w * w;
-      columns[0][k] = away < nothing_left ? size * std::exp(-0.5 * away) : 0.0;
-      continue;
-    }
-    if (of.kind == Pattern::Kind::fourier_legendre) {
-      const double u = of.in_time ? (lasted > 0.0 ? 2.0 * (at.time[k] - first) / lasted - 1.0 : 0.0)
-                                  : (at.s[k] - point.z_mid_mm) / point.z_half_mm;
-      size *= legendre(of.degree, u);
-    }
+    if (!envelope.empty()) size *= envelope[k];
     columns[0][k] = size * cosine[k];
     if (columns.size() > 1) columns[1][k] = size * sine[k];
   }
@@ -73,11 +97,12 @@ void fill_pattern(const Pattern& of, const LinearisationPoint& point, const Poin
 
 void raise_degree(const Hypothesis& function, const LinearisationPoint& point, const PointPart& at,
                   std::span<const double* const> constant, std::span<double* const> columns) {
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    const double u = (at.s[k] - point.z_mid_mm) / point.z_half_mm;
-    const double size = legendre(function.pattern.degree, u);
-    for (std::size_t j = 0; j < columns.size(); ++j) columns[j][k] = size * constant[j][k];
-  }
+  const std::unique_ptr<double[]> room = room_for(3 * at.size());
+  const std::span<double> u(room.get(), at.size());
+  for (std::size_t k = 0; k < at.size(); ++k) u[k] = (at.s[k] - point.z_mid_mm) / point.z_half_mm;
+  const std::span<const double> size = legendre(function.pattern.degree, u, room.get() + at.size());
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    for (std::size_t k = 0; k < at.size(); ++k) columns[j][k] = size[k] * constant[j][k];
 }
 
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const PointPart& part,
@@ -86,11 +111,11 @@ void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const P
   const Term& term = hypothesis.effect->term;
   if (hypothesis.free.empty())
     return fill_columns(term, point.context(part), hypothesis.shape, columns);
-  const std::size_t all = linear_parameters(term, hypothesis.shape).size();
+  const std::size_t all = linear_count(term, hypothesis.shape);
   expects(all <= most_parameters, "a term has a few linear parameters");
-  std::vector<double> spare(part.size() * all);
+  const std::unique_ptr<double[]> spare = room_for(part.size() * all);
   double* target[most_parameters];
-  for (std::size_t j = 0; j < all; ++j) target[j] = spare.data() + j * part.size();
+  for (std::size_t j = 0; j < all; ++j) target[j] = spare.get() + j * part.size();
   for (std::size_t j = 0; j < hypothesis.free.size(); ++j) target[hypothesis.free[j]] = columns[j];
   fill_columns(term, point.context(part), hypothesis.shape, {target, all});
 }

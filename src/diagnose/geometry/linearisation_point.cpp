@@ -103,15 +103,21 @@ PointPart LinearisationPoint::part(std::size_t begin, std::size_t end, PointRoom
   return out;
 }
 
+const SharedColumn* LinearisationPoint::at_hand(PointColumn column) const {
+  return column == &PointPart::c      ? &c
+         : column == &PointPart::z    ? &z
+         : column == &PointPart::time ? &time
+                                      : nullptr;
+}
+
 double LinearisationPoint::at(PointColumn column, std::size_t reading) const {
+  if (const SharedColumn* own = at_hand(column)) return (*own)[reading];
   PointRoom room;
   return (part(reading, reading + 1, room).*column)[0];
 }
 
 Extent LinearisationPoint::range(PointColumn column) const {
-  if (column == &PointPart::c) return range_of(c);
-  if (column == &PointPart::z) return range_of(z);
-  if (column == &PointPart::time) return range_of(time);
+  if (const SharedColumn* own = at_hand(column)) return range_of(*own);
   if (column == &PointPart::s) return s_mm;
   if (column == &PointPart::sensed) return sensed_mm;
   Extent out = nowhere;
@@ -120,6 +126,7 @@ Extent LinearisationPoint::range(PointColumn column) const {
 }
 
 std::vector<double> LinearisationPoint::column(PointColumn which, int threads) const {
+  if (const SharedColumn* own = at_hand(which)) return {own->begin(), own->end()};
   std::vector<double> out(size());
   const auto copy = [&](const PointPart& at) {
     std::ranges::copy(at.*which, out.begin() + static_cast<long>(at.begin));
@@ -130,6 +137,8 @@ std::vector<double> LinearisationPoint::column(PointColumn which, int threads) c
 
 ColumnSource source_of(const LinearisationPoint& point, PointColumn column) {
   return [&point, column](std::size_t begin, std::size_t size, std::span<double* const> out) {
+    if (const SharedColumn* own = point.at_hand(column))
+      return void(std::copy_n(own->begin() + static_cast<long>(begin), size, out[0]));
     PointRoom room;
     std::ranges::copy(point.part(begin, begin + size, room).*column, out[0]);
   };
@@ -182,7 +191,8 @@ TermContext LinearisationPoint::context(const PointPart& part) const {
 void LinearisationPoint::fill_base(const PointPart& at, std::span<double* const> columns) const {
   const std::size_t per_axis = base.per_axis(), shared = base.axes * per_axis;
   const double cos_half = 1.0 / std::hypot(1.0, tan_half_angle);
-  for (double* column : columns) std::fill_n(column, at.size(), 0.0);
+  if (base.axes > 1)
+    for (double* column : columns) std::fill_n(column, at.size(), 0.0);
   for (std::size_t k = 0; k < at.size() && base.face; ++k) {
     const std::size_t own = at.axis[k] * per_axis;
     columns[own][k] = -at.z[k] * at.cosine[k];

@@ -100,6 +100,8 @@ struct LinearisationPoint : LinearisationFacts {
       for_each_part(work, k * rows, std::min((k + 1) * rows, size()));
     });
   }
+  /// Of C, Z or time; null: it is made part by part.
+  const SharedColumn* at_hand(PointColumn column) const;
   double at(PointColumn column, std::size_t reading) const;
   Extent range(PointColumn column) const;
   std::vector<double> column(PointColumn which, int threads = 1) const;  ///< all of it

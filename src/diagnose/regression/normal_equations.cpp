@@ -286,15 +286,14 @@ Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
   return out;
 }
 
-Projection::Projection(const Eigen::MatrixXd& gram, const Columns& taken)
+Projection::Projection(const Eigen::MatrixXd& gram, const Solution& taken)
     : norm2(gram.diagonal()),
+      rank(taken.rank),
       whole_(&gram),
-      cross_(static_cast<Eigen::Index>(taken.size()), gram.cols()) {
-  const Solution solution = solve(gram, taken);
-  rank = solution.rank;
+      cross_(static_cast<Eigen::Index>(taken.columns.size()), gram.cols()) {
   for (Eigen::Index i = 0; i < cross_.rows(); ++i)
-    cross_.row(i) = gram.row(static_cast<Eigen::Index>(taken[static_cast<std::size_t>(i)]));
-  weighted_.noalias() = solution.inverse * cross_;
+    cross_.row(i) = gram.row(static_cast<Eigen::Index>(taken.columns[static_cast<std::size_t>(i)]));
+  weighted_.noalias() = taken.inverse * cross_;
   rss = this->gram(0, 0);
 }
 

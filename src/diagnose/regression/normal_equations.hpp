@@ -134,11 +134,25 @@ inline std::span<const double> span_of(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
 
+/// Least squares over some columns: coefficients (0 where a combination is undetermined) and the
+/// inverse of their normal matrix.
+struct Solution {
+  Columns columns;
+  Eigen::VectorXd coefficients;
+  Eigen::MatrixXd inverse;
+  double rss = 0.0;
+  std::size_t rank = 0;
+};
+Solution solve(const Eigen::MatrixXd& gram, const Columns& columns);
+
 /// What is left of every column once some are taken out by least squares. Eq. 58.
 class Projection {
  public:
   /// @param gram outlives this
-  Projection(const Eigen::MatrixXd& gram, const Columns& taken);
+  Projection(const Eigen::MatrixXd& gram, const Columns& taken)
+      : Projection(gram, solve(gram, taken)) {}
+  /// The same by least squares over what is taken, which are those of this matrix.
+  Projection(const Eigen::MatrixXd& gram, const Solution& taken);
 
   Eigen::VectorXd norm2;  ///< of the columns before
   double rss = 0.0;       ///< of column 0
@@ -165,16 +179,5 @@ struct Score {
 };
 /// Eq. 59.
 Score score(const Projection& projection, const Columns& columns);
-
-/// Least squares over some columns: coefficients (0 where a combination is undetermined) and the
-/// inverse of their normal matrix.
-struct Solution {
-  Columns columns;
-  Eigen::VectorXd coefficients;
-  Eigen::MatrixXd inverse;
-  double rss = 0.0;
-  std::size_t rank = 0;
-};
-Solution solve(const Eigen::MatrixXd& gram, const Columns& columns);
 
 }  // namespace trueaxis::diagnose_detail

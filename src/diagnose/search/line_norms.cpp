@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <numeric>
+#include <utility>
 
 #include "math/fourier_sums.hpp"
 #include "math/sincos.hpp"
@@ -19,7 +19,7 @@ namespace {
 // places a cycle the polynomial through six leaves (2π/32)⁶ · 225/64/6! = 3e-7 of it.
 constexpr double places_a_cycle = 32.0;
 constexpr std::size_t taps = 6;
-constexpr std::size_t rows_at_once = 4096;
+constexpr std::size_t rows_at_once = 4096, bins_at_once = 256;
 constexpr double before = 2.0;  // of the taps, those below the interval
 
 std::size_t stride_of(double longest, double df) {
@@ -49,18 +49,36 @@ void add_between(const std::vector<double>& coarse, std::size_t stride, std::vec
   }
 }
 
+/// Of the filter 1, −φ₁, −φ₂ … with itself, so many readings off.
+std::vector<double> products_of(const std::vector<double>& phi) {
+  std::vector<double> factor{1.0}, out;
+  for (const double p : phi) factor.push_back(-p);
+  for (std::size_t lag = 0; lag < factor.size(); ++lag)
+    out.push_back(std::inner_product(factor.begin() + static_cast<long>(lag), factor.end(),
+                                     factor.begin(), 0.0));
+  return out;
+}
+
 }  // namespace
 
-LineNorms::LineNorms(const NormalEquations& equations, PointColumn x, const Means* means)
-    : equations_(equations), x_(x) {
-  const LinearisationPoint& point = equations.point();
+std::vector<double> readings_that_count(const NormalEquations& equations) {
   const ObservationMask& mask = equations.mask();
-  for (std::size_t p = 0; p < point.passes.size(); ++p) {
-    const Pass& pass = point.passes[p];
+  std::vector<double> out;
+  for (const Pass& pass : equations.point().passes) {
     double count = 0.0;
     for (std::size_t i = pass.begin; i < pass.end; ++i)
       count += mask.used[i] && mask.run[i] >= equations.autoregression().size();
-    used_.push_back(count);
+    out.push_back(count);
+  }
+  return out;
+}
+
+LineNorms::LineNorms(const NormalEquations& equations, std::vector<double> counts, PointColumn x,
+                     const Means* means)
+    : equations_(equations), x_(x), used_(std::move(counts)) {
+  const LinearisationPoint& point = equations.point();
+  for (std::size_t p = 0; p < point.passes.size(); ++p) {
+    const Pass& pass = point.passes[p];
     // Means follow each other within a turn, and then leave some turns out.
     std::size_t last = pass.end - 1;
     if (means && means->of_pass[p].turns > 0.0)
@@ -75,29 +93,42 @@ LineNorms::LineNorms(const NormalEquations& equations, PointColumn x, const Mean
 }
 
 std::vector<double> LineNorms::of(const Scan& scan, double low, double df, std::size_t bins) const {
-  const bool white = equations_.autoregression().empty();
-  if (white) return std::vector<double>(bins, by_mean_step(low, scan.turns));
+  if (equations_.autoregression().empty()) {
+    double sum = 0.0;
+    for (const double used : used_) sum += 0.5 * used;
+    return std::vector<double>(bins, sum);
+  }
   const bool swings = x_ == &PointPart::sensed || x_ == &PointPart::s;
   if (swings && !scan.pattern) return by_every_step(scan, low, df, bins);
-  std::vector<double> out(bins);  // a pattern is of few cycles
-  for (std::size_t k = 0; k < bins; ++k)
-    out[k] = by_mean_step(low + df * static_cast<double>(k), scan.turns);
-  return out;
+  return by_mean_step(scan, low, df, bins);  // a pattern is of few cycles
 }
 
 /// ½ Σ |A|² over the passes, A the transfer of the filter at the line's angle from reading to
-/// reading.
-double LineNorms::by_mean_step(double frequency, double turns) const {
-  double sum = 0.0;
+/// reading: a sum of cosines of the angle's multiples, by Chebyshev's recurrence.
+std::vector<double> LineNorms::by_mean_step(const Scan& scan, double low, double df,
+                                            std::size_t bins) const {
+  const std::vector<double> product = products_of(equations_.autoregression());
+  std::vector<double> out(bins, 0.0);
+  std::array<double, bins_at_once> angle{}, sine{}, cosine{};
   for (std::size_t p = 0; p < used_.size(); ++p) {
-    const double angle = two_pi * frequency * x_step_[p] - turns * c_step_[p];
-    std::complex<double> transfer = 1.0;
-    const std::complex<double> step = std::polar(1.0, -angle);
-    std::complex<double> turned = 1.0;
-    for (const double factor : equations_.autoregression()) transfer -= factor * (turned *= step);
-    sum += 0.5 * used_[p] * std::norm(transfer);
+    for (std::size_t begin = 0; begin < bins; begin += bins_at_once) {
+      const std::size_t count = std::min(bins_at_once, bins - begin);
+      for (std::size_t k = 0; k < count; ++k)
+        angle[k] = two_pi * (low + df * static_cast<double>(begin + k)) * x_step_[p] -
+                   scan.turns * c_step_[p];
+      sincos(std::span(angle).first(count), std::span(sine).first(count),
+             std::span(cosine).first(count));
+      for (std::size_t k = 0; k < count; ++k) {
+        double sum = product[0], before = 1.0, now = cosine[k];
+        for (std::size_t lag = 1; lag < product.size(); ++lag) {
+          sum += 2.0 * product[lag] * now;
+          before = std::exchange(now, 2.0 * cosine[k] * now - before);
+        }
+        out[begin + k] += 0.5 * used_[p] * sum;
+      }
+    }
   }
-  return sum;
+  return out;
 }
 
 /// The same where x goes by another step from reading to reading, as the part's own length and what
@@ -108,13 +139,10 @@ std::vector<double> LineNorms::by_every_step(const Scan& scan, double low, doubl
   const LinearisationPoint& point = equations_.point();
   const ObservationMask& mask = equations_.mask();
   const auto& phi = equations_.autoregression();
-  std::vector<double> factor{1.0};
-  for (const double p : phi) factor.push_back(-p);
-  const double flat = std::inner_product(factor.begin(), factor.end(), factor.begin(), 0.0);
-  std::vector<double> norm2(bins, 0.5 * static_cast<double>(equations_.count()) * flat);
-  for (std::size_t lag = 1; lag < factor.size(); ++lag) {
-    const double both = std::inner_product(factor.begin() + static_cast<long>(lag), factor.end(),
-                                           factor.begin(), 0.0);
+  const std::vector<double> product = products_of(phi);
+  std::vector<double> norm2(bins, 0.5 * static_cast<double>(equations_.count()) * product[0]);
+  for (std::size_t lag = 1; lag < product.size(); ++lag) {
+    const double both = product[lag];
     const auto counts = [&](std::size_t i) {
       return i >= lag && mask.used[i] && mask.run[i] >= phi.size();
     };

@@ -9,24 +9,30 @@
 
 namespace trueaxis::diagnose_detail {
 
+/// Of every pass, how many readings count with those that predict them.
+std::vector<double> readings_that_count(const NormalEquations& equations);
+
 /// Squares of the whitened columns of the lines in one variable.
 class LineNorms {
  public:
   /// @param equations outlive this
+  /// @param counts readings_that_count
   /// @param means where the readings are such
-  LineNorms(const NormalEquations& equations, PointColumn x, const Means* means);
+  LineNorms(const NormalEquations& equations, std::vector<double> counts, PointColumn x,
+            const Means* means);
 
+  const std::vector<double>& autoregression() const { return equations_.autoregression(); }
   /// Of cos as of sin (2π f x − turns θ), f = low, low + df …
   std::vector<double> of(const Scan& scan, double low, double df, std::size_t bins) const;
 
  private:
-  double by_mean_step(double frequency, double turns) const;
+  std::vector<double> by_mean_step(const Scan& scan, double low, double df, std::size_t bins) const;
   std::vector<double> by_every_step(const Scan& scan, double low, double df,
                                     std::size_t bins) const;
 
   const NormalEquations& equations_;
   PointColumn x_;
-  /// Of each pass: readings that count, and the mean step of C and x from one to the next.
+  /// Of each pass: readings_that_count, and the mean step of C and x from one to the next.
   std::vector<double> used_, c_step_, x_step_;
 };
 

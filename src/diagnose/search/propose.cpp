@@ -24,65 +24,15 @@ constexpr double step_shrink = 0.4;
 constexpr int rounds = 4;
 constexpr double finest = 1e-4;  // a slip that leads is dated to this share of the time
 
-void append_columns(Columns& to, const std::vector<Columns>& from) {
-  for (const Columns& own : from) to.insert(to.end(), own.begin(), own.end());
-}
-
 std::vector<Hypothesis> joined(const std::vector<Hypothesis>& a, const std::vector<Hypothesis>& b) {
   std::vector<Hypothesis> out(a);
   out.insert(out.end(), b.begin(), b.end());
   return out;
 }
 
-/// Scores of hypotheses beside columns that are taken, from one projection.
-std::vector<Candidate> judge(const NormalEquations& equations, const Columns& taken,
-                             const std::vector<Columns>& places,
-                             const std::vector<Hypothesis>& list) {
-  const Projection projection = project(equations.total(), taken);
-  const auto freedom = static_cast<double>(equations.count() - projection.rank);
-  std::vector<Candidate> out;
-  for (std::size_t h = 0; h < list.size(); ++h) {
-    const Score s = score(projection, places[h]);
-    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0};
-    c.log_p = log_p_value(s.gain, static_cast<double>(s.rank), projection.rss, freedom);
-    if (s.rank > 0) {
-      const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
-      c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
-      c.possible = weighed.possible;
-    }
-    out.push_back(std::move(c));
-  }
-  return out;
-}
-
 void erase_impossible(std::vector<Candidate>& list) {
   std::erase_if(list, [](const Candidate& c) { return !c.possible; });
 }
-/// Judges lists of hypotheses beside the same terms.
-class Judge {
- public:
-  Judge(const Problem& problem, const std::vector<double>& phi,
-        const std::vector<Hypothesis>& terms)
-      : problem_(&problem),
-        equations_(problem.point, problem.mask, problem.deviation_mm, phi, problem.threads),
-        taken_(equations_.base()) {
-    append_columns(taken_, equations_.append(terms));
-    equations_.keep_columns();
-  }
-  std::vector<Candidate> operator()(const std::vector<Hypothesis>& list) {
-    const auto columns = static_cast<std::size_t>(equations_.total().rows());
-    const std::vector<Columns> places = equations_.append(list, 0);
-    std::vector<Candidate> out = judge(equations_, taken_, places, list);
-    equations_.shrink(columns);
-    return out;
-  }
-  const Problem& problem() const { return *problem_; }
-
- private:
-  const Problem* problem_;
-  NormalEquations equations_;
-  Columns taken_;
-};
 
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 
@@ -158,7 +108,7 @@ void average_over_noise(const Problem& problem, const std::vector<double>& phi, 
     other[0] = std::tanh(std::atanh(first) + d) * (1.0 - second);
     const std::vector<Candidate> judged =
         Judge(problem, other, terms)(hypotheses_of(list, list.size()));
-    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(judged[i].log_p) / 6.0;
+    for (std::size_t i = 0; i < list.size(); ++i) p[i] += std::exp(log_p_of(judged[i])) / 6.0;
   }
   for (std::size_t i = 0; i < list.size(); ++i) list[i].log_p = std::log(std::max(p[i], 1e-300));
 }
@@ -265,21 +215,24 @@ struct Proposer::Step {
   double line_choice = 1.0;  ///< what the choice of a line counts as
 };
 
-Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
-                              const std::vector<double>& phi) {
+void Proposer::prepare(const std::vector<double>& phi) {
   if (!dictionary_ || dictionary_->phi != phi) dictionary_ = make_dictionary(problem_, phi);
-  Dictionary& dictionary = *dictionary_;
-  NormalEquations& equations = dictionary.equations;
+  if (!local_forms_ && !bump_scanner_) bump_scanner_.emplace(problem_.point, problem_.mask);
+}
+
+Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms, int threads) const {
+  const Dictionary& dictionary = *dictionary_;
+  const std::vector<double>& phi = dictionary.phi;
+  NormalEquations equations = dictionary.equations;
   const std::vector<Hypothesis> fixed = joined(dictionary.presets, dictionary.basis);
   std::vector<Columns> places = dictionary.preset_places;
   places.insert(places.end(), dictionary.basis_places.begin(), dictionary.basis_places.end());
   Columns taken = equations.base();
   append_columns(taken, equations.append(terms));
-  const std::vector<Candidate> judged = judge(equations, taken, places, fixed);
-  const Eigen::VectorXd solution = solve(equations.total(), taken).coefficients;
-  equations.shrink(dictionary.columns);
-  const std::vector<double> left =
-      remainder(problem_.point, problem_.deviation_mm, terms, solution, problem_.threads);
+  const Solution solution = solve(equations.total(), taken);
+  const std::vector<Candidate> judged = judge(equations, solution, places, fixed);
+  const std::vector<double> left = remainder(problem_.point, problem_.deviation_mm, terms,
+                                             solution.coefficients, problem_.threads);
   Step out;
   const auto presets = static_cast<long>(dictionary.presets.size());
   out.presets.assign(judged.begin(), judged.begin() + presets);
@@ -288,7 +241,7 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
   std::ranges::stable_sort(out.basis, better);
   // Three looks that know nothing of each other.
   double bumps_tested = 0.0, steps_tested = 0.0;
-  for_each_index(3, threads_beside(problem_.point.size(), problem_.threads), [&](std::size_t look) {
+  for_each_index(3, threads, [&](std::size_t look) {
     if (look == 0) out.scans = scanner_(equations, left);
     if (look == 1) out.steps = scan_steps(problem_, phi, terms, steps_tested);
     if (look == 2) out.bumps = bumps(equations, left, terms, bumps_tested);
@@ -302,12 +255,11 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms,
 
 std::vector<Hypothesis> Proposer::bumps(const NormalEquations& equations,
                                         std::span<const double> left_mm,
-                                        const std::vector<Hypothesis>& terms, double& tests) {
+                                        const std::vector<Hypothesis>& terms, double& tests) const {
   if (local_forms_) {
     tests = local_forms_->tests();
     return local_forms_->beside(terms, best_refined, true);
   }
-  if (!bump_scanner_) bump_scanner_.emplace(problem_.point, problem_.mask);
   std::vector<Hypothesis> out = (*bump_scanner_)(equations, left_mm);
   tests = bump_scanner_->tests();
   for (Hypothesis& h : out) h.tests = tests;
@@ -333,17 +285,37 @@ std::vector<Hypothesis> Proposer::shortlist(const Step& of, std::size_t presets)
   return list;
 }
 
-const Proposal& Proposer::beside(const std::vector<Hypothesis>& terms,
-                                 const std::vector<double>& phi) {
+const Proposal* Proposer::answer(const std::vector<Hypothesis>& terms,
+                                 const std::vector<double>& phi) const {
   const auto asked = std::ranges::find_if(
       asked_, [&](const Asked& a) { return a.phi == phi && same(a.terms, terms); });
-  if (asked != asked_.end()) return asked->proposal;
-  asked_.push_back({terms, phi, propose(terms, phi)});
+  return asked == asked_.end() ? nullptr : &asked->proposal;
+}
+
+int Proposer::threads() const { return threads_beside(problem_.point.size(), problem_.threads); }
+
+const Proposal& Proposer::beside(const std::vector<Hypothesis>& terms,
+                                 const std::vector<double>& phi) {
+  if (const Proposal* there = answer(terms, phi)) return *there;
+  prepare(phi);
+  asked_.push_back({terms, phi, propose(terms, threads())});
   return asked_.back().proposal;
 }
 
-Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi) {
-  Step now = step(terms, phi);
+void Proposer::ask(std::vector<std::vector<Hypothesis>> lists, const std::vector<double>& phi) {
+  std::erase_if(lists, [&](const auto& terms) { return answer(terms, phi) != nullptr; });
+  if (lists.size() < 2 || threads() == 1) return;
+  prepare(phi);
+  std::vector<Proposal> proposals(lists.size());
+  for_each_index(lists.size(), threads(),
+                 [&](std::size_t k) { proposals[k] = propose(lists[k], 1); });
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    asked_.push_back({std::move(lists[k]), phi, std::move(proposals[k])});
+}
+
+Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) const {
+  const std::vector<double>& phi = dictionary_->phi;
+  Step now = step(terms, threads);
   std::vector<Hypothesis> causes = joined(shortlist(now, best_presets), now.steps);
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, causes);
   take_fast(problem_.fast, true, now.line_choice, causes);
@@ -359,9 +331,10 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
     std::vector<Candidate> best = judged_at_once(judge, list);
     best.resize(std::min(best.size(), best_refined));
     to = refined(judge, std::move(best));
+    for (Candidate& c : to) c.log_p = log_p_of(c);
     average_over_noise(problem_, phi, dictionary_->noise_freedom, terms, to);
   };
-  for_each_index(2, threads_beside(problem_.point.size(), problem_.threads), [&](std::size_t k) {
+  for_each_index(2, threads, [&](std::size_t k) {
     k == 0 ? refine_some(causes, out.causes) : refine_some(patterns, out.patterns);
   });
   const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
@@ -376,9 +349,9 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, const std::vect
 }
 
 std::vector<Candidate> Proposer::rivals(const Hypothesis& named,
-                                        const std::vector<Hypothesis>& others,
-                                        const std::vector<double>& phi) {
-  Step now = step(others, phi);
+                                        const std::vector<Hypothesis>& others, int threads) const {
+  const std::vector<double>& phi = dictionary_->phi;
+  Step now = step(others, threads);
   std::vector<Hypothesis> list = hypotheses_of(now.presets, now.presets.size());
   list.push_back(named);
   add_tilts(named, problem_, list);

@@ -8,22 +8,13 @@
 #include <vector>
 
 #include "diagnose/search/dictionary.hpp"
+#include "diagnose/search/judge.hpp"
 #include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/scan_bumps.hpp"
 #include "diagnose/search/statistic.hpp"
 
 namespace trueaxis::diagnose_detail {
-
-/// A hypothesis beside the terms of a model.
-struct Candidate {
-  Hypothesis hypothesis;
-  double gain = 0.0;  ///< decrease of the residual sum of squares
-  std::size_t rank = 0;
-  double log_p = 0.0;      ///< ln of its own p-value
-  double criterion = 0.0;  ///< change of the extended BIC; negative is better
-  bool possible = true;    ///< whether its sizes are
-};
 
 /// The best next hypotheses beside some terms, refined, best first.
 struct Proposal {
@@ -46,9 +37,16 @@ class Proposer {
   /// @param phi autoregression of the noise
   const Proposal& beside(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
 
-  /// One of each effect that might explain the same as a cause that was named, which is among them.
+  /// Asks beside some lists of terms at the same time, where there are threads to do so.
+  void ask(std::vector<std::vector<Hypothesis>> lists, const std::vector<double>& phi);
+
+  /// Makes ready for rivals.
+  void prepare(const std::vector<double>& phi);
+  /// One of each effect that might explain the same as a cause that was named, which is among them;
+  /// with the noise that was prepared for. May be asked by several threads.
   std::vector<Candidate> rivals(const Hypothesis& named, const std::vector<Hypothesis>& others,
-                                const std::vector<double>& phi);
+                                int threads) const;
+  int threads() const;  ///< at most
 
   const Problem& problem() const { return problem_; }
 
@@ -59,18 +57,20 @@ class Proposer {
     std::vector<double> phi;
     Proposal proposal;
   };
-  Proposal propose(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
-  Step step(const std::vector<Hypothesis>& terms, const std::vector<double>& phi);
+  const Proposal* answer(const std::vector<Hypothesis>& terms,
+                         const std::vector<double>& phi) const;
+  Proposal propose(const std::vector<Hypothesis>& terms, int threads) const;
+  Step step(const std::vector<Hypothesis>& terms, int threads) const;
   /// Local forms that may be left, and how many were looked at.
   std::vector<Hypothesis> bumps(const NormalEquations& equations, std::span<const double> left_mm,
-                                const std::vector<Hypothesis>& terms, double& tests);
+                                const std::vector<Hypothesis>& terms, double& tests) const;
   std::vector<Hypothesis> shortlist(const Step& of, std::size_t presets) const;
 
   const Problem& problem_;
   LineScanner scanner_;
   std::optional<LocalForms> local_forms_;    ///< of a sparse design
   std::optional<BumpScanner> bump_scanner_;  ///< of any other
-  std::unique_ptr<Dictionary> dictionary_;
+  std::unique_ptr<const Dictionary> dictionary_;
   std::deque<Asked> asked_;
 };
 

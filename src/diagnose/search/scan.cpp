@@ -11,8 +11,8 @@
 #include "diagnose/search/line_norms.hpp"
 #include "diagnose/search/scan_fringes.hpp"
 #include "diagnose/search/scan_list.hpp"
+#include "diagnose/search/turned_sums.hpp"
 #include "math/fourier_sums.hpp"
-#include "math/sincos.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -25,7 +25,8 @@ constexpr double oversampling = 2.5;  // bins a resolution cell: at most 5 % of 
 constexpr std::size_t peaks_kept = 2, fringes_kept = 5;
 constexpr std::size_t near_bins = 5;  // two cells: a peak's own
 constexpr double finer = 4.0;
-constexpr std::size_t most_bins = std::size_t{1} << 20;  // whose sums are made at a time
+constexpr std::size_t most_bins = std::size_t{1} << 20;        // whose sums are made at a time,
+constexpr std::size_t most_bins_of_fewer = 3 * most_bins / 2;  // of less than very many readings
 
 double variance(const LinearisationPoint& point, PointColumn column, int threads) {
   const std::vector<double> all = point.column(column, threads);
@@ -34,40 +35,6 @@ double variance(const LinearisationPoint& point, PointColumn column, int threads
   mean /= static_cast<double>(all.size());
   for (const double v : all) sum += (v - mean) * (v - mean);
   return sum / static_cast<double>(all.size());
-}
-
-/// Sums of one scan over g cos nθ and g sin nθ, from which those of +n and −n are made.
-struct TurnedSums {
-  double order = 0.0;
-  bool spindle = false, form = false;
-  FourierSums::Sums cosine, sine;
-
-  bool serves(const Scan& scan) const {
-    return !cosine.empty() && order == std::abs(scan.turns) && form == scan.form &&
-           (order == 0.0 || spindle == scan.spindle);
-  }
-};
-
-/// @param left of every reading, of a form to be turned round behind
-TurnedSums turned_sums(const FourierSums& plan, const LinearisationPoint& point, const Scan& scan,
-                       const Column& left) {
-  const double order = std::abs(scan.turns);
-  const auto columns = [&](std::size_t begin, std::size_t size, std::span<double* const> out) {
-    PointRoom room;
-    const PointPart at = point.part(begin, begin + size, room);
-    Column phase(size),
-        g(left.begin() + static_cast<long>(begin), left.begin() + static_cast<long>(begin + size));
-    for (std::size_t i = 0; i < size; ++i) {
-      phase[i] = order * (scan.spindle ? at.c[i] : at.theta[i]);
-      if (scan.form && at.rear[i]) g[i] = -g[i];
-    }
-    if (order == 0.0) return void(std::ranges::copy(g, out[0]));
-    sincos(phase, {out[1], size}, {out[0], size});
-    for (std::size_t i = 0; i < size; ++i) out[0][i] *= g[i], out[1][i] *= g[i];
-  };
-  std::vector<FourierSums::Sums> sums = plan.of(columns, order == 0.0 ? 1 : 2);
-  sums.resize(2);
-  return {order, scan.spindle, scan.form, std::move(sums[0]), std::move(sums[1])};
 }
 
 /// Of a single pass at constant feed a line of C is also one of an order along Z.
@@ -124,11 +91,19 @@ std::vector<Extent> without(const std::vector<Extent>& intervals, const Extent& 
 
 }  // namespace
 
-/// A range of frequencies of a scan, at most most_bins of them, and its sums.
+/// Norms of the lines of a band in noise of one kind, scan by scan.
+struct LineScanner::Norms {
+  std::vector<double> phi;
+  std::vector<Column> of_scan;
+};
+
+/// A range of frequencies of a scan, and its sums.
 struct LineScanner::Band {
   double low = 0.0, df = 0.0;
-  std::size_t bins = 0, first_bin = 0;      ///< the latter counted through all bands
-  std::shared_ptr<const FourierSums> plan;  ///< made where it is wanted, and kept of few readings
+  std::size_t bins = 0, first_bin = 0;                ///< the latter counted through all bands
+  bool kept = true;                                   ///< the plan, of few readings
+  mutable std::shared_ptr<const FourierSums> plan{};  ///< made where it is wanted
+  mutable std::shared_ptr<const Norms> norms{};       ///< likewise
 };
 
 /// Scans of one variable and one set of bands.
@@ -204,15 +179,17 @@ LineScanner::LineScanner(const Problem& problem, const Means* fast) : problem_(p
     const double df = 1.0 / ((job.fringes ? finer : 1.0) * oversampling * range.length());
     for (const Extent& band : bands) {
       const std::size_t bins = static_cast<std::size_t>((band.high - band.low) / df) + 1;
-      for (std::size_t from = 0; from < bins; from += most_bins)
+      const std::size_t most = point.size() < very_many ? most_bins_of_fewer : most_bins;
+      for (std::size_t from = 0; from < bins; from += most)
         job.bands.push_back({band.low + df * static_cast<double>(from), df,
-                             std::min(most_bins, bins - from), job.bins(), nullptr});
+                             std::min(most, bins - from), job.bins(), !is_condensed(point)});
     }
     jobs_.push_back(std::move(job));
   }
 }
 
-Scans LineScanner::operator()(const NormalEquations& equations, std::vector<double> remainder_mm) {
+Scans LineScanner::operator()(const NormalEquations& equations,
+                              std::vector<double> remainder_mm) const {
   const LinearisationPoint& point = problem_.point;
   const std::vector<double> left = weighted(equations, std::move(remainder_mm));
   std::vector<std::vector<Tops>> tops(jobs_.size());  // of every band of every job
@@ -221,12 +198,14 @@ Scans LineScanner::operator()(const NormalEquations& equations, std::vector<doub
     tops[j].resize(jobs_[j].bands.size());
     for (std::size_t b = 0; b < tops[j].size(); ++b) bands.emplace_back(j, b);
   }
+  const std::vector<double> counts = readings_that_count(equations);
   const int threads = point.size() < 10'000 ? 1 : problem_.threads;  // one costs more than it saves
   for_each_index(bands.size(), threads, [&](std::size_t k) {
     const auto [j, b] = bands[k];
-    Job& job = jobs_[j];
-    tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], equations, left)
-                             : tops_of(job, job.bands[b], equations, left);
+    const Job& job = jobs_[j];
+    const LineNorms norms(equations, counts, job.scans.front().x, problem_.means);
+    tops[j][b] = job.fringes ? tops_of_fringes(job, job.bands[b], norms, left)
+                             : tops_of(job, job.bands[b], norms, left);
   });
   Scans out;
   for (std::size_t j = 0; j < jobs_.size(); ++j) add_peaks(jobs_[j], tops[j], out);
@@ -234,47 +213,74 @@ Scans LineScanner::operator()(const NormalEquations& equations, std::vector<doub
   return out;
 }
 
-LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, Band& band,
-                                               const NormalEquations& equations,
-                                               const Column& left) const {
+LineScanner::Tops LineScanner::tops_of_fringes(const Job& job, const Band& band,
+                                               const LineNorms& norms, const Column& left) const {
   const std::vector<FringeCell> cells =
       job.scans.size() > 1
           ? std::vector<FringeCell>{}
-          : fringe_cells(equations, job.scans[0], left, band.low, band.df, band.bins);
-  if (cells.empty()) return tops_of(job, band, equations, left);
+          : fringe_cells(norms, problem_.point, job.scans[0], left, band.low, band.df, band.bins);
+  if (cells.empty()) return tops_of(job, band, norms, left);
   Tops tops(1);
   std::vector<Top>& best = tops.front();
   for (const FringeCell& cell : cells) {
     if (best.size() >= job.kept() && cell.most < best[job.kept() - 1].gain) break;
-    Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
-              band.first_bin + cell.first, nullptr};
-    const Tops more = tops_of(job, part, equations, left);
+    const Band part{band.low + band.df * static_cast<double>(cell.first), band.df, cell.bins,
+                    band.first_bin + cell.first, false};
+    const Tops more = tops_of(job, part, norms, left);
     best.insert(best.end(), more.front().begin(), more.front().end());
     std::ranges::stable_sort(best, std::greater<>(), &Top::gain);
   }
   return tops;
 }
 
-LineScanner::Tops LineScanner::tops_of(const Job& job, Band& band, const NormalEquations& equations,
+std::shared_ptr<const FourierSums> LineScanner::plan_of(const Job& job, const Band& band) const {
+  if (band.kept) {
+    const std::lock_guard lock(plans_);
+    if (band.plan) return band.plan;
+  }
+  const LinearisationPoint& point = problem_.point;
+  auto made = std::make_shared<const FourierSums>(source_of(point, job.scans.front().x),
+                                                  point.size(), job.middle, two_pi * band.low,
+                                                  two_pi * band.df, band.bins);
+  if (band.kept) {
+    const std::lock_guard lock(plans_);
+    band.plan = made;
+  }
+  return made;
+}
+
+std::shared_ptr<const LineScanner::Norms> LineScanner::norms_of(const Job& job, const Band& band,
+                                                                const LineNorms& norms) const {
+  if (!band.kept) return nullptr;
+  {
+    const std::lock_guard lock(plans_);
+    if (band.norms && band.norms->phi == norms.autoregression()) return band.norms;
+  }
+  auto made = std::make_shared<Norms>();
+  made->phi = norms.autoregression();
+  for (const Scan& scan : job.scans)
+    made->of_scan.push_back(norms.of(scan, band.low, band.df, band.bins));
+  const std::lock_guard lock(plans_);
+  band.norms = made;
+  return made;
+}
+
+LineScanner::Tops LineScanner::tops_of(const Job& job, const Band& band, const LineNorms& norms,
                                        const Column& left) const {
   const LinearisationPoint& point = problem_.point;
-  const PointColumn x = job.scans.front().x;
-  const LineNorms norms(equations, x, problem_.means);
-  if (!band.plan)
-    band.plan = std::make_shared<FourierSums>(source_of(point, x), point.size(), job.middle,
-                                              two_pi * band.low, two_pi * band.df, band.bins);
-  const std::shared_ptr<const FourierSums> plan = band.plan;
-  if (is_condensed(point)) band.plan = nullptr;
+  const std::shared_ptr<const FourierSums> plan = plan_of(job, band);
+  const std::shared_ptr<const Norms> kept = norms_of(job, band, norms);
   TurnedSums turned;
   Tops tops;
   for (const Scan& scan : job.scans) {
-    if (!turned.serves(scan)) turned = turned_sums(*plan, point, scan, left);
+    if (!turned.serves(scan, point)) turned = turned_sums(*plan, point, scan, left);
     // Σ g exp(−i(2πfx − turns θ))
-    const std::complex<double> turn(0.0, scan.turns > 0.0 ? 1.0 : -1.0);
-    Column gain = norms.of(scan, band.low, band.df, band.bins);
+    const double turn = scan.turns > 0.0 ? 1.0 : -1.0;
+    Column gain = kept ? kept->of_scan[tops.size()] : norms.of(scan, band.low, band.df, band.bins);
     for (std::size_t k = 0; k < band.bins; ++k) {
       std::complex<double> sum = turned.cosine[k];
-      if (!turned.sine.empty()) sum += turn * turned.sine[k];
+      if (!turned.sine.empty())
+        sum += std::complex(-turn * turned.sine[k].imag(), turn * turned.sine[k].real());
       gain[k] = std::norm(sum) / gain[k];  // of cos and of sin: norm2 each
     }
     if (job.sieved) job.sieve(band, gain);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "math/fourier_sums.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -24,6 +27,8 @@ struct Scans {
   double bandwidth = 0.0;      ///< Σ of W = Δf √(4π var x) (Baluev 2008, eq. 5) over the scans
 };
 
+class LineNorms;
+
 /// A bin of a scan, and what its line takes off the sum of squares.
 struct Top {
   std::size_t bin;
@@ -40,22 +45,28 @@ class LineScanner {
 
   /// @param equations of the readings of the problem
   /// @param remainder_mm deviation minus base and terms, not whitened
-  Scans operator()(const NormalEquations& equations, std::vector<double> remainder_mm);
+  /// May be called by several threads.
+  Scans operator()(const NormalEquations& equations, std::vector<double> remainder_mm) const;
   double bandwidth() const { return bandwidth_; }  ///< see Scans
 
  private:
   struct Band;
   struct Job;
   using Tops = std::vector<std::vector<Top>>;  ///< the highest of a band, scan by scan
-  Tops tops_of(const Job& job, Band& band, const NormalEquations& equations,
+  std::shared_ptr<const FourierSums> plan_of(const Job& job, const Band& band) const;
+  struct Norms;
+  std::shared_ptr<const Norms> norms_of(const Job& job, const Band& band,
+                                        const LineNorms& norms) const;
+  Tops tops_of(const Job& job, const Band& band, const LineNorms& norms,
                const std::vector<double>& left) const;
   /// The same of a band of fringes, looked at cell by cell.
-  Tops tops_of_fringes(const Job& job, Band& band, const NormalEquations& equations,
+  Tops tops_of_fringes(const Job& job, const Band& band, const LineNorms& norms,
                        const std::vector<double>& left) const;
   void add_peaks(const Job& job, const std::vector<Tops>& of_bands, Scans& out) const;
 
   const Problem& problem_;
   std::vector<Job> jobs_;
+  mutable std::mutex plans_;  ///< of the bands, while they are made
   double bandwidth_ = 0.0;
 };
 

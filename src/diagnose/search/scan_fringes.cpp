@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "diagnose/search/line_norms.hpp"
 #include "math/fourier_sums.hpp"
 #include "trueaxis/units.hpp"
 
@@ -19,10 +18,9 @@ constexpr std::size_t worth = 8;  // bins a cell, or they save nothing
 
 }  // namespace
 
-std::vector<FringeCell> fringe_cells(const NormalEquations& equations, const Scan& scan,
-                                     const std::vector<double>& left, double low, double df,
-                                     std::size_t bins) {
-  const LinearisationPoint& point = equations.point();
+std::vector<FringeCell> fringe_cells(const LineNorms& norms, const LinearisationPoint& point,
+                                     const Scan& scan, const std::vector<double>& left, double low,
+                                     double df, std::size_t bins) {
   const double wide = 1.0 / (places_a_swing * point.swing_mm);
   if (scan.turns != 0.0 || !(wide > static_cast<double>(worth) * df)) return {};
   const auto each = static_cast<std::size_t>(wide / df);
@@ -46,8 +44,7 @@ std::vector<FringeCell> fringe_cells(const NormalEquations& equations, const Sca
   const auto sums = FourierSums(values, point.size(), 0.5 * range.low + 0.5 * range.high,
                                 two_pi * middle, two_pi * step, cells)
                         .of(sides, 2);
-  const std::vector<double> norm2 =
-      LineNorms(equations, scan.x, nullptr).of(scan, middle, step, cells);
+  const std::vector<double> norm2 = norms.of(scan, middle, step, cells);
   std::vector<FringeCell> out;
   for (std::size_t k = 0; k < cells; ++k) {
     const double amplitude = std::abs(sums[0][k]) + std::abs(sums[1][k]);

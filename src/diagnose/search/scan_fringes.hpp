@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "diagnose/search/line_norms.hpp"
 #include "diagnose/search/scan_list.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -19,8 +20,8 @@ struct FringeCell {
 /// diameter. No fringe of a cell is brighter than (|F| + |R|)²: the cells of a band, the brightest
 /// first. Empty where they would save nothing.
 /// @param left whitened twice, see weighted()
-std::vector<FringeCell> fringe_cells(const NormalEquations& equations, const Scan& scan,
-                                     const std::vector<double>& left, double low, double df,
-                                     std::size_t bins);
+std::vector<FringeCell> fringe_cells(const LineNorms& norms, const LinearisationPoint& point,
+                                     const Scan& scan, const std::vector<double>& left, double low,
+                                     double df, std::size_t bins);
 
 }  // namespace trueaxis::diagnose_detail

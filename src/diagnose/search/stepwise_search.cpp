@@ -18,7 +18,8 @@ namespace {
 constexpr double catalogue_first = 4.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
 constexpr std::size_t fits_kept = 4;
-constexpr double hides_a_term = 0.3;  // |φ|: less hardly weakens one
+constexpr std::size_t asked_at_once = 2;  // where the first is exchanged, the next was in vain
+constexpr double hides_a_term = 0.3;      // |φ|: less hardly weakens one
 
 Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
   Columns out;
@@ -185,20 +186,19 @@ class StepwiseSearch::Engine {
                        static_cast<double>(f.equations.count() - projection.rank));
   }
 
-  /// Pooled held-out sum of squares with a term minus without it.
+  /// Pooled held-out sum of squares.
+  static double held_out_by(const Fitted& f, const Columns& columns) {
+    double sum = 0.0;
+    for (const Eigen::MatrixXd& fold : f.equations.folds())
+      sum += held_out_fast(f.equations.total(), fold, columns);
+    return sum;
+  }
+
+  /// Whether it is less with a term than without it.
   bool predicts(const Fitted& f, std::size_t i, const Hypothesis& h) const {
     // Of a step and of a local form the other blocks may hold nothing.
     if (h.effect ? is_step(h.effect->term) : h.pattern.kind == Pattern::Kind::bump) return true;
-    Columns with = f.equations.base(), rest = with;
-    for (std::size_t t = 0; t < f.places.size(); ++t) {
-      with.insert(with.end(), f.places[t].begin(), f.places[t].end());
-      if (t != i) rest.insert(rest.end(), f.places[t].begin(), f.places[t].end());
-    }
-    double change = 0.0;
-    for (const Eigen::MatrixXd& fold : f.equations.folds())
-      change +=
-          held_out(f.equations.total(), fold, with) - held_out(f.equations.total(), fold, rest);
-    return change < 0.0;
+    return held_out_by(f, besides(f, f.places.size())) < held_out_by(f, besides(f, i));
   }
 
   /// Whether its sizes beside all others are.
@@ -290,6 +290,7 @@ class StepwiseSearch::Engine {
     bool changed = false;
     for (std::size_t i = 0; i < model.terms.size(); ++i) {
       if (is_kept(model.terms[i])) continue;
+      ask_without_each(model, i);
       Model other = model;
       other.terms = without(model.terms, i);
       changed |= replace(model, std::move(other), patterns);
@@ -309,6 +310,15 @@ class StepwiseSearch::Engine {
       }
     }
     return changed;
+  }
+
+  /// Asks at the same time what would stand for a term and for the next ones.
+  void ask_without_each(const Model& model, std::size_t first) {
+    std::vector<std::vector<Hypothesis>> lists;
+    for (std::size_t i = first; i < model.terms.size(); ++i)
+      if (!is_kept(model.terms[i]) && lists.size() < asked_at_once)
+        lists.push_back(without(model.terms, i));
+    proposer_.ask(std::move(lists), model.phi);
   }
 
   /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so

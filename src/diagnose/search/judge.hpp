@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "diagnose/regression/normal_equations.hpp"
+#include "diagnose/search/statistic.hpp"
+
+namespace trueaxis::diagnose_detail {
+
+/// A hypothesis beside the terms of a model.
+struct Candidate {
+  Hypothesis hypothesis;
+  double gain = 0.0;  ///< decrease of the residual sum of squares
+  std::size_t rank = 0;
+  double log_p = 0.0;               ///< ln of its own p-value, of a proposal
+  double criterion = 0.0;           ///< change of the extended BIC; negative is better
+  bool possible = true;             ///< whether its sizes are
+  double rss = 0.0, freedom = 0.0;  ///< what is left without it
+};
+
+/// ln of its own p-value.
+double log_p_of(const Candidate& candidate);
+
+void append_columns(Columns& to, const std::vector<Columns>& from);
+
+/// Scores of hypotheses beside columns that are taken, from one projection.
+std::vector<Candidate> judge(const NormalEquations& equations, const Solution& taken,
+                             const std::vector<Columns>& places,
+                             const std::vector<Hypothesis>& list);
+
+/// Judges lists of hypotheses beside the same terms.
+class Judge {
+ public:
+  Judge(const Problem& problem, const std::vector<double>& phi,
+        const std::vector<Hypothesis>& terms);
+  std::vector<Candidate> operator()(const std::vector<Hypothesis>& list);
+  const Problem& problem() const { return *problem_; }
+
+ private:
+  Solution solve_with(const std::vector<Hypothesis>& terms);
+
+  const Problem* problem_;
+  NormalEquations equations_;
+  Solution taken_;
+};
+
+}  // namespace trueaxis::diagnose_detail

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "trueaxis/effect.hpp"
+
+namespace trueaxis {
+
+/// How many linear_parameters a term has, without their names.
+std::size_t linear_count(const Term& term, const TermShape& shape);
+
+}  // namespace trueaxis
