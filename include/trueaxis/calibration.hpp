@@ -108,9 +108,10 @@ struct Calibration {
   ErrorModel errors;  ///< given and found together, component errors too, with their covariance
   std::size_t equations = 0, unknowns = 0;
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  double noise_mm = 0.0;         ///< σ of one number that u is made of
-  std::string noise_source;      ///< "stated", "residuals"
-  double stated_noise_mm = 0.0;  ///< σ that the files state; 0: one of them does not
+  double rms_parameters_mm = 0.0;  ///< with the parameters alone, without component errors
+  double noise_mm = 0.0;           ///< σ of one number that u is made of
+  std::string noise_source;        ///< "stated", "residuals"
+  double stated_noise_mm = 0.0;    ///< σ that the files state; 0: one of them does not
 };
 
 /// Files given together are one measurement, in order. All location errors of the axes, X0S Y0S

@@ -164,6 +164,7 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   const VectorXd sigma = problem.weights.cwiseInverse();
   if (problem.noise_stated) out.stated_noise_mm = rms_mm(problem, sigma);
   out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
+  out.rms_parameters_mm = out.rms_after_mm;
   out.rms_before_mm =
       rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
   out.noise_mm = std::sqrt((out.noise_source == "stated" ? 1.0 : solution.variance) *

@@ -14,6 +14,7 @@ using calibrate_detail::fit_tips;
 
 constexpr double far_better = 0.5;    // of the RMS: four times the χ²
 constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
+constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
 constexpr double far_too_small = 30;  // times less scatter than is stated
 
 /// A way in which columns are written wrongly, and how they are mended.
@@ -89,14 +90,14 @@ std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const Machine
   return list;
 }
 
-/// RMS of the readings once location errors are fitted; none where there is no fit, or one of no
-/// machine.
+/// RMS of the readings once location errors are fitted; none where there is no fit, or one that no
+/// machine has.
 std::optional<double> left_mm(const Machine& machine, std::span<const MachineMeasurement> data,
-                              const CalibrationOptions& options, bool plausible) {
+                              const CalibrationOptions& options) {
   Calibration fitted;
   fitted.errors = options.errors;
   if (!fit_tips(machine, data, options, true, fitted) || !fitted.converged) return std::nullopt;
-  if (plausible && !implausible(fitted, options).empty()) return std::nullopt;
+  if (!implausible(fitted, options).empty()) return std::nullopt;
   return fitted.rms_after_mm;
 }
 
@@ -110,23 +111,25 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
         "the readings scatter by {:.2g} µm and their noise is said to be {:.2g} µm: see whether "
         "the unit of the deviations in the header is that of the numbers, and `# noise`",
         found.rms_after_mm / mm_per_um, found.stated_noise_mm / mm_per_um);
-  const std::optional<double> as_read = left_mm(machine, data, options, false);
-  const bool wrong = !as_read || !implausible(found, options).empty();
-  if (!wrong && *as_read < well_fitted * found.stated_noise_mm) return "";
+  const double as_read_mm = found.rms_parameters_mm;
+  const bool wrong = !found.converged || !implausible(found, options).empty();
+  const double fine_mm = found.stated_noise_mm > 0.0 ? well_fitted * found.stated_noise_mm
+                                                     : much_fitted * found.rms_before_mm;
+  if (!wrong && as_read_mm < fine_mm) return "";
   std::string best;
-  double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * *as_read;
+  double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
   for (const Mistake& mistake : mistakes_of(machine, data)) {
     std::vector<MachineMeasurement> right(data.begin(), data.end());
     for (MachineMeasurement& file : right)
       if (file.kind != MeasurementKind::axis) mistake.undo(file);
-    const std::optional<double> again_mm = left_mm(machine, right, options, true);
+    const std::optional<double> again_mm = left_mm(machine, right, options);
     if (!again_mm || !(*again_mm < least_mm)) continue;
     least_mm = *again_mm;
-    best = fmt::format(
-        "{}, and {:.3g} µm are left if {}: {}",
-        as_read ? fmt::format("{:.3g} µm of the readings are left by the fit", *as_read / mm_per_um)
-                : "no machine fits the readings",
-        least_mm / mm_per_um, mistake.what, mistake.mend);
+    best = fmt::format("{}, and {:.3g} µm are left if {}: {}",
+                       wrong ? "no machine fits the readings"
+                             : fmt::format("{:.3g} µm of the readings are left by the fit",
+                                           as_read_mm / mm_per_um),
+                       least_mm / mm_per_um, mistake.what, mistake.mend);
   }
   return best;
 }
