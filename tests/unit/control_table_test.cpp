@@ -143,8 +143,10 @@ TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {
   for (const std::string& line : lines_of(made.text)) {
     const std::size_t at = line.find(".table[");
     if (at == std::string::npos) continue;
-    const std::vector<double> n = numbers_of(line.substr(at + 6));  // [master2][master1] . value
-    EXPECT_NEAR(n[n.size() - 1] * 1e-4, wanted_mm(n[1] * 5.0 * rad_per_deg),
+    const std::size_t value = line.find(".correction");
+    const std::vector<double> node = numbers_of(line.substr(at + 6, value - at - 6));
+    ASSERT_EQ(node.size(), 2U) << line;  // [master2][master1]
+    EXPECT_NEAR(std::stod(line.substr(value + 11)) * 1e-4, wanted_mm(node[1] * 5.0 * rad_per_deg),
                 made.rounding_mm + 1e-12)
         << line;
     ++values;

@@ -11,6 +11,8 @@
 namespace trueaxis {
 namespace {
 
+constexpr std::size_t most_listed = 3;  // places of one kind
+
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
 /// Bytes of the UTF-8 character that starts `text`; 0 where none does.
@@ -118,13 +120,14 @@ std::string csv_quoted(std::string_view text) {
 
 void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string message,
                          const std::string& kind) {
-  constexpr std::size_t most_lines = 6;
-  if (const auto same = kinds_.find(kind); !kind.empty() && same != kinds_.end()) {
-    ++same->second.count;
-    if (same->second.lines.size() < most_lines) same->second.lines.push_back(line);
-    return;
+  constexpr std::size_t most_lines = 7;
+  if (!kind.empty()) {
+    Kind& of = kinds_[kind];
+    ++of.count;
+    if (of.lines.size() < most_lines) of.lines.push_back(line);
+    if (of.count > most_listed) return;
+    of.listed.push_back(found_.size());
   }
-  if (!kind.empty()) kinds_[kind].at = found_.size();
   if (found_.size() < max_) {
     found_.push_back({file_, line, column, std::move(message)});
   } else {
@@ -134,14 +137,18 @@ void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string messa
 
 void CsvDiagnostics::throw_if_any() {
   if (!any()) return;
-  for (const auto& [kind, further] : kinds_) {
-    if (further.count == 0 || further.at >= found_.size()) continue;
-    const bool all = further.count == further.lines.size();
-    found_[further.at].message +=
-        fmt::format(" (so too in {} further place{}, in line{} {}{})", further.count,
-                    further.count == 1 ? "" : "s", further.count == 1 ? "" : "s",
-                    fmt::join(further.lines, ", "), all ? "" : " …");
+  std::vector<bool> dropped(found_.size(), false);
+  for (const auto& [kind, of] : kinds_) {
+    if (of.count <= most_listed || of.listed.front() >= found_.size()) continue;
+    for (const std::size_t at : of.listed)
+      if (at < found_.size()) dropped[at] = at != of.listed.front();
+    const std::vector<std::size_t> next(of.lines.begin() + 1, of.lines.end());
+    found_[of.listed.front()].message +=
+        fmt::format(" (so too in {} further places, in lines {}{})", of.count - 1,
+                    fmt::join(next, ", "), of.count > of.lines.size() ? " …" : "");
   }
+  std::size_t at = 0;
+  std::erase_if(found_, [&](const Diagnostic&) { return dropped[at++]; });
   std::stable_sort(found_.begin(), found_.end(), [](const Diagnostic& a, const Diagnostic& b) {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });

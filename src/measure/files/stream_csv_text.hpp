@@ -40,8 +40,8 @@ std::string csv_utf8(std::string_view text);
 std::string csv_quoted(std::string_view text);
 
 /// Collects what is wrong with one file; at most `max` places in it are listed, the rest counted.
-/// Of places of one `kind` the first is listed, with how many further lines have the same and where
-/// they begin.
+/// Three places of one `kind` are listed each; of more, the first, with how many there are and the
+/// lines that come next.
 class CsvDiagnostics {
  public:
   CsvDiagnostics(std::string file, std::size_t max) : file_(std::move(file)), max_(max) {}
@@ -55,11 +55,12 @@ class CsvDiagnostics {
   std::string file_;
   std::size_t max_, more_ = 0;
   std::vector<Diagnostic> found_;
-  struct Further {
-    std::size_t at = 0, count = 0;   ///< of the first place in `found_`; lines beside it
+  struct Kind {
+    std::vector<std::size_t> listed;  ///< in `found_`, three at most
+    std::size_t count = 0;
     std::vector<std::size_t> lines;  ///< the first of them
   };
-  std::map<std::string, Further> kinds_;
+  std::map<std::string, Kind> kinds_;
 };
 
 }  // namespace trueaxis
