@@ -71,17 +71,19 @@ char letter_of_effect(const std::string& effect) {
 }
 
 /// Why a finding is no name but part of something unknown: a member of its class shares its axis
-/// with a pattern, or is the third term of one error, which is then no order or degree.
-bool of_unknown(const MachineFinding& finding, std::size_t at, const Found& search) {
+/// with a pattern, or is the third of one error among the classes, which is then no order or
+/// degree.
+bool of_unknown(const MachineFinding& finding, const std::vector<MachineFinding>& all,
+                const Found& search) {
   return std::ranges::any_of(finding.members(), [&](const std::string& member) {
-    std::size_t alike = 1;
-    for (const std::size_t t : search.found) {
-      const Term& other = search.terms[t];
-      if (other.pattern && other.letters.find(letter_of_effect(member)) != std::string::npos)
-        return true;
-      alike += t != at && !other.errors.empty() && other.effect.starts_with(member.substr(0, 4));
-    }
-    return member.front() == 'E' && alike >= 3;
+    for (const std::size_t t : search.found)
+      if (search.terms[t].letters.find(letter_of_effect(member)) != std::string::npos) return true;
+    if (member.front() != 'E') return false;
+    return std::ranges::count_if(all, [&](const MachineFinding& other) {
+             return std::ranges::any_of(other.members(), [&](const std::string& one) {
+               return one.starts_with(member.substr(0, 4));
+             });
+           }) >= 3;
   });
 }
 
@@ -89,15 +91,17 @@ void state_findings(const TipFit& fit, const Found& search, const CalibrationOpt
                     MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
                         static_cast<double>(fit.problem.equations);
+  std::vector<MachineFinding> all;
+  for (std::size_t at = 0; at < search.found.size(); ++at)
+    all.push_back(finding_of(*search.regression, search.terms, search.found, at, search.options));
   for (std::size_t at = 0; at < search.found.size(); ++at) {
-    MachineFinding found =
-        finding_of(*search.regression, search.terms, search.found, at, search.options);
+    MachineFinding found = all[at];
     found.rms_mm *= to_rms;
     out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
     weigh_aliases(fit.problem, search.terms[search.found[at]], found);
     found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
     const bool pattern = search.terms[search.found[at]].pattern;
-    if (!pattern && !of_unknown(found, search.found[at], search)) {
+    if (!pattern && !of_unknown(found, all, search)) {
       out.findings.push_back(std::move(found));
       continue;
     }

@@ -123,7 +123,9 @@ std::vector<std::size_t> PatternScan::best(const MatrixXd& beside, const VectorX
       const double along = eigen.eigenvectors().col(k).dot(right);
       gain += along * along / eigen.eigenvalues()[k];
     }
-    scores.emplace_back(2.0 * static_cast<double>(left.rows()) - gain, e);
+    // Of two alike (orders that the positions alias) the first stands.
+    const double score = 2.0 * static_cast<double>(left.rows()) - gain;
+    scores.emplace_back(std::round(1e5 * score), e);
   }
   std::ranges::sort(scores);
   std::vector<std::size_t> out;

@@ -92,8 +92,7 @@ Json tables(const std::vector<Result>& results) {
     count(kinds[kind], result);
     count(grid[kind][result.made.layout->name], result);
     count(plans[result.made.wanted.plan], result);
-    if (result.made.wanted.kind == Kind::unknown)
-      count(unknowns[what(result)], result);
+    if (result.made.wanted.kind == Kind::unknown) count(unknowns[what(result)], result);
     if (result.outcome != Outcome::correct) wrong.push_back(result.line());
   }
   std::map<std::string, std::vector<double>> calibrated, diagnosed;

@@ -17,7 +17,8 @@ const std::string machine = data + "trunnion_ac.toml", ball = data + "trunnion_a
 json diagnosed(const std::string& more = "") {
   const auto folder = fresh_folder("machine_diagnosis");
   const std::string out = (folder / "diagnosis.json").string();
-  const auto ran = trueaxis_command("diagnose " + ball + " --machine " + machine + " --json " + out + more);
+  const auto ran =
+      trueaxis_command("diagnose " + ball + " --machine " + machine + " --json " + out + more);
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   return read_json(out);
 }
@@ -39,7 +40,8 @@ TEST(MachineDiagnosisCommand, HasTheKeysOfADiagnosis) {
   const std::string at = folder.string();
   auto ran = trueaxis_command("simulate " + at + "/part.toml -o " + at + "/part.csv");
   ASSERT_EQ(ran.exit_code, 0) << ran.output;
-  ran = trueaxis_command("diagnose " + at + "/part.csv --surface cylinder --json " + at + "/part.json");
+  ran = trueaxis_command("diagnose " + at + "/part.csv --surface cylinder --json " + at +
+                         "/part.json");
   ASSERT_EQ(ran.exit_code, 0) << ran.output;
   const json of_surface = read_json(folder / "part.json"), of_machine = diagnosed();
   const auto expect_keys = [](const json& from, const json& in, std::set<std::string> less) {
@@ -100,7 +102,8 @@ TEST(MachineDiagnosisCommand, AdvisesBeforeAnyDataAndAfter) {
 
 TEST(MachineDiagnosisCommand, RefusesWhatIsOfTheOther) {
   EXPECT_EQ(trueaxis_command("advise").exit_code, 2);
-  EXPECT_EQ(trueaxis_command("advise " + ball + " --surface cone --machine " + machine).exit_code, 2);
+  EXPECT_EQ(trueaxis_command("advise " + ball + " --surface cone --machine " + machine).exit_code,
+            2);
   EXPECT_EQ(trueaxis_command("diagnose " + ball + " --surface cone --program p.nc").exit_code, 2);
   const auto ran =
       trueaxis_command("diagnose " + ball + " --machine " + machine + " --program " + machine);
@@ -115,10 +118,11 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
   for (std::size_t at; (at = text.find("[um]")) != std::string::npos;) text.replace(at, 4, "[mm]");
   write_text(folder / "ball.csv", text);
   const std::string at = folder.string();
-  const auto ran = trueaxis_command("diagnose " + at + "/ball.csv --machine " + machine + " --json " +
-                                    at + "/out.json -o " + at + "/errors.toml");
+  const auto ran = trueaxis_command("diagnose " + at + "/ball.csv --machine " + machine +
+                                    " --json " + at + "/out.json -o " + at + "/errors.toml");
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
-  EXPECT_NE(ran.output.find("no machine is so far from its model"), std::string::npos) << ran.output;
+  EXPECT_NE(ran.output.find("no machine is so far from its model"), std::string::npos)
+      << ran.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "errors.toml"));
 }

@@ -155,7 +155,7 @@ TEST(DiagnoseMachineLaw, CallsTheUnknownUnknown) {
   print(found);
   EXPECT_EQ(found.verdict, MachineVerdict::unexplained);
   ASSERT_FALSE(found.unexplained.empty());
-  EXPECT_EQ(found.unexplained.front().pattern, "machine X: harmonic 5 of C");
+  EXPECT_EQ(found.unexplained.front().pattern, "EXC: harmonic 5 of C");
   EXPECT_TRUE(found.findings.empty());
 }
 
