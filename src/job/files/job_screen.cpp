@@ -71,7 +71,6 @@ std::string next_screen(const JobResult& result) {
 
 std::string job_screen(const JobResult& result) {
   std::string text = result.verdict.line + "\n";
-  if (!result.verdict.moved.empty()) text += "moved  " + result.verdict.moved + "\n";
   for (const std::string& reservation : result.verdict.reservations)
     text += "but    " + reservation + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
