@@ -21,8 +21,8 @@ class Profile {
   /// @throws Refusal where the tool's line or nose does not meet the target surface.
   double at(double c_rad, double position_mm) const;
 
-  /// Where the centre of the nose is programmed: X for the surface about the spindle axis at Z, of a
-  /// face Z for the face at X.
+  /// Where the centre of the nose is programmed: X for the surface about the spindle axis at Z, of
+  /// a face Z for the face at X.
   double programmed_mm(double position_mm) const;
 
   /// Where the programmed path of the nose's centre starts and ends: the contact with the surface
