@@ -64,6 +64,16 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   out.blocks = after.blocks;
 }
 
+/// Of a machine that warmed up while it was measured, errors of axes beside a course in time may
+/// be part of that course: they are no errors of the machine as it stands, and are not written.
+void leave_out_what_warms(Found& search) {
+  const bool warms = std::ranges::any_of(search.found, [&](std::size_t t) {
+    return search.terms[t].letters.find('t') != std::string::npos;
+  });
+  if (!warms) return;
+  for (const std::size_t t : search.found) search.terms[t].errors.clear();
+}
+
 /// The axis of an effect by its letter; t of drifts and slips.
 char letter_of_effect(const std::string& effect) {
   if (effect.starts_with("reversal.")) return effect.back();
@@ -163,7 +173,8 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
     return file.kind != MeasurementKind::axis && file.time_s.empty();
   });
   const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
-  const Found found = find_terms(*fit, geometry, options, timed);
+  Found found = find_terms(*fit, geometry, options, timed);
+  leave_out_what_warms(found);
   out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
   out.threshold = found.options.single_level();
   fit_jointly(*fit, found, out);
