@@ -48,11 +48,13 @@ std::string quoted_path(const std::string& path) {
                          const RecordingOptions& options, std::vector<std::string> unclear,
                          bool convention_said) {
   std::vector<Diagnostic> diagnostics;
+  const std::size_t unclear_count = unclear.size();
   for (std::string& why : unclear) diagnostics.push_back({path, 0, 0, std::move(why)});
   diagnostics.push_back(
       {path, 0, 0, "was read as " + recording.producer + " with the columns " + listed(recording)});
+  const bool only_convention = !convention_said && unclear_count == 1;
   const std::string columns =
-      options.columns.empty() ? columns_suggested(recording) : options.columns;
+      only_convention && !options.columns.empty() ? options.columns : columns_suggested(recording);
   diagnostics.push_back(
       {path, 0, 0,
        fmt::format("the command that would read it: trueaxis import {} --columns \"{}\"{}{} -o "
@@ -138,6 +140,8 @@ bool is_own_header(const RecordedText& text) {
 
 ImportedRecording import_recording(const std::string& path, const RecordingOptions& options) {
   const std::string bytes = read_file(path);
+  if (bytes.starts_with("PK\x03\x04"))
+    throw InputError(path, "is a workbook or another packed file: save its sheet as CSV");
   const RecordedText text(bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
