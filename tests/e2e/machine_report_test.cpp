@@ -70,7 +70,8 @@ TEST_F(MachineReportPage, FindingsWithRivalsAndTheUnexplained) {
   found.separate_with = "L2";
   found.rivals = {{"EYC.harmonic2", 1.0, 2.0, 0.3}, {"drift.Z", 1.0, 2.0, 0.1}};
   result.diagnosis.findings.push_back(found);
-  result.diagnosis.unexplained.push_back({"order 5 of C along X", {0.004, 0.0005, "mm", ""}, 1e-4});
+  result.diagnosis.unexplained.push_back(
+      {"order 5 of C along X", {0.004, 0.0005, "mm", ""}, 1e-4, {}, {}});
   result.verdict.reservations = {"reversal.C is not told from EYC.harmonic2"};
   result.verdict.decision = Decision::go_with_reservations;
   expect_sound_page(result, "machine_rivals");
