@@ -92,6 +92,8 @@ int execute(const Options& options) {
   Outputs outputs(options.force);
   outputs.reads(path);
   for (const JobReference& reference : job.references) outputs.reads(reference.stream);
+  for (const ControlTable& output : job.outputs)
+    if (!output.template_path.empty()) outputs.reads(output.template_path);
   outputs.into(options.folder);
   for (const ResultName& file : job_file_names(job))
     outputs.may_write_in_folder(file.name, file.schema);

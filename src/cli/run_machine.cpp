@@ -11,6 +11,8 @@
 #include "job/machine/files/machine_job_results.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "report/machine_report.hpp"
+#include "trueaxis/calibration.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -57,6 +59,12 @@ int run_machine(MachineJob job, const std::string& folder, bool force) {
   Outputs outputs(force);
   prepare(outputs, job, folder, force);
   const MachineJobResult result = run_machine_job(std::move(job));
+  CalibrationOptions known;
+  known.errors = result.job.known;
+  if (const std::string mistake =
+          likely_mistake(result.job.machine, result.job.data, known, result.diagnosis.baseline);
+      !mistake.empty())
+    throw Refusal(mistake);
   if (!result.diagnosis.baseline.converged) {
     std::cerr << result.job.data.front().source
               << ": not converged: " << result.diagnosis.baseline.message << '\n';

@@ -33,7 +33,8 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
   options.surface = SurfaceKind::cone;
   const FitResult cone = fit(stream, options);
   if (cone.status != FitStatus::converged)
-    return {SurfaceKind::cylinder, "taken for a cylinder: no cone meets the readings"};
+    return {SurfaceKind::cylinder,
+            "taken for a cylinder: no taper is seen; say --surface cone if it is one"};
   const Estimate& half_angle = cone.parameter("half_angle");
   const double taper = std::abs(cone.shape.tan_half_angle);
   const bool tapers = taper > least_taper && half_angle.determined() &&

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "measure/files/stream_csv_text.hpp"
+#include "recording/column_names.hpp"
 #include "recording/instant.hpp"
 #include "recording/recording.hpp"
 
@@ -63,6 +64,19 @@ bool unwrap_degrees(std::vector<Sample>& samples) {
   return any;
 }
 
+/// Of an angle that was made to run on: steps of a third of a turn may have been two thirds.
+void refuse_long_steps(const std::string& name, const std::vector<Sample>& samples, bool runs_on,
+                       Recording& out) {
+  if (!runs_on) return;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (std::abs(samples[i].value - samples[i - 1].value) <= 120.0) continue;
+    out.wrong.push_back({"", samples[i].line, 0,
+                         name + " goes on by more than 120° between two samples, so that its sense "
+                                "is not sure: record it more often"});
+    return;
+  }
+}
+
 }  // namespace
 
 bool read_camonitor(const RecordedText& text, Recording& out) {
@@ -74,13 +88,23 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
     (read_sample(line, i + 1, channels) ? samples : others) += 1;
   }
   if (samples < 4 || others > samples / 10) return false;
-  const auto fastest = std::ranges::max_element(
-      channels, {}, [](const auto& channel) { return channel.second.size(); });
+  // The readings are never interpolated: what lies between two of them is not known.
+  const auto reading = std::ranges::find_if(channels, [](const auto& channel) {
+    const auto named = role_of_name(channel.first);
+    return named && (named->role == RecordedRole::x || named->role == RecordedRole::face);
+  });
+  const auto fastest = reading != channels.end()
+                           ? reading
+                           : std::ranges::max_element(channels, {}, [](const auto& channel) {
+                               return channel.second.size();
+                             });
   std::string joined;
   for (auto& [name, of] : channels) {
     std::ranges::stable_sort(of, {}, &Sample::time_s);
     if (&of != &fastest->second) joined += (joined.empty() ? "" : ", ") + name;
-    if (unwrap_degrees(of))
+    const bool runs_on = unwrap_degrees(of);
+    refuse_long_steps(name, of, runs_on, out);
+    if (runs_on)
       out.notes.push_back(name + " jumps by a turn: taken as an angle in degrees that runs on");
     out.columns.push_back({name, "", name, true});
   }

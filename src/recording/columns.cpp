@@ -49,12 +49,13 @@ void take_unit(const Recording& recording, TakenColumn& taken,
     }
   } else {
     unclear.push_back(
-        fmt::format("{} has the unit {}, which is none of {}: write {}={}[{}] in --columns",
+        fmt::format("{} has the unit {}, which is none of {}: convert the column, or say "
+                    "its true unit behind its number, as in {}={}[…]",
                     described(recording, taken.column), csv_quoted(unit),
                     taken.role == RecordedRole::c   ? "deg, rad and rev"
                     : taken.role == RecordedRole::t ? "s and ms"
                                                     : "mm, um, m and in",
-                    word_of(taken.role), taken.column + 1, default_unit(taken.role)));
+                    word_of(taken.role), taken.column + 1));
   }
 }
 

@@ -147,7 +147,10 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
   const Recording recording = recognise(text, path, options.skip);
   std::vector<std::string> unclear;
-  if (said.items.empty()) expect_named(recording, unclear);
+  if (said.items.empty()) {
+    unclear = recording.unclear;
+    expect_named(recording, unclear);
+  }
   std::vector<TakenColumn> taken = take_columns(recording, said, unclear);
   const auto x = std::ranges::find(taken, RecordedRole::x, &TakenColumn::role);
   const bool points = std::ranges::find(taken, RecordedRole::y, &TakenColumn::role) != taken.end();
@@ -181,7 +184,11 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
       recording.metadata,
       [](const std::string& line) { return line.find("x_convention") != std::string::npos; });
   if (!*diameter && !convention_stated) out.text += "# x_convention: radius\n";
-  for (const std::string& line : recording.metadata) out.text += line + "\n";
+  if (options.read.indication == Indication::relative) out.text += "# reading: relative\n";
+  if (options.read.nominal_radius_mm)
+    out.text += fmt::format("# nominal_radius: {} mm\n", *options.read.nominal_radius_mm);
+  for (const std::string& line : recording.metadata)
+    if (line.find("schema:") == std::string::npos) out.text += line + "\n";
   out.text += rows.header + "\n";
   const auto head = static_cast<std::size_t>(std::ranges::count(out.text, '\n'));
   for (const std::string& row : rows.rows) out.text += row + "\n";
@@ -202,7 +209,10 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error)) throw;
     const std::string bytes = read_file(path);
-    if (schema_in(bytes.substr(0, 200)) != "" || is_own_header(RecordedText(bytes))) throw;
+    const RecordedText text(bytes);
+    Recording table;  // of our own names with decimal commas, as a spreadsheet saves a stream
+    const bool commas = read_table(text, 0, table) && table.decimal == ',';
+    if (!schema_in(bytes.substr(0, 200)).empty() || (is_own_header(text) && !commas)) throw;
   }
   return import_recording(path, options).stream;
 }

@@ -41,6 +41,7 @@ struct Recording {
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
   std::deque<std::string> made;       ///< text of cells that stand in no file
+  std::vector<std::string> unclear;   ///< what a caller must say with the columns, in sentences
   std::vector<Diagnostic> wrong;      ///< rows that do not fit; no file named
 
   std::size_t rows() const { return lines.size(); }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 
@@ -116,6 +117,18 @@ bool is_unit_row(const std::vector<std::string_view>& fields) {
   return any;
 }
 
+/// A title that says a unit or a convention of the whole table must not be passed over.
+void note_convention(std::string_view line, Recording& out) {
+  std::string small;
+  for (const char c : line) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* word : {"inch", "diameter", "durchmesser", "radius", "unit", "einheit"}) {
+    if (small.find(word) == std::string::npos) continue;
+    out.unclear.push_back("a line above the table says " + csv_quoted(line) +
+                          ": say in --columns what the columns are, with their units");
+    return;
+  }
+}
+
 /// Names and units of the columns from the lines above the first row.
 void read_names(const RecordedText& text, std::size_t skip, std::size_t first, const Layout& layout,
                 Recording& out) {
@@ -142,6 +155,9 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
     if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '('))
       unit = csv_trimmed(unit.substr(1, unit.size() - 2));
     if (out.columns[k].unit.empty()) out.columns[k].unit = unit;
+    if (!unit.empty() && unit != out.columns[k].unit)
+      out.unclear.push_back(csv_quoted(out.columns[k].whole) + " has the unit " + csv_quoted(unit) +
+                            " below it: correct one of them");
   }
   std::string titles;
   for (std::size_t i = skip; i < names.value_or(first); ++i) {
@@ -151,6 +167,7 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
     } else if (line.find_first_not_of(";,\t |\"") != std::string_view::npos &&
                !line.starts_with("sep=")) {
       titles += (titles.empty() ? "" : ", ") + csv_quoted(line);
+      note_convention(line, out);
     }
   }
   if (!titles.empty()) out.notes.push_back("lines above the table are passed over: " + titles);
@@ -204,10 +221,16 @@ bool read_table(const RecordedText& text, std::size_t skip, Recording& out) {
   read_names(text, skip, first, *layout, out);
   const std::size_t columns = out.columns.size();
   std::size_t missing = 0;
+  bool after_gap = false;
   for (std::size_t i = first; i < text.lines.size(); ++i) {
     const std::string_view line = csv_trimmed(text.lines[i]);
-    if (line.find_first_not_of(";,\t |\"") == std::string_view::npos) continue;
-    if (is_comment(line)) {
+    if (line.find_first_not_of(";,\t |\"") == std::string_view::npos) {
+      after_gap = true;
+      continue;
+    }
+    split(text.lines[i], layout->separator, fields);
+    // "#DIV/0!;12,5;…" is a row of a spreadsheet, no comment.
+    if (is_comment(line) && (layout->separator == ' ' || fields.size() < columns)) {
       out.metadata.emplace_back(line);
       continue;
     }
@@ -215,7 +238,9 @@ bool read_table(const RecordedText& text, std::size_t skip, Recording& out) {
       ++missing;
       continue;
     }
-    split(text.lines[i], layout->separator, fields);
+    if (after_gap && !out.lines.empty())
+      out.notes.push_back(fmt::format("the table goes on behind empty lines, in line {}", i + 1));
+    after_gap = false;
     if (std::any_of(fields.begin() + static_cast<std::ptrdiff_t>(std::min(columns, fields.size())),
                     fields.end(), [](std::string_view field) { return !field.empty(); }))
       out.wrong.push_back(

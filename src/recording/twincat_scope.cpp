@@ -34,13 +34,17 @@ std::optional<std::int64_t> ticks_in(std::string_view field) {
   return error == std::errc{} && stop == end ? std::optional(ticks) : std::nullopt;
 }
 
-/// The number in a field of a keyed row, `otherwise` where the row or the field is not there.
+/// The number in a field of a keyed row, `otherwise` where the row or the field is not there; with
+/// a decimal comma or a point, whatever the samples have. What is no number goes to `wrong`.
 double keyed_number(const std::map<std::string, std::vector<std::string_view>>& keyed,
-                    const std::string& key, std::size_t at, char decimal, double otherwise) {
+                    const std::string& key, std::size_t at, double otherwise, Recording& out) {
   const auto row = keyed.find(key);
+  if (row == keyed.end() || at >= row->second.size() || row->second[at].empty()) return otherwise;
   double value = 0.0;
-  if (row == keyed.end() || at >= row->second.size()) return otherwise;
-  return recorded_number(row->second[at], decimal, value) ? value : otherwise;
+  for (const char decimal : {'.', ','})
+    if (recorded_number(row->second[at], decimal, value)) return value;
+  out.wrong.push_back({"", 0, 0, key + " " + csv_quoted(row->second[at]) + " is not a number"});
+  return otherwise;
 }
 
 }  // namespace
@@ -79,6 +83,11 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
     column.is_number = true;
     out.columns.push_back(std::move(column));
   }
+  std::vector<double> scales(columns, 1.0), offsets(columns, 0.0);
+  for (std::size_t k = 1; k < columns; ++k) {
+    scales[k] = keyed_number(keyed, "ScaleFactor", k, 1.0, out);
+    offsets[k] = keyed_number(keyed, "Offset", k, 0.0, out);
+  }
   std::int64_t start_ticks = 0;
   for (std::size_t i = first; i < text.lines.size(); ++i) {
     auto fields = fields_of(text.lines[i]);
@@ -94,8 +103,7 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
     out.cells.push_back(out.made.emplace_back(
         fmt::format("{:.17g}", static_cast<double>(*ticks - start_ticks) * s_per_tick)));
     for (std::size_t k = 1; k < columns; ++k) {
-      const double scale = keyed_number(keyed, "ScaleFactor", k, out.decimal, 1.0);
-      const double offset = keyed_number(keyed, "Offset", k, out.decimal, 0.0);
+      const double scale = scales[k], offset = offsets[k];
       double value = 0.0;
       const bool number = recorded_number(fields[k], out.decimal, value);
       out.cells.push_back(

@@ -59,6 +59,10 @@ bool read_words(const RecordedText& text, Recording& out) {
     const std::vector<Word> words = words_of(line);
     if (words.size() < 2) {
       if (others++ == 0) first_other = csv_quoted(line);
+      if (line == "G20" || line.find("INCH") != std::string_view::npos ||
+          line.find("DIAMETER") != std::string_view::npos)
+        out.unclear.push_back("a line says " + csv_quoted(line) +
+                              ": say in --columns what the columns are, with their units");
       continue;
     }
     if (letters.empty())

@@ -24,10 +24,14 @@ TEST_P(BadStreamCommand, EveryDiagnosticAndNoFile) {
   fs::copy_file(bad_streams / GetParam(), folder_ / GetParam());
   const std::string expected = read_text((bad_streams / GetParam()).replace_extension(".expected"));
   const char* surface = GetParam().starts_with("face") ? "plane" : "cone";
+  // Without the names of a stream it is taken for another program's table, and its columns asked
+  // for.
+  const bool asked = GetParam() == "header_missing.csv" || GetParam() == "reading_missing.csv";
+  const std::string said = asked ? "the command that would read it: trueaxis import" : expected;
   expect_input_error("fit " + GetParam() + " --json f.json --residuals r.csv --surface " + surface,
-                     expected);
+                     said);
   file("job.toml", simple_job("stream = \"" + GetParam() + "\"\nsurface = \"" + surface + "\"\n"));
-  expect_input_error("run job.toml -o out", expected);
+  expect_input_error("run job.toml -o out", said);
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, BadStreamCommand, ::testing::ValuesIn(bad_cases()),

@@ -34,7 +34,7 @@ TEST_F(LibraryAndCommand, DecideTheShippedJobsAlike) {
   const std::filesystem::path jobs = std::filesystem::path(TRUEAXIS_SOURCE) / "data/jobs";
   std::size_t count = 0;
   for (const std::string& name : files_in(jobs)) {
-    if (!name.ends_with(".toml")) continue;
+    if (!name.ends_with(".toml") || contains(read_text(jobs / name), "\n[machine]")) continue;
     SCOPED_TRACE(name);
     expect_same(jobs / name);
     ++count;

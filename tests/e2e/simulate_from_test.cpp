@@ -170,8 +170,8 @@ TEST_F(SimulateFrom, UsageErrors) {
   for (const char* arguments :
        {"simulate --from d.json", "simulate s.toml --from d.json -o s.csv",
         "simulate --from d.json --compare -o s.csv", "simulate s.toml --before -o s.csv",
-        "simulate s.toml --compare", "simulate s.toml --json c.json -o s.csv",
-        "simulate s.toml --diameter -o s.csv", "simulate --from d.json --table t.csv -o s.csv",
+        "simulate s.toml --compare", "simulate s.toml --diameter -o s.csv",
+        "simulate --from d.json --table t.csv -o s.csv",
         "simulate --from d.json --truth t.json --compare",
         "simulate --from d.json --json - -o -"}) {
     const CommandStreams done = command(arguments);

@@ -284,6 +284,42 @@ TEST_F(RecordingFormats, ARowOfMoreFieldsIsNotCut) {
       << message;
 }
 
+TEST_F(RecordingFormats, RowsOfErrorValuesAreNoComments) {
+  const std::string message = what_is_said(put("Radius;C;Z\n40,5;0;1\n#DIV/0!;90;2\n40,5;180;2\n"));
+  EXPECT_NE(message.find(":3:1: X: '#DIV/0!' is not a number"), std::string::npos) << message;
+}
+
+TEST_F(RecordingFormats, ATitleThatSaysInchIsNotPassedOver) {
+  const std::string message = what_is_said(put("Units: inch\nRadius;C;Z\n40,5;0;1\n40,5;90;2\n"));
+  EXPECT_NE(message.find("a line above the table says 'Units: inch'"), std::string::npos)
+      << message;
+}
+
+TEST_F(RecordingFormats, AGaugeStaysAGaugeInTheStreamThatIsWritten) {
+  RecordingOptions options = said("", false);
+  options.read.indication = Indication::relative;
+  options.read.nominal_radius_mm = 20.0;
+  const ImportedRecording imported =
+      import_recording(put("X;C;Z\n0,5;0;1\n0,4;90;2\n0,6;180;2\n"), options);
+  const std::string clean = (folder_ / "stream.csv").string();
+  std::ofstream(clean, std::ios::binary) << imported.text;
+  const ProbeStream again = read_stream_csv(clean);
+  EXPECT_EQ(again.indication, Indication::relative);
+  EXPECT_EQ(again.nominal_radius_mm, 20.0);
+}
+
+// Samples that are whole numbers say nothing of the decimal mark of their scale.
+TEST_F(RecordingFormats, AScaleWithADecimalCommaIsReadBesideWholeNumbers) {
+  const ProbeStream stream = read_recording(
+      put("Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
+          "ScaleFactor;0,001;0,1;1;\nOffset;0;0;0;\n10000000;40500;0;1;\n20000000;40600;900;2;\n"
+          "30000000;40700;1800;3;\n"),
+      said("X=X,C=C,Z=Z,t=1", false));
+  ASSERT_EQ(stream.size(), 3U);
+  EXPECT_NEAR(stream.reading_mm[1], 40.6, 1e-12);
+  EXPECT_NEAR(stream.c_rad[2] * deg_per_rad, 180.0, 1e-9);
+}
+
 TEST_F(RecordingFormats, AStreamOfItsOwnKeepsItsMessages) {
   const std::string message = what_is_said(put("X_M[mm],C[deg],Z[mm]\n40,0,1\n41,abc,2\n"));
   EXPECT_NE(message.find(":3:4: C: 'abc' is not a number"), std::string::npos) << message;

@@ -26,6 +26,11 @@ double largest_between_mm(const Correction& correction, const Profile& profile) 
   return largest;
 }
 
+/// Seven digits, without an exponent.
+std::string feed_word(double f) {
+  return fmt::format(" F{:.{}f}", f, std::max(6, 6 - static_cast<int>(std::floor(std::log10(f)))));
+}
+
 Profile profile_of(const Correction& c) { return {c.axis.axis, c.target, c.tool, c.motions}; }
 
 }  // namespace
@@ -63,7 +68,7 @@ MadeControlTable servo_nc(const Correction& correction, const ControlTable& tabl
       table.minutes ? "MINUTES A BLOCK" : "BLOCKS A MINUTE");
   text += table.head;
   put(text, "G93\n");
-  const std::string feed = fmt::format(" F{:.6f}", table.minutes ? minutes : 1.0 / minutes);
+  const std::string feed = feed_word(table.minutes ? minutes : 1.0 / minutes);
   for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
     const double along = rows.position_mm[i];
     const double programmed = profile.programmed_mm(along) + rows.wanted_mm[i];

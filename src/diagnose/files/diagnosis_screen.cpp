@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/seen.hpp"
@@ -67,7 +68,12 @@ std::string diagnosis_screen(const Diagnosis& d) {
   std::string text = line("", verdict_line(d));
   for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
   text += findings_screen(d, most_findings) + axis_screen(d.extended);
-  if (d.verdict == DiagnosisVerdict::ideal) return text + "next   nothing: the axis may be used\n";
+  for (const QualityCheck& check : d.checks)
+    if (check.found) text += line("check  ", check.text + " [" + check.effect + "]");
+  const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));
+  if (d.verdict == DiagnosisVerdict::ideal)
+    return text + (sure ? "next   nothing: the axis may be used\n"
+                        : "next   probe more: these readings give the axis no uncertainty\n");
   if (!d.next.plan.empty())
     text += line("next   ",
                  fmt::format("{}: {:.0f} min, and the right cause is told with a chance of {} "

@@ -42,8 +42,9 @@ std::string rejected_text(const FitResult& result) {
                      fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
 }
 
-/// For those without a servo: where the part stands out towards the probe, at the end that is
-/// farther off, and how far to tap it there. The run-out is twice the distance of the axis.
+/// For those without a servo: at which C the part stands out towards the probe, at the end that is
+/// farther off, and how far to tap it there. The run-out is twice the distance of the axis; a probe
+/// behind meets what stands out half a turn later.
 std::string tap_screen(const FitResult& fit) {
   double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
@@ -55,9 +56,12 @@ std::string tap_screen(const FitResult& fit) {
     towards_rad = std::atan2(at[1], at[0]);
   }
   if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return "";
-  const double c_deg = std::fmod(towards_rad / rad_per_deg + 360.0, 360.0);
+  const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
+  const double c_deg = std::fmod(towards_rad / rad_per_deg + (rear ? 540.0 : 360.0), 360.0);
   return fmt::format(
-      "tap    run-out {} at Z {:.6g} mm, high spot at the probe at C = {:.0f}°: tap there by {}\n",
+      "tap    run-out {} at Z {:.6g} mm: at C = {:.0f}° the part stands out towards the probe; tap "
+      "it "
+      "there from outside by {}\n",
       um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
 }
 
@@ -71,9 +75,10 @@ std::string axis_screen(const FitResult& fit) {
     const auto at = fit.axis.axis.at(z);
     const double U_um = fit.coverage_factor * fit.axis.u_at(z) / mm_per_um;
     const int decimals = decimals_of(U_um, 0);
-    text += fmt::format("{}x {:.{}f} µm, y {:.{}f} µm, U {:.{}f} µm",
-                        text.empty() ? "axis   " : "       ", at[0] / mm_per_um, decimals,
-                        at[1] / mm_per_um, decimals, U_um, decimals);
+    text += fmt::format(
+        "{}x {:.{}f} µm, y {:.{}f} µm, {}", text.empty() ? "axis   " : "       ", at[0] / mm_per_um,
+        decimals, at[1] / mm_per_um, decimals,
+        std::isfinite(U_um) ? fmt::format("U {:.{}f} µm", U_um, decimals) : "U not determined");
     if (fit.position_min_mm == fit.position_max_mm) {
       text += "\n";
       break;
@@ -87,7 +92,10 @@ std::string fit_screen(const FitResult& result) {
   std::string text =
       fmt::format("{} of {}: {} readings, residuals {} RMS{}\n", to_string(result.surface),
                   result.source, result.points, um(result.rms_mm), rejected_text(result));
-  if (result.status != FitStatus::converged) return text + result.message + "\n";
+  if (result.status != FitStatus::converged) {
+    for (const std::string& note : result.input_notes) text += "input  " + note + "\n";
+    return text + "why    " + result.message + "\n";
+  }
   text += axis_screen(result);
   if (result.surface == SurfaceKind::cone) {
     text += parameter_line(result, "radius_mid", "radius") +

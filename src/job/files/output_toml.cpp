@@ -25,6 +25,7 @@ void read_template(TomlTable& table, ControlTable& out) {
     out.tail = "M30\n";
     return;
   }
+  out.template_path = *path;
   constexpr std::string_view place = "( CUTTING BLOCK )";
   std::string text;
   try {
