@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -80,6 +81,16 @@ void expect_named(const Recording& recording, std::vector<std::string>& unclear)
                   "marks and separators, "
                   "export the table with semicolons",
                   recording.columns.size(), named));
+}
+
+/// What `# x_convention` of the file says, as a stream of our own has it.
+std::optional<bool> convention_in(const std::vector<std::string>& metadata) {
+  for (const std::string& line : metadata) {
+    if (line.find("x_convention") == std::string::npos) continue;
+    if (line.find("diameter") != std::string::npos) return true;
+    if (line.find("radius") != std::string::npos) return false;
+  }
+  return {};
 }
 
 /// How the columns were read, said.
@@ -160,6 +171,7 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
                       " by its name and a " + (*diameter ? "radius" : "diameter") +
                       " for the caller: correct one");
   if (!diameter) diameter = options.read.diameter;
+  if (!diameter) diameter = convention_in(recording.metadata);
   if (!diameter && points) diameter = false;
   if (!diameter && x != taken.end())
     unclear.emplace_back(
