@@ -80,11 +80,29 @@ std::string rivals_text(const MachineFinding& found, const MachineDiagnosis& dia
 
 }  // namespace
 
+namespace {
+
+/// Where the part stands as a whole has six numbers, which the errors of three points and fewer,
+/// nine numbers and fewer, are nearly taken up by: what is left of them says nothing.
+std::string too_few_cuts(const ProgramCompensation& compensation) {
+  constexpr std::ptrdiff_t fewest = 4;
+  const auto cuts =
+      std::ranges::count_if(compensation.ends, [](const ProgramEnd& end) { return !end.rapid; });
+  return cuts >= fewest ? std::string()
+                        : fmt::format(
+                              "the program has {} cutting moves, of which nothing is left "
+                              "beside where the part stands; {} are the fewest",
+                              cuts, fewest);
+}
+
+}  // namespace
+
 std::string machine_objection(const MachineJobResult& result) {
   const Calibration& base = result.diagnosis.baseline;
   if (!base.converged) return "the errors were not found: " + base.message;
   if (!result.implausible.empty()) return result.implausible;
-  if (!result.compensation || result.compensation->unreachable.empty()) return "";
+  if (!result.compensation) return "";
+  if (result.compensation->unreachable.empty()) return too_few_cuts(*result.compensation);
   const auto& blocks = result.compensation->unreachable;
   return fmt::format("{} of the program's blocks cannot be reached, the first in line {}: {}",
                      blocks.size(), blocks.front().line, blocks.front().why);
