@@ -15,6 +15,7 @@ constexpr double ends_of_range = 3.92;  // widths of a normal law that hold 95 %
 constexpr double least_spread = 0.7;    // of ln: no range of a handbook is sharper than that
 constexpr double open_end = 0.05;       // share of the upper end where a range begins at 0
 constexpr double absorbed = 1e-9;       // share of a column below which nothing is left
+constexpr double far = 3.0;             // spreads: sizes beyond are extraordinary
 
 /// Scales in spreads about the median, and their weights: log-normal, with a tail that lets an
 /// extraordinary part be what it is.
@@ -144,6 +145,9 @@ Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::
   const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
   out.mean = back * mean;
   out.possible = prior.allows(out.mean);
+  const Eigen::VectorXd most = prior.scale(far);
+  for (Eigen::Index j = 0; j < n; ++j)
+    out.extraordinary |= most(j) > 0.0 && std::abs(out.mean(j)) > most(j);
   out.covariance = back * spread * back.transpose();
   out.precision = Eigen::VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j)

@@ -29,6 +29,7 @@ struct Weighed {
   Eigen::MatrixXd covariance;  ///< of them
   Eigen::VectorXd precision;   ///< what the prior adds to the normal matrix where it is largest
   bool possible = true;        ///< whether the mean is within what the sizes may be
+  bool extraordinary = false;  ///< whether it is beyond three spreads: 1 of 700 is
 };
 
 /// Marginal likelihood and moments of a term's coefficients over the mixture of scales (Eq. 80).

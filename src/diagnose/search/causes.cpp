@@ -202,6 +202,15 @@ std::vector<Hypothesis> causes_of_order(const Problem& problem, int order) {
   return list;
 }
 
+Extent dates_of_steps(const LinearisationPoint& point) {
+  const std::size_t size = point.size();
+  const std::size_t first = std::min(least_beside_step, size / 2), last = size - first;
+  const auto before = [&](std::size_t k) {
+    return k == 0 ? point.time[0] : 0.5 * (point.time[k - 1] + point.time[k]);
+  };
+  return {before(first), before(last)};
+}
+
 std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint& point,
                                    double step) {
   std::vector<Hypothesis> list;
@@ -225,7 +234,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
   if (!h.effect->refinement) return list;
   const Refinement& r = *h.effect->refinement;
   if (r.reader && std::ranges::find(h.free, *r.reader) == h.free.end()) return list;
-  const Extent time = range_of(point.time);
+  const Extent time = range_of(point.time), dates = dates_of_steps(point);
   vary([&](Hypothesis& o, double d) {
     double& value = o.shape.*r.parameter;
     switch (r.by) {
@@ -236,7 +245,7 @@ std::vector<Hypothesis> neighbours(const Hypothesis& h, const LinearisationPoint
         value = std::clamp(value + r.range * d, r.low, r.high);
         break;
       case Refinement::By::duration:
-        value = std::clamp(value + d * time.length(), time.low, time.high);
+        value = std::clamp(value + d * time.length(), dates.low, dates.high);
         break;
       case Refinement::By::lever: {
         // The envelope 1 + u κ, κ = half length / (middle − bearing).

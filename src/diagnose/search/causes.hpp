@@ -26,6 +26,12 @@ TermShape typical_shape(const Effect& effect, const LinearisationPoint& point);
 /// A value of a parameter of the shape in its own unit.
 double value_in(ShapeValues::In in, double value, const LinearisationPoint& point);
 
+/// Readings on either side of a step: of fewer, it would be two outliers that its size explains.
+constexpr std::size_t least_beside_step = 8;
+
+/// Times between which a step may lie; of so few readings that none may, their middle.
+Extent dates_of_steps(const LinearisationPoint& point);
+
 constexpr double least_swing_mm = 0.02;  ///< sensed: below it no period of the scale is seen
 constexpr double least_tangent = 1e-3;   ///< of the half angle: below it a cone is a cylinder
 

@@ -21,11 +21,12 @@ std::vector<Candidate> judge(const NormalEquations& equations, const Solution& t
   std::vector<Candidate> out;
   for (std::size_t h = 0; h < list.size(); ++h) {
     const Score s = score(projection, places[h]);
-    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0, true, projection.rss, freedom};
+    Candidate c{list[h], s.gain, s.rank, 0.0, 0.0, true, false, projection.rss, freedom};
     if (s.rank > 0) {
       const Weighed weighed = weigh(list[h], projection, places[h], equations.count());
       c.criterion = weighed.criterion + choice_of(list[h], weighed.mean);
       c.possible = weighed.possible;
+      c.extraordinary = weighed.extraordinary;
     }
     out.push_back(std::move(c));
   }

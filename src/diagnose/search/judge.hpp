@@ -16,6 +16,7 @@ struct Candidate {
   double log_p = 0.0;               ///< ln of its own p-value, of a proposal
   double criterion = 0.0;           ///< change of the extended BIC; negative is better
   bool possible = true;             ///< whether its sizes are
+  bool extraordinary = false;       ///< whether they are beyond what is plausible
   double rss = 0.0, freedom = 0.0;  ///< what is left without it
 };
 

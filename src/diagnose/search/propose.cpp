@@ -169,11 +169,16 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
   const bool of_means =
       judge.problem().means != nullptr;  // so many readings tell a form from lobes
   double shrink = 1.0;
+  // Between all readings a step has its date from the scan, which knows outliers from a step.
+  const auto dated = [&](const Hypothesis& h) {
+    return !of_means && first_step == step_start && h.effect && is_step(h.effect->term);
+  };
   for (int round = 0; round < rounds; ++round) {
     std::vector<Hypothesis> tried;
     std::vector<std::size_t> owner;
     for (std::size_t i = 0; i < best.size(); ++i) {
       const Hypothesis& h = best[i].hypothesis;
+      if (dated(h)) continue;
       const double cell = is_line(h) ? half_cell(h, judge.problem().point) : 0.0;
       for (Hypothesis& v : variants(h, judge.problem(), step, 0.5 * shrink * cell)) {
         if (!of_means && is_local(v)) keep_local(judge.problem(), v);
@@ -191,7 +196,7 @@ std::vector<Candidate> refined(Judge& judge, std::vector<Candidate> best,
   std::ranges::stable_sort(best, better);
   const Effect* leads = best.empty() ? nullptr : best.front().hypothesis.effect;
   step = first_step * std::pow(step_shrink, rounds);
-  if (step > finest && leads && is_step(leads->term)) {
+  if (of_means && step > finest && leads && is_step(leads->term)) {
     Candidate dated = refined(judge, {best.front()}, step).front();
     if (dated.criterion < best.front().criterion) best.front() = std::move(dated);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "diagnose/regression/noise.hpp"
@@ -17,10 +18,11 @@ using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 using Index = Eigen::Index;
 using Three = Eigen::Matrix3d;
 
-constexpr Index least_readings = 4;  // before and after a step: fewer are outliers
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
 constexpr double seen = 24.0;  // σ² of the sum of squares: less is no step among so many tests
+constexpr Index few = 32;      // readings: of a side of so few two are left out
+constexpr double kept = 0.25;  // share of the gain that is there without them: of eight (6/8)²
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
@@ -64,13 +66,27 @@ struct Date {
   std::size_t reading;
   Three gram;
   Eigen::Vector3d right, whole;  ///< products with what is left; squares of the columns themselves
+  Eigen::Vector3d without;       ///< products without the two largest readings of a short side
 };
+
+/// The two readings that are farthest off on the shorter side of a step before the k-th.
+std::array<Index, 2> two_largest(const Eigen::VectorXd& left, Index k) {
+  const bool first = 2 * k < left.size();
+  std::array<Index, 2> out{first ? 0 : k, first ? 1 : k + 1};
+  const auto smaller = [&](Index a, Index b) { return std::abs(left(a)) < std::abs(left(b)); };
+  for (Index row = out[1] + 1; row < (first ? k : left.size()); ++row) {
+    Index& least = smaller(out[0], out[1]) ? out[0] : out[1];
+    if (smaller(least, row)) least = row;
+  }
+  return out;
+}
 
 /// Steps between any two readings that have enough on both sides.
 std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
                            const ByRows& taken, const Eigen::VectorXd& left) {
   const std::span<const double> time = problem.point.time;
   const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
+  const auto least = static_cast<Index>(least_beside_step);
   const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
   struct Sums {
     Three gram = Three::Zero();
@@ -85,10 +101,10 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
   std::vector<Date> out;
   Sums before, with_after;
   before.cross = Matrix::Zero(3, taken.cols());
-  for (Index k = 1; k + least_readings <= size; ++k) {
+  for (Index k = 1; k + least <= size; ++k) {
     const auto reading = static_cast<std::size_t>(k);
     add(k - 1, step.row(k - 1), before);
-    if (k < least_readings || !(time[reading] > time[reading - 1])) continue;
+    if (k < least || !(time[reading] > time[reading - 1])) continue;
     if (lags > 0) with_after = before;
     // Readings just after the step are predicted from those before it.
     for (Index row = k; row < std::min(size, k + lags); ++row) {
@@ -100,16 +116,19 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     }
     const Sums& sums = lags > 0 ? with_after : before;
     out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
-                   sums.gram.diagonal()});
+                   sums.gram.diagonal(), sums.right});
+    if (std::min(k, size - k) > few) continue;
+    for (const Index row : two_largest(left, k))
+      out.back().without -= left(row) * ((row < k ? 1.0 : 0.0) * step.row(row).transpose() -
+                                         sums.cross * taken.row(row).transpose());
   }
   return out;
 }
 
 /// What the columns of a form take off the sum of squares.
-double gain_of(const std::vector<Index>& form, const Date& date) {
+double gain_of(const std::vector<Index>& form, const Date& date, Eigen::Vector3d along) {
   double gain = 0.0;
   Three rest = date.gram;
-  Eigen::Vector3d along = date.right;
   for (const Index j : form) {  // a Cholesky step each
     if (!(rest(j, j) > absorbed * date.whole(j))) continue;
     gain += along(j) * along(j) / rest(j, j);
@@ -125,7 +144,11 @@ double gain_of(const std::vector<Index>& form, const Date& date) {
 const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
                         const std::vector<Date>& dates, double rss, double freedom) {
   std::vector<double> gains;
-  for (const Date& date : dates) gains.push_back(gain_of(form, date));
+  for (const Date& date : dates) {
+    const double gain = gain_of(form, date, date.right);
+    const bool of_outliers = gain_of(form, date, date.without) < kept * gain;
+    gains.push_back(of_outliers ? 0.0 : gain);
+  }
   if (gains.empty()) return nullptr;
   const auto top = std::ranges::max_element(gains);
   const double variance = std::max(rss - *top, 0.0) / freedom;

@@ -60,8 +60,7 @@ class StepwiseSearch::Engine {
     forward(model, patterns, pattern_was_better);
     for (int round = 0; round < 3; ++round) {
       bool changed = backward(model);
-      if (model.terms.size() > 1 || std::ranges::any_of(model.terms, splits))
-        changed |= swap(model, patterns);
+      if (model.terms.size() > 1 || may_split(model, 0)) changed |= swap(model, patterns);
       if (!changed) break;
       forward(model, patterns, pattern_was_better);
     }
@@ -296,7 +295,7 @@ class StepwiseSearch::Engine {
       changed |= replace(model, std::move(other), patterns);
     }
     for (std::size_t i = 0; i < model.terms.size(); ++i)
-      if (splits(model.terms[i])) changed |= split(model, i);
+      if (may_split(model, i)) changed |= split(model, i);
     for (std::size_t i = 0; i + 1 < model.terms.size(); ++i) {
       for (std::size_t j = i + 1; j < model.terms.size(); ++j) {
         if (angular_order(model.terms[i]) != angular_order(model.terms[j]) ||
@@ -321,8 +320,15 @@ class StepwiseSearch::Engine {
     proposer_.ask(std::move(lists), model.phi);
   }
 
-  /// Lobes of the jaws with their second harmonic take two orders at once: two causes may do so
-  /// too.
+  /// Lobes of the jaws with their second harmonic take two orders at once, and a line next to the
+  /// surface's own columns the forms of several causes at a size that hardly is: two causes may do
+  /// so too.
+  bool may_split(const Model& model, std::size_t i) {
+    if (i >= model.terms.size() || splits(model.terms[i])) return i < model.terms.size();
+    const Fitted& f = fitted(model);
+    const Projection beside = project(f.equations.total(), besides(f, i));
+    return weigh(model.terms[i], beside, f.places[i], f.equations.count()).extraordinary;
+  }
   static bool splits(const Hypothesis& h) {
     return h.effect && has_two_orders(h.effect->term) && h.columns() == 4;
   }
@@ -331,8 +337,9 @@ class StepwiseSearch::Engine {
     other.terms = without(model.terms, term);
     for (int half = 0; half < 2; ++half) {
       const Proposal& p = proposer_.beside(other.terms, model.phi);
-      const auto next = std::ranges::find_if(
-          p.causes, [](const Candidate& c) { return !splits(c.hypothesis) && c.rank > 0; });
+      const auto next = std::ranges::find_if(p.causes, [](const Candidate& c) {
+        return !splits(c.hypothesis) && !c.extraordinary && c.rank > 0;
+      });
       if (next == p.causes.end()) return false;
       other.terms.push_back(next->hypothesis);
     }
