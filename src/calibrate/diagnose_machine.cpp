@@ -180,6 +180,9 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   fit_jointly(*fit, found, out);
   state_findings(*fit, found, options.calibration, out);
   judge_scatter(*fit, found, options, out);
+  // Beside something unknown, names and sizes of the rest are not sure: what a calibration makes of
+  // the readings, which counts what it does not fit, predicts the tip elsewhere better.
+  if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
   out.effective_hypotheses = independent_tests(*found.regression, found.terms);
   out.typical_length_mm = options.typical_length_mm;
   out.typical_angle_rad = options.typical_angle_rad;
