@@ -40,8 +40,8 @@ bool names(const MachineDiagnosis& found, const char* effect) {
   return std::ranges::find(found.findings, effect, &MachineFinding::effect) != found.findings.end();
 }
 
-// On 240 rows of 1 µm 10 µrad at some 100 mm and 2 µm are both seen alone. The effect is named where
-// it does ten times what the unknown does, and is not where it does a tenth.
+// On 240 rows of 1 µm 10 µrad at some 100 mm and 2 µm are both seen alone. The effect is named
+// where it does ten times what the unknown does, and is not where it does a tenth.
 TEST(DiagnoseMachineUnknownLaw, NamesWhatDoesMoreThanTheUnknown) {
   const MachineDiagnosis large = diagnosed(100e-6, 0.002);
   EXPECT_TRUE(names(large, "EAA.poly2"));
