@@ -110,8 +110,10 @@ struct MachineDiagnosis {
   MachineVerdict verdict = MachineVerdict::ideal;
   Calibration baseline;                       ///< what is always fitted
   std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
-  ErrorModel errors;                          ///< given, always fitted and found together
-  std::vector<MachineFinding> findings;       ///< the most significant first
+  /// To predict the tip with: given, always fitted and found together; where something is
+  /// unexplained those of `calibrate` instead, which count what they do not fit.
+  ErrorModel errors;
+  std::vector<MachineFinding> findings;  ///< the most significant first
   std::vector<MachineUnexplained> unexplained;
   std::vector<MachineNotObservable> not_observable;
   std::vector<std::string> remarks;  ///< what might be taken for certain and is not

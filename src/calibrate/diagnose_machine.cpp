@@ -7,6 +7,7 @@
 #include "calibrate/advise.hpp"
 #include "calibrate/explain.hpp"
 #include "calibrate/find.hpp"
+#include "calibrate/part_of_unknown.hpp"
 #include "calibrate/remarks.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "calibrate/total_uncertainty.hpp"
@@ -74,29 +75,6 @@ void leave_out_what_warms(Found& search) {
   for (const std::size_t t : search.found) search.terms[t].errors.clear();
 }
 
-/// The axis of an effect by its letter; t of drifts and slips.
-char letter_of_effect(const std::string& effect) {
-  if (effect.starts_with("reversal.")) return effect.back();
-  return effect.front() == 'E' ? effect[2] : 't';
-}
-
-/// Why a finding is no name but part of something unknown: a member of its class shares its axis
-/// with a pattern, or is the third of one error among the classes, which is then no order or
-/// degree.
-bool of_unknown(const MachineFinding& finding, const std::vector<MachineFinding>& all,
-                const Found& search) {
-  return std::ranges::any_of(finding.members(), [&](const std::string& member) {
-    for (const std::size_t t : search.found)
-      if (search.terms[t].letters.find(letter_of_effect(member)) != std::string::npos) return true;
-    if (member.front() != 'E') return false;
-    return std::ranges::count_if(all, [&](const MachineFinding& other) {
-             return std::ranges::any_of(other.members(), [&](const std::string& one) {
-               return one.starts_with(member.substr(0, 4));
-             });
-           }) >= 3;
-  });
-}
-
 void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
                     MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
@@ -104,6 +82,7 @@ void state_findings(const TipFit& fit, const Found& search, const CalibrationOpt
   std::vector<MachineFinding> all;
   for (std::size_t at = 0; at < search.found.size(); ++at)
     all.push_back(finding_of(*search.regression, search.terms, search.found, at, search.options));
+  const std::vector<bool> unknown = parts_of_unknown(search, all);
   for (std::size_t at = 0; at < search.found.size(); ++at) {
     MachineFinding found = all[at];
     found.rms_mm *= to_rms;
@@ -111,7 +90,7 @@ void state_findings(const TipFit& fit, const Found& search, const CalibrationOpt
     weigh_aliases(fit.problem, search.terms[search.found[at]], found);
     found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
     const bool pattern = search.terms[search.found[at]].pattern;
-    if (!pattern && !of_unknown(found, all, search)) {
+    if (!unknown[at]) {
       out.findings.push_back(std::move(found));
       continue;
     }
@@ -180,6 +159,9 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   fit_jointly(*fit, found, out);
   state_findings(*fit, found, options.calibration, out);
   judge_scatter(*fit, found, options, out);
+  // Beside something unknown, names and sizes of the rest are not sure: what a calibration makes of
+  // the readings, which counts what it does not fit, predicts the tip elsewhere better.
+  if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
   out.effective_hypotheses = independent_tests(*found.regression, found.terms);
   out.typical_length_mm = options.typical_length_mm;
   out.typical_angle_rad = options.typical_angle_rad;

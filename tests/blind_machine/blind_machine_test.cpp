@@ -43,7 +43,7 @@ TEST_P(BlindMachine, ReachesTheGoal) {
   for (const Result& result : run_study(select({kind}, cases, seed), options_of(to_string(kind)))) {
     counted += result.outcome != Outcome::no_advice ? 1 : 0;
     right += result.outcome == Outcome::correct ? 1 : 0;
-    far += result.far;
+    far += result.members.far;
   }
   EXPECT_GE(right, least_right(counted, goal(kind))) << counted << " cases";
   EXPECT_EQ(far, 0U) << "members of a class at d >= 6.6";

@@ -154,15 +154,21 @@ double Judge::left(const VectorXd& mu, const MatrixXd& beside) {
   return (mu - q * (q.transpose() * mu)).squaredNorm();
 }
 
-double Judge::distance(const VectorXd& mu, const std::string& name) const {
+double Judge::distance(const VectorXd& mu, const std::string& name, const MatrixXd& beside) const {
+  const auto left_of = [&](const MatrixXd& own) {
+    MatrixXd all(mu.size(), own.cols() + beside.cols());
+    all.leftCols(own.cols()) = own;
+    if (beside.cols() > 0) all.rightCols(beside.cols()) = beside;
+    return left(mu, all);
+  };
   if (name != "ball.slip") {
     const std::size_t at = index(name);
     if (at == effects_.size()) throw std::runtime_error("the judge knows no " + name);
-    return std::sqrt(left(mu, columns_[at]));
+    return std::sqrt(left_of(columns_[at]));
   }
   double least = mu.squaredNorm();
   for (std::size_t visit = 1; visit < plan_.visits.size(); ++visit)
-    least = std::min(least, left(mu, slip_columns(visit)));
+    least = std::min(least, left_of(slip_columns(visit)));
   return std::sqrt(least);
 }
 

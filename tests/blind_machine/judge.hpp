@@ -35,8 +35,10 @@ class Judge {
 
   /// What a fault does to the readings over σ, beside the base.
   Eigen::VectorXd effect_of(const Fault& fault) const;
-  /// Distance of `mu` from the best fit of an effect, of ball.slip of the best row.
-  double distance(const Eigen::VectorXd& mu, const std::string& name) const;
+  /// Distance of `mu` from the best fit of an effect, of ball.slip of the best row, beside columns
+  /// that are fitted as well.
+  double distance(const Eigen::VectorXd& mu, const std::string& name,
+                  const Eigen::MatrixXd& beside = {}) const;
   /// λ that is left of `mu` beside the base and columns.
   static double left(const Eigen::VectorXd& mu, const Eigen::MatrixXd& beside);
   /// λ that the best sum of two effects leaves of `mu`, found one after the other.

@@ -33,7 +33,21 @@ std::vector<int> paired(const std::vector<std::string>& truth,
   return best;
 }
 
-Outcome of_names(const Case& one, const Answer& answer, std::size_t& members, std::size_t& far) {
+/// The columns of the true terms but one: who names that one has to estimate them as well.
+Eigen::MatrixXd columns_of_others(const Judge& judge, const Case& one, std::size_t but) {
+  Eigen::MatrixXd all;
+  for (std::size_t t = 0; t < one.truth.size(); ++t) {
+    if (t == but) continue;
+    const std::size_t slip = one.hidden[t].units.front().slip_at;
+    const Eigen::MatrixXd own =
+        slip > 0 ? judge.slip_columns(slip - 1) : judge.columns(judge.index(one.truth[t]));
+    all.conservativeResize(own.rows(), all.cols() + own.cols());
+    all.rightCols(own.cols()) = own;
+  }
+  return all;
+}
+
+Outcome of_names(const Case& one, const Answer& answer, Members& members) {
   const std::vector<int> finding = paired(one.truth, answer.classes);
   std::size_t placed = 0;
   std::optional<Judge> judge;
@@ -43,20 +57,22 @@ Outcome of_names(const Case& one, const Answer& answer, std::size_t& members, st
     for (const std::string& member : answer.classes[static_cast<std::size_t>(finding[t])]) {
       if (member == one.truth[t]) continue;
       if (!judge) judge.emplace(one.layout->machine, one.plan);
-      ++members;
+      ++members.listed;
       const Eigen::VectorXd mu = judge->effect_of(one.hidden[t].units.front());
-      if (!(judge->distance(mu, member) < allowed_distance)) ++far;
+      const Eigen::MatrixXd others = columns_of_others(*judge, one, t);
+      if (!(judge->distance(mu, member, others) < allowed_distance)) ++members.far;
+      if (!(judge->distance(mu, member) < allowed_distance)) ++members.far_alone;
     }
   }
   const std::size_t more = answer.classes.size() + answer.unexplained.size() - placed;
   if (placed < one.truth.size()) return more > 0 ? Outcome::wrong_name : Outcome::missed;
   if (more > 0) return Outcome::extra_finding;
-  return far > 0 ? Outcome::too_wide : Outcome::correct;
+  return members.far > 0 ? Outcome::too_wide : Outcome::correct;
 }
 
 }  // namespace
 
-Outcome score(const Case& one, const Answer& answer, std::size_t& members, std::size_t& far) {
+Outcome score(const Case& one, const Answer& answer, Members& members) {
   if (answer.exit_code != 0) return Outcome::crash;
   const bool silent = answer.classes.empty() && answer.unexplained.empty();
   switch (one.wanted.kind) {
@@ -73,7 +89,7 @@ Outcome score(const Case& one, const Answer& answer, std::size_t& members, std::
     case Kind::advised:
       break;
   }
-  return of_names(one, answer, members, far);
+  return of_names(one, answer, members);
 }
 
 }  // namespace trueaxis::blind_machine

@@ -125,7 +125,7 @@ Result run_case(const Wanted& wanted, const StudyOptions& options) {
   out.seconds = out.answer.seconds;
   if (options.elsewhere && out.answer.exit_code == 0) look_elsewhere(out, options, folder);
   out.outcome = wanted.kind == Kind::advised ? follow_advice(out, options, folder)
-                                             : score(out.made, out.answer, out.members, out.far);
+                                             : score(out.made, out.answer, out.members);
   if (!options.keep) {
     std::filesystem::remove_all(folder);
     std::filesystem::remove(folder.string() + ".truth.json");

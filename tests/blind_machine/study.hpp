@@ -44,11 +44,18 @@ enum class Outcome {
 };
 std::string to_string(Outcome outcome);
 
+/// Members of classes listed beside the truths.
+struct Members {
+  std::size_t listed = 0;
+  std::size_t far = 0;        ///< with d ≥ 6.6 beside the other true term
+  std::size_t far_alone = 0;  ///< with d ≥ 6.6, were the other known
+};
+
 struct Result {
   Case made;
   Answer answer, advised;
   Outcome outcome = Outcome::crash;
-  std::size_t members = 0, far = 0;  ///< listed beside the truth; those with d ≥ 6.6
+  Members members;
   double calibrated_mm = 0.0, diagnosed_mm = 0.0;  ///< error of the tip elsewhere; 0: not asked
   double seconds = 0.0;
   std::string line() const;
@@ -76,7 +83,7 @@ Answer run_command(const Case& one, const Plan& plan, std::uint64_t noise_seed,
                    const std::string& command, const std::filesystem::path& folder);
 
 /// The outcome of all kinds but advised, without the command.
-Outcome score(const Case& one, const Answer& answer, std::size_t& members, std::size_t& far);
+Outcome score(const Case& one, const Answer& answer, Members& members);
 
 /// Counts by kind, by layout, by plan, for the page.
 nlohmann::json tables(const std::vector<Result>& results);

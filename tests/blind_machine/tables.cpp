@@ -82,11 +82,13 @@ Json tables(const std::vector<Result>& results) {
   std::map<std::string, Cell> kinds, layouts_of, plans, unknowns;
   std::map<std::string, std::map<std::string, Cell>> grid;
   Json wrong = Json::array();
-  std::size_t members = 0, far = 0;
+  Members members;
   double seconds = 0.0;
   for (const Result& result : results) {
     seconds += result.seconds;
-    members += result.members, far += result.far;
+    members.listed += result.members.listed;
+    members.far += result.members.far;
+    members.far_alone += result.members.far_alone;
     if (result.outcome == Outcome::no_advice) continue;
     const std::string kind = to_string(result.made.wanted.kind);
     count(kinds[kind], result);
@@ -111,7 +113,8 @@ Json tables(const std::vector<Result>& results) {
                               {"diagnosed_um", 1e3 * median(diagnosed[kind])}};
   for (const Kind kind : all_kinds()) out["goals"][to_string(kind)] = goal(kind);
   out["cases"] = results.size();
-  out["members"] = {{"listed", members}, {"far", far}};
+  out["members"] = {
+      {"listed", members.listed}, {"far", members.far}, {"far_alone", members.far_alone}};
   out["seconds_per_diagnosis"] =
       seconds / static_cast<double>(std::max<std::size_t>(1, results.size()));
   out["not_right"] = wrong;

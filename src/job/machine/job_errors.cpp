@@ -63,6 +63,7 @@ ErrorCovariance covariance_of_locations(const MachineDiagnosis& diagnosis) {
 }  // namespace
 
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) {
+  if (!diagnosis.unexplained.empty()) return diagnosis.errors;  // those of a calibration
   ErrorModel errors;
   if (std::ranges::none_of(diagnosis.findings,
                            [](const MachineFinding& found) { return found.errors.empty(); })) {
