@@ -10,11 +10,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class SetUp : public ::testing::Test {
+class InstallScript : public ::testing::Test {
  protected:
   void SetUp() override {
     const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fresh_folder("setup_" + test);
+    folder_ = fresh_folder("install_" + test);
     fs::create_directories(folder_ / "scripts");
     for (const char* file : {"setup", "packages.txt"})
       fs::copy_file(fs::path(TRUEAXIS_SOURCE) / "scripts" / file, folder_ / "scripts" / file);
@@ -35,7 +35,7 @@ class SetUp : public ::testing::Test {
   fs::path folder_;
 };
 
-TEST_F(SetUp, ToRunNothingIsAskedOfNpm) {
+TEST_F(InstallScript, ToRunNothingIsAskedOfNpm) {
   stand_in("npm", "echo called >>npm_was_called; exit 1");
   const CommandResult result = set_up("run");
   EXPECT_EQ(result.exit_code, 0) << result.output;
@@ -43,7 +43,7 @@ TEST_F(SetUp, ToRunNothingIsAskedOfNpm) {
   EXPECT_FALSE(fs::exists(folder_ / "npm_was_called"));
 }
 
-TEST_F(SetUp, ARegistryThatIsNotReachedIsSaid) {
+TEST_F(InstallScript, ARegistryThatIsNotReachedIsSaid) {
   stand_in("npm", "echo 'npm error network request to its registry failed' >&2; exit 7");
   const CommandResult result = set_up("test");
   EXPECT_EQ(result.exit_code, 1);
@@ -54,7 +54,7 @@ TEST_F(SetUp, ARegistryThatIsNotReachedIsSaid) {
   EXPECT_FALSE(fs::exists(folder_ / "build/npm/installed"));
 }
 
-TEST_F(SetUp, AnArchiveThatIsNotReachedIsSaid) {
+TEST_F(InstallScript, AnArchiveThatIsNotReachedIsSaid) {
   stand_in("dpkg-query", "exit 1");
   stand_in("sudo", "exec \"$@\"");
   stand_in("apt-get", "echo 'E: Failed to fetch its index' >&2; exit 100");
@@ -66,7 +66,7 @@ TEST_F(SetUp, AnArchiveThatIsNotReachedIsSaid) {
     EXPECT_NE(result.output.find(said), std::string::npos) << result.output;
 }
 
-TEST_F(SetUp, WhatWorksIsSilentAndDoneOnce) {
+TEST_F(InstallScript, WhatWorksIsSilentAndDoneOnce) {
   EXPECT_EQ(set_up("test").exit_code, 0);
   EXPECT_EQ(set_up("test").output, "setup: everything is installed\n");
   EXPECT_EQ(read_text(folder_ / "npm_was_called"), "called\n");
