@@ -216,12 +216,12 @@ void Outputs::into(const std::string& folder) {
 }
 
 void Outputs::may_write(const std::string& path, const std::string& schema) {
-  if (!path.empty()) places_.push_back({path, schema, false});
+  if (!path.empty()) places_.push_back({path, schema});
   checked_ = false;
 }
 
-void Outputs::may_begin(const std::string& path) {
-  if (!path.empty()) places_.push_back({path, "", true});
+void Outputs::may_begin(const std::string& path, std::string content) {
+  if (!path.empty()) places_.push_back({path, "", std::move(content)});
   checked_ = false;
 }
 
@@ -275,8 +275,8 @@ std::string Outputs::objection(const Place& place) const {
   if (std::string why = why_not_in(folder); !why.empty()) return why;
   if (::access(target.c_str(), W_OK) != 0) return cannot(std::strerror(errno));
   if (force_ || fs::file_size(target, error) == 0) return "";
-  if (place.to_be_changed)
-    return "is there and may hold your changes: name another place, or say --force";
+  if (place.begins && read_file(target) == *place.begins) return "";
+  if (place.begins) return "is there and may hold your changes: name another place, or say --force";
   if (place.schema.empty()) return "";
   const std::string found = schema_of_file(target);
   if (found == place.schema) return "";
