@@ -365,6 +365,19 @@ void Outputs::remove_earlier(const std::string& path) {
   earlier_.push_back(error ? path : place_of_it.string());
 }
 
+bool Outputs::remove_unchanged(const std::string& path, const std::string& hash) {
+  expects(checked_, "outputs that were checked");
+  const bool is_read = std::ranges::any_of(inputs_, [&](const std::string& input) {
+    return identity_of_input(input) == identity_of_output(path);
+  });
+  std::error_code error;
+  if (is_read || !fs::is_regular_file(fs::symlink_status(path, error)) ||
+      content_hash(read_file(path)) != hash)
+    return false;
+  earlier_.push_back(path);
+  return true;
+}
+
 void Outputs::commit() {
   for (OutputFile& file : files_) file.close();
   for (OutputFile& file : files_) file.commit();

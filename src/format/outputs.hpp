@@ -79,6 +79,9 @@ class Outputs {
   void write(const std::string& path, std::string_view content);
   /// What an earlier run left at a place that was named goes when the results are in theirs.
   void remove_earlier(const std::string& path);
+  /// The same of a file that was not named, as long as it holds what was written (content_hash());
+  /// false: it was changed, is a link or an input, and stays.
+  bool remove_unchanged(const std::string& path, const std::string& hash);
   /// Every file into its place, in the order in which they were opened. @throws InputError
   void commit();
 
