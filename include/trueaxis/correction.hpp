@@ -154,8 +154,8 @@ struct ActuatorMargin {
   double following_limit_mm = 0.0;
   bool follows = false;
   std::string breaks;          ///< the numbers that break, empty when it follows
-  double max_speed_rpm = 0.0;  ///< highest speed at which it would run (at most the bandwidth in
-                               ///< revolutions a minute); 0: at none
+  double max_speed_rpm = 0.0;  ///< highest speed at which it would run, where it runs at most that
+                               ///< of a third of the bandwidth or its own; 0: at none
   std::string remedy;  ///< what would make it follow ("it would with …"), empty when it follows
 };
 

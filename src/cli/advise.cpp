@@ -9,11 +9,13 @@
 #include "cli/machine_diagnosed.hpp"
 #include "cli/stream_options.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "format/file.hpp"
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/conclude.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/machine/files/machine_job_toml.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
@@ -51,8 +53,11 @@ void advise_on_tolerance(JobResult result) {
 }
 
 int advise_job(const Options& options) {
+  const std::string content = read_file(options.stream.path);
+  if (is_machine_job(content, options.stream.path))
+    return advise_machine_job(read_machine_job_toml(content, options.stream.path));
   JobResult result;
-  result.job = read_job_toml(options.stream.path);
+  result.job = read_job_toml(content, options.stream.path);
   result.streams = read_streams(result.job);
   int worst = done;
   for (std::size_t i = 0; i < result.streams.size(); ++i) {

@@ -32,17 +32,17 @@ std::string job_place(const Options& options) {
 
 int execute(const Options& options) {
   const std::string job = job_place(options);
+  const ImportedRecording imported =
+      import_recording(options.stream.path, options.stream.recording());
+  const std::string stub =
+      job_stub(options.output, imported.stream, surface_by_evidence(imported.stream));
   Outputs outputs(options.force);
   outputs.reads(options.stream.path);
   outputs.may_write(options.output, "trueaxis.stream");
-  outputs.may_begin(job);
+  outputs.may_begin(job, stub);
   outputs.check();
-  const ImportedRecording imported =
-      import_recording(options.stream.path, options.stream.recording());
   outputs.write(options.output, imported.text);
-  if (!job.empty())
-    outputs.write(job,
-                  job_stub(options.output, imported.stream, surface_by_evidence(imported.stream)));
+  outputs.write(job, stub);
   outputs.commit();
   if (options.output == "-") return done;
   for (const std::string& note : imported.notes) std::cout << layout::wrapped("", note);

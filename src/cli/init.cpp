@@ -27,7 +27,7 @@ void add_init(CLI::App& app, int& exit_code) {
     Outputs outputs(options->force);
     outputs.into(options->folder);
     for (const StarterFile& file : starter_files())
-      outputs.may_begin(outputs.in_folder(std::string(file.name)));
+      outputs.may_begin(outputs.in_folder(std::string(file.name)), std::string(file.text));
     outputs.check();
     for (const StarterFile& file : starter_files())
       outputs.write(outputs.in_folder(std::string(file.name)), file.text);

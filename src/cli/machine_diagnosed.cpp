@@ -97,4 +97,22 @@ int MachineDiagnosed::advise() const {
   return done;
 }
 
+int advise_machine_job(const MachineJob& job) {
+  MachineDiagnoseOptions options;
+  options.calibration.errors = job.known;
+  options.false_alarm = job.false_alarm;
+  options.covariances = job.program.has_value();
+  MachineDiagnosis found = diagnose_machine(job.machine, job.data, options);
+  expect_no_mistake(job.machine, job.data, options.calibration, found.baseline);
+  if (!found.baseline.converged) {
+    std::cerr << job.path << ": not converged: " << found.baseline.message << '\n';
+    return numerical;
+  }
+  std::string harm;
+  if (job.program)
+    harm = harm_text(weigh_on_program(job.machine, found, job.program->text, job.program->file));
+  std::cout << machine_advice_text(found) << harm;
+  return done;
+}
+
 }  // namespace trueaxis::cli

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/machine_options.hpp"
+#include "trueaxis/machine_job.hpp"
 
 namespace trueaxis::cli {
 
@@ -24,5 +25,8 @@ struct MachineDiagnosed {
   /// Prints the next measurement and what every other would show. @returns the exit code
   int advise() const;
 };
+
+/// The same of a machine's job: its measurements, what is known, and its program if it has one.
+int advise_machine_job(const MachineJob& job);
 
 }  // namespace trueaxis::cli

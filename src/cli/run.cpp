@@ -15,6 +15,7 @@
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/evidence.hpp"
+#include "job/files/earlier_run.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
@@ -68,6 +69,32 @@ Job job_of_stream(const Options& options) {
   return job;
 }
 
+/// What is said of the files of an earlier job.
+struct Earlier {
+  std::string removed, kept;
+};
+
+/// Files that an earlier job wrote into the folder and this one does not: they go as they were
+/// written, and are named where they were changed since. A table goes by its own rule.
+Earlier take_away_earlier(Outputs& outputs, const Job& job, const std::vector<ResultFile>& files) {
+  Earlier said;
+  for (const WrittenFile& file : files_of_earlier_run(outputs.in_folder("result.json"), files)) {
+    const std::string place = outputs.in_folder(file.name);
+    const bool table =
+        file.name == "table.csv" ||
+        std::ranges::find(job.outputs, file.name, &ControlTable::file) != job.outputs.end();
+    if (table || !std::filesystem::exists(place)) continue;
+    if (outputs.remove_unchanged(place, file.hash)) {
+      said.removed += "gone   " + place + ": of an earlier job\n";
+    } else {
+      said.kept += "warning: " + place +
+                   " is of an earlier job and was changed since: it stays, and is none of this "
+                   "result\n";
+    }
+  }
+  return said;
+}
+
 int execute(const Options& options) {
   const std::string& path = options.stream.path;
   const bool said = is_job(path);
@@ -112,7 +139,9 @@ int execute(const Options& options) {
     for (const ControlTable& output : result.job.outputs)
       outputs.remove_earlier(outputs.in_folder(output.file));
   }
+  const Earlier earlier = take_away_earlier(outputs, result.job, files);
   outputs.commit();
+  std::cerr << earlier.kept;
   if (options.verbose) {
     std::cout << job_text(result);
   } else {
@@ -126,7 +155,7 @@ int execute(const Options& options) {
   for (const ResultFile& file : files)
     if (!file.note.empty())
       std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
-  std::cout << "result " << outputs.in_folder("result.json") << "\nreport "
+  std::cout << earlier.removed << "result " << outputs.in_folder("result.json") << "\nreport "
             << outputs.in_folder("report.html") << '\n';
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);

@@ -57,7 +57,10 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.margin = margin_at(spectrum, profile, actuator, tool.speed_rpm);
   const double searched_rpm = max_speed_rpm(spectrum, profile, actuator);
   correction.margin.max_speed_rpm =
-      correction.margin.follows ? std::max(searched_rpm, tool.speed_rpm) : searched_rpm;
+      correction.margin.follows
+          ? std::max(std::min(searched_rpm, trusted_speed_rpm(correction.margin, tool.speed_rpm)),
+                     tool.speed_rpm)
+          : searched_rpm;
   if (!correction.margin.follows)
     correction.margin.remedy = remedy(spectrum, profile, actuator, searched_rpm);
   return correction;

@@ -313,6 +313,11 @@ double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Act
   return good;
 }
 
+double trusted_speed_rpm(const ActuatorMargin& at, double speed_rpm) {
+  const double once_hz = speed_rpm / 60.0;
+  return speed_rpm * at.bandwidth_hz / 3.0 / std::max(at.highest_frequency_hz, once_hz);
+}
+
 std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
                    double max_speed_rpm) {
   const double now_rpm = profile.tool().speed_rpm;

@@ -26,6 +26,12 @@ bool can_precompensate(const Spectrum& spectrum, const Motion& motion, const Act
 /// in revolutions.
 double max_speed_rpm(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator);
 
+/// The speed at which the highest order that matters comes at a third of the bandwidth (Eq. 117):
+/// there an actuator of second order lags by 28° at a gain of 0.996; above, what is sent
+/// ahead rests on the model of the actuator more than on the actuator.
+/// @param at what margin_at() found at `speed_rpm`
+double trusted_speed_rpm(const ActuatorMargin& at, double speed_rpm);
+
 /// What would make a profile that breaks a limit follow: more rows a revolution where it is the
 /// interpolation between them, faster set-points where it is the sampling, else the speed. Each was
 /// tried, alone.

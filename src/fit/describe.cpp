@@ -74,6 +74,8 @@ void withdraw(FitResult& result, std::string_view name, const std::string& why) 
   }
 }
 
+constexpr const char* as_cylinder = "the cone cannot be told from a cylinder";
+
 /// A cone whose half angle is zero within its uncertainty, at the level of U too, has no apex.
 void check_cone(const JointModel& model, const std::vector<double>& joint,
                 const Eigen::MatrixXd& covariance, double coverage, FitResult& result) {
@@ -84,11 +86,11 @@ void check_cone(const JointModel& model, const std::vector<double>& joint,
   const double sds = std::max(cylinder_sds, coverage);
   const double limit = std::isfinite(u) ? std::max(sds * u, cylinder_tan) : cylinder_tan;
   if (std::abs(value) > limit) return;
-  result.not_determined.push_back(fmt::format(
-      "k and half_angle: the cone cannot be told from a cylinder, half angle {:.2g}° ± {:.2g}°",
-      std::atan(value) / rad_per_deg, u / rad_per_deg));
-  withdraw(result, "k", "the cone cannot be told from a cylinder");
-  withdraw(result, "half_angle", "the cone cannot be told from a cylinder");
+  result.not_determined.push_back(fmt::format("k and half_angle: {}, half angle {:.2g}° ± {:.2g}°",
+                                              as_cylinder, std::atan(value) / rad_per_deg,
+                                              u / rad_per_deg));
+  withdraw(result, "k", as_cylinder);
+  withdraw(result, "half_angle", as_cylinder);
 }
 
 constexpr double rival_sds = 3.0;  // likelihood ratio e^-4.5: 1 in 90
@@ -332,9 +334,12 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
   }
   if (!result.not_determined.empty()) {
     result.status = FitStatus::rank_deficient;
-    result.message = "not determined by these readings: " + result.not_determined.front() +
-                     (result.not_determined.size() > 1 ? ", and more" : "") +
-                     "; probe more of the length, or more of the circumference";
+    result.message =
+        "not determined by these readings: " + result.not_determined.front() +
+        (result.not_determined.size() > 1 ? ", and more" : "") +
+        (result.not_determined.front().find(as_cylinder) != std::string::npos
+             ? "; associate a cylinder (--surface cylinder), or probe more of the length"
+             : "; probe more of the length, or more of the circumference");
   }
   result.sigma_mm = noise.sigma_mm;
   result.sigma_source = noise.source;

@@ -216,12 +216,12 @@ void Outputs::into(const std::string& folder) {
 }
 
 void Outputs::may_write(const std::string& path, const std::string& schema) {
-  if (!path.empty()) places_.push_back({path, schema, false});
+  if (!path.empty()) places_.push_back({path, schema});
   checked_ = false;
 }
 
-void Outputs::may_begin(const std::string& path) {
-  if (!path.empty()) places_.push_back({path, "", true});
+void Outputs::may_begin(const std::string& path, std::string content) {
+  if (!path.empty()) places_.push_back({path, "", std::move(content)});
   checked_ = false;
 }
 
@@ -275,8 +275,8 @@ std::string Outputs::objection(const Place& place) const {
   if (std::string why = why_not_in(folder); !why.empty()) return why;
   if (::access(target.c_str(), W_OK) != 0) return cannot(std::strerror(errno));
   if (force_ || fs::file_size(target, error) == 0) return "";
-  if (place.to_be_changed)
-    return "is there and may hold your changes: name another place, or say --force";
+  if (place.begins && read_file(target) == *place.begins) return "";
+  if (place.begins) return "is there and may hold your changes: name another place, or say --force";
   if (place.schema.empty()) return "";
   const std::string found = schema_of_file(target);
   if (found == place.schema) return "";
@@ -363,6 +363,19 @@ void Outputs::remove_earlier(const std::string& path) {
   std::error_code error;  // a link is to the table that must go, not the table
   const fs::path place_of_it = fs::canonical(path, error);
   earlier_.push_back(error ? path : place_of_it.string());
+}
+
+bool Outputs::remove_unchanged(const std::string& path, const std::string& hash) {
+  expects(checked_, "outputs that were checked");
+  const bool is_read = std::ranges::any_of(inputs_, [&](const std::string& input) {
+    return identity_of_input(input) == identity_of_output(path);
+  });
+  std::error_code error;
+  if (is_read || !fs::is_regular_file(fs::symlink_status(path, error)) ||
+      content_hash(read_file(path)) != hash)
+    return false;
+  earlier_.push_back(path);
+  return true;
 }
 
 void Outputs::commit() {

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,9 +63,9 @@ class Outputs {
   void may_write(const std::string& path, const std::string& schema);
   /// The same for a file of the folder of the results.
   void may_write_in_folder(const std::string& name, const std::string& schema);
-  /// A file that whoever gets it then changes, a job: one that is there, and not empty, is replaced
-  /// only with `force`. It says no schema.
-  void may_begin(const std::string& path);
+  /// A file that whoever gets it then changes, a job: one that is there, not empty and not
+  /// `content` already is replaced only with `force`. It says no schema.
+  void may_begin(const std::string& path, std::string content);
   std::string in_folder(const std::string& name) const;  ///< its path
 
   /// @throws InputError with every place that must not or cannot be written.
@@ -78,13 +79,16 @@ class Outputs {
   void write(const std::string& path, std::string_view content);
   /// What an earlier run left at a place that was named goes when the results are in theirs.
   void remove_earlier(const std::string& path);
+  /// The same of a file that was not named, as long as it holds what was written (content_hash());
+  /// false: it was changed, is a link or an input, and stays.
+  bool remove_unchanged(const std::string& path, const std::string& hash);
   /// Every file into its place, in the order in which they were opened. @throws InputError
   void commit();
 
  private:
   struct Place {
     std::string path, schema;
-    bool to_be_changed = false;
+    std::optional<std::string> begins{};  ///< what a file that is then changed begins as
   };
   std::string objection(const Place& place) const;
   std::string of_folder() const;

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "format/file.hpp"
+#include "format/nearest_key.hpp"
 #include "format/toml_units.hpp"
 
 namespace trueaxis {
@@ -360,7 +361,7 @@ void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
     const std::string word(key.str());
     const auto& accepted = state.accepted;
     if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) continue;
-    const std::string near = nearest_word(word, accepted);
+    const std::string near = nearest_key(word, accepted);
     const toml::source_position at = key.source().begin ? key.source().begin : node.source().begin;
     diagnostics.push_back({path, at.line, at.column,
                            state.where() + " has no key `" + word + "`" +

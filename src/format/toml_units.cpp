@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/toml_units.hpp"
 
-#include <algorithm>
-
-#include "base/edit_distance.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -50,18 +47,13 @@ std::vector<KeySpelling> key_spellings(std::string_view key) {
   return {{std::string(key), 1.0}};
 }
 
-std::string nearest_word(std::string_view word, const std::vector<std::string>& known) {
-  std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
-  for (const std::string& candidate : known) {
-    const bool lacks_unit = candidate.starts_with(std::string(word) + '_');
-    const std::size_t distance = lacks_unit ? 0 : edit_distance(word, candidate);
-    if (distance < best_distance) {
-      best_distance = distance;
-      best = candidate;
-    }
-  }
-  return best;
+KeyParts parts_of_key(std::string_view key) {
+  std::string_view unit;
+  for (const UnitKind& kind : unit_kinds())
+    for (const KeySpelling& spelling : kind.spellings)
+      if (key.ends_with(spelling.key) && spelling.key.size() > unit.size())
+        unit = key.substr(key.size() - spelling.key.size());
+  return {key.substr(0, key.size() - unit.size()), unit};
 }
 
 }  // namespace trueaxis

@@ -17,7 +17,10 @@ struct KeySpelling {
 /// usual one first; the key itself when it has no such suffix.
 std::vector<KeySpelling> key_spellings(std::string_view key);
 
-/// The one of `known` nearest to `word`, or "" when none is near.
-std::string nearest_word(std::string_view word, const std::vector<std::string>& known);
+/// A key cut before its unit: "x0", "_um"; the unit is empty where the key has none.
+struct KeyParts {
+  std::string_view stem, unit;
+};
+KeyParts parts_of_key(std::string_view key);
 
 }  // namespace trueaxis

@@ -69,7 +69,7 @@ std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& 
     const auto column = find_column(recording, item.column);
     if (!role) {
       unclear.push_back("--columns names '" + item.role +
-                        "': it takes X, C, Z, Y, t, pass, setup, and Z_M of a face");
+                        "': it takes X, C, Z, Y, t, pass, setup, Z_M of a face, and decimal");
       continue;
     }
     if (!column) {
@@ -118,6 +118,16 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
 
 }  // namespace
 
+bool is_probe_log(const Recording& recording) {
+  if (recording.columns.size() != 9 || recording.rows() == 0) return false;
+  for (std::size_t k = 0; k < 9; ++k) {
+    const std::string_view cell = recording.cell(0, k);
+    if (!recording.columns[k].whole.empty() || cell.size() < 8 || cell[cell.size() - 7] != '.')
+      return false;
+  }
+  return true;
+}
+
 ColumnsSaid read_columns_said(const std::string& text) {
   ColumnsSaid said;
   std::size_t begin = 0;
@@ -131,6 +141,12 @@ ColumnsSaid read_columns_said(const std::string& text) {
     ColumnsSaid::Item one;
     one.role = csv_trimmed(item.substr(0, equals));
     std::string_view column = csv_trimmed(item.substr(equals + 1));
+    if (one.role == "decimal") {
+      if (column != "point" && column != "comma")
+        throw InputError("--columns", csv_quoted(item) + ": it is decimal=point or decimal=comma");
+      said.decimal = column == "point" ? '.' : ',';
+      return;
+    }
     const std::size_t open = column.find('[');
     if (open != std::string_view::npos && open > 0 && column.back() == ']' &&
         column.substr(0, open).find_first_not_of("0123456789") == std::string_view::npos) {
@@ -166,6 +182,7 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
 }
 
 std::string columns_suggested(const Recording& recording) {
+  if (is_probe_log(recording)) return "X=1[mm],C=6[deg],Z=3[mm]";
   std::string x = "X=…", c = "C=…", z = "Z=…";
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     const auto named = role_of_name(recording.columns[k].name);

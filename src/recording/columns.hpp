@@ -23,13 +23,15 @@ struct TakenColumn {
 };
 
 /// `--columns "X=Diameter,C=Angle(°),Z=3[mm]"`: a stream's column and, behind '=', the name in the
-/// file's header or the number of the column, with a unit in brackets if the file says none.
+/// file's header or the number of the column, with a unit in brackets if the file says none; beside
+/// these `decimal=point` or `decimal=comma`.
 struct ColumnsSaid {
   struct Item {
     std::string role, column;
     std::optional<std::string> unit;
   };
   std::vector<Item> items;
+  std::optional<char> decimal;  ///< of `decimal=point` or `decimal=comma`
 };
 
 /// @throws InputError with what is wrong with the text and an example.
@@ -39,6 +41,9 @@ ColumnsSaid read_columns_said(const std::string& text);
 /// one sentence each; nothing is taken then.
 std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
                                       std::vector<std::string>& unclear);
+
+/// LinuxCNC's (PROBEOPEN): nine numbers X Y Z A B C U V W of six decimals, no names; X is a radius.
+bool is_probe_log(const Recording& recording);
 
 /// "X=…,C=…,Z=…" as far as the columns are clear, dots elsewhere: for a message.
 std::string columns_suggested(const Recording& recording);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "format/file.hpp"
@@ -20,13 +21,14 @@
 namespace trueaxis {
 namespace {
 
-Recording recognise(const RecordedText& text, const std::string& path, std::size_t skip) {
+Recording recognise(const RecordedText& text, const std::string& path, std::size_t skip,
+                    std::optional<char> decimal) {
   for (const auto read : {&read_twincat_scope, &read_camonitor, &read_words}) {
     Recording recording;
-    if (skip == 0 && read(text, recording)) return recording;
+    if (skip == 0 && !decimal && read(text, recording)) return recording;
   }
   Recording recording;
-  if (read_table(text, skip, recording)) return recording;
+  if (read_table(text, skip, decimal, recording)) return recording;
   throw InputError(path, "holds no table of numbers: two rows of two numbers are the least");
 }
 
@@ -45,42 +47,58 @@ std::string quoted_path(const std::string& path) {
   return path.find_first_of(" '\"()&;$") == std::string::npos ? path : "\"" + path + "\"";
 }
 
+/// What is not clear: in sentences, and what the command that would read the file must say for it.
+struct Unclear {
+  std::vector<std::string> why;
+  bool columns = false;     ///< which column is which
+  bool convention = false;  ///< radius or diameter
+  bool decimal = false;     ///< a decimal mark that may part thousands as well
+};
+
+/// The options of the command that would read the file: those that were given, and what is asked.
+std::string options_suggested(const Recording& recording, const RecordingOptions& options,
+                              const Unclear& unclear) {
+  std::string columns =
+      unclear.columns || options.columns.empty() ? columns_suggested(recording) : options.columns;
+  if (unclear.decimal) columns += recording.decimal == ',' ? ",decimal=comma" : ",decimal=point";
+  std::string text = " --columns \"" + columns + "\"";
+  if (options.skip > 0) text += fmt::format(" --skip {}", options.skip);
+  if (unclear.convention) {
+    text += is_probe_log(recording) ? " --radius" : " --diameter (or --radius)";
+  } else if (options.read.diameter) {
+    text += *options.read.diameter ? " --diameter" : " --radius";
+  }
+  if (options.read.indication == Indication::relative) text += " --relative";
+  if (options.read.nominal_radius_mm)
+    text += fmt::format(" --nominal-radius {}", *options.read.nominal_radius_mm);
+  return text;
+}
+
 [[noreturn]] void refuse(const std::string& path, const Recording& recording,
-                         const RecordingOptions& options, std::vector<std::string> unclear,
-                         bool convention_said) {
+                         const RecordingOptions& options, const Unclear& unclear) {
   std::vector<Diagnostic> diagnostics;
-  const std::size_t unclear_count = unclear.size();
-  for (std::string& why : unclear) diagnostics.push_back({path, 0, 0, std::move(why)});
-  diagnostics.push_back(
-      {path, 0, 0, "was read as " + recording.producer + " with the columns " + listed(recording)});
-  const bool only_convention = !convention_said && unclear_count == 1;
-  const std::string columns =
-      only_convention && !options.columns.empty() ? options.columns : columns_suggested(recording);
-  diagnostics.push_back(
-      {path, 0, 0,
-       fmt::format("the command that would read it: trueaxis import {} --columns \"{}\"{}{} -o "
-                   "{}_stream.csv",
-                   quoted_path(path), columns,
-                   options.skip > 0 ? fmt::format(" --skip {}", options.skip) : "",
-                   convention_said ? "" : " --diameter (or --radius)",
-                   std::filesystem::path(path).stem().string())});
+  const auto say = [&](std::string what) { diagnostics.push_back({path, 0, 0, std::move(what)}); };
+  for (const std::string& why : unclear.why) say(why);
+  say("was read as " + recording.producer + " with the columns " + listed(recording));
+  say(fmt::format("the command that would read it: trueaxis import {}{} -o {}_stream.csv",
+                  quoted_path(path), options_suggested(recording, options, unclear),
+                  std::filesystem::path(path).stem().string()));
   throw InputError(std::move(diagnostics));
 }
 
-/// Names for more columns than the names are, or a number that is cut in two.
-void expect_named(const Recording& recording, std::vector<std::string>& unclear) {
-  const auto named = std::ranges::count_if(
-      recording.columns, [](const RecordedColumn& column) { return !column.whole.empty(); });
-  if (named == 0 || static_cast<std::size_t>(named) == recording.columns.size()) return;
-  const auto nameless = std::ranges::find_if(recording.columns, [](const RecordedColumn& column) {
-    return column.whole.empty() && column.is_number;
-  });
-  if (nameless == recording.columns.end()) return;
-  unclear.push_back(
-      fmt::format("the rows have {} numbers and the header {} names: where commas are both decimal "
-                  "marks and separators, "
-                  "export the table with semicolons",
-                  recording.columns.size(), named));
+/// Numbers in columns behind the last name: commas that cut numbers in two. A column in front
+/// without a name, as pandas writes its index, is another matter.
+void expect_named(const Recording& recording, const std::string& path) {
+  std::size_t named = recording.columns.size();
+  while (named > 0 && recording.columns[named - 1].whole.empty()) --named;
+  const auto nameless = std::ranges::find_if(
+      recording.columns.begin() + static_cast<std::ptrdiff_t>(named), recording.columns.end(),
+      [](const RecordedColumn& column) { return column.is_number; });
+  if (named == 0 || nameless == recording.columns.end()) return;
+  throw InputError(
+      path, fmt::format("the rows have {} numbers and the header {} names: where commas are both "
+                        "decimal marks and separators, save the table with semicolons",
+                        recording.columns.size(), named));
 }
 
 /// What `# x_convention` of the file says, as a stream of our own has it.
@@ -117,20 +135,14 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
   if (!left.empty()) notes.push_back("columns that are not used: " + left);
 }
 
-/// The stream of `text`; what is wrong with it is said at the lines of the file it is made of.
-ProbeStream parsed(const std::string& text, std::size_t head, const Recording& recording,
-                   const std::string& path, const StreamReadOptions& options) {
+template <class Reading>
+std::vector<Diagnostic> thrown_by(Reading&& reading) {
   try {
-    return read_stream_csv_text(text, path, options);
+    reading();
   } catch (const InputError& error) {
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
-    for (Diagnostic& diagnostic : diagnostics) {
-      const std::size_t row = diagnostic.line > head ? diagnostic.line - head - 1 : 0;
-      diagnostic.line = diagnostic.line > head && row < recording.rows() ? recording.lines[row] : 0;
-      diagnostic.column = 0;
-    }
-    throw InputError(std::move(diagnostics));
+    return error.diagnostics();
   }
+  return {};
 }
 
 /// Whether the first line that is no comment names columns as a stream of TrueAxis does.
@@ -156,34 +168,43 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
   const RecordedText text(bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
-  const Recording recording = recognise(text, path, options.skip);
-  std::vector<std::string> unclear;
+  const Recording recording = recognise(text, path, options.skip, said.decimal);
+  Unclear unclear;
   if (said.items.empty()) {
-    unclear = recording.unclear;
-    expect_named(recording, unclear);
+    unclear.why = recording.unclear;
+    expect_named(recording, path);
   }
-  std::vector<TakenColumn> taken = take_columns(recording, said, unclear);
+  std::vector<TakenColumn> taken = take_columns(recording, said, unclear.why);
+  unclear.columns = !unclear.why.empty();
   const auto x = std::ranges::find(taken, RecordedRole::x, &TakenColumn::role);
   const bool points = std::ranges::find(taken, RecordedRole::y, &TakenColumn::role) != taken.end();
   std::optional<bool> diameter = x == taken.end() ? std::nullopt : x->diameter;
-  if (diameter && options.read.diameter && *diameter != *options.read.diameter)
-    unclear.push_back(std::string("X is a ") + (*diameter ? "diameter" : "radius") +
-                      " by its name and a " + (*diameter ? "radius" : "diameter") +
-                      " for the caller: correct one");
+  const bool contradicted =
+      diameter && options.read.diameter && *diameter != *options.read.diameter;
+  if (contradicted)
+    unclear.why.push_back(std::string("X is a ") + (*diameter ? "diameter" : "radius") +
+                          " by its name and a " + (*diameter ? "radius" : "diameter") +
+                          " for the caller: correct one");
   if (!diameter) diameter = options.read.diameter;
   if (!diameter) diameter = convention_in(recording.metadata);
   if (!diameter && points) diameter = false;
+  unclear.convention = !diameter || contradicted;
   if (!diameter && x != taken.end())
-    unclear.emplace_back(
+    unclear.why.emplace_back(
         "X may be a radius or a diameter, and nothing in the file tells: say --radius or "
         "--diameter");
-  if (!unclear.empty()) refuse(path, recording, options, std::move(unclear), diameter.has_value());
+  unclear.decimal = recording.in_thousands;
+  if (unclear.decimal)
+    unclear.why.push_back(
+        fmt::format("every {} in its numbers stands before three digits and may part thousands: "
+                    "say how it is meant, or save the numbers without it",
+                    recording.decimal == ',' ? "comma" : "point"));
+  if (!unclear.why.empty()) refuse(path, recording, options, unclear);
 
   CsvDiagnostics diagnostics(path, options.read.max_diagnostics);
   for (const Diagnostic& wrong : recording.wrong)
     diagnostics.add(wrong.line, wrong.column, wrong.message, "row");
   const StreamRows rows = stream_rows(recording, text, taken, *diameter, diagnostics);
-  diagnostics.throw_if_any();
 
   ImportedRecording out;
   out.producer = recording.producer;
@@ -206,7 +227,17 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
   for (const std::string& row : rows.rows) out.text += row + "\n";
   StreamReadOptions read = options.read;
   read.diameter.reset();
-  out.stream = parsed(out.text, head, recording, path, read);
+  // Rows that are wrong are left out here: what is wrong between the others is said as well.
+  std::vector<Diagnostic> wrong = thrown_by([&] { diagnostics.throw_if_any(); });
+  const auto line_of = [&](std::size_t line) {
+    return line > head && line - head <= rows.lines.size() ? rows.lines[line - head - 1] : 0;
+  };
+  if (wrong.empty() || 2 * rows.rows.size() > recording.rows())
+    std::ranges::copy(
+        thrown_by([&] { out.stream = read_stream_csv_text(out.text, path, read, line_of); }),
+        std::back_inserter(wrong));
+  std::ranges::stable_sort(wrong, {}, &Diagnostic::line);
+  if (!wrong.empty()) throw InputError(std::move(wrong));
   out.stream.read_as = out.notes;
   out.stream.input_hash = content_hash(bytes);
   return out;
@@ -223,7 +254,7 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
     const std::string bytes = read_file(path);
     const RecordedText text(bytes);
     Recording table;  // of our own names with decimal commas, as a spreadsheet saves a stream
-    const bool commas = read_table(text, 0, table) && table.decimal == ',';
+    const bool commas = read_table(text, 0, {}, table) && table.decimal == ',';
     if (!schema_in(bytes.substr(0, 200)).empty() || (is_own_header(text) && !commas)) throw;
   }
   return import_recording(path, options).stream;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,6 +39,7 @@ struct Recording {
   std::vector<std::string_view> cells;  ///< row by row, columns.size() each
   std::vector<std::size_t> lines;       ///< of each row, 1-based
   char decimal = '.';
+  bool in_thousands = false;          ///< every decimal mark may as well part thousands: 20.100
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
   std::deque<std::string> made;       ///< text of cells that stand in no file
@@ -67,7 +69,8 @@ bool read_camonitor(const RecordedText& text, Recording& out);
 /// Words of a letter and a number, "X   10.0012 C   30.0000": DPRNT, point lists of RS-274.
 bool read_words(const RecordedText& text, Recording& out);
 /// Fields between separators, with or without names: spreadsheets, LinuxCNC's PROBEOPEN and
-/// halsampler. The first `skip` lines are not looked at.
-bool read_table(const RecordedText& text, std::size_t skip, Recording& out);
+/// halsampler. The first `skip` lines are not looked at; `decimal`: '.' or ',' where it is said.
+bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> decimal,
+                Recording& out);
 
 }  // namespace trueaxis

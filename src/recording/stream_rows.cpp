@@ -39,6 +39,19 @@ std::string with_point(std::string_view cell) {
   return text;
 }
 
+/// Why a cell is no number, and what to do.
+std::string why_no_number(std::string_view cell, char decimal) {
+  double value = 0.0;
+  const std::size_t end = cell.find_first_not_of("+-0123456789.,eE");
+  if (end == std::string_view::npos && cell.find('.') != std::string_view::npos &&
+      (decimal == ',' || cell.find(',') != std::string_view::npos))
+    return " is not a number: save numbers without a mark that parts thousands";
+  if (end != std::string_view::npos &&
+      recorded_number(csv_trimmed(cell.substr(0, end)), decimal, value))
+    return " is not a number alone: write its unit into the header";
+  return " is not a number";
+}
+
 class RowMaker {
  public:
   RowMaker(const Recording& recording, const RecordedText& text,
@@ -108,8 +121,8 @@ class RowMaker {
     if (cell.empty())
       return wrong(i, column, name + " is empty: write a number or remove the row",
                    name + " empty");
-    return wrong(i, column, name + ": " + csv_quoted(cell) + " is not a number",
-                 name + " no number");
+    const std::string what = why_no_number(cell, recording_.decimal);
+    return wrong(i, column, name + ": " + csv_quoted(cell) + what, name + what);
   }
 
   bool wrong(std::size_t i, const TakenColumn& column, std::string message,
@@ -163,8 +176,12 @@ StreamRows stream_rows(const Recording& recording, const RecordedText& text,
   }
   out.header = header_of(taken, diameter);
   RowMaker maker(recording, text, taken, diameter, diagnostics);
-  out.rows.resize(recording.rows());
-  for (std::size_t i = 0; i < recording.rows(); ++i) maker.row(i, out.rows[i]);
+  std::string row;
+  for (std::size_t i = 0; i < recording.rows(); ++i) {
+    if (!maker.row(i, row)) continue;
+    out.rows.push_back(row);
+    out.lines.push_back(recording.lines[i]);
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace trueaxis {
 
 /// The rows of a stream, as text with decimal points, made of the columns that were taken.
 struct StreamRows {
-  std::string header;             ///< "X_M[mm dia],C[deg],Z[mm]"
-  std::vector<std::string> rows;  ///< without line ends
+  std::string header;              ///< "X_M[mm dia],C[deg],Z[mm]"
+  std::vector<std::string> rows;   ///< without line ends; those of which every cell is good
+  std::vector<std::size_t> lines;  ///< of the file, of each row
   std::vector<std::string> notes;
 };
 

@@ -43,7 +43,8 @@ void split(std::string_view line, char separator, std::vector<std::string_view>&
       at = separator == ' ' ? line.find_first_of(" \t", at) : line.find(separator, at);
       end = std::min(at, line.size());
     }
-    fields.push_back(csv_trimmed(line.substr(begin, end - begin)));
+    const std::string_view field = csv_trimmed(line.substr(begin, end - begin));
+    fields.push_back(field.empty() ? line.substr(begin, 0) : field);  // of an empty one the place
     if (at == std::string_view::npos) return;
     ++at;
     if (separator == ' ') {
@@ -87,10 +88,12 @@ Layout tried(const RecordedText& text, std::size_t skip, Layout layout) {
 }
 
 /// The layout in which most lines are rows and most of their fields numbers.
-std::optional<Layout> best_layout(const RecordedText& text, std::size_t skip) {
+std::optional<Layout> best_layout(const RecordedText& text, std::size_t skip,
+                                  std::optional<char> said) {
   Layout best;
   for (const char separator : {';', '\t', ',', '|', ' '}) {
     for (const char decimal : {'.', ','}) {
+      if (said.value_or(decimal) != decimal) continue;
       if (decimal == separator && text.text.find('"') == std::string::npos) continue;
       const Layout layout = tried(text, skip, {separator, decimal});
       const auto worth = [](const Layout& l) { return l.numbers * static_cast<double>(l.rows); };
@@ -192,6 +195,21 @@ void drop_empty_columns(Recording& out) {
   out.columns.resize(used);
 }
 
+/// Whether every decimal mark of a table may as well part thousands: behind one to three digits,
+/// the first of which is no zero, and before exactly three.
+bool may_part_thousands(const Recording& recording) {
+  bool any = false;
+  for (const std::string_view cell : recording.cells) {
+    const std::size_t at = cell.find(recording.decimal);
+    if (at == std::string_view::npos || !is_number(cell, recording.decimal)) continue;
+    const std::size_t first = cell.find_first_of("0123456789");
+    if (at < first + 1 || at > first + 3 || cell[first] == '0' || cell.size() != at + 4)
+      return false;
+    any = true;
+  }
+  return any;
+}
+
 std::size_t byte_of(std::string_view line, std::string_view field) {
   return static_cast<std::size_t>(field.data() - line.data());
 }
@@ -206,9 +224,10 @@ const char* name_of(char separator) {
 
 }  // namespace
 
-bool read_table(const RecordedText& text, std::size_t skip, Recording& out) {
+bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> decimal,
+                Recording& out) {
   skip = std::min(skip, text.lines.size());
-  const std::optional<Layout> layout = best_layout(text, skip);
+  const std::optional<Layout> layout = best_layout(text, skip, decimal);
   if (!layout) return false;
   std::vector<std::string_view> fields;
   const auto is_row = [&](std::size_t i) {
@@ -263,6 +282,8 @@ bool read_table(const RecordedText& text, std::size_t skip, Recording& out) {
       numbers += is_number(out.cell(i, k), out.decimal) ? 1 : 0;
     out.columns[k].is_number = 2 * numbers > out.rows();
   }
+  out.in_thousands =
+      !decimal && layout->separator != ',' && layout->separator != ' ' && may_part_thousands(out);
   out.producer = std::string("a table with ") + name_of(layout->separator) +
                  (layout->decimal == ',' ? " and decimal commas" : "");
   return true;

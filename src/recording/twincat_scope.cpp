@@ -15,10 +15,10 @@ namespace {
 
 constexpr double s_per_tick = 1e-7;  // 100 ns
 
-std::vector<std::string_view> fields_of(std::string_view line) {
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t stop = std::min(line.find(';', at), line.size());
+    const std::size_t stop = std::min(line.find(separator, at), line.size());
     fields.push_back(csv_trimmed(line.substr(at, stop - at)));
     at = stop + 1;
   }
@@ -57,20 +57,26 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
   while (head < std::min<std::size_t>(text.lines.size(), 10) &&
          !starts(head, "Starttime of export"))
     ++head;
-  if (!starts(head, "Starttime of export") || !starts(0, "Name;")) return false;
+  constexpr std::string_view name = "Name", separators = ";\t,";
+  if (!starts(head, "Starttime of export") || !starts(0, name) ||
+      text.lines[0].size() == name.size() ||
+      separators.find(text.lines[0][name.size()]) == std::string_view::npos)
+    return false;
+  const char separator = text.lines[0][name.size()];
 
   std::map<std::string, std::vector<std::string_view>> keyed;
   std::size_t first = head;
   for (; first < text.lines.size(); ++first) {
-    const auto fields = fields_of(text.lines[first]);
+    const auto fields = fields_of(text.lines[first], separator);
     if (fields.size() > 1 && ticks_in(fields[0])) break;
     if (fields.size() > 1) keyed[std::string(fields[0])] = fields;
   }
   const auto names = keyed.find("Name");
   if (names == keyed.end() || first == text.lines.size()) return false;
   out.decimal =
-      text.text.find(',', static_cast<std::size_t>(text.lines[first].data() - text.text.data())) ==
-              std::string::npos
+      separator == ',' ||
+              text.text.find(',', static_cast<std::size_t>(text.lines[first].data() -
+                                                           text.text.data())) == std::string::npos
           ? '.'
           : ',';
   const std::size_t columns = names->second.size();
@@ -90,11 +96,15 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
   }
   std::int64_t start_ticks = 0;
   for (std::size_t i = first; i < text.lines.size(); ++i) {
-    auto fields = fields_of(text.lines[i]);
+    auto fields = fields_of(text.lines[i], separator);
     if (fields.size() == 1 && fields[0].empty()) continue;
     const auto ticks = ticks_in(fields[0]);
     if (!ticks || fields.size() > columns) {
-      out.wrong.push_back({"", i + 1, 0, "is no row of TICKS and values: remove it"});
+      out.wrong.push_back({"", i + 1, 0,
+                           ticks && separator == ','
+                               ? "has more fields than there are names: where commas are both "
+                                 "decimal marks and separators, export with semicolons"
+                               : "is no row of TICKS and values: remove it"});
       continue;
     }
     if (out.lines.empty()) start_ticks = *ticks;

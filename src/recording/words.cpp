@@ -18,7 +18,7 @@ struct Word {
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
 /// The words of a line that holds nothing else; empty for any other line. A control writes blanks
-/// between a letter and its number (FANUC, Haas: DPRNT pads with them).
+/// between a letter and its number (FANUC, Haas: DPRNT pads with them), other programs a '='.
 std::vector<Word> words_of(std::string_view line) {
   std::vector<Word> words;
   std::size_t at = 0;
@@ -29,6 +29,8 @@ std::vector<Word> words_of(std::string_view line) {
     const char letter = line[at];
     if (!is_letter(letter)) return {};
     ++at;
+    skip();
+    if (at < line.size() && line[at] == '=') ++at;
     skip();
     double value = 0.0;
     std::errc error{};

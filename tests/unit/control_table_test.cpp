@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files for controls, read back by readers of this test and held against the circle itself: a
-// cylinder of radius R about an axis that is (a, b) off and parallel to the spindle meets the
-// probe's line at X(C) = a cos C + b sin C + √(R² − (b cos C − a sin C)²). Tolerance: half the last
-// digit that the format has, and 1e-12 mm of arithmetic.
+// Files for controls, read back by readers of this test and held against the cylinder itself: its
+// axis passes through q = (a, b, 0) along d = (p, q, 1)/|…|, and the point X (cos C, sin C, 0) + Z
+// of the probe's line is on it where |v|² − (v·d)² = R², v from q to the point: a quadratic in X.
+// Tolerance: half the last digit that the format has, and 1e-12 mm of arithmetic.
 #include "trueaxis/control_table.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "trueaxis/correction.hpp"
@@ -15,25 +17,37 @@
 namespace trueaxis::testing {
 namespace {
 
-constexpr double a_mm = 0.08, b_mm = -0.05, radius_mm = 30.0;
+constexpr double a_mm = 0.08, b_mm = -0.05, slope_x = 4e-4, slope_y = -3e-4, radius_mm = 30.0;
+constexpr double feed_mm = 0.5, z_start_mm = 130.0, z_end_mm = 100.0;
 
-double wanted_mm(double c_rad) {
-  const double across = b_mm * std::cos(c_rad) - a_mm * std::sin(c_rad);
-  return a_mm * std::cos(c_rad) + b_mm * std::sin(c_rad) +
-         std::sqrt(radius_mm * radius_mm - across * across) - radius_mm;
+double wanted_mm(double c_rad, double z_mm) {
+  const double length = std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y);
+  const std::array<double, 3> d{slope_x / length, slope_y / length, 1.0 / length};
+  const std::array<double, 3> e{std::cos(c_rad), std::sin(c_rad), 0.0}, w{-a_mm, -b_mm, z_mm};
+  const auto dot = [](const auto& u, const auto& v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  };
+  // (1 − (e·d)²) X² + 2 (e·w − (e·d)(w·d)) X + |w|² − (w·d)² − R² = 0
+  const double ed = dot(e, d), wd = dot(w, d);
+  const double two = 1.0 - ed * ed, one = dot(e, w) - ed * wd;
+  const double none = dot(w, w) - wd * wd - radius_mm * radius_mm;
+  return (-one + std::sqrt(one * one - two * none)) / two - radius_mm;
 }
 
-Correction correction() {
+/// Where the tool is along Z in row i of the cut.
+double z_of_row(std::size_t i) { return z_start_mm - feed_mm * static_cast<double>(i) / 360.0; }
+
+Correction correction(bool precompensate = false) {
   AxisEstimate axis;
-  axis.axis = {a_mm, b_mm, 0.0, 0.0, 0.0};
+  axis.axis = {a_mm, b_mm, slope_x, slope_y, 0.0};
   TargetSurface target;
   target.radius_mm = radius_mm;
-  target.z_start_mm = 130.0;
-  target.z_end_mm = 100.0;
+  target.z_start_mm = z_start_mm;
+  target.z_end_mm = z_end_mm;
   ToolSetup tool;
-  tool.feed_mm_per_rev = 0.5;
+  tool.feed_mm_per_rev = feed_mm;
   Actuator actuator;
-  actuator.precompensate = false;
+  actuator.precompensate = precompensate;
   return make_correction(axis, target, tool, actuator);
 }
 
@@ -68,12 +82,17 @@ TEST(ControlTables, TheGridIsTheCircle) {
     const std::vector<double> row = numbers_of(line);
     ASSERT_EQ(row.size(), 8U);  // an angle, 100 to 130 mm by 5
     for (std::size_t j = 1; j < row.size(); ++j, ++values)
-      EXPECT_NEAR(row[j] * mm_per_um, wanted_mm(row[0] * rad_per_deg), made.rounding_mm + 1e-12);
+      EXPECT_NEAR(row[j] * mm_per_um,
+                  wanted_mm(row[0] * rad_per_deg, 95.0 + 5.0 * static_cast<double>(j)),
+                  made.rounding_mm + 1e-12);
   }
   EXPECT_EQ(values, 361U * 7U);
-  // Linear over 1° of one undulation: (1°)²/8 of its amplitude.
-  EXPECT_LE(made.off_mm,
-            std::hypot(a_mm, b_mm) * rad_per_deg * rad_per_deg / 8.0 + made.rounding_mm);
+  // Linear over 1° of one undulation: (1°)²/8 of its amplitude, at the cut's end that has more.
+  const double amplitude_mm = std::max(std::hypot(a_mm + 100.0 * slope_x, b_mm + 100.0 * slope_y),
+                                       std::hypot(a_mm + 130.0 * slope_x, b_mm + 130.0 * slope_y));
+  // Behind the cut's end the tool runs one more revolution, where a table holds its last value.
+  EXPECT_LE(made.off_mm, 1.01 * amplitude_mm * rad_per_deg * rad_per_deg / 8.0 +
+                             feed_mm * std::hypot(slope_x, slope_y) + made.rounding_mm);
 }
 
 TEST(ControlTables, TheStreamIsTheTableAndItsLastLineTwice) {
@@ -85,10 +104,26 @@ TEST(ControlTables, TheStreamIsTheTableAndItsLastLineTwice) {
   ASSERT_EQ(rows.size(), of.rows.wanted_mm.size() + 1);
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
     EXPECT_NEAR(rows[i][1], static_cast<double>(i), 1e-6);  // 360 rows a turn
-    EXPECT_NEAR(rows[i][0] * mm_per_um, wanted_mm(rows[i][1] * rad_per_deg),
+    EXPECT_NEAR(rows[i][0] * mm_per_um, wanted_mm(rows[i][1] * rad_per_deg, z_of_row(i)),
                 made.rounding_mm + 1e-12);
   }
   EXPECT_EQ(rows.back(), rows[rows.size() - 2]);
+}
+
+// Ahead of a lag of 2ζ/ω_n + T/2 = 0.40 ms at 600 rpm, 1.4°: 0.18 mm times that, 4.5 µm.
+TEST(ControlTables, TheStreamIsWhatTheActuatorIsSent) {
+  const Correction of = correction(true);
+  const MadeControlTable made = make_control_table(of, table_of(ControlFormat::halstreamer));
+  EXPECT_NE(made.text.find("X_command in um (precompensated)"), std::string::npos);
+  double largest_mm = 0.0;
+  std::size_t i = 0;
+  for (const std::string& line : lines_of(made.text)) {
+    if (line.starts_with('#') || i == of.rows.command_mm.size()) continue;
+    EXPECT_NEAR(numbers_of(line)[0] * mm_per_um, of.rows.command_mm[i], made.rounding_mm + 1e-12);
+    largest_mm = std::max(largest_mm, std::abs(of.rows.command_mm[i] - of.rows.wanted_mm[i]));
+    ++i;
+  }
+  EXPECT_GT(largest_mm, 1e-3);
 }
 
 TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
@@ -108,14 +143,17 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
       const std::vector<double> word = numbers_of(line);
       ASSERT_EQ(word.size(), 4U) << line;  // C X Z F
       const double scale = diameter ? 2.0 : 1.0;
-      EXPECT_NEAR(word[1] / scale, radius_mm + wanted_mm(word[0] * rad_per_deg),
+      EXPECT_NEAR(word[1] / scale, radius_mm + wanted_mm(word[0] * rad_per_deg, z_of_row(blocks)),
                   made.rounding_mm + 1e-12);
-      EXPECT_NEAR(word[2], 130.0 - 0.5 * static_cast<double>(blocks) / 360.0, 0.5e-6 + 1e-12);
+      EXPECT_NEAR(word[2], z_of_row(blocks), 0.5e-6 + 1e-12);
       // 600 rpm and 360 blocks a turn.
       EXPECT_NEAR(word[3], diameter ? 1.0 / 216000.0 : 216000.0, diameter ? 0.5e-6 : 1e-9);
       ++blocks;
     }
     EXPECT_EQ(blocks, correction().rows.wanted_mm.size());
+    // Inverse time holds for the blocks and for nothing else.
+    EXPECT_EQ(lines[3], "G93");
+    EXPECT_EQ(lines[lines.size() - 2], "G94");
   }
 }
 
@@ -129,15 +167,26 @@ TEST(ControlTables, SinumerikHasATableForEachBand) {
     if (!line.starts_with("$AN_CEC[")) continue;
     const std::vector<double> n = numbers_of(line);  // table, point, value
     ++points.at(static_cast<std::size_t>(n[0]));
-    EXPECT_NEAR(n[2], wanted_mm(n[1] * 2.0 * rad_per_deg), made.rounding_mm + 1e-12);
+    const double middle_mm = z_end_mm + 10.0 * n[0] + 5.0;
+    EXPECT_NEAR(n[2], wanted_mm(n[1] * 2.0 * rad_per_deg, middle_mm), made.rounding_mm + 1e-12);
   }
   EXPECT_EQ(points, (std::array{181, 181, 181}));
-  EXPECT_NE(made.text.find("$AN_CEC_IS_MODULO[2]=1"), std::string::npos);
+  for (const char* said : {"$AN_CEC_IS_MODULO[2]=1\n", "$AN_CEC_STEP[1]=2.000000\n",
+                           "; table 2: Z 110.0000 to 120.0000\n"})
+    EXPECT_NE(made.text.find(said), std::string::npos) << said;
+  // Off by what the axis leans over half a band, of the last one with the revolution behind the
+  // cut's end; the chord over 2° is less than its (2°)²/8.
+  EXPECT_NEAR(made.off_mm, (5.0 + 0.5 * feed_mm) * std::hypot(slope_x, slope_y),
+              0.5 * feed_mm * std::hypot(slope_x, slope_y) +
+                  0.2 * 4.0 * rad_per_deg * rad_per_deg / 8.0 + made.rounding_mm);
 }
 
 TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {
   ControlTable table = table_of(ControlFormat::beckhoff_crosscomp2);
   table.c_step_rad = 5.0 * rad_per_deg;
+  table.x_axis = 4;
+  table.c_axis = 5;
+  table.z_axis = 6;
   const MadeControlTable made = make_control_table(correction(), table);
   std::size_t values = 0;
   for (const std::string& line : lines_of(made.text)) {
@@ -146,29 +195,82 @@ TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {
     const std::size_t value = line.find(".correction");
     const std::vector<double> node = numbers_of(line.substr(at + 6, value - at - 6));
     ASSERT_EQ(node.size(), 2U) << line;  // [master2][master1]
-    EXPECT_NEAR(std::stod(line.substr(value + 11)) * 1e-4, wanted_mm(node[1] * 5.0 * rad_per_deg),
+    EXPECT_NEAR(std::stod(line.substr(value + 11)) * 1e-4,
+                wanted_mm(node[1] * 5.0 * rad_per_deg, z_end_mm + 5.0 * node[0]),
                 made.rounding_mm + 1e-12)
         << line;
     ++values;
   }
   EXPECT_EQ(values, 73U * 7U);
-  EXPECT_NE(made.text.find("kw.crosscomp2.start_position_master2   1000000\n"), std::string::npos);
+  // The parameters in the order of the maker's list, in 0.1 µm and points.
+  const std::map<std::string, double> said{{"kopf.achs_nr ", 4},
+                                           {"crosscomp2.max_points ", 511},
+                                           {"crosscomp2.interval ", 5e4},
+                                           {"crosscomp2.last_index_master1 ", 72},
+                                           {"last_index_master2 ", 6},
+                                           {"start_position_master1 ", 0},
+                                           {"start_position_master2 ", 1e6},
+                                           {"master1_ax_nr ", 5},
+                                           {"master2_ax_nr ", 6}};
+  for (const auto& [key, number] : said) {
+    const std::size_t at = made.text.find(key);
+    ASSERT_NE(at, std::string::npos) << key;
+    EXPECT_EQ(std::stod(made.text.substr(at + key.size())), number) << key;
+  }
 }
 
-TEST(ControlTables, LimitsAreSaidBeforeAnythingIsMade) {
-  const Correction of = correction();
-  ControlTable table = table_of(ControlFormat::sinumerik_cec);
-  table.c_step_rad = 2.0 * rad_per_deg;
-  table.position_step_mm = 3.0;  // ten bands
-  EXPECT_NE(objection_to(table, of.target, of.tool).find("10 tables, more than 8"),
-            std::string::npos);
-  table.format = ControlFormat::grid;
-  table.c_step_rad = 7.0 * rad_per_deg;
-  EXPECT_NE(objection_to(table, of.target, of.tool).find("no whole part of a turn"),
-            std::string::npos);
-  table.c_step_rad = rad_per_deg;
-  table.position_step_mm = 0.01;
-  EXPECT_NE(objection_to(table, of.target, of.tool).find("more than 1e+06"), std::string::npos);
+/// What is objected to a table of this form, of a cut along 30 mm with a feed and rows a turn.
+std::string objection(ControlFormat format, double c_step_deg, double step_mm,
+                      double feed = feed_mm, int rows = 360) {
+  ControlTable table = table_of(format);
+  table.c_step_rad = c_step_deg * rad_per_deg;
+  table.position_step_mm = step_mm;
+  Correction of;
+  of.target.radius_mm = radius_mm;
+  of.target.z_start_mm = z_start_mm;
+  of.target.z_end_mm = z_end_mm;
+  of.tool.feed_mm_per_rev = feed;
+  of.tool.rows_per_revolution = rows;
+  return objection_to(table, of.target, of.tool);
+}
+
+// docs/files.md: the largest of each that is made, and the next that is not.
+TEST(ControlTables, EachHasItsLargest) {
+  using enum ControlFormat;
+  struct Edge {
+    ControlFormat format;
+    double c_step_deg, step_mm, feed_mm;
+    int rows;
+    const char* said;  ///< empty: it is made
+  };
+  const Edge edges[] = {
+      // 361 angles: 2770 places are 999970 values, 2771 are 1000331.
+      {grid, 1.0, 30.0 / 2769.0, 0.5, 360, ""},
+      {grid, 1.0, 30.0 / 2770.0, 0.5, 360, "makes 1000331 values, more than the 1000000"},
+      // 30 mm in revolutions of the feed, times rows.
+      {halstreamer, 1.0, 5.0, 0.0006, 999, ""},
+      {halstreamer, 1.0, 5.0, 0.0006, 1001, "makes 50050000 lines, more than the 50000000"},
+      {servo_nc, 1.0, 5.0, 0.03, 999, ""},
+      {servo_nc, 1.0, 5.0, 0.03, 1001, "makes 1001000 blocks, more than the 1000000"},
+      {sinumerik_cec, 2.0, 3.75, 0.5, 360, ""},
+      {sinumerik_cec, 2.0, 3.7, 0.5, 360, "makes 9 tables, more than the 8"},
+      {sinumerik_cec, 1.8, 5.0, 0.5, 360, "makes 201 points a table, more than the 200"},
+      {sinumerik_cec, 2.0, 1e-300, 0.5, 360, "makes more than the 8 tables"},
+      // 721 angles: 14 places, and 10 in steps of the same number.
+      {beckhoff_crosscomp2, 0.5, 0.5, 0.5, 360, "makes 43981 points, more than the 10201"},
+      {beckhoff_crosscomp2, 1.0, 2.0, 0.5, 360, "has one interval for both axes"},
+      {beckhoff_crosscomp2, 1.2, 1.2, 0.5, 360, ""},
+      {grid, 7.0, 5.0, 0.5, 360, "no whole part of a turn"},
+  };
+  for (const Edge& edge : edges) {
+    const std::string found =
+        objection(edge.format, edge.c_step_deg, edge.step_mm, edge.feed_mm, edge.rows);
+    if (*edge.said == '\0') {
+      EXPECT_EQ(found, "") << to_string(edge.format);
+    } else {
+      EXPECT_NE(found.find(edge.said), std::string::npos) << to_string(edge.format) << ' ' << found;
+    }
+  }
 }
 
 }  // namespace

@@ -205,6 +205,22 @@ TEST(Margin, TheHighestSpeedFollowsAndATenthMoreDoesNot) {
   }
 }
 
+// A job that runs is told no speed beyond a third of the bandwidth: Eq. 117, f_n of ζ = 0.7 times
+// 1.01005, at the second harmonic (above 10 nm, as before); its own speed where that is higher.
+TEST(Margin, NoSpeedIsNamedBeyondAThirdOfTheBandwidth) {
+  ToolSetup tool;
+  Actuator actuator;
+  actuator.stroke_mm = 0.8;
+  actuator.slew_mm_per_s = 1e6;
+  const double third_hz = 1.01005 * actuator.natural_frequency_hz / 3.0;
+  EXPECT_NEAR(make_correction(far_axis(), cylinder(), tool, actuator).margin.max_speed_rpm,
+              60.0 * third_hz / 2.0, 1.0);
+  tool.speed_rpm = 1.1 * 60.0 * third_hz / 2.0;
+  const ActuatorMargin faster = make_correction(far_axis(), cylinder(), tool, actuator).margin;
+  ASSERT_TRUE(faster.follows) << faster.breaks;
+  EXPECT_EQ(faster.max_speed_rpm, tool.speed_rpm);
+}
+
 TEST(Margin, WithoutPrecompensationTheLagSetsTheSpeed) {
   // 1 µm of following error at A = 302 µm: A ω (2ζ/ω_n + T/2) = 1 µm.
   ToolSetup tool;

@@ -13,8 +13,8 @@ namespace trueaxis {
 namespace {
 
 constexpr double most_grid = 1e6, most_lines = 5e7, most_blocks = 1e6;
-constexpr std::size_t most_tables = 8, most_points = 200;  // SINUMERIK 828D: MD18342
-constexpr double most_plane_points = 10201;                // kw.crosscomp2.max_points, its default
+constexpr double most_tables = 8, most_points = 200;  // SINUMERIK 828D: MD18342
+constexpr double most_plane_points = 10201;           // kw.crosscomp2.max_points, its default
 
 double length_of(const TargetSurface& target) {
   return target.kind == TargetKind::face ? target.radius_end_mm - target.radius_start_mm
@@ -25,10 +25,12 @@ double rows_of(const TargetSurface& target, const ToolSetup& tool) {
   return std::abs(length_of(target)) / tool.feed_mm_per_rev * tool.rows_per_revolution;
 }
 
-std::string too_many(double count, const char* what, double most, const char* remedy) {
-  return count <= most
-             ? std::string()
-             : fmt::format("makes {:.6g} {}, more than {:.6g}: {}", count, what, most, remedy);
+/// A count far beyond the limit is not said: it is a key that is wrong.
+std::string too_many(double count, const char* what, double most, std::string_view remedy) {
+  if (!(count > most)) return "";
+  const std::string of = count < 1e4 * most ? fmt::format("{:.0f} {}, ", count, what) : "";
+  return fmt::format("makes {}more than the {:.0f} {}that it can have: {}", of, most,
+                     of.empty() ? what + std::string(" ") : "", remedy);
 }
 
 }  // namespace
@@ -44,9 +46,11 @@ std::string objection_to(const ControlTable& table, const TargetSurface& target,
   const double turns = two_pi / table.c_step_rad;
   if (!(std::abs(turns - std::round(turns)) < 1e-6) || turns < 4.0)
     return "has a step of C that is no whole part of a turn: use 1, 2 or 5 degrees";
-  const auto angles = static_cast<double>(nodes_of_turn(table.c_step_rad));
-  const auto places =
-      static_cast<double>(nodes_of_length(length_of(target), table.position_step_mm));
+  if (!(table.position_step_mm > 0.0)) return "has no step along the cut: give one above 0";
+  // As nodes_of_turn() and nodes_of_length() count, but for steps of any size.
+  const double length_mm = std::abs(length_of(target));
+  const double angles = std::round(turns) + 1.0;
+  const double places = std::ceil(length_mm / table.position_step_mm - 1e-9) + 1.0;
   const bool face = target.kind == TargetKind::face;
   switch (table.format) {
     case ControlFormat::grid:
@@ -59,11 +63,11 @@ std::string objection_to(const ControlTable& table, const TargetSurface& target,
                       "raise the feed or lower rows_per_revolution");
     case ControlFormat::sinumerik_cec:
       if (face) return "corrects X over C: a face wants Z, which is not written yet";
-      if (angles > static_cast<double>(most_points))
-        return too_many(angles, "points a table", static_cast<double>(most_points),
-                        "use a step of 2 degrees");
-      return too_many(std::max(1.0, places - 1.0), "tables", static_cast<double>(most_tables),
-                      "use longer bands");
+      if (angles > most_points)
+        return too_many(angles, "points a table", most_points, "use a step of 2 degrees");
+      return too_many(std::max(1.0, places - 1.0), "tables", most_tables,
+                      fmt::format("use bands of {:.4g} mm or longer",
+                                  std::ceil(100.0 * length_mm / most_tables) / 100.0));
     case ControlFormat::beckhoff_crosscomp2:
       if (face) return "corrects X over C and Z: a face wants Z, which is not written yet";
       if (std::abs(table.c_step_rad / rad_per_deg - table.position_step_mm) > 1e-9)

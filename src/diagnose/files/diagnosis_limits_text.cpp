@@ -130,6 +130,13 @@ std::string next_text(const NextMeasurement& next) {
 
 std::string advice_text(const Diagnosis& d) {
   std::string text = wrapped("", diagnosis_line(d));
+  // What a measurement would tell of a cone says nothing of what is a cylinder.
+  if (d.baseline.status == FitStatus::rank_deficient &&
+      d.baseline.message.find("--surface cylinder") != std::string::npos)
+    return text + "\nNext\n" +
+           wrapped("  ",
+                   "take it for a cylinder: --surface cylinder, in a job surface = "
+                   "\"cylinder\"; this reading of it needs no other measurement");
   const std::string next = next_text(d.next);
   text += next.empty() ? "\nNext measurement\n  none: there is nothing to tell apart\n" : next;
   const bool either = std::ranges::any_of(d.findings, [](const Finding& finding) {

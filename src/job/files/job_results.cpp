@@ -9,6 +9,7 @@
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "fit/files/fit_files.hpp"
+#include "format/file.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
 #include "recording/import.hpp"
@@ -175,7 +176,7 @@ std::string readings_file(const Job& job, std::size_t reference) {
   return "readings_" + file_stem(job, reference) + ".csv";
 }
 
-std::string job_json(const JobResult& result) {
+std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside) {
   Json json;
   json["schema"] = "trueaxis.run/2";
   json["version"] = TRUEAXIS_VERSION;
@@ -197,6 +198,9 @@ std::string job_json(const JobResult& result) {
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.correction) json["correction"] = correction_object(*result.correction);
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
+  json["files"] = Json::array();
+  for (const ResultFile& file : beside)
+    json["files"].push_back({{"name", file.name}, {"hash", content_hash(file.text)}});
   return json_text(json);
 }
 
@@ -251,8 +255,11 @@ std::vector<ResultName> job_file_names(const Job& job) {
   return names;
 }
 
-std::vector<ResultFile> job_files(const JobResult& result) {
-  std::vector<ResultFile> files{{"result.json", job_json(result)}};
+namespace {
+
+/// The files beside result.json.
+std::vector<ResultFile> files_beside(const JobResult& result) {
+  std::vector<ResultFile> files;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
     files.push_back({diagnosis_file(result.job, i), diagnosis_json(*result.diagnoses[i])});
@@ -269,6 +276,14 @@ std::vector<ResultFile> job_files(const JobResult& result) {
                      made.rounding_mm / mm_per_um, made.off_mm / mm_per_um)});
   }
   files.push_back({"table.csv", correction_csv(*result.correction)});
+  return files;
+}
+
+}  // namespace
+
+std::vector<ResultFile> job_files(const JobResult& result) {
+  std::vector<ResultFile> files = files_beside(result);
+  files.insert(files.begin(), {"result.json", job_json(result, files)});
   return files;
 }
 

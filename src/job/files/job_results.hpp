@@ -39,8 +39,8 @@ std::string inclusion_text(const Inclusion& inclusion);
 std::string job_text(const JobResult& result);
 
 /// Schema trueaxis.run/2: verdict, fits, target axis with what is left at each reference, harmonics
-/// of the correction and the actuator's margin.
-std::string job_json(const JobResult& result);
+/// of the correction and the actuator's margin; the files written beside it, with their hashes.
+std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside);
 
 /// Rows, harmonics and the actuator's margin of a correction.
 Json correction_object(const Correction& correction);

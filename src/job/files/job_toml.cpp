@@ -223,8 +223,10 @@ void read_correction(TomlTable table, Job& job) {
 void read_outputs(TomlTable root, Job& job) {
   for (TomlTable table : root.tables("output")) {
     ControlTable output = read_output(table);
-    if (const std::string why = objection_to(output, *job.target, job.tool); !why.empty())
-      table.complain("format", why);
+    if (!std::isnan(output.position_step_mm)) {  // else it is said already
+      const std::string why = objection_to(output, *job.target, job.tool);
+      if (!why.empty()) table.complain("format", why);
+    }
     const bool taken = std::ranges::any_of(
         job.outputs, [&](const ControlTable& other) { return other.file == output.file; });
     if (taken || output.file == "table.csv" || output.file == "result.json" ||

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/files/output_toml.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 
@@ -54,7 +56,7 @@ ControlTable read_output(TomlTable table) {
                  {"beckhoff_crosscomp2", ControlFormat::beckhoff_crosscomp2}});
   out.file = table.text("file", usual_name(out.format));
   if (out.file.empty() || out.file != std::filesystem::path(out.file).filename().string() ||
-      out.file == "..")
+      out.file == ".." || out.file == "." || out.file == "-")
     table.complain("file", "is no plain name: it goes into the folder of the results");
   const bool cec = out.format == ControlFormat::sinumerik_cec;
   const bool gridded =
@@ -80,6 +82,11 @@ ControlTable read_output(TomlTable table) {
     out.x_axis = axis("x_axis");
     out.c_axis = axis("c_axis");
     out.z_axis = axis("z_axis");
+    if (table.has("x_axis") && table.has("c_axis") && table.has("z_axis") &&
+        (out.x_axis == out.c_axis || out.x_axis == out.z_axis || out.c_axis == out.z_axis))
+      table.complain("x_axis", fmt::format("is {}, c_axis {} and z_axis {}: each is another axis "
+                                           "of the control",
+                                           out.x_axis, out.c_axis, out.z_axis));
   }
   return out;
 }

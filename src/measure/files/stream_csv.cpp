@@ -197,10 +197,11 @@ ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& op
 }
 
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
-                                 const StreamReadOptions& options) {
+                                 const StreamReadOptions& options,
+                                 std::function<std::size_t(std::size_t)> line_of) {
   ProbeStream stream;
   stream.source = source;
-  CsvDiagnostics diagnostics(source, options.max_diagnostics);
+  CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
   LineReader lines(stream, diagnostics);
   StreamingHash hash;
   hash.add(text.data(), text.size());

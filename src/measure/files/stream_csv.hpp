@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,8 +27,10 @@ struct StreamReadOptions {
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 
-/// The same from its text; `source` is the file that it is of.
+/// The same from its text; `source` is the file that it is of, `line_of` the line there of a line
+/// of the text (0: none).
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
-                                 const StreamReadOptions& options = {});
+                                 const StreamReadOptions& options = {},
+                                 std::function<std::size_t(std::size_t)> line_of = {});
 
 }  // namespace trueaxis

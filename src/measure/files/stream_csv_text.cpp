@@ -121,6 +121,10 @@ std::string csv_quoted(std::string_view text) {
 void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string message,
                          const std::string& kind) {
   constexpr std::size_t most_lines = 7;
+  if (line_of_) {
+    line = line_of_(line);
+    column = 0;
+  }
   if (!kind.empty()) {
     Kind& of = kinds_[kind];
     ++of.count;

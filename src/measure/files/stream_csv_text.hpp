@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <string_view>
@@ -41,10 +42,13 @@ std::string csv_quoted(std::string_view text);
 
 /// Collects what is wrong with one file; at most `max` places in it are listed, the rest counted.
 /// Three places of one `kind` are listed each; of more, the first, with how many there are and the
-/// lines that come next.
+/// lines that come next. Of a text that was made of a file, `line_of` gives the file's lines (0:
+/// none), and columns are not said.
 class CsvDiagnostics {
  public:
-  CsvDiagnostics(std::string file, std::size_t max) : file_(std::move(file)), max_(max) {}
+  CsvDiagnostics(std::string file, std::size_t max,
+                 std::function<std::size_t(std::size_t)> line_of = {})
+      : file_(std::move(file)), max_(max), line_of_(std::move(line_of)) {}
 
   void add(std::size_t line, std::size_t column, std::string message, const std::string& kind = "");
   bool any() const { return !found_.empty() || more_ != 0; }
@@ -54,6 +58,7 @@ class CsvDiagnostics {
  private:
   std::string file_;
   std::size_t max_, more_ = 0;
+  std::function<std::size_t(std::size_t)> line_of_;
   std::vector<Diagnostic> found_;
   struct Kind {
     std::vector<std::size_t> listed;  ///< in `found_`, three at most

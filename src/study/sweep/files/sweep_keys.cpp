@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "format/nearest_key.hpp"
 #include "format/toml_units.hpp"
 
 namespace trueaxis {
@@ -77,9 +78,9 @@ std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,
   const auto lacking = std::ranges::find_if(all, lacks);
   if (lacking == all.end())
     return all.empty() ? std::nullopt : std::optional(all.front()->known.find(key)->second);
-  std::vector<std::string> words;
+  std::vector<std::string> words = (*lacking)->usual;  // of equals the usual unit
   for (const auto& [word, known] : (*lacking)->known) words.push_back(word);
-  const std::string near = nearest_word(key, words);
+  const std::string near = nearest_key(key, words);
   const std::string who = (*lacking)->of.empty() ? "the scenario" : (*lacking)->of;
   const std::string there = keys_beside(key, (*lacking)->usual);
   table.complain(at, "names \"" + key + "\", which " + who + " does not have" +

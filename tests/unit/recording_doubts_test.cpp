@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// What may be meant in two ways is asked, with a command that reads the file; what cannot be meant
+// otherwise is read. Numbers are written so that the double nearest to them is the expected one.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "recording/import.hpp"
+#include "support/command.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class RecordingDoubts : public ::testing::Test {
+ protected:
+  void SetUp() override { path_ = (fresh_folder("recording_doubts") / "export.txt").string(); }
+  ProbeStream read(const std::string& text, const std::string& columns = "",
+                   std::optional<bool> diameter = std::nullopt) const {
+    write_text(path_, text);
+    RecordingOptions options;
+    options.columns = columns;
+    options.read.diameter = diameter;
+    return read_recording(path_, options);
+  }
+  std::string refusal(const std::string& text, const std::string& columns = "",
+                      std::optional<bool> diameter = std::nullopt) const {
+    try {
+      read(text, columns, diameter);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "was read";
+  }
+  void expect_said(const std::string& refusal, const std::string& what) const {
+    EXPECT_NE(refusal.find(what), std::string::npos) << refusal;
+  }
+  std::string path_;
+};
+
+using Readings = std::vector<double>;
+
+TEST_F(RecordingDoubts, PointsThatMayPartThousandsAreAsked) {
+  const std::string text = "Winkel;Radius;Z\n0;20.100;1\n90;20.200;2\n180;20.300;3\n";
+  const std::string said = refusal(text);
+  expect_said(said, "every point in its numbers stands before three digits and may part thousands");
+  expect_said(said, "--columns \"X=2,C=1,Z=3,decimal=point\"");
+  // The command that it prints reads the file; so does the one word that was missing.
+  EXPECT_EQ(read(text, "X=2,C=1,Z=3,decimal=point").reading_mm, (Readings{20.1, 20.2, 20.3}));
+  EXPECT_EQ(read(text, "decimal=point").reading_mm, (Readings{20.1, 20.2, 20.3}));
+  expect_said(refusal(text, "decimal=comma"), "save numbers without a mark that parts thousands");
+  expect_said(refusal(text, "decimal=komma"), "it is decimal=point or decimal=comma");
+}
+
+TEST_F(RecordingDoubts, CommasThatMayPartThousandsAreAsked) {
+  const std::string text = "Angle\tRadius\tZ\n0\t20,100\t1\n90\t20,200\t2\n";
+  expect_said(refusal(text), "decimal=comma");
+  EXPECT_EQ(read(text, "decimal=comma").reading_mm, (Readings{20.1, 20.2}));
+}
+
+TEST_F(RecordingDoubts, OneNumberThatCannotBeThousandsTells) {
+  for (const char* angle : {"0.512", "12.5", "1234.567"})
+    EXPECT_EQ(read(fmt::format("C;Radius;Z\n{};20.100;1\n90;20.200;2\n", angle)).reading_mm,
+              (Readings{20.1, 20.2}))
+        << angle;
+}
+
+TEST_F(RecordingDoubts, AnIndexWithoutANameIsNoCutNumber) {
+  EXPECT_EQ(read(",Radius,C,Z\n0,20.5,0,1\n1,20.25,90,2\n").reading_mm, (Readings{20.5, 20.25}));
+  const std::string cut = refusal("Radius,C,Z\n40,5,0,1,1,5\n40,25,90,1,2,5\n");
+  expect_said(cut, "the rows have 6 numbers and the header 3 names");
+  EXPECT_EQ(cut.find("the command that would read it"), std::string::npos) << cut;
+}
+
+TEST_F(RecordingDoubts, TheCommandThatIsPrintedSaysWhatWasSaid) {
+  const std::string log =
+      "40.500000 0.000000 1.000000 0.000000 0.000000 0.000000 0.000000 0.000000 0.000000 \n"
+      "40.250000 0.000000 2.000000 0.000000 0.000000 90.000000 0.000000 0.000000 0.000000 \n";
+  for (const auto& radius : {std::optional<bool>(), std::optional<bool>(false)})
+    expect_said(refusal(log, "", radius), "--columns \"X=1[mm],C=6[deg],Z=3[mm]\" --radius -o");
+  EXPECT_EQ(read(log, "X=1[mm],C=6[deg],Z=3[mm]", false).reading_mm, (Readings{40.5, 40.25}));
+}
+
+TEST_F(RecordingDoubts, ScopeExportsWithEachSeparator) {
+  for (const char separator : {';', '\t', ','}) {
+    std::string text =
+        "Name;Lathe\nStarttime of export;1;x;y\n\nName;X;C;Z\nUnit;mm;°;mm\nScaleFactor;0.5;1;1\n"
+        "10000000;81.5;0;1\n20000000;80.5;90;2\n30000000;80.75;180;3\n";
+    std::ranges::replace(text, ';', separator);
+    const ProbeStream stream = read(text, "", false);
+    EXPECT_EQ(stream.reading_mm, (Readings{40.75, 40.25, 40.375})) << separator;
+    EXPECT_EQ(stream.time_s, (Readings{0.0, 1.0, 2.0})) << separator;
+  }
+  expect_said(refusal("Name,Lathe\nStarttime of export,1,x,y\n\nName,X,C,Z\n10000000,81,5,0,1\n",
+                      "", false),
+              ":5: has more fields than there are names: where commas are both decimal marks");
+}
+
+TEST_F(RecordingDoubts, WordsWithAnEqualsSign) {
+  EXPECT_EQ(read("X= 40.5 C=0 Z=1\nX=40.25 C = 90 Z=2\n", "", false).reading_mm,
+            (Readings{40.5, 40.25}));
+}
+
+// A thousand rows with every mistake again and again: a message a kind, all in one go, each with
+// its count, in the lines of the file.
+TEST_F(RecordingDoubts, AMessageForEachKindOfMistake) {
+  std::string text = "A title\nZeit;Winkel;Radius;Z;Bemerkung\n";
+  for (int i = 0; i < 1000; ++i) {
+    const std::string t = i % 10 == 6 ? "0,5" : fmt::format("{}", i + 1);
+    const std::string radius = i % 10 == 1   ? "n/a"
+                               : i % 10 == 3 ? "1.040,5"
+                               : i % 10 == 5 ? "40,5 mm"
+                                             : "40,5";
+    text += fmt::format("{};{};{};1;{}\n", t, i % 10 == 2 ? "" : "90", radius,
+                        i % 10 == 4 ? "Span;2" : "");
+  }
+  const std::string said = refusal(text);
+  EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
+  for (const char* kind :
+       {":4:6: X: 'n/a' is not a number (so too in 99 further places, in lines 14, 24",
+        ":5:3: C is empty: write a number or remove the row (so too in 99 further places",
+        ":6:6: X: '1.040,5' is not a number: save numbers without a mark that parts thousands "
+        "(so too in 99",
+        ":7:18: the row has 6 fields, the table 5 columns: write one field per column (so too in "
+        "99",
+        ":8:6: X: '40,5 mm' is not a number alone: write its unit into the header (so too in 99",
+        ":9: t falls from 5 to 0.5: sort the rows by time (so too in 99 further places, in lines "
+        "19, 29"})
+    expect_said(said, kind);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
