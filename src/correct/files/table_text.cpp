@@ -73,6 +73,15 @@ std::string following_text(const ActuatorMargin& margin) {
          " µm if the wanted profile were sent), steady run";
 }
 
+/// Where it follows up to the bandwidth itself, a turn for each of its periods, no spindle of a
+/// lathe is too fast, and the number would only say so.
+std::string speed_text(const ActuatorMargin& margin) {
+  if (!(margin.max_speed_rpm > 0.0)) return "at no speed";
+  if (margin.max_speed_rpm >= 0.9 * 60.0 * margin.bandwidth_hz)
+    return "at every speed below the actuator's bandwidth";
+  return fmt::format("highest speed {:.12g} rpm", std::floor(margin.max_speed_rpm));
+}
+
 }  // namespace
 
 std::string correction_header(const Correction& correction) {
@@ -149,8 +158,7 @@ std::string correction_preview(const Correction& correction) {
   text += "following   " + following_text(margin) + '\n';
   text += margin.follows ? "follows     yes"
                          : "follows     no: " + margin.breaks + "; " + margin.remedy;
-  text += ", highest speed " + fixed(margin.max_speed_rpm, 1) + " rpm\n";
-  return text;
+  return text + ", " + speed_text(margin) + '\n';
 }
 
 }  // namespace trueaxis
