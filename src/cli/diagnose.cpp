@@ -127,7 +127,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   options->machine.add_to(*command);
   command
       ->add_option("-o,--output", options->machine.errors_output,
-                   "with --machine: write its errors here (TOML): given, always fitted and found")
+                   "with --machine: write its errors here (TOML), those given and those found")
       ->check(a_place());
   add_false_alarm(*command, options->false_alarm);
   options->result.add_to(*command, "what is left before and after here (CSV)");

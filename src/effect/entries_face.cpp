@@ -88,7 +88,7 @@ std::vector<Effect> part_face() {
        .needs = {.length = true, .stream = face},
        .search = {.forms = {{{0}}, {.free = {1}, .degrees = 2}, {.free = {2}, .degrees = 3}}}},
       {.id = "part.face_spiral",
-       .title = "the spiral left by facing towards the centre",
+       .title = "feed marks of a face: the spiral that the tool left in facing",
        .slot = Slot::part,
        .frame = Frame::part,
        .term = PeriodicInZ{Port::normal, -1.0},

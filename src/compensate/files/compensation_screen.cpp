@@ -71,6 +71,11 @@ std::string compensation_screen(const ProgramCompensation& result) {
   if (!result.singular.empty())
     text += fmt::format("pole   {} blocks whose direction is left off, the first in line {}\n",
                         result.singular.size(), result.singular.front().line);
+  const double between_mm = result.between_after.value;
+  if (between_mm > std::max(1e-3, 5.0 * result.after.position.value))
+    return text +
+           "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
+           um(between_mm) + "\n";
   return text +
          "next   run the new program in place of the old one; trueaxis simulate cuts it first\n";
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/never.hpp"
 #include "correct/files/table_files.hpp"
 #include "trueaxis/units.hpp"
 
@@ -73,13 +74,11 @@ std::string following_text(const ActuatorMargin& margin) {
          " µm if the wanted profile were sent), steady run";
 }
 
-/// Where it follows up to the bandwidth itself, a turn for each of its periods, no spindle of a
-/// lathe is too fast, and the number would only say so.
 std::string speed_text(const ActuatorMargin& margin) {
   if (!(margin.max_speed_rpm > 0.0)) return "at no speed";
-  if (margin.max_speed_rpm >= 0.9 * 60.0 * margin.bandwidth_hz)
-    return "at every speed below the actuator's bandwidth";
-  return fmt::format("highest speed {:.12g} rpm", std::floor(margin.max_speed_rpm));
+  return or_never(margin.max_speed_rpm, "rpm",
+                  fmt::format("highest speed {:.12g} rpm", std::floor(margin.max_speed_rpm)),
+                  "at every speed of a lathe's spindle");
 }
 
 }  // namespace
