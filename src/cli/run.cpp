@@ -160,8 +160,7 @@ int execute(const Options& options) {
   for (const ResultFile& file : files)
     if (!file.note.empty())
       std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
-  std::cout << "result " << outputs.in_folder("result.json") << "\nreport "
-            << outputs.in_folder("report.html") << '\n';
+  std::cout << "report " << outputs.in_folder("report.html") << ", beside it result.json\n";
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);
 }

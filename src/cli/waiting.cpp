@@ -37,11 +37,6 @@ Waiting::Waiting(std::string doing) : doing_(std::move(doing)) {
   if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { show(); });
 }
 
-void Waiting::now(std::string doing) {
-  const std::scoped_lock lock(mutex_);
-  doing_ = std::move(doing);
-}
-
 void Waiting::show() {
   const auto begun = std::chrono::steady_clock::now();
   std::unique_lock lock(mutex_);

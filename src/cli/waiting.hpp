@@ -10,16 +10,13 @@ namespace trueaxis::cli {
 
 /// What a command is at while it computes, for work without a count (Progress is of work with one):
 /// where standard error is a terminal, a line there from two seconds on, "diagnosing shaft.csv, 7
-/// s", gone at the end. Nothing elsewhere. Calls of `now` may come from the thread that made it.
+/// s", gone at the end. Nothing elsewhere.
 class Waiting {
  public:
   explicit Waiting(std::string doing);
   ~Waiting();
   Waiting(const Waiting&) = delete;
   Waiting& operator=(const Waiting&) = delete;
-
-  /// The next step of the same work.
-  void now(std::string doing);
 
  private:
   void show();

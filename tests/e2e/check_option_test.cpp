@@ -68,6 +68,9 @@ TEST_F(CheckOption, SaysAllThatIsWrongAtOnce) {
   expect_all_said("fit stream.csv --surface cone --json nowhere/f.json",
                   {"stream.csv:2:", "nowhere/f.json: cannot be written"});
   expect_all_said("run job.toml -o no/where", {"stream.csv:2:", "no/where"});
+  file("good.csv", "# x_convention: radius\nX_M[mm],C[deg]\n1,0\n1,90\n1,180\n1,270\n");
+  expect_all_said("fit good.csv --surface section --json good.csv",
+                  {"is an input of this command"});
   file("bad.toml", "[part]\nsurfce = \"cylinder\"\nradius_mm = -1\n");
   expect_all_said("simulate bad.toml -o s.csv", {"surfce", "radius_mm", "pass"});
   file("bad.nc", "G1 X1 Q\nG68.2 X0\n");

@@ -132,6 +132,15 @@ TEST(DocsWords, CodesAreSaidWhereTheyAreUsed) {
     EXPECT_TRUE(contains(read_text(root / "scripts" / script), "**The plans**")) << script;
 }
 
+TEST(DocsWords, TheDrawingOfTheFrameIsWhereItIsNeeded) {
+  for (const char* const name : {"tutorial.md", "files.md", "theory.md", "glossary.md"})
+    EXPECT_TRUE(contains(page(name), "](frame.svg)")) << name;
+  const std::string drawing = page("frame.svg");
+  for (const char* const part : {"<title", "X_M &gt; 0", "X_M &lt; 0", "C grows", "rear", "front",
+                                 "nose", "ball", "prefers-color-scheme: dark"})
+    EXPECT_TRUE(contains(drawing, part)) << part;
+}
+
 // Sentences that nobody understood at first reading, and that are gone.
 TEST(DocsWords, NoRiddles) {
   for (const auto& file : std::filesystem::directory_iterator(root / "docs")) {
