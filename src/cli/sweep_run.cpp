@@ -58,7 +58,7 @@ int check_sweep(const study::PublishedSweep& file, const std::string& folder, bo
   else
     check_outputs(outputs, file, folder);
   const std::size_t cells = study::cell_count(file.sweep);
-  return checked(outputs, std::to_string(cells) + " cells of " +
+  return checked(outputs, std::to_string(cells) + (cells == 1 ? " cell of " : " cells of ") +
                               std::to_string(file.sweep.repeats) + " simulated streams each, " +
                               std::to_string(cells * file.sweep.repeats) + " in all");
 }

@@ -18,7 +18,7 @@ struct TerminalRun {
 };
 
 /// `sh -c COMMAND` in `folder` on a pseudo-terminal of so many columns; `trueaxis` stands for the
-/// command under test.
+/// command under test, and $T for its path.
 inline TerminalRun on_terminal(const std::filesystem::path& folder, const std::string& command,
                                unsigned short columns = 80) {
   winsize size{40, columns, 0, 0};
@@ -26,7 +26,8 @@ inline TerminalRun on_terminal(const std::filesystem::path& folder, const std::s
   const pid_t child = forkpty(&master, nullptr, nullptr, &size);
   if (child == 0) {
     const std::string line = "cd '" + folder.string() +
-                             "' && trueaxis() { '" TRUEAXIS_COMMAND "' \"$@\"; } && " + command;
+                             "' && T='" TRUEAXIS_COMMAND "' && trueaxis() { \"$T\" \"$@\"; } && " +
+                             command;
     execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
