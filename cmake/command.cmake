@@ -49,12 +49,17 @@ target_link_libraries(trueaxis PRIVATE trueaxis_studies trueaxis_flags CLI11::CL
 # CLI11 is all headers: they are read once, and what they make is not worth optimising.
 target_compile_options(trueaxis PRIVATE $<$<CONFIG:Release>:-O1>)
 trueaxis_read_once(trueaxis <CLI/CLI.hpp>)
+# What is made of its tables of options is installed beside it.
+add_custom_command(TARGET trueaxis POST_BUILD
+  COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
+  COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1" VERBATIM)
 
 # The same sweeps on several machines, where Open MPI is installed.
 find_package(MPI QUIET COMPONENTS CXX)
 if(MPI_CXX_FOUND)
   file(GLOB TRUEAXIS_MPI CONFIGURE_DEPENDS src/mpi/*.cpp)
-  add_executable(trueaxis-mpi ${TRUEAXIS_MPI} src/cli/guarded.cpp src/cli/progress.cpp src/cli/sweep_run.cpp)
+  add_executable(trueaxis-mpi ${TRUEAXIS_MPI} src/cli/check.cpp src/cli/guarded.cpp src/cli/progress.cpp
+    src/cli/screen.cpp src/cli/sweep_run.cpp)
   target_include_directories(trueaxis-mpi PRIVATE src)
   target_compile_definitions(trueaxis-mpi PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}"
     OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)

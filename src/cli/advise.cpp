@@ -2,14 +2,19 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <utility>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
+#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
+#include "cli/waiting.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/file.hpp"
+#include "format/outputs.hpp"
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/conclude.hpp"
@@ -28,13 +33,16 @@ struct Options {
   StreamOptions stream;
   AssociationOptions association;
   double false_alarm = DiagnoseOptions{}.false_alarm;
+  bool verbose = false, check = false;
 };
 
 Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_alarm) {
   DiagnoseOptions options;
   options.fit = fit;
   options.false_alarm = false_alarm;
+  std::optional<Waiting> waiting("diagnosis of " + stream.source);
   Diagnosis diagnosis = diagnose(stream, options);
+  waiting.reset();
   expect_enough_readings(diagnosis.baseline);
   std::cout << advice_text(diagnosis);
   return diagnosis;
@@ -59,6 +67,12 @@ int advise_job(const Options& options) {
   JobResult result;
   result.job = read_job_toml(content, options.stream.path);
   result.streams = read_streams(result.job);
+  if (options.check) {
+    Outputs outputs;
+    outputs.reads(options.stream.path);
+    for (const JobReference& reference : result.job.references) outputs.reads(reference.stream);
+    return checked(outputs, "diagnose every reference and propose the next measurement of it");
+  }
   int worst = done;
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     const JobReference& reference = result.job.references[i];
@@ -83,7 +97,8 @@ bool is_of_machine(const CLI::App& command, const Options& options) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     const bool of_machine = name == "--errors" || name == "--sign" || name == "--program";
-    const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm";
+    const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm" ||
+                         name == "--check" || (machine && name == "--verbose");
     if (option->count() == 0 || of_both || of_machine == machine || name == "--help") continue;
     throw CLI::ValidationError(name, machine ? "is of a stream: --machine has none"
                                              : "is of a machine: name it with --machine");
@@ -105,10 +120,14 @@ void add_advise(CLI::App& app, int& exit_code) {
   options->machine.add_to(*command);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
+  add_verbose(*command, options->verbose)->description("with --machine: print everything");
+  add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     if (is_of_machine(*command, *options)) {
       options->machine.data = options->data;
       options->machine.false_alarm = options->false_alarm;
+      options->machine.verbose = options->verbose;
+      options->machine.check = options->check;
       exit_code = options->machine.advise();
       return;
     }
@@ -118,8 +137,16 @@ void add_advise(CLI::App& app, int& exit_code) {
       return;
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
-    exit_code = exit_code_of(
-        advise(options->stream.read(), options->association.chosen(), options->false_alarm));
+    const ProbeStream stream = options->stream.read();
+    if (options->check) {
+      Outputs outputs;
+      outputs.reads(options->stream.path);
+      exit_code = checked(outputs, "diagnose a " + options->association.surface + " in " +
+                                       std::to_string(stream.size()) +
+                                       " readings and propose the next measurement");
+      return;
+    }
+    exit_code = exit_code_of(advise(stream, options->association.chosen(), options->false_alarm));
   });
 }
 

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 struct Options {
   std::string scenario, folder;
-  bool force = false;
+  bool force = false, check = false;
 };
 
 int execute(const Options& options) {
@@ -41,6 +42,9 @@ int execute(const Options& options) {
   }
   outputs.check();
   const std::vector<study::AxisBiasCase> cases = study::axis_bias_cases(scenario);
+  if (options.check)
+    return checked(outputs, "probe and fit the part with " + std::to_string(cases.size()) +
+                                " effects, one at a time");
   Progress progress(0, cases.size(), "effects");
   std::vector<study::AxisBiasRow> rows;
   for (const study::AxisBiasCase& one : cases) {
@@ -71,6 +75,7 @@ void add_axis_bias(CLI::App& app, int& exit_code) {
                    "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be")
       ->check(a_place());
   add_force(*command, options->force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 

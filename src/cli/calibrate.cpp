@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "calibrate/files/calibration_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
+#include "cli/screen.hpp"
+#include "cli/waiting.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "trueaxis/calibration.hpp"
@@ -21,22 +26,31 @@ struct Options {
   MachineOptions machine;
   std::vector<std::string> data;
   std::string output, json;
-  bool force = false;
+  bool force = false, verbose = false, check = false;
 };
 
 int execute(const Options& options) {
-  const MachineFile file = options.machine.read_machine();
-  CalibrationOptions calibration;
-  calibration.errors = options.machine.read_errors_of(file);
-  const auto data = read_measurements(options.data, file.machine);
   Outputs outputs(options.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.data) outputs.reads(path);
   for (const std::string& path : options.machine.errors) outputs.reads(path);
   outputs.may_write(options.output, "trueaxis.errors");
   outputs.may_write(options.json, "trueaxis.calibration");
-  outputs.check();
+  MachineFile file;
+  CalibrationOptions calibration;
+  std::vector<MachineMeasurement> data;
+  all_of({[&] { file = options.machine.read_machine(); }, [&] { outputs.check(); }});
+  all_of({[&] { calibration.errors = options.machine.read_errors_of(file); },
+          [&] { data = read_measurements(options.data, file.machine); }});
+  if (options.check) {
+    std::size_t rows = 0;
+    for (const MachineMeasurement& one : data) rows += one.rows();
+    return checked(outputs, "estimate the errors of " + file.machine.name + " from " +
+                                std::to_string(rows) + " rows");
+  }
+  std::optional<Waiting> waiting("calibration of " + file.machine.name);
   const Calibration found = calibrate(file.machine, data, calibration);
+  waiting.reset();
   expect_no_mistake(file.machine, data, calibration, found);
   if (!found.converged) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
@@ -45,7 +59,13 @@ int execute(const Options& options) {
   outputs.write(options.output, errors_toml(found.errors, &file.machine));
   if (!options.json.empty()) outputs.write(options.json, calibration_json(found, file.machine));
   outputs.commit();
-  if (options.json != "-" && options.output != "-") std::cout << calibration_text(found);
+  if (options.json == "-" || options.output == "-") return done;
+  if (options.verbose)
+    std::cout << calibration_text(found);
+  else
+    print_screen(calibration_screen(found));
+  std::cout << "errors " << options.output << '\n';
+  if (!options.json.empty()) std::cout << "result " << options.json << '\n';
   return done;
 }
 
@@ -69,6 +89,8 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   command->add_option("--json", options->json, "write the result here, '-' prints it")
       ->check(a_place());
   add_force(*command, options->force);
+  add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     if (options->json == options->output)
       throw CLI::ValidationError("--json", "cannot go where -o goes");

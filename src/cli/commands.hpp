@@ -27,5 +27,7 @@ void add_pose(CLI::App& app, int& exit_code);
 void add_axes(CLI::App& app, int& exit_code);
 void add_machine(CLI::App& app, int& exit_code);
 void add_errors(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
+void add_man(CLI::App& app, int& exit_code);
 
 }  // namespace trueaxis::cli

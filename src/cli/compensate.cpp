@@ -5,15 +5,21 @@
 #include <utility>
 #include <vector>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
 #include "cli/program_place.hpp"
+#include "cli/screen.hpp"
+#include "cli/waiting.hpp"
 #include "compensate/files/compensation_json.hpp"
+#include "compensate/files/compensation_screen.hpp"
 #include "compensate/files/compensation_text.hpp"
+#include "compensate/program_axes.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "nc/program.hpp"
 #include "trueaxis/compensation.hpp"
 #include "trueaxis/error.hpp"
 
@@ -25,7 +31,7 @@ struct Options {
   MachineOptions machine;
   std::optional<double> tolerance_um, arcs_mm;
   CompensationOptions compensation;
-  bool force = false;
+  bool force = false, verbose = false, check = false;
 };
 
 std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
@@ -44,24 +50,46 @@ int execute(const Options& options) {
   for (const std::string& path : options.machine.errors) outputs.reads(path);
   outputs.may_write(options.output, "");
   outputs.may_write(options.json, "trueaxis.compensation");
-  outputs.check();
-  const MachineFile machine = options.machine.read_machine();
-  const MachineModel model(machine.machine, options.machine.read_errors_of(machine));
-  std::string text = read_file(options.program);
-  expect_no_other_program(options.output, text, options.force);
+  MachineFile machine;
+  ErrorModel errors;
+  std::string text;
+  all_of({[&] { outputs.check(); }, [&] { machine = options.machine.read_machine(); },
+          [&] {
+            text = read_file(options.program);
+            expect_no_other_program(options.output, text, options.force);
+          }});
+  if (options.check) {
+    std::size_t moves = 0;
+    const ProgramAxes axes(machine.machine);
+    all_of({[&] { errors = options.machine.read_errors_of(machine); },
+            [&] {
+              moves = nc::read_program(text, options.program, axes.read_options(options.arcs_mm))
+                          .moves.size();
+            }});
+    return checked(outputs, "rewrite " + std::to_string(moves) + " moves of " + options.program);
+  }
+  errors = options.machine.read_errors_of(machine);
+  const MachineModel model(machine.machine, errors);
   const std::vector<CompensationInput> inputs = inputs_of(options, text);
   CompensationOptions task = options.compensation;
   if (options.method == "differential") task.method = CompensationMethod::differential;
   if (options.tolerance_um) task.tolerance_mm = *options.tolerance_um * mm_per_um;
   task.arc_tolerance_mm = options.arcs_mm;
+  std::optional<Waiting> waiting("compensation of " + options.program);
   const ProgramCompensation result =
       compensate_program(model, std::move(text), options.program, task);
+  waiting.reset();
   if (!options.json.empty()) outputs.write(options.json, compensation_json(result, task, inputs));
   if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
   outputs.commit();
   if (!result.unreachable.empty()) throw Refusal(unreachable_text(result, options.program));
-  if (options.json != "-" && !is_standard_output(options.output))
+  if (options.json == "-" || is_standard_output(options.output)) return done;
+  if (options.verbose)
     std::cout << compensation_text(result);
+  else
+    print_screen(compensation_screen(result));
+  std::cout << "program " << options.output << '\n';
+  if (!options.json.empty()) std::cout << "result  " << options.json << '\n';
   return done;
 }
 
@@ -106,6 +134,8 @@ void add_compensate(CLI::App& app, int& exit_code) {
       ->check(a_place());
   add_accuracy(*command, *options);
   add_force(*command, options->force);
+  add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     if (options->json == options->output)
       throw CLI::ValidationError("--json", "cannot go where the program goes");

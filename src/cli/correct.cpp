@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
@@ -24,7 +25,7 @@ struct Options {
   std::string fit, target, table, diagnosis;
   StreamOptions stream;  ///< path empty: as the diagnosis names it
   double ball_radius_mm = 0.0;
-  bool ideal = false, preview = false, force = false;
+  bool ideal = false, preview = false, force = false, check = false;
 };
 
 constexpr const char* rests_on_ideal =
@@ -121,6 +122,7 @@ int execute(const Options& options) {
   if (!options.diagnosis.empty()) outputs.reads(options.diagnosis);
   outputs.may_write(options.table, "trueaxis.correction");
   outputs.check();
+  if (options.check) return checked(outputs, "correct the target for the axis of " + options.fit);
   conclude(result);
   const Verdict& verdict = result.verdict;
   const bool cut = verdict.go() && result.correction;
@@ -168,6 +170,7 @@ void add_correct(CLI::App& app, int& exit_code) {
   options->stream.add_meaning_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm);
   add_force(*command, options->force);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     if (!options->preview && options->table.empty())
       throw CLI::RequiredError("-o TABLE or --preview");

@@ -2,13 +2,16 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
+#include "cli/waiting.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
@@ -26,7 +29,7 @@ struct Options {
   double false_alarm = DiagnoseOptions{}.false_alarm;
   ResultOptions result;
   MachineDiagnosed machine;
-  bool verbose = false;
+  bool verbose = false, check = false;
 };
 
 /// The fit that broke, or nullptr.
@@ -37,17 +40,23 @@ const FitResult* broken_fit(const Diagnosis& diagnosis) {
 }
 
 int execute(const Options& options) {
-  const ProbeStream stream = options.stream.read();
   const auto& [json, residuals, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
   outputs.may_write(json, "trueaxis.diagnosis");
   outputs.may_write(residuals, "trueaxis.residuals");
-  outputs.check();
+  ProbeStream stream;
+  all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
+  if (options.check)
+    return checked(outputs, "fit a " + options.association.surface + " to " +
+                                std::to_string(stream.size()) + " readings of " + stream.source +
+                                " and diagnose it");
+  std::optional<Waiting> waiting("diagnosis of " + stream.source);
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
   const Diagnosis diagnosis = diagnose(stream, diagnose_options);
+  waiting.reset();
   expect_enough_readings(diagnosis.baseline);
   if (!json.empty()) outputs.write(json, diagnosis_json(diagnosis));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, diagnosis));
@@ -63,8 +72,9 @@ int execute(const Options& options) {
 
 /// Options of a stream beside --machine would be passed over in silence.
 void expect_of_machine(const CLI::App& command) {
-  constexpr const char* fine[] = {"stream",   "--machine", "--errors",      "--sign",  "--json",
-                                  "--output", "--program", "--false-alarm", "--force", "--help"};
+  constexpr const char* fine[] = {"stream",  "--machine", "--errors",  "--sign",
+                                  "--json",  "--output",  "--program", "--false-alarm",
+                                  "--force", "--help",    "--verbose", "--check"};
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && std::ranges::find(fine, option->get_name()) == std::end(fine))
       throw CLI::ValidationError(option->get_name(), "is of a stream: --machine has none");
@@ -81,6 +91,8 @@ int execute_either(const CLI::App& command, Options& options, bool surface_said)
     run.json = options.result.json;
     run.false_alarm = options.false_alarm;
     run.force = options.result.force;
+    run.verbose = options.verbose;
+    run.check = options.check;
     return run.diagnose();
   }
   if (options.data.size() > 1)
@@ -115,11 +127,12 @@ void add_diagnose(CLI::App& app, int& exit_code) {
   options->machine.add_to(*command);
   command
       ->add_option("-o,--output", options->machine.errors_output,
-                   "with --machine: write its errors here (TOML): given, always fitted and found")
+                   "with --machine: write its errors here (TOML), those given and those found")
       ->check(a_place());
   add_false_alarm(*command, options->false_alarm);
   options->result.add_to(*command, "what is left before and after here (CSV)");
   add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     exit_code = execute_either(*command, *options, surface->count() > 0);
   });

@@ -3,12 +3,15 @@
 
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
+#include "cli/waiting.hpp"
 #include "fit/files/fit_files.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
@@ -21,18 +24,23 @@ struct Options {
   StreamOptions stream;
   AssociationOptions association;
   ResultOptions result;
-  bool verbose = false;
+  bool verbose = false, check = false;
 };
 
 int execute(const Options& options) {
-  const ProbeStream stream = options.stream.read();
   const auto& [json, residuals, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
   outputs.may_write(json, "trueaxis.fit");
   outputs.may_write(residuals, "trueaxis.residuals");
-  outputs.check();
+  ProbeStream stream;
+  all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
+  if (options.check)
+    return checked(outputs, "fit a " + options.association.surface + " to " +
+                                std::to_string(stream.size()) + " readings of " + stream.source);
+  std::optional<Waiting> waiting("fit of " + stream.source);
   const FitResult result = fit(stream, options.association.chosen());
+  waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, result));
@@ -59,6 +67,7 @@ void add_fit(CLI::App& app, int& exit_code) {
   options->association.add_to(*command)->required();
   options->result.add_to(*command, "its residual here (CSV)");
   add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([options, &exit_code] {
     options->result.expect_apart();
     exit_code = execute(*options);

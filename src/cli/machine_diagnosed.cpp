@@ -5,9 +5,13 @@
 #include <optional>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
+#include "cli/check.hpp"
 #include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
+#include "cli/screen.hpp"
+#include "cli/waiting.hpp"
 #include "format/file.hpp"
 #include "format/json.hpp"
 #include "format/outputs.hpp"
@@ -19,34 +23,69 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Said {
+/// All that is read.
+struct Read {
   MachineFile file;
+  ErrorModel errors;
+  std::vector<MachineMeasurement> data;
+  std::string program;
+};
+
+struct Said {
   MachineDiagnosis found;
   std::optional<ProgramHarm> harm;
   Json program;  ///< null: none
 };
 
+/// @throws InputError with what is wrong in any file
+Read read_of(const MachineDiagnosed& run, Outputs& outputs) {
+  Read read;
+  all_of({[&] { read.file = run.machine.read_machine(); },
+          [&] {
+            if (!run.program.empty()) read.program = read_file(run.program);
+          },
+          [&] { outputs.check(); }});
+  all_of({[&] { read.errors = run.machine.read_errors_of(read.file); },
+          [&] { read.data = read_measurements(run.data, read.file.machine); }});
+  return read;
+}
+
 /// @throws Refusal of what cannot be right
-Said said_of(const MachineDiagnosed& run) {
-  Said out{run.machine.read_machine(), {}, std::nullopt, nullptr};
-  const Machine& machine = out.file.machine;
+Said said_of(const MachineDiagnosed& run, const Read& read) {
+  const Waiting waiting(run.data.empty() ? "plans of a measurement" : "diagnosis of the machine");
+  Said out{{}, std::nullopt, nullptr};
+  const Machine& machine = read.file.machine;
   MachineDiagnoseOptions options;
-  options.calibration.errors = run.machine.read_errors_of(out.file);
+  options.calibration.errors = read.errors;
   options.false_alarm = run.false_alarm;
   options.covariances = !run.program.empty();
   if (run.data.empty()) {
     out.found = plan_machine(machine, options);
   } else {
-    const auto data = read_measurements(run.data, machine);
-    out.found = diagnose_machine(machine, data, options);
-    expect_no_mistake(machine, data, options.calibration, out.found.baseline);
+    out.found = diagnose_machine(machine, read.data, options);
+    expect_no_mistake(machine, read.data, options.calibration, out.found.baseline);
   }
   if (run.program.empty() || !out.found.baseline.converged) return out;
-  const std::string text = read_file(run.program);
-  out.harm = weigh_on_program(machine, out.found, text, run.program);
+  out.harm = weigh_on_program(machine, out.found, read.program, run.program);
   out.program = harm_object(*out.harm);
-  out.program["hash"] = content_hash(text);
+  out.program["hash"] = content_hash(read.program);
   return out;
+}
+
+void inputs_of(const MachineDiagnosed& run, Outputs& outputs) {
+  outputs.reads(run.machine.machine);
+  for (const std::string& path : run.data) outputs.reads(path);
+  for (const std::string& path : run.machine.errors) outputs.reads(path);
+  if (!run.program.empty()) outputs.reads(run.program);
+}
+
+std::string would_do(const MachineDiagnosed& run, const Read& read) {
+  std::size_t rows = 0;
+  for (const MachineMeasurement& one : read.data) rows += one.rows();
+  std::string text = run.data.empty() ? "plan a measurement of " + read.file.machine.name
+                                      : "diagnose " + read.file.machine.name + " by " +
+                                            std::to_string(rows) + " rows";
+  return text + (run.program.empty() ? "" : ", weigh what is found on " + run.program);
 }
 
 int not_converged(const MachineDiagnosed& run, const MachineDiagnosis& found) {
@@ -67,33 +106,42 @@ void MachineDiagnosed::add_to(CLI::App& command) {
 
 int MachineDiagnosed::diagnose() const {
   Outputs outputs(force);
-  outputs.reads(machine.machine);
-  for (const std::string& path : data) outputs.reads(path);
-  for (const std::string& path : machine.errors) outputs.reads(path);
-  if (!program.empty()) outputs.reads(program);
+  inputs_of(*this, outputs);
   outputs.may_write(json, "trueaxis.machine_diagnosis");
   outputs.may_write(errors_output, "trueaxis.errors");
-  outputs.check();
-  const Said said = said_of(*this);
+  const Read read = read_of(*this, outputs);
+  if (check) return checked(outputs, would_do(*this, read));
+  const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
   if (!json.empty()) {
-    Json object = machine_diagnosis_object(said.found, said.file.machine);
+    Json object = machine_diagnosis_object(said.found, read.file.machine);
     if (said.harm) object["program"] = said.program;
     outputs.write(json, json_text(object));
   }
-  outputs.write(errors_output, errors_toml(said.found.errors, &said.file.machine));
+  outputs.write(errors_output, errors_toml(said.found.errors, &read.file.machine));
   outputs.commit();
   if (json == "-" || errors_output == "-") return done;
-  std::cout << machine_diagnosis_text(said.found);
-  if (said.harm) std::cout << harm_text(*said.harm);
+  if (verbose)
+    std::cout << machine_diagnosis_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
+  else
+    print_screen(machine_diagnosis_screen(said.found) + (said.harm ? harm_screen(*said.harm) : "") +
+                 next_screen(said.found));
+  for (const std::string& file : {json, errors_output})
+    if (!file.empty()) std::cout << "result " << file << '\n';
   return done;
 }
 
 int MachineDiagnosed::advise() const {
-  const Said said = said_of(*this);
+  Outputs outputs;
+  inputs_of(*this, outputs);
+  const Read read = read_of(*this, outputs);
+  if (check) return checked(outputs, would_do(*this, read) + ", propose the next measurement");
+  const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
-  std::cout << machine_advice_text(said.found);
-  if (said.harm) std::cout << harm_text(*said.harm);
+  if (verbose)
+    std::cout << machine_advice_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
+  else
+    print_screen(machine_advice_screen(said.found) + (said.harm ? harm_screen(*said.harm) : ""));
   return done;
 }
 

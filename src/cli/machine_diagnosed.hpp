@@ -16,7 +16,7 @@ struct MachineDiagnosed {
   std::string program;            ///< a part on which the harm is weighed
   std::string json, errors_output;
   double false_alarm = 0.01;
-  bool force = false;
+  bool force = false, verbose = false, check = false;
 
   void add_to(CLI::App& command);
 

@@ -18,7 +18,11 @@ void MachineOptions::add_errors_to(CLI::App& command) {
   command.add_option("--errors", errors,
                      "errors of the machine: trueaxis.errors/1 (.toml), an ISG table (.csv), the "
                      "Etalon exchange format (other names); several files add");
-  command.add_option("--sign", sign, "of component errors in ISG and Etalon files")
+  command
+      .add_option(
+          "--sign", sign,
+          "what component errors in ISG and Etalon files are of: the part that moves, or tool "
+          "minus workpiece")
       ->check(a_sign());
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -47,7 +48,7 @@ struct Options {
   std::vector<std::string> free;
   double goal_um = 1.0;
   study::PlanningTask task;
-  bool force = false;
+  bool force = false, check = false;
 };
 
 /// A line for the search, then one for the simulations.
@@ -105,6 +106,7 @@ int execute(Options options) {
   if (!options.scenario.empty()) outputs.reads(options.scenario);
   outputs.may_write(options.json, "trueaxis.plan");
   outputs.check();
+  if (options.check) return checked(outputs, "search the plans and confirm them by simulation");
   PlanProgress progress;
   const study::PlanningAnswer answer = study::plan_measurement(task, std::ref(progress));
   progress.end();
@@ -165,6 +167,7 @@ void add_plan(CLI::App& app, int& exit_code) {
   command->add_option("--json", options->json, "the answer (trueaxis.plan/1), '-' prints it")
       ->check(a_place());
   add_force(*command, options->force);
+  add_check(*command, options->check);
   add_simple(*command, options->simple, scenario);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

@@ -4,14 +4,17 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/run_machine.hpp"
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
+#include "cli/waiting.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "job/evidence.hpp"
@@ -37,7 +40,7 @@ struct Options {
   AssociationOptions association;
   CLI::Option* surface = nullptr;
   std::string folder;
-  bool force = false, verbose = false;
+  bool force = false, verbose = false, check = false;
 };
 
 /// Whether a file is a job, as standard input is: its first line that is no comment is one of TOML.
@@ -95,6 +98,31 @@ Earlier take_away_earlier(Outputs& outputs, const Job& job, const std::vector<Re
   return said;
 }
 
+/// What the job would have done, in words.
+std::string would_do(const Job& job, const std::vector<ProbeStream>& streams, bool surface_known) {
+  std::string text;
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    const std::string of = std::to_string(streams[i].size()) + " readings of " + streams[i].source;
+    text += i == 0 ? "" : "; ";
+    text += surface_known ? std::string("fit and diagnose a ") +
+                                to_string(job.references[i].fit.surface) + " in " + of
+                          : "choose the surface of " + of + " by evidence, fit and diagnose it";
+  }
+  return text + (job.target ? "; correct the target, and decide about it" : "");
+}
+
+/// All that is read and may be written.
+void prepare(Outputs& outputs, const Job& job, const Options& options) {
+  outputs.reads(options.stream.path);
+  for (const JobReference& reference : job.references) outputs.reads(reference.stream);
+  for (const ControlTable& output : job.outputs)
+    if (!output.template_path.empty()) outputs.reads(output.template_path);
+  outputs.into(options.folder);
+  for (const ResultName& file : job_file_names(job))
+    outputs.may_write_in_folder(file.name, file.schema);
+  outputs.may_write_in_folder("report.html", "trueaxis.report");
+}
+
 int execute(const Options& options) {
   const std::string& path = options.stream.path;
   const bool said = is_job(path);
@@ -102,12 +130,24 @@ int execute(const Options& options) {
   if (said) {
     const std::string content = read_file(path);
     if (is_machine_job(content, path))
-      return run_machine(read_machine_job_toml(content, path), options.folder, options.force);
+      return run_machine(read_machine_job_toml(content, path),
+                         {options.folder, options.force, options.verbose, options.check});
     job = read_job_toml(content, path);
   } else {
     job = job_of_stream(options);
   }
-  std::vector<ProbeStream> streams = read_streams(job);
+  const bool surface_known = said || options.surface->count() > 0;
+  if (!said)
+    job.references.front().name =
+        surface_known ? to_string(job.references.front().fit.surface) : "SURFACE";
+  Outputs outputs(options.force);
+  std::vector<ProbeStream> streams;
+  if (options.check) prepare(outputs, job, options);
+  if (options.check)
+    all_of({[&] { streams = read_streams(job); }, [&] { outputs.check(); }});
+  else
+    streams = read_streams(job);
+  if (options.check) return checked(outputs, would_do(job, streams, surface_known));
   if (!said) {
     if (options.surface->count() == 0) {
       const SurfaceEvidence evidence = surface_by_evidence(streams.front());
@@ -116,17 +156,10 @@ int execute(const Options& options) {
     }
     job.references.front().name = to_string(job.references.front().fit.surface);
   }
-  Outputs outputs(options.force);
-  outputs.reads(path);
-  for (const JobReference& reference : job.references) outputs.reads(reference.stream);
-  for (const ControlTable& output : job.outputs)
-    if (!output.template_path.empty()) outputs.reads(output.template_path);
-  outputs.into(options.folder);
-  for (const ResultName& file : job_file_names(job))
-    outputs.may_write_in_folder(file.name, file.schema);
-  outputs.may_write_in_folder("report.html", "trueaxis.report");
+  prepare(outputs, job, options);
   outputs.check();
 
+  std::optional<Waiting> waiting("fit, diagnosis and correction of " + path);
   const JobResult result = run_job(std::move(job), std::move(streams));
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
@@ -141,6 +174,7 @@ int execute(const Options& options) {
   }
   const Earlier earlier = take_away_earlier(outputs, result.job, files);
   outputs.commit();
+  waiting.reset();
   std::cerr << earlier.kept;
   if (options.verbose) {
     std::cout << job_text(result);
@@ -155,15 +189,16 @@ int execute(const Options& options) {
   for (const ResultFile& file : files)
     if (!file.note.empty())
       std::cout << "file   " << outputs.in_folder(file.name) << ": " << file.note << '\n';
-  std::cout << earlier.removed << "result " << outputs.in_folder("result.json") << "\nreport "
-            << outputs.in_folder("report.html") << '\n';
+  std::cout << earlier.removed << "report " << outputs.in_folder("report.html")
+            << ", beside it result.json\n";
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
   return exit_code_of(result);
 }
 
 /// What is said of a stream beside a job would be passed over in silence.
 void expect_no_stream_options(const CLI::App& command) {
-  constexpr std::string_view fine[] = {"--help", "--output", "--force", "--verbose", "stream"};
+  constexpr std::string_view fine[] = {"--help",    "--output", "--force",
+                                       "--verbose", "--check",  "stream"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
@@ -189,6 +224,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(a_place());
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([=, &exit_code] {
     if (is_job(options->stream.path)) expect_no_stream_options(*command);
     exit_code = execute(*options);

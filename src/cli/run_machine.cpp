@@ -2,13 +2,18 @@
 #include "cli/run_machine.hpp"
 
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "cli/check.hpp"
 #include "cli/guarded.hpp"
 #include "cli/program_place.hpp"
+#include "cli/screen.hpp"
+#include "cli/waiting.hpp"
 #include "format/outputs.hpp"
 #include "job/machine/files/machine_job_results.hpp"
+#include "job/machine/files/machine_job_screen.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "report/machine_report.hpp"
 #include "trueaxis/calibration.hpp"
@@ -53,11 +58,22 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
     outputs.remove_earlier(program);  // one stands there only when it may be run
 }
 
+std::string would_do(const MachineJob& job) {
+  std::size_t rows = 0;
+  for (const MachineMeasurement& one : job.data) rows += one.rows();
+  std::string text = "diagnose " + job.machine.name + " by " + std::to_string(rows) + " rows";
+  if (job.program) text += ", rewrite " + job.program->file + " for the errors found";
+  return text + (job.tolerance_mm ? ", and decide about the tolerance" : "");
+}
+
 }  // namespace
 
-int run_machine(MachineJob job, const std::string& folder, bool force) {
-  Outputs outputs(force);
-  prepare(outputs, job, folder, force);
+int run_machine(MachineJob job, const RunMachineOptions& options) {
+  Outputs outputs(options.force);
+  prepare(outputs, job, options.folder, options.force);
+  if (options.check) return checked(outputs, would_do(job));
+  std::optional<Waiting> waiting("diagnosis of " + job.machine.name +
+                                 (job.program ? ", its program, the verdict" : ""));
   const MachineJobResult result = run_machine_job(std::move(job));
   CalibrationOptions known;
   known.errors = result.job.known;
@@ -72,16 +88,19 @@ int run_machine(MachineJob job, const std::string& folder, bool force) {
   }
   write_all(outputs, result);
   outputs.commit();
-  std::cout << machine_job_text(result);
+  waiting.reset();
+  if (options.verbose)
+    std::cout << machine_job_text(result);
+  else
+    print_screen(machine_job_screen(result));
   if (result.job.program && result.verdict.go())
     std::cout << "program " << outputs.in_folder(new_program_name(result.job)) << '\n';
   else if (result.job.program)
     std::cout << "program not written: the verdict is " << to_string(result.verdict.decision)
               << '\n';
-  if (result.implausible.empty())
-    std::cout << "errors  " << outputs.in_folder("errors.toml") << '\n';
-  std::cout << "result  " << outputs.in_folder("result.json") << "\nreport  "
-            << outputs.in_folder("report.html") << '\n';
+  std::cout << "report  " << outputs.in_folder("report.html") << ", beside it "
+            << (result.implausible.empty() ? "errors.toml, " : "") << "diagnosis.json, "
+            << (result.compensation ? "compensation.json, " : "") << "result.json\n";
   return result.verdict.go() ? done : refused;
 }
 

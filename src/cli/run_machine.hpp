@@ -7,7 +7,12 @@
 
 namespace trueaxis::cli {
 
-/// The job of a machine: every result into `folder`, the program only where it may be run.
-int run_machine(MachineJob job, const std::string& folder, bool force);
+struct RunMachineOptions {
+  std::string folder;
+  bool force = false, verbose = false, check = false;
+};
+
+/// `trueaxis run` of the job of a machine of several axes. @returns the exit code
+int run_machine(MachineJob job, const RunMachineOptions& options);
 
 }  // namespace trueaxis::cli

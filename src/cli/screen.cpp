@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <iostream>
 #include <sstream>
+#include <string_view>
 
 #include "format/text_layout.hpp"
 
@@ -35,6 +37,21 @@ const char* colour_of(const std::string& line) {
   return "\x1b[1m";
 }
 
+/// Blanks between a number and its unit, and about ±, as a sign that no line is broken at; back
+/// again where it is.
+constexpr char bound = '\x1f';
+
+std::string with_units_bound(std::string text) {
+  for (const char* const unit : {"µm", "mm", "µrad", "mrad", "deg", "rpm", "min", "Hz", "±"})
+    for (std::size_t at = text.find(unit); at != std::string::npos; at = text.find(unit, at + 1))
+      if (at > 1 && text[at - 1] == ' ' &&
+          (std::isdigit(static_cast<unsigned char>(text[at - 2])) != 0))
+        text[at - 1] = bound;
+  for (std::size_t at = text.find("± "); at != std::string::npos; at = text.find("± ", at + 1))
+    text[at + std::string_view("±").size()] = bound;
+  return text;
+}
+
 }  // namespace
 
 CLI::Option* add_verbose(CLI::App& command, bool& verbose) {
@@ -48,10 +65,11 @@ void print_screen(const std::string& text) {
   for (std::string line; std::getline(lines, line); first = false) {
     const bool headed = !first && line.size() > text_column;
     const std::string head = headed ? line.substr(0, text_column) : std::string();
+    const std::string text_of_line = with_units_bound(headed ? line.substr(text_column) : line);
     // A script takes the first line as it is.
     const std::size_t to = first && isatty(STDOUT_FILENO) == 0 ? text.size() : width;
-    std::string out =
-        layout::wrapped(head, headed ? std::string_view(line).substr(text_column) : line, to);
+    std::string out = layout::wrapped(head, text_of_line, to);
+    std::ranges::replace(out, bound, ' ');
     if (first && in_colour()) {
       const std::size_t end = std::min(out.find_first_of(":\n"), out.size());
       out = colour_of(line) + out.substr(0, end) + "\x1b[0m" + out.substr(end);

@@ -4,8 +4,10 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/check.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/screen.hpp"
 #include "format/outputs.hpp"
 
 namespace trueaxis::cli {
@@ -14,7 +16,7 @@ namespace {
 struct Options {
   std::string path, errors, json;
   int decimals = 6;
-  bool force = false;
+  bool force = false, verbose = false, check = false;
 };
 
 int execute(const Options& options, const SetupCommand& which) {
@@ -24,6 +26,7 @@ int execute(const Options& options, const SetupCommand& which) {
   outputs.may_write(options.errors, "trueaxis.errors");
   outputs.may_write(options.json, "trueaxis.setup");
   outputs.check();
+  if (options.check) return checked(outputs, "say where the part of " + options.path + " is");
   if (!result.setup.converged) {
     std::cerr << options.path << ": the six contacts do not converge: are the datum errors those "
               << "of this part?\n";
@@ -32,7 +35,13 @@ int execute(const Options& options, const SetupCommand& which) {
   if (!options.errors.empty()) outputs.write(options.errors, setup_errors_toml(result));
   if (!options.json.empty()) outputs.write(options.json, setup_json(result));
   outputs.commit();
-  if (options.errors != "-" && options.json != "-") std::cout << setup_text(result);
+  if (options.errors == "-" || options.json == "-") return done;
+  if (options.verbose)
+    std::cout << setup_text(result);
+  else
+    print_screen(setup_screen(result));
+  if (!options.errors.empty()) std::cout << "errors " << options.errors << '\n';
+  if (!options.json.empty()) std::cout << "result " << options.json << '\n';
   return done;
 }
 
@@ -53,6 +62,8 @@ void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code)
                    "of mm and degrees in the frames of the controls (6)")
       ->check(CLI::Range(least_frame_decimals, most_frame_decimals));
   add_force(*command, options->force);
+  add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
   command->callback([options, which, &exit_code] { exit_code = execute(*options, which); });
 }
 

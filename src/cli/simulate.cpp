@@ -4,11 +4,13 @@
 #include <memory>
 #include <optional>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/simulate_from.hpp"
 #include "cli/simulate_machine.hpp"
+#include "cli/waiting.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "simulate/files/cut_table_csv.hpp"
@@ -26,7 +28,7 @@ namespace lathe = virtual_lathe;
 struct Options {
   std::string scenario, stream, truth, table, program, json;
   std::optional<std::uint64_t> seed;
-  bool force = false;
+  bool force = false, check = false;
 };
 
 /// The stream of a simulation, and what the virtual lathe knows of it.
@@ -51,6 +53,12 @@ void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
       tabled ? read_cut_table(program.table, program.tool.sense) : lathe::CutTable{};
   if (tabled) outputs.reads(program.table);
   check_outputs(outputs, options);
+  if (options.check) {
+    checked(outputs, "cut the part" + (tabled ? " with " + program.table : std::string()) +
+                         " and probe it again");
+    return;
+  }
+  const Waiting waiting("cut and probing of " + options.scenario);
   const lathe::CutPart part(program, table);
   write_stream_csv(lathe::probe_cut(part, scenario.plan, scenario.noise, scenario.seed),
                    outputs.open(options.stream));
@@ -69,7 +77,8 @@ int simulate_machine(const Options& options, MachineScenarioKind kind) {
   if (!cuts && !options.program.empty())
     throw InputError(options.scenario, "--program needs a scenario with [machine] and [cut]");
   const SimulateMachineOptions of_machine{options.scenario, options.stream, options.json,
-                                          options.program,  options.seed,   options.force};
+                                          options.program,  options.seed,   options.force,
+                                          options.check};
   return cuts ? simulate_machine_cut(of_machine) : simulate_measurement(of_machine);
 }
 
@@ -94,7 +103,10 @@ int execute(const Options& options) {
     throw InputError(options.scenario, "--table needs a scenario with [cut]");
   Outputs outputs(options.force);
   check_outputs(outputs, options);
+  if (options.check) return checked(outputs, "probe the part of " + options.scenario);
+  std::optional<Waiting> waiting("probing of " + options.scenario);
   const lathe::Simulation simulation = lathe::simulate_with_truth(scenario);
+  waiting.reset();
   write_stream_csv(simulation.stream, outputs.open(options.stream));
   if (!options.truth.empty()) outputs.write(options.truth, truth_json(simulation.truth));
   outputs.commit();
@@ -146,6 +158,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
                    "write the comparison, or the judgement of a cut, here (JSON), '-' prints it")
       ->check(a_place());
   add_force(*command, options->force);
+  add_check(*command, options->check);
   from->stream.add_meaning_to(*command);
   StreamOptions::add_ball_radius(*command, from->ball_radius_mm)->needs(diagnosis);
   command->callback([options, from, &exit_code] {
@@ -164,6 +177,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
     from->truth = options->truth;
     from->seed = options->seed;
     from->force = options->force;
+    from->check = options->check;
     if (from->output.empty() && from->json.empty() && !from->compare)
       throw CLI::RequiredError("--output, --compare or --json");
     if (!from->json.empty() && from->json == from->output)

@@ -2,9 +2,12 @@
 #include "cli/simulate_from.hpp"
 
 #include <iostream>
+#include <optional>
 
+#include "cli/check.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
+#include "cli/waiting.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -22,6 +25,7 @@ namespace lathe = virtual_lathe;
 
 int play(const SimulateFromOptions& options, const Diagnosis& diagnosis,
          const ProbeStream& measured, Outputs& outputs) {
+  std::optional<Waiting> waiting("measuring the part of " + options.diagnosis + " again");
   DiagnosedScenarios scenarios = diagnosed_scenarios(diagnosis, measured, options.ball_radius_mm);
   const Resimulation again = resimulate(scenarios, diagnosis, measured);
   expect_read_as_then(options.diagnosis, diagnosis, measured, again.readings);
@@ -36,6 +40,7 @@ int play(const SimulateFromOptions& options, const Diagnosis& diagnosis,
   if (!options.json.empty())
     outputs.write(options.json, comparison_json(again.comparison, options.diagnosis, measured));
   outputs.commit();
+  waiting.reset();
   if (options.output != "-" && options.json != "-") {
     std::cout << comparison_text(again.comparison);
     if (!options.output.empty())
@@ -50,14 +55,17 @@ int simulate_from(const SimulateFromOptions& options) {
   const Diagnosis diagnosis = diagnosis_from_json(read_file(options.diagnosis), options.diagnosis);
   StreamOptions stream = options.stream;
   stream.path = diagnosed_stream_path(stream.path, options.diagnosis, diagnosis);
-  const ProbeStream measured = stream.read();
   Outputs outputs(options.force);
   outputs.reads(options.diagnosis);
   outputs.reads(stream.path);
   outputs.may_write(options.output, "trueaxis.stream");
   outputs.may_write(options.truth, "trueaxis.truth");
   outputs.may_write(options.json, "trueaxis.comparison");
-  outputs.check();
+  ProbeStream measured;
+  all_of({[&] { measured = stream.read(); }, [&] { outputs.check(); }});
+  if (options.check)
+    return checked(outputs, "measure the part of " + options.diagnosis + " again, " +
+                                std::to_string(measured.size()) + " readings, and compare");
   try {
     return play(options, diagnosis, measured, outputs);
   } catch (const InputError& error) {  // of the diagnosis: under the name of its file

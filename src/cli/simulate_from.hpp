@@ -14,7 +14,7 @@ struct SimulateFromOptions {
   std::string diagnosis, output, truth, json;
   StreamOptions stream;  ///< path empty: as the diagnosis names it
   double ball_radius_mm = 0.0;
-  bool before = false, noise_free = false, compare = false, force = false;
+  bool before = false, noise_free = false, compare = false, force = false, check = false;
   std::optional<std::uint64_t> seed;
 };
 

@@ -3,8 +3,10 @@
 
 #include <iostream>
 
+#include "cli/check.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/waiting.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "simulate/machine/files/cut_output.hpp"
@@ -21,6 +23,8 @@ int simulate_measurement(const SimulateMachineOptions& options) {
   outputs.reads(options.scenario);
   outputs.may_write(options.output, "trueaxis.measurement");
   outputs.check();
+  if (options.check)
+    return checked(outputs, "play the measurement of " + options.scenario + " on its machine");
   const auto rows =
       virtual_machine::measure(scenario.of.machine, scenario.of.errors, scenario.plan);
   outputs.write(options.output, measurement_csv(scenario.of.machine, scenario.plan, rows));
@@ -40,8 +44,12 @@ int simulate_machine_cut(const SimulateMachineOptions& options) {
   outputs.may_write(options.output, "trueaxis.path");
   outputs.may_write(options.json, "trueaxis.cut");
   outputs.check();
+  if (options.check)
+    return checked(outputs, "cut the program on the machine of " + options.scenario);
+  std::optional<Waiting> waiting("cut of the program");
   const virtual_machine::Cut cut =
       virtual_machine::cut(scenario.of.machine, scenario.of.errors, scenario.plan);
+  waiting.reset();
   if (!options.output.empty()) outputs.write(options.output, cut_csv(cut));
   if (!options.json.empty()) outputs.write(options.json, cut_json(cut, scenario));
   outputs.commit();

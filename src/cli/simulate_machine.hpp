@@ -11,7 +11,7 @@ namespace trueaxis::cli {
 struct SimulateMachineOptions {
   std::string scenario, output, json, program;
   std::optional<std::uint64_t> seed;
-  bool force = false;
+  bool force = false, check = false;
 };
 
 /// What a machine of several axes would read of balls on its table.

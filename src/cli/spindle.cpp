@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -37,7 +38,7 @@ struct Options {
   double u_angle_deg = 0.0, u_reindex_deg = 0.0, coverage_factor = 2.0;
   double largest_condition = SpindleOptions{}.largest_condition, apart_deg = 20.0;
   int sensors = 0;
-  bool advise = false, verbose = false, force = false;
+  bool advise = false, verbose = false, force = false, check = false;
 
   std::vector<double> angles_rad() const {
     std::vector<double> out = angles_deg;
@@ -80,7 +81,7 @@ void expect_job_alone(const CLI::App& command, const Options& options) {
   if (job == options.streams.end()) return;
   if (options.streams.size() > 1)
     throw CLI::ValidationError("stream", *job + " is a job and names its streams: give it alone");
-  constexpr const char* beside[] = {"--json", "--svg", "--verbose", "--force", "--help"};
+  constexpr const char* beside[] = {"--json", "--svg", "--verbose", "--force", "--check", "--help"};
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || !name.starts_with("--") ||
@@ -127,6 +128,9 @@ int separate(const Options& options, const OrderRange& orders) {
   outputs.may_write(options.svg, "trueaxis.spindle_plot");
   outputs.may_write(options.report, "trueaxis.spindle_report");
   outputs.check();
+  if (options.check)
+    return checked(outputs, "separate part and spindle in " + std::to_string(streams.size()) +
+                                " streams, orders 2 to " + std::to_string(orders.high));
   const SpindleResult result = separate_spindle(streams, job.options);
   if (!options.json.empty()) outputs.write(options.json, spindle_json(result, job.options));
   if (!options.svg.empty()) outputs.write(options.svg, polar_svg(result));
@@ -171,6 +175,7 @@ void add_estimate(CLI::App& command, Options& options) {
       ->check(a_place());
   command.add_flag("--verbose", options.verbose, "a table of the orders too");
   add_force(command, options.force);
+  add_check(command, options.check);
   options.meaning.add_meaning_to(command);
 }
 

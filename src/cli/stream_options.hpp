@@ -39,7 +39,9 @@ struct StreamOptions {
                     "of another program's file: which is which, by name or number, such as "
                     "\"X=Diameter,C=Angle(°),Z=3[mm]\"")
         ->check(a_place());
-    command.add_option("--skip", skip, "of another program's file: lines above its table")
+    command
+        .add_option("--skip", skip,
+                    "of another program's file: lines above its table that are passed over")
         ->check(CLI::Range(0, 1000000));
   }
 
@@ -81,7 +83,10 @@ struct AssociationOptions {
     for (const SurfaceInfo& info : surface_catalogue()) surfaces.emplace_back(info.id);
     CLI::Option* option = command.add_option("--surface", surface, "reference surface")
                               ->check(CLI::IsMember(surfaces));
-    command.add_option("--loss", loss, "plain (default), huber or tukey")
+    command
+        .add_option("--loss", loss,
+                    "how readings far off count: plain (least squares, default); huber and tukey "
+                    "count them less")
         ->check(CLI::IsMember({"plain", "huber", "tukey"}));
     command.add_flag("--bore", fit.bore, "probed from inside");
     command

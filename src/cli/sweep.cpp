@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 
+#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -15,7 +16,7 @@ void add_sweep(CLI::App& app, int& exit_code) {
   struct Options {
     std::string sweep, folder;
     int threads = 0;
-    bool force = false;
+    bool force = false, check = false;
   };
   CLI::App* command =
       app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
@@ -27,10 +28,15 @@ void add_sweep(CLI::App& app, int& exit_code) {
                    "nothing is kept")
       ->check(a_place());
   add_force(*command, options->force);
+  add_check(*command, options->check);
   command->add_option("--threads", options->threads, "default: as many as there are")
       ->check(CLI::Range(0, 4096));
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);
+    if (options->check) {
+      exit_code = check_sweep(file, options->folder, options->force);
+      return;
+    }
     run_sweep(file, options->folder, options->force, [&](const auto& blocks, const auto& finished) {
       study::run_blocks(file.sweep, blocks, options->threads, finished);
     });

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "cli/check.hpp"
 #include "cli/progress.hpp"
 #include "format/outputs.hpp"
 #include "report/sweep_report.hpp"
@@ -19,7 +20,6 @@ namespace trueaxis::cli {
 
 namespace {
 
-/// The folder is there afterwards, for the journal.
 void check_outputs(Outputs& outputs, const study::PublishedSweep& file, const std::string& folder) {
   for (const std::string& input : file.sweep.input_files) outputs.reads(input);
   outputs.into(folder);
@@ -30,7 +30,6 @@ void check_outputs(Outputs& outputs, const study::PublishedSweep& file, const st
   outputs.may_write_in_folder("report.html", "trueaxis.sweep_report");
   if (file.published) outputs.may_write_in_folder("published.json", "trueaxis.published");
   outputs.check();
-  outputs.make_folder();
 }
 
 void write_results(Outputs& outputs, const study::PublishedSweep& file,
@@ -52,11 +51,24 @@ void write_results(Outputs& outputs, const study::PublishedSweep& file,
 
 }  // namespace
 
+int check_sweep(const study::PublishedSweep& file, const std::string& folder, bool force) {
+  Outputs outputs(force);
+  if (folder.empty())
+    for (const std::string& input : file.sweep.input_files) outputs.reads(input);
+  else
+    check_outputs(outputs, file, folder);
+  const std::size_t cells = study::cell_count(file.sweep);
+  return checked(outputs, std::to_string(cells) + (cells == 1 ? " cell of " : " cells of ") +
+                              std::to_string(file.sweep.repeats) + " simulated streams each, " +
+                              std::to_string(cells * file.sweep.repeats) + " in all");
+}
+
 void run_sweep(const study::PublishedSweep& file, const std::string& folder, bool force,
                const BlockRunner& runner) {
   const study::Sweep& sweep = file.sweep;
   Outputs outputs(force);
   if (!folder.empty()) check_outputs(outputs, file, folder);
+  if (!folder.empty()) outputs.make_folder();  // for the journal
   std::optional<SweepJournal> journal;
   if (!folder.empty()) journal.emplace(folder, sweep);
   std::vector<study::BlockResult> results;

@@ -14,6 +14,9 @@ namespace trueaxis::cli {
 using BlockRunner = std::function<void(const std::vector<study::Block>&,
                                        const std::function<void(study::BlockResult&&)>&)>;
 
+/// Looks at every place that a sweep would write, and says what it would do. @returns the exit code
+int check_sweep(const study::PublishedSweep& file, const std::string& folder, bool force);
+
 /// What the journal in `folder` leaves to do, done by `runner`; then sweep.csv, sweep.json,
 /// timing.csv, report.html and, beside published runs, published.json there, and the table on
 /// standard output. Progress on a terminal. Without a folder no file is read or written.

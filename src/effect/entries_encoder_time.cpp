@@ -6,13 +6,14 @@ namespace trueaxis::entries {
 std::vector<Effect> encoder_and_time() {
   return {
       {.id = "encoder.offset",
-       .title = "zero of C",
+       .title = "zero of C: all spindle angles are off by the same",
        .slot = Slot::arguments,
        .frame = Frame::spindle,
        .term = ArgumentShift{ArgumentShift::By::angle},
        .formula = "C' = C + c",
        .parameters = {{"angle", "rad", 1e-3, 0.1, "c"}},
-       .signature = "none: a gauge, harmless when the cut uses the same zero of C",
+       .signature =
+           "none: it turns all angles alike, harmless when the cut uses the same zero of C",
        .confounders = {"probe.height", "probe.latency", "probe.lag", "part.slip"},
        .absorbed_by = "direction of x0, y0, l, m",
        .separations = {{"MS", "a master with an angle mark shows it"}},

@@ -80,15 +80,15 @@ std::vector<Effect> part_face() {
        .confounders = {"slide.x_straightness", "thermal.drift", "probe.nonlinearity"},
        .absorbed_by = "d, where one radius is probed",
        .separations = {{"RE",
-                        "beyond the axis a dish is its own mirror image; of a bent slide only what "
-                        "is even about the axis is"},
+                        "on the other side of the axis a dish looks the same, a bent slide goes on "
+                        "as it was"},
                        {"MS", "a master face shows what the slide does"},
                        {"RZ", "a drift goes on, a dish comes back"}},
        .source = "ISO 12781-1 (flatness)",
        .needs = {.length = true, .stream = face},
        .search = {.forms = {{{0}}, {.free = {1}, .degrees = 2}, {.free = {2}, .degrees = 3}}}},
       {.id = "part.face_spiral",
-       .title = "the spiral left by facing towards the centre",
+       .title = "feed marks of a face: the spiral that the tool left in facing",
        .slot = Slot::part,
        .frame = Frame::part,
        .term = PeriodicInZ{Port::normal, -1.0},

@@ -63,7 +63,7 @@ std::vector<Effect> part_roundness() {
        .search = {.forms = {{{0, 1}}, {.degrees = 1}}, .tests = 1},
        .size_spread = 1.5},
       {.id = "part.feed_marks",
-       .title = "the spiral left by turning",
+       .title = "feed marks: the spiral that the tool left in turning",
        .slot = Slot::part,
        .frame = Frame::part,
        .term = PeriodicInZ{Port::normal, 1.0},

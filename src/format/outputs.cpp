@@ -285,6 +285,12 @@ std::string Outputs::objection(const Place& place) const {
          elsewhere + ", or let it be replaced with --force";
 }
 
+std::vector<std::string> Outputs::places() const {
+  std::vector<std::string> paths;
+  for (const Place& place : places_) paths.push_back(place.path);
+  return paths;
+}
+
 void Outputs::check() {
   std::vector<Diagnostic> diagnostics;
   const auto note = [&](const std::string& path, std::string why) {

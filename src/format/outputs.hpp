@@ -68,6 +68,9 @@ class Outputs {
   void may_begin(const std::string& path, std::string content);
   std::string in_folder(const std::string& name) const;  ///< its path
 
+  const std::vector<std::string>& inputs() const { return inputs_; }  ///< all that is read
+  std::vector<std::string> places() const;                            ///< all that may be written
+
   /// @throws InputError with every place that must not or cannot be written.
   void check();
   /// Makes the folder of the results now, for what must be on disk before the end.

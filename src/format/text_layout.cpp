@@ -48,6 +48,7 @@ std::string wrapped(const std::string& head, std::string_view text, std::size_t 
 
 std::string um(double length_mm) {
   if (!std::isfinite(length_mm)) return "not determined";
+  if (std::abs(length_mm) >= 0.9995) return fmt::format("{:.3g} mm", length_mm);
   return fmt::format("{:.3g} µm", length_mm / mm_per_um);
 }
 

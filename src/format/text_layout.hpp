@@ -20,7 +20,7 @@ std::string padded(std::string_view text, std::size_t to);
 /// `head` and then `text`, broken at blanks to `to` columns; further lines start below the text.
 std::string wrapped(const std::string& head, std::string_view text, std::size_t to = columns);
 
-/// A length in µm: "99.2 µm"; "not determined".
+/// A length: "99.2 µm", from 1 mm on "2.89 mm"; "not determined".
 std::string um(double length_mm);
 
 /// "value ± U unit" of `scale` × the estimate, or its value and why there is no U.

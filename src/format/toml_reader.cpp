@@ -271,7 +271,8 @@ std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
   const std::string one_of = fmt::format("one of: {}", fmt::join(words, ", "));
   const State::Found found = state_->find(key);
   if (!found.node && required) state_->missing(key, one_of);
-  const std::optional<std::string> word = maybe_text(key);
+  const auto whole = found.node ? found.node->value_exact<int64_t>() : std::nullopt;
+  const auto word = whole ? std::optional(std::to_string(*whole)) : maybe_text(key);
   if (!word) return std::nullopt;
   const auto place = std::ranges::find(words, *word);
   if (place != words.end()) return static_cast<std::size_t>(place - words.begin());
@@ -324,8 +325,7 @@ std::vector<std::string> TomlTable::keys() const {
 bool TomlTable::has(std::string_view key) { return state_->find(key).node != nullptr; }
 
 bool TomlTable::has_table(std::string_view key) {
-  const State::Found found = state_->find(key);
-  return found.node != nullptr && found.node->is_table();
+  return state_->find(key).node && state_->find(key).node->is_table();
 }
 
 void TomlTable::complain(std::string_view key, std::string message) {

@@ -78,7 +78,8 @@ class TomlTable {
   std::optional<std::string> maybe_path(std::string_view key);
   std::string required_path(std::string_view key);
 
-  /// One of a few words: `choice("kind", {{"cone", Kind::cone}, …}, Kind::cone)`.
+  /// One of a few words: `choice("kind", {{"cone", Kind::cone}, …}, Kind::cone)`. A whole number in
+  /// the file is the word of its digits.
   template <class Value>
   Value choice(std::string_view key,
                std::initializer_list<std::pair<std::string_view, Value>> words, Value fallback) {

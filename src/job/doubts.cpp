@@ -163,16 +163,18 @@ std::vector<std::string> model_reservations(const JobResult& result) {
         left_mm - stated_mm > std::max(0.5 * stated_mm, 3.0 * diagnosis.noise.u_sigma_mm)) {
       list.push_back(fmt::format(
           "{}after all that was found a reading scatters by {:.2g} µm, {:.2g} times the stated "
-          "noise: something is in them that no model holds, or the statement is too small",
+          "noise: the readings hold something that was not found, or the noise was stated too "
+          "small",
           where(result, i), left_mm / mm_per_um, left_mm / stated_mm));
     }
     const bool one_pass =
         result.streams.at(i).size() > 0 && one_manner(find_passes(result.streams[i]));
     if (one_pass && std::ranges::any_of(diagnosis.findings, is_bow))
-      list.push_back(where(result, i) +
-                     "a bow in one pass, or in passes alike, looks like a motion that beats with "
-                     "the spindle, which "
-                     "would move the axis: a pass back at another speed tells");
+      list.push_back(
+          where(result, i) +
+          "a bow that was seen in one pass, or in passes alike, may as well be a vibration "
+          "near the spindle's frequency, which would move the axis: a pass back at "
+          "another speed tells");
   }
   return list;
 }
@@ -251,8 +253,8 @@ std::string moves_with_axis(const JobResult& result) {
     for (const Finding& f : diagnosis.findings) {
       if (!goes_with_axis(f.term, passes)) continue;
       return fmt::format(
-          "{}{} turns so nearly with the part that over the stream it makes at most {:.2g} turns "
-          "beside it or beside the eccentricity, and the axis goes with it: {}",
+          "{}{} is so near to once a revolution that over the stream it gains at most {:.2g} turns "
+          "on the part or its eccentricity, and cannot be told from a shift of the axis: {}",
           where(result, i), f.effect(), least_beats, next);
     }
   }

@@ -63,7 +63,10 @@ std::string compensation_text(const ProgramCompensation& result) {
               length(result.between_before) + ", now " + length(result.between_after));
   text += row("largest change", changes(result));
   if (!result.by_error.empty()) text += row("errors alone", largest_errors(result));
-  if (result.u_tip) text += row("U of the tip", layout::um(2.0 * result.u_tip->value) + " (k = 2)");
+  if (result.u_tip)
+    text += row("U of the tip", layout::um(2.0 * result.u_tip->value) +
+                                    " (k = 2), with what is "
+                                    "not known of where the part stands");
   if (!result.singular.empty())
     text += row("at a pole", format("{} blocks, whose direction is left off: the first in line {}",
                                     result.singular.size(), result.singular.front().line));

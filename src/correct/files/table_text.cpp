@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/never.hpp"
 #include "correct/files/table_files.hpp"
 #include "trueaxis/units.hpp"
 
@@ -71,6 +72,13 @@ std::string following_text(const ActuatorMargin& margin) {
   return fixed(margin.following_mm * um, 4) + " µm peak (" +
          fixed(margin.following_uncompensated_mm * um, 4) +
          " µm if the wanted profile were sent), steady run";
+}
+
+std::string speed_text(const ActuatorMargin& margin) {
+  if (!(margin.max_speed_rpm > 0.0)) return "at no speed";
+  return or_never(margin.max_speed_rpm, "rpm",
+                  fmt::format("highest speed {:.12g} rpm", std::floor(margin.max_speed_rpm)),
+                  "at every speed of a lathe's spindle");
 }
 
 }  // namespace
@@ -149,8 +157,7 @@ std::string correction_preview(const Correction& correction) {
   text += "following   " + following_text(margin) + '\n';
   text += margin.follows ? "follows     yes"
                          : "follows     no: " + margin.breaks + "; " + margin.remedy;
-  text += ", highest speed " + fixed(margin.max_speed_rpm, 1) + " rpm\n";
-  return text;
+  return text + ", " + speed_text(margin) + '\n';
 }
 
 }  // namespace trueaxis

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/never.hpp"
 #include "diagnose/search/causes.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -178,9 +179,13 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
       h.entry.why = fmt::format("absorbed by {}: {} of it is left", by, percent_left(share));
     } else {
       const bool small = t.unit == "mm" && h.entry.detectable < 1.0;
-      h.entry.why = fmt::format(
-          "too small beside the noise at its typical size: found from {:.3g} {} on",
-          small ? h.entry.detectable / mm_per_um : h.entry.detectable, small ? "µm" : t.unit);
+      h.entry.why =
+          "too small beside the noise at " +
+          or_never(h.entry.detectable, t.unit,
+                   fmt::format("its typical size: found from {:.3g} {} on",
+                               small ? h.entry.detectable / mm_per_um : h.entry.detectable,
+                               small ? "µm" : t.unit),
+                   "any size that occurs");
     }
     h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
@@ -15,7 +16,7 @@ using namespace layout;
 
 /// "2.6 µm", "0.12 deg"; "-" where no size of it would be found.
 std::string detectable_text(const NotObservable& n) {
-  if (!std::isfinite(n.detectable)) return "no size";
+  if (is_never(n.detectable, n.detectable_unit)) return "no size";
   const bool small = n.detectable_unit == "mm" && n.detectable < 1.0;
   const std::string unit = small ? "µm" : n.detectable_unit == "1" ? "" : n.detectable_unit;
   return fmt::format("{:.3g}", small ? n.detectable / mm_per_um : n.detectable) +

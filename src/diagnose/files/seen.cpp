@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/never.hpp"
 #include "diagnose/files/consequences.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
@@ -89,7 +90,11 @@ std::string seen_text(const Finding& finding, double k) {
           [&](const Harmonic& harmonic) { return of_harmonic(harmonic, shape, size); },
           [&](const PeriodicInZ& periodic) {
             return periodic.turns == 0.0
-                       ? fmt::format("a wave along Z, {:.4g} mm long, {}", shape.period_mm, size)
+                       ? "a wave along Z, " +
+                             or_never(shape.period_mm, "mm",
+                                      fmt::format("{:.4g} mm long, ", shape.period_mm),
+                                      "longer than any part, ") +
+                             size
                        : fmt::format("a spiral of {:.4g} mm a turn, {}", shape.period_mm, size);
           },
           [&](const PeriodicInTime&) {

@@ -59,9 +59,8 @@ std::string tap_screen(const FitResult& fit) {
   const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
   const double c_deg = std::fmod(towards_rad / rad_per_deg + (rear ? 540.0 : 360.0), 360.0);
   return fmt::format(
-      "tap    run-out {} at Z {:.6g} mm: at C = {:.0f}° the part stands out towards the probe; tap "
-      "it "
-      "there from outside by {}\n",
+      "tap    run-out {} at Z {:.6g} mm, high spot under the probe at C = {:.0f}°: tap it there by "
+      "{}\n",
       um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
 }
 

@@ -15,4 +15,7 @@ Json harm_object(const ProgramHarm& harm);
 /// For a terminal: µm.
 std::string harm_text(const ProgramHarm& harm);
 
+/// Two lines of it for a screen: what does most, and the tip's U.
+std::string harm_screen(const ProgramHarm& harm);
+
 }  // namespace trueaxis

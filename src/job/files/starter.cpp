@@ -11,7 +11,7 @@ constexpr std::string_view scenario =
 seed = 1                    # of the noise: the same seed gives the same readings
 
 [part]
-kind = "cylinder"           # or cone, with half_angle_deg
+surface = "cylinder"           # or cone, with half_angle_deg
 radius_mm = 32
 x0_mm = 0.08                # where its axis is at Z = 0, C = 0: +X
 y0_mm = -0.06               # and +Y
@@ -80,7 +80,7 @@ constexpr std::string_view cut =
 seed = 1
 
 [part]
-kind = "cylinder"
+surface = "cylinder"
 radius_mm = 32
 x0_mm = 0.08
 y0_mm = -0.06
@@ -96,7 +96,7 @@ readings_per_revolution = 36.7
 [cut]
 use = "command"             # through the actuator; wanted: as if it followed at once; none: no table
 [cut.target]
-kind = "cylinder"
+surface = "cylinder"
 radius_mm = 30
 z_start_mm = 60
 z_end_mm = 45

@@ -15,6 +15,21 @@ namespace {
 
 using namespace virtual_lathe;
 
+/// The name under which a key stands: a job's, or what a scenario called it before.
+const char* name_of(TomlTable& table, const char* now, const char* before) {
+  if (!table.has(before)) return now;
+  if (table.has(now))
+    table.complain(before, std::string("is an earlier name of `") + now + "`: keep that one");
+  return before;
+}
+
+/// `feature = "bore"`, or `bore = true` as before.
+bool read_bore(TomlTable& table) {
+  if (std::string_view(name_of(table, "feature", "bore")) == "bore")
+    return table.flag("bore", false);
+  return table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
+}
+
 constexpr double right_angle = 0.5 * std::numbers::pi;
 
 void read_shape(TomlTable& table, Part& part) {
@@ -22,7 +37,7 @@ void read_shape(TomlTable& table, Part& part) {
     part.d_mm = table.required_number("d_mm");
     return;
   }
-  part.bore = table.flag("bore", false);
+  part.bore = read_bore(table);
   if (part.kind == PartKind::cone) part.apex_mm = table.maybe_number("k_mm");
   if (part.kind == PartKind::cone) {
     const Range angle =
@@ -41,9 +56,11 @@ void read_shape(TomlTable& table, Part& part) {
 
 void read_part(TomlTable table, Scenario& scenario) {
   Part& part = scenario.part;
-  part.kind = table.required_choice<PartKind>(
-      "kind",
-      {{"cylinder", PartKind::cylinder}, {"cone", PartKind::cone}, {"face", PartKind::face}});
+  part.kind = table.required_choice<PartKind>(name_of(table, "surface", "kind"),
+                                              {{"cylinder", PartKind::cylinder},
+                                               {"cone", PartKind::cone},
+                                               {"face", PartKind::face},
+                                               {"plane", PartKind::face}});
   part.x0_mm = table.number("x0_mm", 0.0);
   part.y0_mm = table.number("y0_mm", 0.0);
   part.l = table.number("l", 0.0, Range::inside(-1.0, 1.0));
@@ -164,23 +181,29 @@ std::optional<Effect> read_effect(TomlTable table) {
 CutTarget read_target(TomlTable table) {
   CutTarget target;
   target.kind = table.choice<CutKind>(
-      "kind", {{"cylinder", CutKind::cylinder}, {"cone", CutKind::cone}, {"face", CutKind::face}},
+      name_of(table, "surface", "kind"),
+      {{"cylinder", CutKind::cylinder}, {"cone", CutKind::cone}, {"face", CutKind::face}},
       CutKind::cylinder);
   const bool face = target.kind == CutKind::face;
-  target.start_mm = table.required_number(face ? "x_start_mm" : "z_start_mm");
-  target.end_mm = table.required_number(face ? "x_end_mm" : "z_end_mm");
-  if (target.start_mm == target.end_mm) {
-    table.complain(face ? "x_end_mm" : "z_end_mm", "equals the start: give the cut a length");
-  }
+  const char* const start = face ? name_of(table, "radius_start_mm", "x_start_mm") : "z_start_mm";
+  const char* const end = face ? name_of(table, "radius_end_mm", "x_end_mm") : "z_end_mm";
+  target.start_mm = table.required_number(start);
+  target.end_mm = table.required_number(end);
+  if (target.start_mm == target.end_mm)
+    table.complain(end, "equals the start: give the cut a length");
   if (face) {
-    target.z_face_mm = table.required_number("z_face_mm");
+    target.z_face_mm = table.required_number(name_of(table, "z_mm", "z_face_mm"));
     return target;
   }
-  target.bore = table.flag("bore", false);
+  target.bore = read_bore(table);
   target.radius_mm = table.required_number("radius_mm", Range::positive());
   if (target.kind == CutKind::cone) {
+    // As a job says it, opening to one side, or with its sign.
+    const bool opens = table.has("opens");
+    const double sign = table.choice<double>("opens", {{"+z", 1.0}, {"-z", -1.0}}, 1.0);
     target.half_angle_rad =
-        table.required_number("half_angle_rad", Range::inside(-right_angle, right_angle));
+        sign * table.required_number("half_angle_rad",
+                                     Range::inside(opens ? 0.0 : -right_angle, right_angle));
   }
   return target;
 }
@@ -188,11 +211,11 @@ CutTarget read_target(TomlTable table) {
 CutTool read_tool(TomlTable table) {
   CutTool tool;
   tool.nose_radius_mm = table.number("nose_radius_mm", 0.0, Range::non_negative());
-  tool.height_mm = table.number("height_mm", 0.0);
+  tool.height_mm = table.number(name_of(table, "tool_height_mm", "height_mm"), 0.0);
   tool.angle_from_probe_rad = table.number("angle_from_probe_rad", 0.0);
   tool.speed_rpm = table.number("speed_rpm", tool.speed_rpm, Range::positive());
-  tool.sense = static_cast<int>(table.integer("sense", 1, -1, 1));
-  if (tool.sense == 0) table.complain("sense", "must be 1 or -1");
+  tool.sense =
+      table.choice<int>("sense", {{"+c", 1}, {"-c", -1}, {"1", 1}, {"-1", -1}}, tool.sense);
   tool.feed_mm_per_rev = table.number("feed_mm_per_rev", tool.feed_mm_per_rev, Range::positive());
   tool.c_start_rad = table.number("c_start_rad", 0.0);
   return tool;

@@ -14,7 +14,7 @@ namespace trueaxis {
 /// `_deg` may be `_rad`, `_mrad`, `_urad`, `_arcsec`; `_s` may be `_ms`, `_us`, `_min`):
 ///
 ///     name = "…"   seed = 1
-///     [part]       kind = "cone" | "cylinder" | "face"   bore = false
+///     [part]       surface = "cone" | "cylinder" | "face"   feature = "shaft" | "bore"
 ///                  x0_mm y0_mm l m   k_mm + half_angle_deg | radius_mm (+ radius_at_mm,
 ///                  half_angle_deg with its sign)   d_mm   u_start_mm u_end_mm
 ///     [probe]      ball_radius_mm relative_zero_mm nominal_radius_mm states_noise
@@ -28,12 +28,15 @@ namespace trueaxis {
 ///                  clamp_force_ratio x0_mm y0_mm l m
 ///     [[effect]]   id = "part.roundness" and the parameters of that effect
 ///     [cut]        table = "path.csv"  use = "command" | "wanted" | "none"
-///     [cut.target] kind = "cylinder" | "cone" | "face"  bore  z_start_mm z_end_mm (where the
-///                  contact starts and ends) radius_mm (at z_start) half_angle_deg | z_face_mm
-///                  x_start_mm x_end_mm
-///     [cut.tool]   nose_radius_mm height_mm angle_from_probe_deg speed_rpm sense feed_mm_per_rev
-///                  c_start_deg
+///     [cut.target] surface = "cylinder" | "cone" | "face"   feature   z_start_mm z_end_mm (where
+///                  the contact starts and ends) radius_mm (at z_start) half_angle_deg opens | z_mm
+///                  radius_start_mm radius_end_mm
+///     [cut.tool]   nose_radius_mm tool_height_mm angle_from_probe_deg speed_rpm sense = "+c" |
+///                  "-c"  feed_mm_per_rev c_start_deg
 ///     [cut.actuator] perfect natural_frequency_hz damping delay_s sampling_hz
+///
+/// These are a job's words. Still read are those that a scenario had before: kind, bore = true,
+/// z_face_mm, x_start_mm, x_end_mm, height_mm, sense = 1 | -1, a half angle with its sign.
 ///
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 virtual_lathe::Scenario read_scenario_toml(const std::string& path);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/files/machine_screen.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "format/text_layout.hpp"
+
+namespace trueaxis {
+namespace {
+
+using layout::um;
+
+constexpr std::size_t most_findings = 3, most_rivals = 2, most_hidden = 8, most_plans = 5;
+
+std::string small(double size, const std::string& unit) {
+  return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size) : um(size);
+}
+
+/// The first `most` of a list, and how many there are beside them.
+std::string some_of(const std::vector<std::string>& all, std::size_t most) {
+  const std::size_t shown = all.size() > most ? most - 1 : all.size();
+  std::string text =
+      fmt::format("{}", fmt::join(all.begin(), all.begin() + static_cast<long>(shown), ", "));
+  return all.size() > shown ? text + fmt::format(" and {} more", all.size() - shown) : text;
+}
+
+/// "X0C 25.15 ± 0.61 µm"
+std::string small_estimate(const std::string& name, const Estimate& estimate, double k) {
+  const bool angle = estimate.unit == "rad";
+  return name + ' ' +
+         layout::plus_minus(estimate, k, angle ? 1e6 : 1.0 / mm_per_um, angle ? "µrad" : "µm");
+}
+
+std::string finding_screen(const MachineFinding& finding) {
+  const std::string& unit = finding.parameters.front().estimate.unit;
+  std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect,
+                                 small(finding.size, unit), um(finding.rms_mm));
+  if (finding.rivals.empty()) return text + "\n";
+  std::vector<std::string> rivals;
+  for (const MachineRival& rival : finding.rivals)
+    rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
+  return text + "; not told from " + some_of(rivals, most_rivals) +
+         (finding.separate_with.empty() ? ", and no plan tells them apart\n"
+                                        : ", plan " + finding.separate_with + " tells\n");
+}
+
+std::string read_out_screen(const AxisReadOut& one) {
+  const char* const unit = is_rotary(one.axis) ? "rad" : "mm";
+  std::string text =
+      fmt::format("axis   {}: {} readings, RMS {} -> {}", letter_of(one.axis), one.readings,
+                  small(one.rms_before, unit), small(one.rms_after, unit));
+  if (one.period > 0.0)
+    text += fmt::format(", {} orders periodic in {:.6g} {}", one.orders.size(),
+                        is_rotary(one.axis) ? one.period / rad_per_deg : one.period,
+                        is_rotary(one.axis) ? "deg" : "mm");
+  return text + "\n";
+}
+
+}  // namespace
+
+std::string calibration_screen(const Calibration& c) {
+  std::string text;
+  if (c.equations > 0)
+    text = fmt::format(
+        "DONE: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({})\n",
+        c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm),
+        c.noise_source);
+  else
+    text = "DONE: position errors found\n";
+  for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one);
+  std::vector<std::string> errors, shown, open;
+  for (const CalibratedParameter& one : c.parameters)
+    errors.push_back(small_estimate(one.name, one.estimate, 2.0));
+  if (!errors.empty()) text += fmt::format("errors {} (U, k = 2)\n", fmt::join(errors, ", "));
+  for (const CalibratedComponent& one : c.components)
+    if (one.shown) shown.push_back(one.name + " " + small(one.rms.value, one.rms.unit));
+  if (!shown.empty())
+    text += "also   component errors, RMS: " + some_of(shown, most_hidden) +
+            "; they are in the file of errors\n";
+  for (const NotDetermined& one : c.not_determined) open.push_back(one.members.front());
+  if (!open.empty())
+    text += fmt::format("open   not determined and left as given: {}; --verbose says why\n",
+                        fmt::join(open, ", "));
+  return text + (c.equations > 0
+                     ? "next   trueaxis diagnose with the same data: errors beside these, by name\n"
+                     : "");
+}
+
+std::string machine_findings_screen(const MachineDiagnosis& d) {
+  std::string text;
+  std::size_t shown = 0;
+  for (const MachineFinding& finding : d.findings)
+    if (shown++ < most_findings) text += finding_screen(finding);
+  for (const MachineUnexplained& one : d.unexplained)
+    if (shown++ < most_findings)
+      text += fmt::format("seen   {}, {}, without a known cause\n", one.pattern,
+                          small(one.amplitude.value, one.amplitude.unit));
+  if (shown > most_findings)
+    text += fmt::format("       and {} more (--verbose)\n", shown - most_findings);
+  for (const MachineCheck& check : d.checks)
+    if (check.found) text += "check  " + check.text + "\n";
+  std::vector<std::string> hidden;
+  for (const MachineNotObservable& one : d.not_observable) hidden.push_back(one.effect);
+  if (!hidden.empty())
+    text += "hidden not seen at these positions: " + some_of(hidden, most_hidden) + "\n";
+  return text;
+}
+
+std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
+  const std::size_t found = d.findings.size(), unexplained = d.unexplained.size();
+  std::string text = d.verdict == MachineVerdict::ideal
+                         ? "IDEAL: nothing was found beside the location errors"
+                         : fmt::format("{}: {} error{} found beside the location errors",
+                                       unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
+                                       found + unexplained, found + unexplained == 1 ? "" : "s");
+  if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
+  if (d.blocks > 0 || d.rms_before_mm > 0.0)
+    text +=
+        fmt::format("; RMS {} -> {}, held out {} -> {}", um(d.rms_before_mm), um(d.rms_after_mm),
+                    um(d.held_out_before.value_mm), um(d.held_out_after.value_mm));
+  return text + "\n" + machine_findings_screen(d);
+}
+
+std::string next_screen(const MachineDiagnosis& d) {
+  const auto plan = std::ranges::find(d.plans, d.next_plan, &MachinePlan::code);
+  if (d.next_plan.empty() || plan == d.plans.end())
+    return "next   nothing: no plan shows or tells apart anything more\n";
+  return fmt::format("next   {}, {} ({} readings, {:.0f} min)\n", plan->code, plan->what,
+                     plan->visits.size(), plan->minutes);
+}
+
+std::string machine_advice_screen(const MachineDiagnosis& d) {
+  std::string text = "N" + next_screen(d).substr(1);
+  text.replace(0, 7, "NEXT: ");
+  std::size_t shown = 0;
+  for (const MachinePlan& plan : d.plans) {
+    if (shown++ == most_plans) break;
+    text += fmt::format("{}{}: {:.0f} min", shown == 1 ? "plans  " : "       ", plan.code,
+                        plan.minutes);
+    if (!plan.separates.empty()) text += "; tells apart " + some_of(plan.separates, 4);
+    text +=
+        plan.shows.empty() ? "; shows nothing more\n" : "; shows " + some_of(plan.shows, 6) + "\n";
+  }
+  return text + machine_findings_screen(d);
+}
+
+}  // namespace trueaxis

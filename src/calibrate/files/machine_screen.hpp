@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/machine_diagnosis.hpp"
+
+/// What fits a screen of a machine's calibration and diagnosis: verdict, reason, what to do next.
+/// Lines are not broken (the command does), their text stands in column 8; µm and µrad. The texts
+/// of `--verbose` have the rest.
+namespace trueaxis {
+
+std::string calibration_screen(const Calibration& calibration);
+
+/// Without the next measurement, which may depend on what is weighed on a program.
+std::string machine_diagnosis_screen(const MachineDiagnosis& diagnosis);
+
+/// The findings and what these positions do not show, a few lines.
+std::string machine_findings_screen(const MachineDiagnosis& diagnosis);
+
+/// "next   …": the measurement that shows and separates most.
+std::string next_screen(const MachineDiagnosis& diagnosis);
+
+std::string machine_advice_screen(const MachineDiagnosis& diagnosis);
+
+}  // namespace trueaxis

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/described.hpp"
+#include "cli/guarded.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+/// Of the word behind an option that takes one of a few, or any.
+std::string values_of(const DescribedCommand& command) {
+  std::string cases, any;
+  for (const DescribedOption& option : command.options) {
+    if (option.argument || !option.takes_value) continue;
+    const std::string names = fmt::format("{}", fmt::join(option.names, "|"));
+    if (option.choices.empty())
+      any += (any.empty() ? "" : "|") + names;
+    else
+      cases += fmt::format("        {}) words='{}' ;;\n", names, fmt::join(option.choices, " "));
+  }
+  if (!any.empty()) cases += "        " + any + ") words=; value=file ;;\n";
+  return cases;
+}
+
+std::string words_of(const DescribedCommand& command) {
+  std::string words, of_first_argument;
+  for (const DescribedOption& option : command.options) {
+    if (option.argument)
+      of_first_argument +=
+          fmt::format("{}{}", option.choices.empty() ? "" : " ", fmt::join(option.choices, " "));
+    else
+      words += fmt::format("{}{}", words.empty() ? "" : " ", fmt::join(option.names, " "));
+  }
+  return words + of_first_argument;
+}
+
+std::string case_of(const DescribedCommand& command) {
+  return fmt::format("    {})\n      words='{}'\n      case $previous in\n{}      esac ;;\n",
+                     command.name, words_of(command), values_of(command));
+}
+
+std::string names_of(const std::vector<DescribedCommand>& commands) {
+  std::string names;
+  for (const DescribedCommand& command : commands)
+    names += (names.empty() ? "" : " ") + command.name;
+  return names;
+}
+
+}  // namespace
+
+std::string completion_script(const CLI::App& app, const std::string& shell) {
+  const std::vector<DescribedCommand> commands = commands_of(app);
+  std::string script = "# trueaxis " TRUEAXIS_VERSION ": made by `trueaxis completion " + shell +
+                       "` from its tables of options\n";
+  if (shell == "zsh")
+    script = "#compdef trueaxis\n" + script + "autoload -U +X bashcompinit && bashcompinit\n";
+  script +=
+      "_trueaxis() {\n"
+      "  local now=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+      "  local words='" +
+      names_of(commands) +
+      " --help --version' value=\n"
+      "  COMPREPLY=()\n"
+      "  if [ \"$COMP_CWORD\" -gt 1 ]; then\n"
+      "    words=\n"
+      "    case ${COMP_WORDS[1]} in\n";
+  for (const DescribedCommand& command : commands) script += case_of(command);
+  script +=
+      "    esac\n"
+      "    # Files, but where an option is begun or a word of a few is due.\n"
+      "    case $now in\n"
+      "      -*) ;;\n"
+      "      *) case $words in\n"
+      "           ''|-*) COMPREPLY=($(compgen -f -- \"$now\")) ;;\n"
+      "         esac ;;\n"
+      "    esac\n"
+      "    [ \"$value\" = file ] && return\n"
+      "  fi\n"
+      "  COMPREPLY+=($(compgen -W \"$words\" -- \"$now\"))\n"
+      "}\n"
+      "complete -o filenames -F _trueaxis trueaxis\n";
+  return script;
+}
+
+void add_completion(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "completion", "prints what makes a shell complete trueaxis: source <(trueaxis completion)");
+  auto shell = std::make_shared<std::string>("bash");
+  command->add_option("shell", *shell, "bash (default) or zsh")
+      ->check(CLI::IsMember({"bash", "zsh"}));
+  command->callback([&app, shell, &exit_code] {
+    std::cout << completion_script(app, *shell);
+    exit_code = done;
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+/// The commands and options as tables, for what is made of them: completion, manual.
+namespace trueaxis::cli {
+
+struct DescribedOption {
+  std::vector<std::string> names;  ///< "-o", "--output"; of an argument its name alone
+  std::string description;
+  bool argument = false;     ///< given by its place
+  bool takes_value = false;  ///< --json FILE; not --force
+  bool required = false;
+  std::vector<std::string> choices;  ///< the words that it takes; empty: any
+};
+
+struct DescribedCommand {
+  std::string name, description;
+  std::vector<DescribedOption> options;
+};
+
+/// Every command of `app`, in the order in which it lists them.
+std::vector<DescribedCommand> commands_of(const CLI::App& app);
+
+/// `app`'s options as a script that bash or zsh reads.
+std::string completion_script(const CLI::App& app, const std::string& shell);
+
+/// trueaxis(1) in troff.
+std::string manual(const CLI::App& app);
+
+}  // namespace trueaxis::cli

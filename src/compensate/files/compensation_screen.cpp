@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compensate/files/compensation_screen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "format/text_layout.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using layout::um;
+
+std::string axis_changes(const ProgramCompensation& result) {
+  std::string text;
+  for (std::size_t k = 0; k < axis_count; ++k) {
+    const LargestInProgram& one = result.largest_change[k];
+    if (one.line == 0) continue;
+    text += (text.empty() ? "" : ", ") + std::string(1, "XYZABC"[k]) + ' ';
+    text += is_rotary(static_cast<AxisName>(k)) ? fmt::format("{:.3g}°", one.value / rad_per_deg)
+                                                : um(one.value);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string changes_screen(const ProgramCompensation& result) {
+  std::string text =
+      fmt::format("blocks {} read, {} move, {} rewritten, {} inserted", result.blocks_read,
+                  result.blocks_moved, result.blocks_rewritten, result.blocks_inserted);
+  const std::string changes = axis_changes(result);
+  return text + (changes.empty() ? "\n" : "; changed by up to " + changes + "\n");
+}
+
+namespace {
+
+std::string causes_screen(const ProgramCompensation& result) {
+  std::string alone;
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, result.by_error.size()); ++i)
+    alone +=
+        (i == 0 ? "" : ", ") + result.by_error[i].name + ' ' + um(result.by_error[i].tip.value);
+  return alone.empty() ? "" : "cause  the tip off by each error alone: " + alone + "\n";
+}
+
+/// "0.118°"; what no axis resolves is said so.
+std::string degrees(double angle_rad) {
+  const double deg = angle_rad / rad_per_deg;
+  return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);
+}
+
+}  // namespace
+
+std::string compensation_screen(const ProgramCompensation& result) {
+  if (result.blocks_moved == 0) return "DONE: the program moves nowhere, nothing was changed\n";
+  std::string text = fmt::format(
+      "DONE: tip off by {} at most with the new program, {} without it (ends of "
+      "blocks, line {})\n",
+      um(result.after.position.value), um(result.before.position.value),
+      result.before.position.line);
+  text += "turned direction of the tool off by " + degrees(result.after.direction.value) + ", " +
+          degrees(result.before.direction.value) + " without it\n";
+  text += "path   off by " + um(result.between_after.value) + " between the ends of blocks, " +
+          um(result.between_before.value) + " without it\n";
+  if (result.u_tip)
+    text += "U      of the tip " + um(2.0 * result.u_tip->value) +
+            " (k = 2), with what is not known of where the part stands\n";
+  text += changes_screen(result) + causes_screen(result);
+  if (!result.singular.empty())
+    text += fmt::format("pole   {} blocks whose direction is left off, the first in line {}\n",
+                        result.singular.size(), result.singular.front().line);
+  const double between_mm = result.between_after.value;
+  if (between_mm > std::max(1e-3, 5.0 * result.after.position.value))
+    return text +
+           "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
+           um(between_mm) + "\n";
+  return text +
+         "next   run the new program in place of the old one; trueaxis simulate cuts it first\n";
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commands print: at most 15 lines for an ordinary case, values with the digits of their U, no
+// number that means "never".
+#include <regex>
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+#include "support/terminal.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+const std::string of = TRUEAXIS_SOURCE "/data/";
+const std::string machines = of + "five_axis/";
+const std::string ball = machines + "zxacy_ball.csv --machine " + machines + "zxacy.toml";
+
+/// For a second run over the results of the first.
+std::string forced(const std::string& one) {
+  return contains(one, " -o ") || contains(one, " --json ") ? " --force" : "";
+}
+
+std::size_t lines_of(const std::string& text) { return std::ranges::count(text, '\n'); }
+
+class Screens : public CommandTest {
+ protected:
+  /// All commands whose screens are shipped cases, with what they write in the test's folder.
+  std::vector<std::string> machine_commands() {
+    return {
+        "run " + of + "jobs/blade.toml -o blade",
+        "calibrate " + machines + "trunnion_ac.toml " + machines + "trunnion_ac_ball.csv -o c.toml",
+        "diagnose " + ball,
+        "diagnose " + ball + " --program " + machines + "blade.nc --json d.json",
+        "advise " + ball,
+        "advise --machine " + machines + "zxacy.toml",
+        "datum " + machines + "holes.toml -o e.toml",
+        "locate " + machines + "hong.toml",
+        "compensate " + machines + "holes.nc --machine " + machines + "zxacy.toml --errors " +
+            machines + "zxacy_errors.toml -o holes.nc"};
+  }
+  std::vector<std::string> lathe_commands() {
+    std::vector<std::string> all;
+    for (const char* const name : {"shaft", "shaft_three_lobes", "bushing"})
+      all.push_back("run " + of + "jobs/" + name + ".toml -o " + name);
+    for (const auto& [stream, surface] :
+         {std::pair{"shaft_cone_seat", "cone"}, std::pair{"shaft_cylinder_seat", "cylinder"},
+          std::pair{"shaft_three_lobes", "cone"}, std::pair{"bushing_bore", "cylinder"},
+          std::pair{"bushing_face", "plane"}})
+      for (const char* const what : {"fit ", "diagnose "})
+        all.push_back(std::string(what) + of + "streams/" + stream + ".csv --surface " + surface);
+    return all;
+  }
+};
+
+TEST_F(Screens, OfMachinesFitAndBeginWithWhatWasDecided) {
+  const std::regex verdict(
+      "^(GO|NO-GO|NOT PROVEN|DONE|IDEAL|EFFECTS|UNEXPLAINED|FOUND|NEXT)[^\n]*: ");
+  for (const std::string& one : machine_commands()) {
+    const CommandStreams done = command(one);
+    ASSERT_EQ(done.exit_code, 0) << one << '\n' << done.err;
+    EXPECT_LE(lines_of(done.out), 15u) << one << '\n' << done.out;
+    EXPECT_TRUE(std::regex_search(done.out, verdict)) << one << '\n' << done.out;
+    EXPECT_TRUE(contains(done.out, "\nnext   ") || done.out.starts_with("NEXT")) << done.out;
+  }
+}
+
+TEST_F(Screens, OfLathesFit) {
+  for (const std::string& one : lathe_commands()) {
+    const CommandStreams done = command(one);
+    ASSERT_EQ(done.exit_code, 0) << one << '\n' << done.err;
+    EXPECT_LE(lines_of(done.out), 16u) << one << '\n' << done.out;  // three of them name files
+  }
+}
+
+// No line is wider than the terminal, and no number stands apart from its unit.
+TEST_F(Screens, KeepToTheTerminal) {
+  const std::regex torn("[0-9]\r?\n +(µm|mm|µrad|deg|rpm|±)");
+  for (const unsigned short columns : {80, 120})
+    for (const std::string& one : machine_commands()) {
+      const TerminalRun run = on_terminal(folder_, "NO_COLOR=1 trueaxis " + one, columns);
+      EXPECT_EQ(run.exit_code, 0) << one;
+      EXPECT_FALSE(std::regex_search(run.shown, torn)) << run.shown;
+      std::istringstream lines(run.shown);
+      for (std::string line; std::getline(lines, line);) {
+        if (line.find('/') != std::string::npos || line.find('\x1b') != std::string::npos) continue;
+        const auto letters = std::ranges::count_if(
+            line, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; });
+        EXPECT_LE(letters, columns + 1) << line;  // the carriage return
+      }
+    }
+}
+
+// GUM 7.2.6: value and U end at the same digit; wherever one stands with ±, screens and --verbose.
+TEST_F(Screens, ValuesHaveTheDigitsOfTheirU) {
+  const std::regex pair("(-?[0-9]+)(\\.[0-9]+)? ± ([0-9]+)(\\.[0-9]+)?(e[-+]?[0-9]+)?");
+  auto all = machine_commands();
+  for (const std::string& one : lathe_commands()) all.push_back(one);
+  std::size_t pairs = 0;
+  for (const std::string& one : all)
+    for (const char* const how : {"", " --verbose"}) {
+      const std::string text = command(one + how + forced(one)).out;
+      for (auto at = std::sregex_iterator(text.begin(), text.end(), pair);
+           at != std::sregex_iterator(); ++at, ++pairs) {
+        EXPECT_EQ((*at)[2].length(), (*at)[4].length()) << one << how << ": " << at->str();
+        EXPECT_FALSE((*at)[5].matched) << one << how << ": " << at->str();
+      }
+    }
+  EXPECT_GT(pairs, 120u);
+}
+
+// A length of 10 m and more, a speed that no lathe has, an angle of more than ten turns.
+TEST_F(Screens, NoNumberMeansNever) {
+  const std::regex never(
+      "(^|[^.0-9])[0-9]{5,}(\\.[0-9]+)? (mm|rpm|deg|s)\\b|[0-9]e\\+?[0-9]+ (mm|µm|deg|rpm|s)\\b");
+  for (const std::string& one : lathe_commands())
+    for (const char* const how : {"", " --verbose"}) {
+      const std::string text = command(one + how + forced(one)).out;
+      std::smatch found;
+      EXPECT_FALSE(std::regex_search(text, found, never)) << one << how << ": " << found.str();
+    }
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

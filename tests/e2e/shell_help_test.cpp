@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is made of the tables of options: completion as bash runs it, the manual as troff reads it.
+#include <sstream>
+
+#include "support/command_fixture.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+class ShellHelp : public CommandTest {
+ protected:
+  /// What bash offers for the last of the words.
+  std::vector<std::string> offered(const std::string& words) {
+    file("ask.sh", "source script.bash\ncomplete -p trueaxis || exit 9\nCOMP_WORDS=(trueaxis " +
+                       words +
+                       ")\nCOMP_CWORD=$((${#COMP_WORDS[@]}-1))\n_trueaxis\n"
+                       "printf '%s\\n' \"${COMPREPLY[@]}\"\n");
+    const CommandResult ran = shell("cd '" + folder_.string() + "' && bash ask.sh");
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    std::istringstream lines(ran.output);
+    std::vector<std::string> out;
+    for (std::string line; std::getline(lines, line);) out.push_back(line);
+    EXPECT_FALSE(out.empty());
+    if (!out.empty()) out.erase(out.begin());  // of `complete -p`
+    return out;
+  }
+  void SetUp() override {
+    CommandTest::SetUp();
+    const CommandStreams made = command("completion bash");
+    ASSERT_EQ(made.exit_code, 0);
+    file("script.bash", made.out);
+  }
+  static bool holds(const std::vector<std::string>& list, const std::string& word) {
+    return std::ranges::find(list, word) != list.end();
+  }
+};
+
+TEST_F(ShellHelp, CompletesCommandsOptionsWordsAndFiles) {
+  EXPECT_EQ(offered("diag"), std::vector<std::string>{"diagnose"});
+  EXPECT_TRUE(holds(offered("''"), "compensate"));
+  EXPECT_TRUE(holds(offered("run --"), "--check"));
+  EXPECT_EQ(offered("diagnose x.csv --sur"), std::vector<std::string>{"--surface"});
+  EXPECT_EQ(offered("fit x.csv --surface c"), (std::vector<std::string>{"cone", "cylinder"}));
+  EXPECT_EQ(offered("fit scr"), std::vector<std::string>{"script.bash"});
+  EXPECT_EQ(offered("fit --json scr"), std::vector<std::string>{"script.bash"});
+  EXPECT_FALSE(holds(offered("locate --"), "--surface"));
+}
+
+// Every option that --help lists is offered.
+TEST_F(ShellHelp, KnowsEveryOptionOfHelp) {
+  for (const char* const name :
+       {"run", "fit", "diagnose", "simulate", "plan", "spindle", "errors"}) {
+    const auto list = offered(std::string(name).append(" --"));
+    std::istringstream words(command(std::string(name).append(" --help")).out);
+    std::size_t options = 0;
+    for (std::string word; words >> word;) {
+      const std::size_t at = word.find("--");
+      if (at != 0 && (at != 3 || word[2] != ',')) continue;
+      const std::string option =
+          word.substr(at, word.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at) - at);
+      if (option.size() < 4 || word.ends_with(';') || word.ends_with('.')) continue;
+      ++options;
+      EXPECT_TRUE(holds(list, option)) << name << ' ' << option;
+    }
+    EXPECT_GT(options, 3u) << name;
+  }
+}
+
+TEST_F(ShellHelp, ManualIsTroffWithoutWarnings) {
+  const CommandStreams made = command("man");
+  ASSERT_EQ(made.exit_code, 0);
+  file("trueaxis.1", made.out);
+  for (const char* const part : {".TH TRUEAXIS 1", ".SH NAME", ".SH COMMANDS",
+                                 ".SS trueaxis diagnose", "\\-\\-surface", ".SH EXIT STATUS"})
+    EXPECT_TRUE(contains(made.out, part)) << part;
+  const CommandStreams help = command("--help");
+  std::istringstream lines(help.out.substr(help.out.find("Subcommands:")));
+  std::string line;
+  std::getline(lines, line);
+  for (; std::getline(lines, line) && line.starts_with("  ");) {
+    if (line[2] == ' ') continue;
+    std::string name = line.substr(2, line.find(' ', 2) - 2);
+    if (const std::size_t dash = name.find('-'); dash != std::string::npos) name.insert(dash, "\\");
+    EXPECT_TRUE(contains(made.out, ".SS trueaxis " + name + "\n")) << name;
+  }
+  if (shell("command -v groff").exit_code != 0) GTEST_SKIP() << "no groff here";
+  const CommandResult ran =
+      shell("cd '" + folder_.string() + "' && groff -man -ww -Tutf8 trueaxis.1 > page.txt");
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_EQ(ran.output, "");
+  EXPECT_TRUE(contains(read_text(folder_ / "page.txt"), "diagnose"));
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
