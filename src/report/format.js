@@ -5,8 +5,14 @@
 const nbsp = '\u00a0';
 
 /** No line ends between a number and its unit or within an equation. */
-const joined = (text) => text.replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
+const joined = (text) => worded(text).replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
   .replace(/(?<!\p{L})(\p{L}) = (?=[\d−])/gu, `$1${nbsp}=${nbsp}`);
+
+/** A text in which an effect goes by its id, with the effect's name in words. */
+const worded = (text) => text.replace(/\b[a-z]+\.[a-z_]+/g, (id) => data.words?.effects[id] ?? id);
+
+/** A clause as a sentence. */
+const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}${/[.!?…]$/.test(text) ? '' : '.'}`;
 
 const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
 

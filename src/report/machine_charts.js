@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts of a machine's job: the error over the volume and along the program, the path with its errors, errors by name.
 
-const shades = {before_um: ['#f7f4ee', '#f6d9b8', '#f0a35e', '#d6604d', '#8c1127', '#3f0713'], after_um: ['#f1f5f8', '#c3dcea', '#7fb5d5', '#3a86b8', '#14477f']};
-const stages = {before: colours.series[1], after: colours.series[0], nominal: '#8b95a1', limit: '#b3001b'};
+const shades = {get before_um() { return colours.before; }, get after_um() { return colours.after; }};
+const stages = {get before() { return colours.series[1]; }, get after() { return colours.series[0]; }, get nominal() { return colours.line; }, get limit() { return colours.rejected; }};
 const um = (value) => micrometres(value / 1000);
 const degreesOrMm = ({unit, value}) => `${tick(Number(value.toPrecision(4)))}${unit === '°' ? '' : nbsp}${unit}`;
 
@@ -80,7 +80,7 @@ function pathView(tips, {words, show, across, up}, magnified) {
     const pixels = [wide(width), tall(width)], scale = Math.min(pixels[0] / sizes[0], pixels[1] / sizes[1]);
     const made = (k, name) => { const middle = (ends[k][0] + ends[k][1]) / 2, half = pixels[k] / scale / 2, [min, max] = [middle - half, middle + half];
       const customValues = name ? niceTicks(min, max, pixels[k] < 300 ? 4 : 6) : [];
-      return {min, max, axisLine: {show: name !== '', lineStyle: {color: '#9aa4b0'}}, splitLine: {show: false}, axisTick: {show: name !== '', customValues, lineStyle: {color: '#9aa4b0'}},
+      return {min, max, axisLine: {show: name !== '', lineStyle: {color: colours.line}}, splitLine: {show: false}, axisTick: {show: name !== '', customValues, lineStyle: {color: colours.line}},
         axisLabel: {show: name !== '', color: colours.ink, hideOverlap: true, formatter: tick, customValues}}; };
     return {grid: {left: 48, top: 64, width: pixels[0], height: pixels[1]}, legend: {...legendOf(series.slice(0, 3), {left: 0, right: 0})},
       xAxis: axis(across, made(0, across)), yAxis: uprightAxis(up, made(1, up)), series};

@@ -141,7 +141,7 @@ function polarChart(readings, part) {
     polar: {radius: width < 300 ? '64%' : '74%', center: ['50%', width < 300 ? '57%' : '54%']},
     angleAxis: {type: 'value', min: 0, max: 360, interval: width < 300 ? 90 : 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`},
-      axisLine: {lineStyle: {color: '#9aa4b0'}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
+      axisLine: {lineStyle: {color: colours.line}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     radiusAxis: {min: -base, max: out, interval: step, axisLine: {show: false}, axisTick: {show: false},
       axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     series,

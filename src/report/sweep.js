@@ -103,5 +103,4 @@ function build() {
     ...sections, element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
 }
 
-build();
-startPage();
+startPage(build);
