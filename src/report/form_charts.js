@@ -2,12 +2,12 @@
 // Form: what is left about the associated surface, centred, as polar plots; the roundness of one section.
 
 /** A polar plot about a circle: `marks` or `line` of {c_deg, um}, `curve` of what was found. */
-function centredPolar({measured, found, words, description, asLine = false, size = 'polar', legendWords = 'measured − model'}) {
+function centredPolar({measured, found, words, description, asLine = false, size = 'polar', legendWords = 'measured − model', least = 0}) {
   const kept = (part) => part.c_deg.map((c, i) => [part.um[i], c]).filter(([um]) => isNumber(um));
   const data = kept(measured), foundData = found ? kept(found) : [];
   const most = largest([...data, ...foundData].map(([um]) => um));
-  const step = roundUp(most / 2) || 1;
-  const out = step * Math.max(1, Math.ceil(most * 1.02 / step)), base = 2 * out;
+  const step = roundUp(Math.max(most, least) / 2);
+  const out = step * Math.max(1, Math.ceil(Math.max(most, least) * 1.02 / step)), base = asLine ? 1.5 * out : 2 * out;
   const ring = Array.from({length: 121}, (_, i) => [0, i * 3]);
   const line = (name, values, more) => ({name, type: 'line', coordinateSystem: 'polar', symbol: 'none', emphasis: {disabled: true}, data: values, ...more});
   const closed = (values) => values.length ? [...values, [values[0][0], values[0][1] + 360]] : values;
@@ -20,7 +20,7 @@ function centredPolar({measured, found, words, description, asLine = false, size
     polar: {radius: width < 300 ? '66%' : '76%', center: ['50%', width < 300 ? '57%' : '54%']},
     angleAxis: {type: 'value', min: 0, max: 360, interval: width < 300 ? 90 : 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`}, axisLine: {lineStyle: {color: colours.line}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
-    radiusAxis: {min: -base, max: out, interval: step, axisLine: {show: false}, axisTick: {show: false}, axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
+    radiusAxis: {min: step * -Math.floor(base / step), max: out, interval: step, axisLine: {show: false}, axisTick: {show: false}, axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     series,
   });
   return figure({caption: `${words} ${tick(step)} µm a ring.`, description: `${description} Up to ${micrometres(most / 1000)} from the circle.`, size, renderer: 'svg', build});
@@ -30,7 +30,8 @@ function centredPolar({measured, found, words, description, asLine = false, size
 function residualPolars(readings) {
   const parts = readings.sections.filter((part) => part.residual?.um.length);
   const place = (part) => `${readings.face ? 'X' : 'Z'} = ${millimetres(part.position_mm, 2)}`;
-  return parts.map((part) => centredPolar({measured: part.residual, found: part.found,
+  const least = largest(parts.flatMap((part) => [...part.residual.um, ...part.found?.um ?? []]));  // one scale for all
+  return parts.map((part) => centredPolar({measured: part.residual, found: part.found, least,
     words: `At ${place(part)}, ${part.residual.averaged ? `${part.readings} readings as means per degree` : `${part.readings} readings`}:`,
     description: `Polar plot of what the ideal surface leaves at ${place(part)}${part.found ? ', with what was found' : ''}.`}));
 }

@@ -96,7 +96,7 @@ function quantity(value, u, unit) {
 function uncertainty(u, unit) {
   if (!isNumber(u)) return '–';
   if (unit === 'mm') return u < 1 ? `${significant(u * 1000, 2)}${nbsp}µm` : `${significant(u, 2)}${nbsp}mm`;
-  if (unit === 'deg') return `${significant(u, 2)}${nbsp}°`;
+  if (unit === 'deg') return `${u < 1e-6 ? significant(u, 2) : fixed(u, decimalsFor(u) ?? 2)}${nbsp}°`;
   return significant(u, 2) + (unit === '1' || unit === '' ? '' : nbsp + unit);
 }
 

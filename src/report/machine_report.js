@@ -162,9 +162,10 @@ function build() {
     programFold(data), mapFold(data), findingsFold(data), unknownFold(data), inputsFold(data),
     fold('terms', 'Terms and conventions', facts(machineGlossary, 'terms'))
   ].filter(Boolean);
+  const details = element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded);
   document.getElementById('page').replaceChildren(
-      pageHeader('report', data.title, data.header), banner(data), contents([...open, ...folded]),
-      ...open, element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded),
+      pageHeader('report', data.title, data.header), banner(data), contents([...open, details]),
+      ...open, details,
       pageFooter());
 }
 

@@ -65,6 +65,7 @@ function statusBlock(reference) {
       ['Iterations', String(reference.iterations)]);
   }
   const parts = [facts(list)];
+  if (reference.notes?.length) parts.push(element('ul', {class: 'quiet'}, reference.notes.map((text) => element('li', {}, sentence(text)))));
   return element('div', {}, parts);
 }
 

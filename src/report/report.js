@@ -14,11 +14,11 @@ function measuredNumbers({k}) {
   if (data.references.length !== 1 || !axis) return null;
   const {face} = data.target.references[0], at = (end) => `${plusMinus(offsetOf(end), end.u_mm, k, 'u unknown')}`;
   const place = (end) => reference.roundness ? 'Eccentricity' : `Axis off at Z = ${millimetres(end.z_mm, 2)}`;
-  const list = face ? [['Tilt', `${degrees(axis.tilt_deg, k * axis.u_tilt_deg)} ± ${uncertainty(k * axis.u_tilt_deg, 'deg')}`]] : [[place(axis.start), at(axis.start)]];
-  if (!face && !reference.roundness) list.push([place(axis.end), at(axis.end)]);
-  if (reference.roundness) list.push(['Towards', direction(axis.start, k)], ['Roundness, peak to valley', micrometres((reference.roundness.peak_um + reference.roundness.valley_um) / 1000)]);
-  else list.push(['Residuals, RMS', micrometres(reference.rms.value)]);
-  return facts(list, 'numbers');
+  const numbers = face ? [['Tilt', slopeWords(axis, k)]] : [[place(axis.start), at(axis.start)]];
+  if (!face && !reference.roundness) numbers.push([place(axis.end), at(axis.end)]);
+  if (reference.roundness) numbers.push(['Towards', direction(axis.start, k)], ['Roundness, peak to valley', micrometres((reference.roundness.peak_um + reference.roundness.valley_um) / 1000)]);
+  else numbers.push(['Residuals, RMS', micrometres(reference.rms.value)]);
+  return facts(numbers, 'numbers');
 }
 
 function keyNumbers(verdict) {
@@ -59,10 +59,12 @@ const inputsFold = () => data.inputs.length ? fold('inputs', 'What went in', ele
 
 function build() {
   const each = (make) => data.references.map(make);
-  const open = [warningsSection(), nextSection(), axesSection(data), ...each(formSection), correctionSection(data)].filter(Boolean);
+  // Of one section its roundness is what is looked for.
+  const forms = each(formSection), axes = axesSection(data);
+  const open = [warningsSection(), nextSection(), ...(data.references.some((r) => r.roundness) ? [...forms, axes] : [axes, ...forms]), correctionSection(data)].filter(Boolean);
   const folded = [axesFold(data), ...each((r, i) => [diagnosisFold(r, i), referenceFold(r, i)]).flat(), correctionFold(data), inputsFold(), glossaryFold()].filter(Boolean);
-  document.getElementById('page').replaceChildren(pageHeader('report', data.title, data.header), banner(), contents([...open, ...folded]), ...open,
-    element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded), pageFooter([['Job', data.file], ...data.references.map((r) => ['Input', r.input.hash || 'no hash'])]));
+  const details = element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded);
+  document.getElementById('page').replaceChildren(pageHeader('report', data.title, data.header), banner(), contents([...open, details]), ...open, details, pageFooter([[data.of_stream ? 'Stream' : 'Job', data.file], ...data.references.map((r) => ['Input', r.input.hash || 'no hash'])]));
 }
 
 startPage(build);

@@ -12,7 +12,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::size_t most_points = 1440;
+constexpr std::size_t most_points = 4000, sectors_of_many = 720;
 constexpr int most_order = 50;
 
 /// The trace about its least-squares circle: one point a reading in the order of C, or means of
@@ -21,6 +21,7 @@ struct Trace {
   std::vector<double> c_deg, um;
   std::size_t readings = 0;
   bool averaged = false;
+  double low_um = 0.0, high_um = 0.0, square_um2 = 0.0;  ///< of all readings
 };
 
 Trace trace_of(const ChartReadings& all) {
@@ -29,6 +30,12 @@ Trace trace_of(const ChartReadings& all) {
     if (all.kept[i]) kept.push_back(i);
   std::ranges::stable_sort(kept, {}, [&](std::size_t i) { return all.c_deg[i]; });
   Trace trace{{}, {}, kept.size(), kept.size() > most_points};
+  for (const std::size_t i : kept) {
+    const double um = all.residual_um[i];
+    trace.low_um = std::min(trace.low_um, um);
+    trace.high_um = std::max(trace.high_um, um);
+    trace.square_um2 += um * um;
+  }
   if (!trace.averaged) {
     for (const std::size_t i : kept) {
       trace.c_deg.push_back(all.c_deg[i]);
@@ -36,7 +43,7 @@ Trace trace_of(const ChartReadings& all) {
     }
     return trace;
   }
-  const Bins sectors{0.0, 360.0, most_points / 2};
+  const Bins sectors{0.0, 360.0, sectors_of_many};
   std::vector<double> sum_c(sectors.count), sum_um(sectors.count), count(sectors.count);
   for (const std::size_t i : kept) {
     const std::size_t bin = sectors.of(all.c_deg[i]);
@@ -125,9 +132,6 @@ Json roundness_data(const ProbeStream& stream, const FitResult& fit) {
   if (!all.has_model) return nullptr;
   const Trace trace = trace_of(all);
   if (trace.um.size() < 8) return nullptr;
-  const auto [low, high] = std::ranges::minmax(trace.um);
-  double square = 0.0;
-  for (const double um : trace.um) square += um * um;
   const int limit = order_limit(trace.c_deg);
   Json data =
       limit < 2 ? Json{{"orders", Json::array()}, {"order_max", 0}} : orders_data(trace, limit);
@@ -136,9 +140,9 @@ Json roundness_data(const ProbeStream& stream, const FitResult& fit) {
   data["readings"] = trace.readings;
   data["averaged"] = trace.averaged;
   data["turns"] = rounded(static_cast<double>(stream.size()) / all.readings_per_turn, 2);
-  data["peak_um"] = rounded(high, 4);
-  data["valley_um"] = rounded(-low, 4);
-  data["rms_um"] = rounded(std::sqrt(square / static_cast<double>(trace.um.size())), 4);
+  data["peak_um"] = rounded(trace.high_um, 4);
+  data["valley_um"] = rounded(-trace.low_um, 4);
+  data["rms_um"] = rounded(std::sqrt(trace.square_um2 / static_cast<double>(trace.readings)), 4);
   return data;
 }
 

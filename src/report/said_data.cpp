@@ -7,6 +7,7 @@
 #include "fit/files/fit_screen.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
+#include "job/slip.hpp"
 #include "report/page_data.hpp"
 
 namespace trueaxis {
@@ -40,13 +41,15 @@ void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
   for (const std::string& open : fit.not_determined)
     warnings.add("The readings leave open: " + open, name);
   for (const std::string& note : fit.input_notes) warnings.add(note, name);
-  for (const std::string& note : fit.notes) warnings.add(note, name);
-  if (i >= result.diagnoses.size() || !result.diagnoses[i]) return;
+  if (i >= result.diagnoses.size() || !result.diagnoses[i]) {
+    for (const std::string& note : fit.notes) warnings.add(note, name);
+    return;
+  }
   const Diagnosis& diagnosis = *result.diagnoses[i];
   if (diagnosis.extended.status != FitStatus::converged)
     warnings.add(diagnosis.extended.message, name);
   for (const QualityCheck& check : diagnosis.checks)
-    if (check.found) warnings.add(check.text, name);
+    if (check.found && check.effect != "probe.correlated_noise") warnings.add(check.text, name);
 }
 
 std::string chance_text(double probability) {
@@ -103,6 +106,9 @@ Json warnings_data(const JobResult& result) {
   Warnings warnings;
   for (const std::string& reservation : result.verdict.reservations) warnings.add(reservation);
   warnings.add(result.verdict.moved);
+  if (const std::string slip = slip_objection(result);
+      result.verdict.line.find(slip) == std::string::npos)
+    warnings.add(slip + ". So no axis is given");
   for (const Inclusion& inclusion : result.inclusions) {
     std::string text = inclusion_text(inclusion);
     while (text.ends_with('\n')) text.pop_back();
@@ -121,14 +127,17 @@ Json next_data(const JobResult& result) {
     steps.push_back(cut_text(result));
   if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
-  if (result.fits.size() == 1)
+  const bool moved = !slip_objection(result).empty();
+  if (result.fits.size() == 1 && !moved)
     if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty()) steps.push_back(tap);
   if (result.verdict.decision == Decision::no_go)
     steps.push_back("Mend what the verdict names, and run the job again");
-  else if (!result.job.target && !result.job.path.empty())
+  else if (std::ranges::none_of(result.fits, [](const FitResult& fit) {
+             return fit.surface == SurfaceKind::section || fit.status != FitStatus::converged;
+           }))
     steps.push_back(
-        "For a table that cuts the next surface true to this axis, add [target] and "
-        "[cut] to the job");
+        "For a table that cuts the next surface true to this, give a job a [target] and "
+        "a [cut]");
   return steps;
 }
 

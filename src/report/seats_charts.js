@@ -44,7 +44,7 @@ function seatsChart({seats: {seats, cut}, target, references}) {
   const span = Math.max(high - low, 1e-3), thickness = 0.012 * span;
   const series = drawn.map(({seat, line, name}, i) => {
     const style = line ?? {...styleOf(i < 2 ? i : i + 1)};
-    return polygons(name, outline(seat, line ? (z) => magnified * offsetAlong(line.axis, towards, z) : () => 0, thickness), style);
+    return polygons(name, outline(seat, line ? (z) => magnified * offsetAlong(line.axis, towards, z) : () => 0, thickness), {...style, opacity: 0.35});
   });
   if (cut) series.push(polygons('what is cut', outline(cut, target.axis ? (z) => magnified * offsetAlong(target.axis, towards, z) : () => 0, thickness),
     {colour: colours.series[2], opacity: 0.15, dash: 'dashed'}));
@@ -56,14 +56,14 @@ function seatsChart({seats: {seats, cut}, target, references}) {
   const margin = 0.04 * span, reach = roundUpFinely(1.2 * radius);
   series.push({name: 'spindle axis', type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 3, itemStyle: {color: colours.ink},
     lineStyle: {width: 1.2, color: colours.ink, type: [12, 4, 2, 4]}, data: [[low - margin, 0], [high + margin, 0]]});
-  const names = [...new Map(series.map((s) => [s.name, s])).values()];
+  const names = series.filter((s, i) => series.findIndex((other) => other.name === s.name) === i);
   const c = ((towards * 180 / Math.PI) + 360) % 360;
   const caption = `The seats along Z, cut open in the plane of the largest offset (C = ${fixed(c, 0)}°). Offsets of the axes are magnified ${tick(magnified)} times, radii are not.` +
     (seats.some((s) => references[s.index].relative) ? ' A gauge shows no radius: the nominal one is drawn.' : '');
   const build = (width) => ({
     ...roomFor(names, width),
     xAxis: axis('Z in mm', spanning([low - margin, high + margin])),
-    yAxis: uprightAxis('radius in mm', {min: -reach, max: reach, splitNumber: 4, axisLabel: {color: colours.ink, hideOverlap: true, formatter: (v) => tick(Math.abs(v))}}),
+    yAxis: uprightAxis('radius in mm', {...aboutZero(reach), axisLabel: {color: colours.ink, hideOverlap: true, formatter: (v) => tick(Math.abs(v))}}),
     series,
   });
   return figure({caption, description: `${caption} ${lines.map(({name, axis: a}) => `${name}: ${micrometres(offsetOf(a.start))} off at Z = ${millimetres(a.start.z_mm, 2)}, ${micrometres(offsetOf(a.end))} at ${millimetres(a.end.z_mm, 2)}`).join('; ')}.`,
@@ -97,9 +97,13 @@ function endChart(lines, key, k, place) {
   [x, y].forEach((e) => { e.max = tidy(e.min + count * step); });
   const marks = series.filter((s) => s.type === 'scatter');
   const off = lines.map(({name, axis: a}) => `${name} ${micrometres(offsetOf(a[key]), k * a[key].u_mm)} towards ${direction(a[key], k)}`);
-  const caption = `At Z = ${place}, in µm from the spindle axis, seen along −Z. An ellipse is U (k = ${tick(k)}): its shadow on any direction is ± U there.`;
-  const build = (width) => ({...roomFor(marks, width), xAxis: axis('x in µm', x), yAxis: uprightAxis('y in µm', y), series});
-  return figure({caption, description: `${caption} Offsets: ${off.join('; ')}.`, size: 'inset', renderer: 'svg', build, height: (width) => Math.min(width, 380) + legendAbove(marks, width).height});
+  const caption = `${place ? `At Z = ${place}` : 'The axis'}, in µm from the spindle axis, seen along −Z. An ellipse is U (k = ${tick(k)}): its shadow on any direction is ± U there.`;
+  const side = (width) => Math.min(width - 90, 320);  // of the plot, which is square: the scales are the same
+  const build = (width) => {
+    const above = legendAbove(marks, width);
+    return {legend: above.legend, grid: {left: 60, top: 30 + above.height, width: side(width), height: side(width)}, xAxis: axis('x in µm', x), yAxis: uprightAxis('y in µm', y), series};
+  };
+  return figure({caption, description: `${caption} Offsets: ${off.join('; ')}.`, size: 'inset', renderer: 'svg', build, height: (width) => side(width) + 84 + legendAbove(marks, width).height});
 }
 
 /** x or y of each axis along Z: the slope is the tilt. */

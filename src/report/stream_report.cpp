@@ -50,11 +50,11 @@ std::string page(JobResult result, const char* outcome, const std::string& line,
 std::string render_fit_report(const ProbeStream& stream, const FitResult& fit,
                               const FitOptions& options) {
   const bool fitted = fit.status == FitStatus::converged;
-  return page(job_of(stream, fit, options), fitted ? "fitted" : "not-determined",
-              first_line(fit_screen(fit)),
-              fitted
-                  ? Json::array({command("diagnose", fit) + ": what the surface does not explain"})
-                  : Json::array());
+  return page(
+      job_of(stream, fit, options), fitted ? "fitted" : "not-determined",
+      first_line(fit_screen(fit)),
+      fitted ? Json::array({"See what the surface does not explain: " + command("diagnose", fit)})
+             : Json::array());
 }
 
 std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& diagnosis,

@@ -99,7 +99,7 @@ function build() {
   document.getElementById('page').replaceChildren(
     element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} sweep`), element('h1', {}, data.title),
       facts([['Grid', `${data.cells.length} cells of ${data.repeats} repeats`], ['Surface', data.surface], ['Drawn', drawnText()], ['Seed', data.seed], ['Input', data.input_hash || 'no hash']], 'facts origin')),
-    summary(), element('nav', {'aria-label': 'Contents'}, sections.map((s) => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent))),
+    summary(), contents(sections),
     ...sections, element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
 }
 

@@ -21,10 +21,15 @@ function direction(end, k) {
   return `${fixed(directionOf(end), decimalsFor(big) ?? 1)} ± ${uncertainty(big, 'deg')}`;
 }
 
+/** Tilt as what it makes over a length, ± U. */
+function slopeWords({tilt_deg: value, u_tilt_deg: u}, k) {
+  const [slope, big] = [value, k * u].map((deg) => Math.tan(deg * Math.PI / 180) * 1000);
+  return isNumber(slope) && big > 0 ? `${fixed(slope, decimalsFor(big) ?? 3)} ± ${significant(big, 2)}${nbsp}µm/mm` : 'not determined';
+}
+
 function axisRow(name, axis, k, face) {
   const at = (end) => face ? 'only its tilt counts' : element('span', {}, plusMinus(offsetOf(end), end.u_mm, k, 'u unknown'), element('small', {}, `towards ${direction(end, k)}`));
-  return [name, at(axis.start), at(axis.end), element('span', {}, `${degrees(axis.tilt_deg, k * axis.u_tilt_deg)} ± ${uncertainty(k * axis.u_tilt_deg, 'deg')}`,
-    element('small', {}, `${significant(Math.tan(axis.tilt_deg * Math.PI / 180) * 1000, 3)}${nbsp}µm/mm`))];
+  return [name, at(axis.start), at(axis.end), element('span', {}, slopeWords(axis, k), element('small', {}, degrees(axis.tilt_deg, k * axis.u_tilt_deg)))];
 }
 
 function axesTable(target, references, k) {
@@ -49,10 +54,19 @@ function axesSection(all) {
   const {target, references, verdict: {k}} = all;
   const lines = axisLines(target, references), along = all.seats.seats.length > 0;
   if (!target.references.some((r) => r.axis)) return section('axes', 'Axes', paragraph('No reference gave an axis.', 'alert'));
+  if (target.references.every((r) => r.face)) {
+    return section('axes', 'Tilt', table(`Tilt against the spindle axis, ± U (k = ${tick(k)})`, ['Face', 'Tilt'],
+      target.references.filter((r) => r.axis).map((r) => [references[r.index].name, axisRow('', r.axis, k, true)[3]])));
+  }
+  if (!along) {  // sections without Z
+    return section('axes', 'Eccentricity', element('div', {class: 'pair insets'}, endChart(lines, 'start', k, '')),
+      table(`Offset from the spindle axis, ± U (k = ${tick(k)}); directions counted like C from +x`, ['Section', 'Offset'],
+        target.references.filter((r) => r.axis).map((r) => axisRow(references[r.index].name, r.axis, k, false).slice(0, 2))));
+  }
   const words = target.axis ? 'The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least.' : null;
   const one = Math.abs(target.z_end_mm - target.z_start_mm) < 1e-9;
   const insets = lines.length ? [endChart(lines, 'start', k, millimetres(target.z_start_mm, 2)), one ? null : endChart(lines, 'end', k, millimetres(target.z_end_mm, 2))].filter(Boolean) : [];
-  return section('axes', 'Axes', words ? paragraph(words) : null, along ? seatsChart(all) : null,
+  return section('axes', 'Axes', words ? paragraph(words) : null, seatsChart(all),
     insets.length ? element('div', {class: 'pair insets'}, insets) : null, axesTable(target, references, k));
 }
 
@@ -67,7 +81,7 @@ function axesFold(all) {
   if (lines.length && target.z_end_mm !== target.z_start_mm) parts.push(element('div', {class: 'pair'}, alongChart(lines, 'x'), alongChart(lines, 'y')));
   for (const reference of references) {
     const axes = reference.diagnosis ? axesBlock(reference.diagnosis, reference.readings?.face) : null;
-    if (axes) parts.push(element('div', {}, references.length > 1 ? element('h3', {}, reference.name) : null, axes));
+    if (axes) parts.push(references.length > 1 ? block(reference.name, axes) : axes);
   }
   return parts.length ? fold('axes-more', 'The axes in full', ...parts) : null;
 }
