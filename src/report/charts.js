@@ -215,47 +215,47 @@ const startShown = () => shownFigures().forEach((f) => f.start());
 const redrawShown = () => shownFigures().forEach((f) => f.redraw());
 
 /** Charts keep their size in px: before printing the page takes the width and the colours of paper, and unfolds. */
-function follow(draw, isDark) {
+function follow(draw) {
   let folded = [];
   const unfold = () => {
-    folded = [...document.querySelectorAll('details:not([open])')];
-    folded.forEach((d) => { d.open = true; });
+    folded = [...document.querySelectorAll('details:not([open])')].map((d) => d.id);
+    document.querySelectorAll('details').forEach((d) => { d.open = true; });
     startShown();
   };
   const printing = (on) => {
     if (document.body.classList.contains('printing') === on) return;
     document.body.classList.toggle('printing', on);
-    if (isDark()) draw(on ? 'light' : 'dark');
+    if (!on) folded.forEach((id) => { document.getElementById(id).open = false; });
+    draw();
     if (on) unfold();
-    else folded.forEach((d) => { d.open = false; });
     redrawShown();
   };
   window.addEventListener('resize', redrawShown);
   window.addEventListener('beforeprint', () => printing(true));
   window.addEventListener('afterprint', () => printing(false));
   document.addEventListener('toggle', (event) => { if (event.target.open) { startShown(); redrawShown(); } }, true);
-  document.addEventListener('click', (event) => {
-    const named = event.target.closest?.('nav a')?.getAttribute('href');
-    const fold = named ? document.querySelector(named)?.closest('details') : null;
-    if (fold) fold.open = true;
-  });
   return unfold;
 }
 
-/** Builds the page in the colours that the reader asks for and draws its charts, those that are folded when they are
- * unfolded; says so to a test when two frames have passed. */
+/** Builds the page in the colours that the reader asks for (paper is light) and draws its charts, those that are folded
+ * when they are unfolded; says so to a test when two frames have passed. */
 function startPage(build) {
   const dark = window.matchMedia('(prefers-color-scheme: dark)');
-  const draw = (scheme) => {
+  let drawn = null;
+  const draw = () => {
+    const scheme = dark.matches && !document.body.classList.contains('printing') ? 'dark' : 'light';
+    if (scheme === drawn) return;
+    drawn = scheme;
     charts.splice(0).forEach((chart) => chart.dispose());
     Object.assign(colours, palettes[scheme]);
+    const open = [...document.querySelectorAll('details[open]')].map((d) => d.id);
     build();
+    open.forEach((id) => { document.getElementById(id).open = true; });
     startShown();
   };
-  const wanted = () => dark.matches ? 'dark' : 'light';
-  draw(wanted());
-  const unfold = follow(draw, () => dark.matches);
-  dark.addEventListener('change', () => { if (!document.body.classList.contains('printing')) draw(wanted()); });
+  draw();
+  const unfold = follow(draw);
+  dark.addEventListener('change', draw);
   window.trueaxisReport = {charts, unfold, ready: false};
   requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));
 }

@@ -6,7 +6,7 @@ function centredPolar({measured, found, words, description, asLine = false, size
   const kept = (part) => part.c_deg.map((c, i) => [part.um[i], c]).filter(([um]) => isNumber(um));
   const data = kept(measured), foundData = found ? kept(found) : [];
   const most = largest([...data, ...foundData].map(([um]) => um));
-  const step = roundUp(Math.max(most, least) / 2);
+  const step = roundUp(Math.max(most, least) / 3);
   const out = step * Math.max(1, Math.ceil(Math.max(most, least) * 1.02 / step)), base = asLine ? 1.5 * out : 2 * out;
   const ring = Array.from({length: 121}, (_, i) => [0, i * 3]);
   const line = (name, values, more) => ({name, type: 'line', coordinateSystem: 'polar', symbol: 'none', emphasis: {disabled: true}, data: values, ...more});

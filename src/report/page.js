@@ -46,7 +46,7 @@ let tables = 0;
  * elements; numeric columns are aligned right. A row that is {cells, note, lost} has a remark over
  * its whole width below.
  */
-function table(caption, head, rows, textColumns = 1) {
+function table(caption, head, rows, textColumns = 1, cards = head.length > 4) {
   const kind = (i) => i < textColumns ? 'text' : 'number';
   const cell = (text, i) =>
       element(i === 0 ? 'th' : 'td', {class: kind(i), scope: i === 0 ? 'row' : null, 'data-label': i === 0 ? null : head[i]}, text);
@@ -61,7 +61,7 @@ function table(caption, head, rows, textColumns = 1) {
   tables += 1;
   const id = `table-${tables}`;
   return element(
-      'div', {class: head.length > 4 ? 'table many' : 'table'}, element('p', {class: 'title', id}, caption),
+      'div', {class: cards ? 'table many' : 'table'}, element('p', {class: 'title', id}, caption),
       element(
           'div', {class: 'scroll', tabindex: '0', role: 'region', 'aria-labelledby': id},
           element(
