@@ -86,6 +86,21 @@ Json titles_of(const Diagnosis& diagnosis) {
   return titles;
 }
 
+/// What was seen, finding by finding, and what follows from each cause.
+void add_words(Json& data, const Diagnosis& diagnosis) {
+  const double k = diagnosis.baseline.coverage_factor;
+  data["seen"] = {{"findings", Json::array()}, {"unexplained", Json::array()}};
+  data["consequences"] = Json::object();
+  for (const Finding& finding : diagnosis.findings) {
+    data["seen"]["findings"].push_back(seen_text(finding, k));
+    for (const std::string& id : finding.members())
+      if (const std::string_view what = consequence_of(id); !what.empty())
+        data["consequences"][id] = std::string(what);
+  }
+  for (const Unexplained& pattern : diagnosis.unexplained)
+    data["seen"]["unexplained"].push_back(seen_text(pattern, k));
+}
+
 /// x, y and u of an axis at both ends of what was probed, mm.
 Json axis_ends(const FitResult& fit) {
   Json ends = Json::array();
@@ -115,16 +130,7 @@ Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
       data["shares"].push_back(share_object(share));
   }
   data["titles"] = titles_of(diagnosis);
-  for (std::size_t i = 0; i < diagnosis.findings.size(); ++i) {
-    const Finding& finding = diagnosis.findings[i];
-    data["findings"][i]["seen"] = seen_text(finding, diagnosis.baseline.coverage_factor);
-    for (const std::string& id : finding.members())
-      if (const std::string_view what = consequence_of(id); !what.empty())
-        data["consequences"][id] = std::string(what);
-  }
-  for (std::size_t i = 0; i < diagnosis.unexplained.size(); ++i)
-    data["unexplained"][i]["seen"] =
-        seen_text(diagnosis.unexplained[i], diagnosis.baseline.coverage_factor);
+  add_words(data, diagnosis);
   data["axis_of_cut"] = axis_of_cut;
   data["simulation"] = simulation_data(stream, diagnosis, again);
   return data;

@@ -2,6 +2,11 @@
 // Reads the data in the page, builds it top to bottom, then draws the charts.
 
 const data = JSON.parse(document.getElementById('data').textContent);
+// What was seen stands beside the findings, which are as in their file.
+for (const {diagnosis} of data.references) {
+  diagnosis?.findings.forEach((f, i) => { f.seen = diagnosis.seen.findings[i]; });
+  diagnosis?.unexplained.forEach((u, i) => { u.seen = diagnosis.seen.unexplained[i]; });
+}
 const outcomes = {go: ['GO', 'good', '✓'], reserved: ['GO with reservations', 'warning', '!'],
   'not-proven': ['NOT PROVEN', 'warning', '?'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–'],
   fitted: ['FITTED', 'neutral', '–'], ideal: ['IDEAL', 'good', '✓'], effects: ['EFFECTS', 'warning', '!'], unexplained: ['UNEXPLAINED', 'warning', '?'],

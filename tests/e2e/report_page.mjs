@@ -43,6 +43,13 @@ function inspectCharts() {
       if (!(s.data?.length > 0)) problems.push(`${name}: series ${s.name ?? s.type} has no data`);
     });
     if (box.clientWidth < 200 || box.clientHeight < 150) problems.push(`${name}: ${box.clientWidth} × ${box.clientHeight} px`);
+    // Curves of different names must differ in colour, dash or mark.
+    const looks = new Map();
+    series.filter((s) => s.name && (s.itemStyle?.color || s.lineStyle?.color)).forEach((s) => {
+      const look = JSON.stringify([s.type, s.lineStyle?.color ?? s.itemStyle.color, s.lineStyle?.type, s.lineStyle?.opacity, s.symbol, s.itemStyle?.opacity]);
+      if (looks.has(look) && looks.get(look) !== s.name) problems.push(`${name}: ${s.name} looks like ${looks.get(look)}`);
+      looks.set(look, s.name);
+    });
     const canvas = box.querySelector('canvas');
     const svg = box.querySelector('svg');
     if (canvas && colours(canvas) < 8) problems.push(`${name}: the canvas is blank`);
@@ -81,7 +88,7 @@ function inspectFits() {
 
 function inspectText() {
   const text = document.body.innerText;
-  return ['NaN', 'undefined', '[object', 'Infinity', 'null'].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
+  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.000', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
     .map((word) => `the page shows "${word}"`);
 }
 
