@@ -214,6 +214,15 @@ const shownFigures = () => [...document.querySelectorAll('figure')].filter((f) =
 const startShown = () => shownFigures().forEach((f) => f.start());
 const redrawShown = () => shownFigures().forEach((f) => f.redraw());
 
+/** Paper has no scroll bar: a table that is wider than it is made smaller. */
+function fitTables(on) {
+  for (const box of document.querySelectorAll('.scroll')) {
+    const inside = box.querySelector('table');
+    inside.style.zoom = '';
+    if (on && box.scrollWidth > box.clientWidth) inside.style.zoom = String(Math.floor(990 * box.clientWidth / box.scrollWidth) / 1000);
+  }
+}
+
 /** Charts keep their size in px: before printing the page takes the width and the colours of paper, and unfolds. */
 function follow(draw) {
   let folded = [];
@@ -229,6 +238,7 @@ function follow(draw) {
     draw();
     if (on) unfold();
     redrawShown();
+    fitTables(on);
   };
   window.addEventListener('resize', redrawShown);
   window.addEventListener('beforeprint', () => printing(true));

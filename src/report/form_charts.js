@@ -44,7 +44,7 @@ function roundnessBlock(reference) {
   const list = [['Roundness, peak to valley (RONt, not filtered)', um(r.peak_um + r.valley_um)], ['Peak, valley', `${um(r.peak_um)}, ${um(r.valley_um)}`],
     ['RMS (RONq)', um(r.rms_um)]];
   if (r.orders.length) list.push([`Peak to valley of 2 to ${r.order_max} undulations a turn`, um(r.of_orders_um)], [`Left beside these, RMS`, um(r.left_um)]);
-  const polar = centredPolar({measured: r, asLine: true, size: 'polar', legendWords: 'trace', words: `The trace about its least-squares circle (dashed): ${trace}, eccentricity taken out; outside is away from the axis.`,
+  const polar = centredPolar({measured: r, asLine: r.turns < 1.05 || r.averaged, size: 'polar', legendWords: 'trace', words: `The trace about its least-squares circle (dashed): ${trace}, eccentricity taken out; outside is away from the axis.`,
     description: `Roundness trace about its least-squares circle: ${um(r.peak_um + r.valley_um)} peak to valley.`});
   const charts = r.orders.length ? [polar, harmonicBars(r)] : [polar];
   return [facts(list), element('div', {class: 'pair'}, charts),
@@ -55,7 +55,7 @@ function harmonicBars({orders, order_max: limit, u_amplitude_um: u}) {
   const highest = [...orders].sort((a, b) => b.amplitude_um - a.amplitude_um).slice(0, 3).map((o) => `${o.order} (${micrometres(o.amplitude_um / 1000)})`).join(', ');
   const caption = `Amplitude of each number of undulations a turn, 2 to ${limit}. Noise alone would make bars of about ${micrometres(u / 1000 * 1.25)}.`;
   const build = (width) => ({grid: grid(), xAxis: axis('undulations per revolution', {type: 'category', data: orders.map((o) => String(o.order)), splitLine: {show: false},
-    axisLabel: {color: colours.ink, interval: (i) => orders[i].order % (width < 480 ? 10 : 5) === 0 || orders[i].order === 2}}),
+    axisLabel: {color: colours.ink, interval: (i) => limit < 16 || orders[i].order % (width < 480 ? 10 : 5) === 0 || orders[i].order === 2}}),
     yAxis: uprightAxis('amplitude in µm', {min: 0}),
     series: [{name: 'amplitude', type: 'bar', barWidth: '70%', emphasis: {disabled: true}, itemStyle: {color: colours.series[0]}, data: orders.map((o) => o.amplitude_um)}]});
   return figure({caption, description: `Harmonics of the trace. The largest: ${highest}.`, size: 'map', renderer: 'svg', build});

@@ -8,8 +8,11 @@ const nbsp = '\u00a0';
 const joined = (text) => worded(text).replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
   .replace(/(?<!\p{L})(\p{L}) = (?=[\d−])/gu, `$1${nbsp}=${nbsp}`);
 
-/** A text in which an effect goes by its id, with the effect's name in words. */
-const worded = (text) => text.replace(/\b[a-z]+\.[a-z_]+/g, (id) => data.words?.effects[id] ?? id);
+/** A text in which an effect goes by its id, with the effect's name in words: each page has its own. */
+let worded = (text) => text;
+
+/** A clause that begins with a word in small letters, with a capital; a name stays as it is. */
+const capital = (text) => /^\p{Ll}+ /u.test(text) ? `${text[0].toUpperCase()}${text.slice(1)}` : text;
 
 /** A clause as a sentence. */
 const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}${/[.!?…]$/.test(text) ? '' : '.'}`;

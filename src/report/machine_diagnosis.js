@@ -28,6 +28,8 @@ function effectWords(effect) {
   return `${words}, ${form.startsWith('harmonic') ? `${order} times a turn` : `degree ${order}`}`;
 }
 
+worded = (text) => text.replace(/(?<![\w.(])(?:(?:reversal|drift)\.[XYZABC]|ball\.slip|(?:E[XYZABC]{2}|[XYZABC]0[XYZABCSW])(?:\.\w+)?)(?![\w.]\w|\))/g, (id) => effectWords(id) ? `${effectWords(id)} (${id})` : id);
+
 const withWords = (effect) => element('span', {}, effectWords(effect) || effect, element('small', {}, effect));
 const planWords = (plans, code) => plans.find((p) => p.plan === code)?.what ?? code;
 
@@ -38,7 +40,7 @@ function machineFindingCard(finding, number, plans) {
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
   return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(effectWords(finding.effect) || finding.effect)}`, element('small', {}, finding.effect)), facts(list),
     table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
-    finding.alias ? paragraph(`These positions read ${finding.alias} alike.`) : null,
+    finding.alias ? paragraph(`These positions read ${worded(finding.alias)} alike.`) : null,
     finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
     members.length > 1 ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(plans, finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
 }
@@ -84,7 +86,7 @@ function findingsFold({diagnosis}) {
 function notObservableRows({not_observable: all, plans}) {
   const alike = new Map();
   all.forEach((one) => { const key = JSON.stringify([one.why, one.separate_with]); alike.set(key, [...(alike.get(key) ?? []), one]); });
-  return [...alike.values()].map((group) => [group.map((one) => `${effectWords(one.effect) || one.effect} (${one.effect})`).join(', '), sentence(group[0].why), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
+  return [...alike.values()].map((group) => [group.map((one) => `${effectWords(one.effect) || one.effect} (${one.effect})`).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
 }
 
 function rangesTable(ranges) {
@@ -102,6 +104,6 @@ function unknownFold({diagnosis, ranges}) {
       ? table('Effects that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Effect', 'Why', 'Shown by'], unseen, 3)
       : paragraph('Every effect that is looked for would have been found at 10 µm or 50 µrad.'),
     paragraph(next.plan ? `Next measurement: ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
-    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(one.why)]), 2)) : null,
+    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(worded(one.why))]), 2)) : null,
     rangesTable(ranges));
 }

@@ -33,7 +33,7 @@ function banner({verdict}) {
       'div', {class: `banner ${kind}`, role: 'status'},
       element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
       paragraph(
-          line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, ''), 'line'),
+          capital(line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, '')), 'line'),
       keyNumbers(verdict));
 }
 

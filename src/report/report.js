@@ -2,6 +2,7 @@
 // Reads the data in the page, builds it top to bottom, then draws the charts.
 
 const data = JSON.parse(document.getElementById('data').textContent);
+worded = (text) => text.replace(/\b[a-z]+\.[a-z_]+/g, (id) => data.words.effects[id] ?? id);
 // What was seen stands beside the findings, which are as in their file.
 for (const {diagnosis} of data.references) {
   diagnosis?.findings.forEach((f, i) => { f.seen = diagnosis.seen.findings[i]; });
@@ -48,7 +49,7 @@ function banner() {
   const numbers = keyNumbers(data.verdict);
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(data.verdict.line.replace(outcomeWords, ''), 'line'), numbers,
+    paragraph(capital(data.verdict.line.replace(outcomeWords, '')), 'line'), numbers,
     numbers ? paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet') : null);
 }
 

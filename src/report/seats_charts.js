@@ -17,14 +17,14 @@ function offsetAlong({start, end}, towards, z) {
 }
 
 /** A seat's outline as polygons of [Z, radius], upper and lower side, about a centre that runs `off(z)` to the side. */
-function outline({face, z_mm: z, radius_mm: r}, off, thickness) {
+function outline({face, bore, z_mm: z, radius_mm: r}, off, thickness) {
   if (face) return [1, -1].map((side) => [[z[0], side * r[0]], [z[0], side * r[1]], [z[0] + thickness, side * r[1]], [z[0] + thickness, side * r[0]]]);
-  const near = (k) => Math.max(0, r[k] - 6 * thickness);
+  const near = (k) => Math.max(0, r[k] + (bore ? 6 : -6) * thickness);  // where the material is
   return [1, -1].map((side) => [[z[0], off(z[0]) + side * r[0]], [z[1], off(z[1]) + side * r[1]], [z[1], off(z[1]) + side * near(1)], [z[0], off(z[0]) + side * near(0)]]);
 }
 
 const polygons = (name, list, {colour, opacity = 0.35, dash = 'solid'}) => ({
-  name, type: 'custom', itemStyle: {color: colour}, silent: true, clip: false, data: list.map((points) => points.flat()), encode: {x: 0, y: 1},
+  name, type: 'custom', itemStyle: {color: colour}, lineStyle: {type: dash}, silent: true, clip: false, data: list.map((points) => points.flat()), encode: {x: 0, y: 1},
   renderItem: (params, api) => ({type: 'polygon', shape: {points: list[params.dataIndex].map((point) => api.coord(point))},
     style: {fill: colour, fillOpacity: opacity, stroke: colour, lineWidth: 1.4, lineDash: dash === 'solid' ? null : dash === 'dashed' ? [6, 4] : [2, 3]}}),
 });
@@ -53,7 +53,7 @@ function seatsChart({seats: {seats, cut}, target, references}) {
     series.push({name: index < 0 ? 'target axis' : name, type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 4, lineStyle: {width: Math.min(width, 4), color: colour, type: dash, opacity},
       itemStyle: {color: colour}, data: from.map((z) => [z, magnified * offsetAlong(a, towards, z)])});
   });
-  const margin = 0.04 * span, reach = roundUpFinely(1.2 * radius);
+  const margin = 0.04 * span, reach = roundUpFinely(Math.max(1.2 * radius, solid.some((s) => s.bore) ? 1.1 * radius + 6 * thickness : 0));
   series.push({name: 'spindle axis', type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 3, itemStyle: {color: colours.ink},
     lineStyle: {width: 1.2, color: colours.ink, type: [12, 4, 2, 4]}, data: [[low - margin, 0], [high + margin, 0]]});
   const names = series.filter((s, i) => series.findIndex((other) => other.name === s.name) === i);

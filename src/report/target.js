@@ -36,7 +36,7 @@ function axesTable(target, references, k) {
   const rows = target.references.filter((r) => r.axis).map((r) => axisRow(references[r.index].name, r.axis, k, r.face));
   if (target.axis) rows.push(axisRow('target axis', target.axis, k, false));
   return table(`Offsets from the spindle axis and tilt against it, ± U (k = ${tick(k)}); directions counted like C from +x`,
-    ['Axis', `at Z = ${millimetres(target.z_start_mm, 2)}`, `at Z = ${millimetres(target.z_end_mm, 2)}`, 'Tilt'], rows);
+    ['Axis', `at Z = ${millimetres(target.z_start_mm, 2)}`, `at Z = ${millimetres(target.z_end_mm, 2)}`, 'Tilt'], rows, 1, true);
 }
 
 function remaindersTable(target, references, k) {

@@ -116,7 +116,14 @@ function inspectContrast() {
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;
   };
   const paper = getComputedStyle(document.body).backgroundColor;
-  const contrast = (colour) => { const [a, b] = [light(colour), light(paper)]; return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05); };
+  const known = new Map();
+  const contrast = (colour) => {
+    if (!known.has(colour)) {
+      const [a, b] = [light(colour), light(paper)];
+      known.set(colour, (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05));
+    }
+    return known.get(colour);
+  };
   const faint = [...document.querySelectorAll('p, td, th, dd, dt, li, h1, h2, h3, small, figcaption, summary')].filter((e) => e.offsetParent && e.textContent.trim() && contrast(getComputedStyle(e).color) < 4.5)
     .map((e) => e.textContent.trim().slice(0, 30));
   const drawn = window.trueaxisReport.charts.flatMap((chart) => chart.getZr().storage.getDisplayList(true)).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text && e.style.fill)
