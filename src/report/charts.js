@@ -238,6 +238,7 @@ function follow(draw) {
     draw();
     if (on) unfold();
     redrawShown();
+    charts.forEach((chart) => chart.getZr().flush());  // paper waits for no frame
     fitTables(on);
   };
   window.addEventListener('resize', redrawShown);

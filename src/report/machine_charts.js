@@ -70,8 +70,9 @@ function pathView(tips, {words, show, across, up}, magnified) {
   const all = tips.line.map((_, i) => i), every = Math.ceil(all.length / 150);
   const path = (name, by, colour, width, z) => ({name, type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z, itemStyle: {color: colour},
     lineStyle: {color: colour, width}, data: all.map((i) => point(i, by))});
-  const vectors = {name: 'before', type: 'lines', coordinateSystem: 'cartesian2d', silent: true, progressive: 0, z: 3, symbol: ['none', 'none'], itemStyle: {color: stages.before},
-    lineStyle: {color: stages.before, width: 0.9, opacity: 0.7}, data: all.filter((i) => i % every === 0).map((i) => ({coords: [point(i), point(i, tips.by_before_um)]}))};
+  // Gaps between the strokes: a series of `lines` has a canvas of its own, which printers leave blank.
+  const vectors = {name: 'before', type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 3, itemStyle: {color: stages.before}, lineStyle: {color: stages.before, width: 0.9, opacity: 0.7},
+    data: all.filter((i) => i % every === 0).flatMap((i) => [point(i), point(i, tips.by_before_um), ['-', '-']])};
   const series = [path('programmed', null, stages.nominal, 3, 1), path('before', tips.by_before_um, stages.before, 1.1, 4), path('after', tips.by_after_um, stages.after, 1.1, 5), vectors];
   const drawn = series.slice(0, 3).flatMap((s) => s.data), ends = [0, 1].map((k) => drawn.reduce(([low, high], p) => [Math.min(low, p[k]), Math.max(high, p[k])], [Infinity, -Infinity]));
   const sizes = ends.map(([low, high]) => 1.06 * Math.max(high - low, 1e-3));
@@ -86,7 +87,7 @@ function pathView(tips, {words, show, across, up}, magnified) {
       xAxis: axis(across, made(0, across)), yAxis: uprightAxis(up, made(1, up)), series};
   };
   const caption = `The path in the part, ${words}, the tip's errors magnified ${tick(magnified)} times.`;
-  return figure({caption, description: `${caption} Before up to ${um(largest(tips.before_um))}, after up to ${um(largest(tips.after_um))}.`, size: 'path', build, height: (width) => tall(width) + 116});
+  return figure({caption, description: `${caption} Before up to ${um(largest(tips.before_um))}, after up to ${um(largest(tips.after_um))}.`, size: 'path', renderer: tips.line.length > 2000 ? 'canvas' : 'svg', build, height: (width) => tall(width) + 116});
 }
 
 const pathViews = (tips) => element('div', {class: 'pair'}, Object.values(views).reverse().map((view) => pathView(tips, view, magnifiedBy(tips))));

@@ -57,6 +57,7 @@ function inspectCharts() {
       const shapes = new Set([...svg.querySelectorAll('path')].map((p) => p.getAttribute('d')));
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
+    if (box.querySelectorAll('canvas').length > 1) problems.push(`${name}: a second canvas, which is blank on paper`);
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
     const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
     if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
@@ -148,8 +149,8 @@ async function lookDark(browser) {
   await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
   await page.setViewportSize({width: 703, height: 1000});  // A4 less its margins
   await page.emulateMedia({media: 'print', colorScheme: 'dark'});
-  await page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
-  const charts = await page.evaluate(inspectCharts);
+  // Paper takes what is drawn at once: it waits for no frame.
+  const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
   const folded = await page.evaluate(() => document.querySelectorAll('details:not([open])').length);
   if (folded) problems.push(`print: ${folded} parts stay folded`);
   if (await page.evaluate(paperIsDark)) problems.push('print: the paper is dark');
