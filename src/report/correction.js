@@ -16,7 +16,7 @@ function profileChart(correction) {
     series,
   });
   return figure({caption: `The correction ${works(correction)} over one turn, at the first, the middle and the last revolution. Positive is ${correction.face ? 'towards +Z' : 'away from the spindle axis'}.`,
-    description: 'Correction over the spindle angle for three revolutions.', size: 'map', renderer: 'svg', build});
+    description: `Correction over the spindle angle for three revolutions, up to ${micrometres(largest(correction.turns.flatMap((turn) => turn.wanted_um)) / 1000)}.`, size: 'map', renderer: 'svg', build});
 }
 
 function correctionMap(correction) {
@@ -54,7 +54,7 @@ function commandCharts(correction) {
       caption: `What is sent and what is wanted, revolution ${turn.revolution}. ${why}`, description: 'Wanted correction and command over the spindle angle.'}),
     turnChart(turn, [['command − wanted', difference, 'solid']], {name: 'command − wanted in µm',
       caption: `The difference of the two, magnified: at most ${micrometres(largest(difference) / 1000)} in revolution ${turn.revolution}.`,
-      description: 'Command minus wanted correction over the spindle angle.'}),
+      description: `Command minus wanted correction over the spindle angle, at most ${micrometres(largest(difference) / 1000)}.`}),
   ];
 }
 
@@ -92,7 +92,7 @@ function marginChart(lines) {
       markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'start', color: colours.ink}}}],
   });
   return figure({caption: 'How much of each limit the correction uses. A bar beyond the dashed line breaks the limit.',
-    description: 'Used share of stroke, slew rate, bandwidth and following error.', size: 'short', renderer: 'svg', build});
+    description: `Used share of each limit: ${lines.map((line) => `${line.name} ${percent(line.share)}`).join(', ')}.`, size: 'short', renderer: 'svg', build});
 }
 
 /** What is cut with: the profile, and what the actuator has left. */

@@ -97,7 +97,7 @@ function spectrumChart(diagnosis, extended) {
   });
   return figure({caption: `Spectrum of measured minus simulated${extended ? ', before and after the model was extended. Marks are the lines that were found.' : '.'}` +
     (spectrum.grouped ? ' Each point is the highest of its neighbours.' : ''),
-    description: 'Amplitude over the order before and after, with the found lines.', size: 'map', renderer: 'svg', build});
+    description: `Amplitude over the order${extended ? ' before and after' : ''}, at most ${micrometres(largest(before) / 1000)}${extended ? ` before and ${micrometres(largest(after) / 1000)} after` : ''}${marks.size ? `; found: ${[...marks.values()].flat().join(', ')}` : ''}.`, size: 'map', renderer: 'svg', build});
 }
 
 /** Plans that can be carried out and whose gain is known. */
@@ -119,5 +119,5 @@ function plansChart(plans) {
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',
-    description: 'Chance of the right name before and after each plan.', size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
+    description: `Chance of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${chance(plan.power_before)}, then ${chance(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
 }

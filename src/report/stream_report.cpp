@@ -15,7 +15,8 @@ namespace {
 JobResult job_of(const ProbeStream& stream, const FitResult& fit, const FitOptions& options) {
   JobResult result;
   result.job.path = stream.source;
-  result.job.name = std::filesystem::path(stream.source).filename().string();
+  result.job.name = stream.source == "-" ? "Stream of standard input"
+                                         : std::filesystem::path(stream.source).filename().string();
   JobReference reference;
   reference.name = to_string(fit.surface);
   reference.stream = stream.source;
@@ -30,8 +31,8 @@ JobResult job_of(const ProbeStream& stream, const FitResult& fit, const FitOptio
 std::string first_line(const std::string& screen) { return screen.substr(0, screen.find('\n')); }
 
 std::string command(const char* verb, const FitResult& fit) {
-  return std::string("trueaxis ") + verb + " " + fit.source + " --surface " +
-         to_string(fit.surface);
+  return std::string("trueaxis ") + verb + " " + (fit.source == "-" ? "STREAM" : fit.source) +
+         " --surface " + to_string(fit.surface);
 }
 
 /// @param outcome what the banner says in one word
