@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "trueaxis/control_table.hpp"
@@ -46,6 +47,10 @@ enum class AxisOfCut {
 
 const char* to_string(AxisOfCut axis);
 
+/// What heads the report of a job, as the job says it: label ("Part", "Serial number" …) and text.
+/// Nothing is computed with it.
+using JobHeader = std::vector<std::pair<std::string, std::string>>;
+
 /// The main job: from probe streams to a correction table. Everything but the references is
 /// optional; without a target the job ends with the fit.
 struct Job {
@@ -63,6 +68,7 @@ struct Job {
   std::vector<std::string> include;
   AxisOfCut axis_of_cut = AxisOfCut::stated;
   std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
+  JobHeader header{};
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form

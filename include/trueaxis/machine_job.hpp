@@ -35,6 +35,7 @@ struct MachineJob {
   /// How far the tip may be from where the program has it in the part.
   std::optional<double> tolerance_mm;
   std::vector<JobInput> inputs;
+  JobHeader header{};
 };
 
 /// Where an axis was measured and where the program has it, mm or rad; the program's cutting moves.

@@ -17,6 +17,7 @@
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
+#include "report/stream_report.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::cli {
@@ -40,11 +41,12 @@ const FitResult* broken_fit(const Diagnosis& diagnosis) {
 }
 
 int execute(const Options& options) {
-  const auto& [json, residuals, force] = options.result;
+  const auto& [json, residuals, report, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
   outputs.may_write(json, "trueaxis.diagnosis");
   outputs.may_write(residuals, "trueaxis.residuals");
+  outputs.may_write(report, "trueaxis.report");
   ProbeStream stream;
   all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
   if (options.check)
@@ -60,6 +62,8 @@ int execute(const Options& options) {
   expect_enough_readings(diagnosis.baseline);
   if (!json.empty()) outputs.write(json, diagnosis_json(diagnosis));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, diagnosis));
+  if (!report.empty())
+    outputs.write(report, render_diagnosis_report(stream, diagnosis, diagnose_options.fit));
   outputs.commit();
   if (!options.result.printed() && options.verbose) std::cout << diagnosis_text(diagnosis);
   if (!options.result.printed() && !options.verbose) print_screen(diagnosis_screen(diagnosis));

@@ -16,6 +16,7 @@
 #include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
+#include "report/stream_report.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -28,22 +29,25 @@ struct Options {
 };
 
 int execute(const Options& options) {
-  const auto& [json, residuals, force] = options.result;
+  const auto& [json, residuals, report, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
   outputs.may_write(json, "trueaxis.fit");
   outputs.may_write(residuals, "trueaxis.residuals");
+  outputs.may_write(report, "trueaxis.report");
   ProbeStream stream;
   all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 std::to_string(stream.size()) + " readings of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
-  const FitResult result = fit(stream, options.association.chosen());
+  const FitOptions chosen = options.association.chosen();
+  const FitResult result = fit(stream, chosen);
   waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, result));
+  if (!report.empty()) outputs.write(report, render_fit_report(stream, result, chosen));
   outputs.commit();
   if (!options.result.printed() && options.verbose) std::cout << fit_text(result);
   if (!options.result.printed() && !options.verbose)

@@ -59,22 +59,26 @@ inline CLI::Option* add_force(CLI::App& command, bool& force) {
                           "never one that is read");
 }
 
-/// `--json`, `--residuals` and `--force` of a command that fits a stream.
+/// `--json`, `--residuals`, `--report` and `--force` of a command that fits a stream.
 struct ResultOptions {
-  std::string json, residuals;
+  std::string json, residuals, report;
   bool force = false;
 
   void add_to(CLI::App& command, const std::string& residuals_hold) {
     command.add_option("--json", json, "write the result here, '-' prints it")->check(a_place());
     command.add_option("--residuals", residuals, "write every reading with " + residuals_hold)
         ->check(a_place());
+    command.add_option("--report", report, "write a page here (HTML), '-' prints it")
+        ->check(a_place());
     add_force(command, force);
   }
   void expect_apart() const {
     if (!json.empty() && json == residuals)
       throw CLI::ValidationError("--residuals", "cannot go where --json goes");
+    if (!report.empty() && (report == json || report == residuals))
+      throw CLI::ValidationError("--report", "cannot go where --json or --residuals goes");
   }
-  bool printed() const { return json == "-" || residuals == "-"; }
+  bool printed() const { return json == "-" || residuals == "-" || report == "-"; }
 };
 
 }  // namespace trueaxis::cli

@@ -23,6 +23,8 @@ trueaxis_report_js_begin:
     .incbin "report/page.js"
     .incbin "report/charts.js"
     .incbin "report/reading_charts.js"
+    .incbin "report/form_charts.js"
+    .incbin "report/seats_charts.js"
     .incbin "report/reference.js"
     .incbin "report/diagnosis_charts.js"
     .incbin "report/diagnosis.js"

@@ -2,24 +2,40 @@
 // What all charts share: colours that colour-blind readers can tell apart, axes, and figures that redraw
 // themselves when the width of the page changes.
 
-const colours = {measured: '#0072b2', model: '#d55e00', rejected: '#b3001b', grey: '#6b7684', grid: '#e3e7ec', ink: '#1d2733',
-  series: ['#0072b2', '#d55e00', '#009e73', '#a0569b', '#8a6d00', '#3a86c8']};
-const diverging = ['#14477f', '#4393c3', '#b5d5e8', '#f4f4f2', '#f6c3a5', '#d6604d', '#8c1127'];
+const palettes = {
+  light: {measured: '#0072b2', model: '#d55e00', rejected: '#b3001b', grey: '#5b6673', grid: '#e3e7ec', ink: '#1d2733', line: '#9aa4b0', paper: '#ffffff',
+    soft: '#eef1f4', veil: 'rgb(255 255 255 / 85%)',
+    series: ['#0072b2', '#d55e00', '#009e73', '#a0569b', '#8a6d00', '#3a86c8', '#7a3b12', '#00757a', '#c2377a', '#5a6b00', '#4b4fb8', '#5b6673'],
+    diverging: ['#14477f', '#4393c3', '#b5d5e8', '#f4f4f2', '#f6c3a5', '#d6604d', '#8c1127'],
+    before: ['#f7f4ee', '#f6d9b8', '#f0a35e', '#d6604d', '#8c1127', '#3f0713'], after: ['#f1f5f8', '#c3dcea', '#7fb5d5', '#3a86b8', '#14477f']},
+  dark: {measured: '#4fb0ea', model: '#ff9248', rejected: '#ff6b7d', grey: '#a9b3be', grid: '#2d3640', ink: '#e3e8ed', line: '#6b7783', paper: '#14191f',
+    soft: '#242c35', veil: 'rgb(20 25 31 / 85%)',
+    series: ['#4fb0ea', '#ff9248', '#2fc99b', '#d69ad1', '#d1b13c', '#86c5ff', '#d99a6c', '#45c3c9', '#ff8fc0', '#b4c74a', '#a3a6ff', '#a9b3be'],
+    diverging: ['#7cc0ff', '#4a90cc', '#2c567a', '#2a3038', '#7d4b38', '#d2714c', '#ffab8c'],
+    before: ['#2a2622', '#5c4128', '#a0652f', '#e0803c', '#ffb27a', '#ffe3cb'], after: ['#1f272e', '#27465a', '#2f6f96', '#4fa3d4', '#a9dcff']},
+};
+const colours = {...palettes.light};
 const charts = [];
+
+/** Twelve colours; from the seventh curve on another dash and another mark as well. */
+const styleOf = (i) => ({colour: colours.series[i % colours.series.length], dash: ['solid', 'dashed', 'dotted'][Math.floor(i / 6) % 3],
+  symbol: ['circle', 'triangle', 'diamond', 'rect'][Math.floor(i / 6) % 4]});
 const fontFamily = 'system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", sans-serif';
 
 /** A chart with its caption. `build(width)` returns the ECharts option for a width in px; `height(width)`, in px, is
  * what a chart asks for whose size does not say it. */
 function figure({caption, description, size = 'normal', renderer = 'canvas', build, height}) {
-  const box = element('div', {class: `chart ${size}`});
+  const box = element('div', {class: `chart ${size}`, role: 'img', 'aria-label': description});
   const made = element('figure', {}, box, element('figcaption', {}, joined(caption)));
   const fit = () => { if (height) box.style.height = `${height(box.clientWidth)}px`; };
   made.start = () => {
+    if (made.redraw) return;
     fit();
     const chart = echarts.init(box, null, {renderer});
     const draw = () => chart.setOption({...common(description), ...build(box.clientWidth)}, true);
     draw();
     charts.push(chart);
+    made.chart = chart;
     let width = box.clientWidth;
     made.redraw = () => {
       if (box.clientWidth === width) return;
@@ -49,8 +65,8 @@ function axis(name, more = {}) {
     nameLocation: 'middle',
     nameGap: 30,
     nameTextStyle: {color: colours.grey, fontFamily},
-    axisLine: {show: true, onZero: false, lineStyle: {color: '#9aa4b0'}},
-    axisTick: {show: true, lineStyle: {color: '#9aa4b0'}},
+    axisLine: {show: true, onZero: false, lineStyle: {color: colours.line}},
+    axisTick: {show: true, lineStyle: {color: colours.line}},
     axisLabel: {color: colours.ink, hideOverlap: true, formatter: tick},
     splitLine: {lineStyle: {color: colours.grid}},
     ...more,
@@ -69,7 +85,7 @@ function spanning(values) {
   const step = 10 ** Math.floor(Math.log10(margin));
   const min = Number((step * Math.floor((low - margin) / step)).toPrecision(10)), max = Number((step * Math.ceil((high + margin) / step)).toPrecision(10));
   const customValues = niceTicks(min, max, 6);
-  return {min, max, axisTick: {show: true, customValues, lineStyle: {color: '#9aa4b0'}},
+  return {min, max, axisTick: {show: true, customValues, lineStyle: {color: colours.line}},
     axisLabel: {color: colours.ink, hideOverlap: true, formatter: tick, customValues}};
 }
 
@@ -94,6 +110,38 @@ const legend = (more = {}) => ({top: 0, right: 0, itemWidth: 18, itemHeight: 9, 
 /** A legend of series; lines are shown without a mark, which they do not have. */
 const legendOf = (series, more = {}) => legend({
   ...more, data: series.map((s) => s.type === 'line' && s.symbol === 'none' ? {name: s.name, itemStyle: {opacity: 0}} : {name: s.name})});
+
+/** A legend above a chart of this width, and the height it takes; a name that needs more than a line is broken. */
+function legendAbove(series, width) {
+  const most = width - 40;
+  let height = 20, used = 0, broken = false;
+  for (const {name} of series) {
+    const letters = textWidth(name), lines = Math.ceil(1.1 * letters / most);
+    const needs = 36 + Math.min(letters, most);
+    broken ||= lines > 1;
+    if (used > 0 && (used + needs > width || broken)) { height += 20; used = 0; }
+    height += 15 * (lines - 1);
+    used += needs;
+  }
+  const text = {color: colours.ink, lineHeight: 15, ...(broken ? {width: most, overflow: 'break'} : {})};
+  return {height, legend: legendOf(series, {left: 0, right: 0, itemGap: 8, textStyle: text})};
+}
+
+/** What a name takes in a legend, px. */
+function textWidth(words) {
+  textWidth.canvas ??= document.createElement('canvas').getContext('2d');
+  textWidth.canvas.font = `12px ${fontFamily}`;
+  return textWidth.canvas.measureText(words).width;
+}
+
+/** A chart's grid below its legend. */
+function roomFor(series, width) {
+  const above = legendAbove(series, width);
+  return {grid: grid({top: 30 + above.height}), legend: above.legend};
+}
+
+/** What a chart with such a legend needs, so that the plot stays as it is. */
+const heightFor = (series, least) => (width) => Math.max(least, 250 + legendAbove(series, width).height);
 
 /** Smallest 1-2-5 number that is at least `value`. */
 function roundUp(value) {
@@ -124,7 +172,7 @@ function niceTicks(low, high, about) {
 const colourScale = (limit, width, seriesIndex = 0) => ({
   type: 'continuous', min: -limit, max: limit, dimension: 2, seriesIndex, orient: 'horizontal', left: 'center', bottom: 0,
   itemWidth: 12, itemHeight: Math.min(260, width * 0.4), calculable: false,
-  inRange: {color: diverging},
+  inRange: {color: colours.diverging},
   text: [`+${tick(limit)} µm`, `−${tick(limit)} µm`], textStyle: {color: colours.ink},
 });
 
@@ -137,7 +185,7 @@ function binAxis(make, name, {low, high, count, ticks}) {
     type: 'category',
     data: Array.from({length: count}, (_, i) => String(i)),
     axisLabel: {color: colours.ink, interval: labelled, hideOverlap: true, formatter: (_, i) => tick(labels.get(i) ?? 0)},
-    axisTick: {show: true, interval: labelled, alignWithLabel: true, lineStyle: {color: '#9aa4b0'}},
+    axisTick: {show: true, interval: labelled, alignWithLabel: true, lineStyle: {color: colours.line}},
     splitLine: {show: false},
   });
 }
@@ -161,20 +209,64 @@ function cellMap(cells, values, {limit, positionName, width, cName}) {
   };
 }
 
-/** Charts keep their size in px: before printing the page takes the width of the paper. */
-function follow(figures) {
-  const redraw = () => figures.forEach((f) => f.redraw());
-  window.addEventListener('resize', redraw);
-  const printing = (on) => { document.body.classList.toggle('printing', on); redraw(); };
-  window.addEventListener('beforeprint', () => printing(true));
-  window.addEventListener('afterprint', () => printing(false));
+/** Those of the figures that nothing folds away. */
+const shownFigures = () => [...document.querySelectorAll('figure')].filter((f) => !f.closest('details:not([open])'));
+const startShown = () => shownFigures().forEach((f) => f.start());
+const redrawShown = () => shownFigures().forEach((f) => f.redraw());
+
+/** Paper has no scroll bar: a table that is wider than it is made smaller. */
+function fitTables(on) {
+  for (const box of document.querySelectorAll('.scroll')) {
+    const inside = box.querySelector('table');
+    inside.style.zoom = '';
+    if (on && box.scrollWidth > box.clientWidth) inside.style.zoom = String(Math.floor(990 * box.clientWidth / box.scrollWidth) / 1000);
+  }
 }
 
-/** Draws the page's charts once all figures stand; says so to a test when two frames have passed. */
-function startPage() {
-  const figures = [...document.querySelectorAll('figure')];
-  figures.forEach((f) => f.start());
-  follow(figures);
-  window.trueaxisReport = {charts, ready: false};
+/** Charts keep their size in px: before printing the page takes the width and the colours of paper, and unfolds. */
+function follow(draw) {
+  let folded = [];
+  const unfold = () => {
+    folded = [...document.querySelectorAll('details:not([open])')].map((d) => d.id);
+    document.querySelectorAll('details').forEach((d) => { d.open = true; });
+    startShown();
+  };
+  const printing = (on) => {
+    if (document.body.classList.contains('printing') === on) return;
+    document.body.classList.toggle('printing', on);
+    if (!on) folded.forEach((id) => { document.getElementById(id).open = false; });
+    draw();
+    if (on) unfold();
+    redrawShown();
+    charts.forEach((chart) => chart.getZr().flush());  // paper waits for no frame
+    fitTables(on);
+  };
+  window.addEventListener('resize', redrawShown);
+  window.addEventListener('beforeprint', () => printing(true));
+  window.addEventListener('afterprint', () => printing(false));
+  document.addEventListener('toggle', (event) => { if (event.target.open) { startShown(); redrawShown(); } }, true);
+  return unfold;
+}
+
+/** Builds the page in the colours that the reader asks for (paper is light) and draws its charts, those that are folded
+ * when they are unfolded; says so to a test when two frames have passed. */
+function startPage(build) {
+  const dark = window.matchMedia('(prefers-color-scheme: dark)');
+  let drawn = null;
+  const draw = () => {
+    const scheme = dark.matches && !document.body.classList.contains('printing') ? 'dark' : 'light';
+    if (scheme === drawn) return;
+    drawn = scheme;
+    charts.splice(0).forEach((chart) => chart.dispose());
+    Object.assign(colours, palettes[scheme]);
+    const open = [...document.querySelectorAll('details[open]')].map((d) => d.id);
+    build();
+    open.forEach((id) => { document.getElementById(id).open = true; });
+    startShown();
+  };
+  draw();
+  const unfold = follow(draw);
+  dark.addEventListener('change', draw);
+  window.trueaxisReport = {charts, unfold, ready: false};
   requestAnimationFrame(() => requestAnimationFrame(() => { window.trueaxisReport.ready = true; }));
 }

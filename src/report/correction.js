@@ -16,7 +16,7 @@ function profileChart(correction) {
     series,
   });
   return figure({caption: `The correction ${works(correction)} over one turn, at the first, the middle and the last revolution. Positive is ${correction.face ? 'towards +Z' : 'away from the spindle axis'}.`,
-    description: 'Correction over the spindle angle for three revolutions.', size: 'map', renderer: 'svg', build});
+    description: `Correction over the spindle angle for three revolutions, up to ${micrometres(largest(correction.turns.flatMap((turn) => turn.wanted_um)) / 1000)}.`, size: 'map', renderer: 'svg', build});
 }
 
 function correctionMap(correction) {
@@ -54,7 +54,7 @@ function commandCharts(correction) {
       caption: `What is sent and what is wanted, revolution ${turn.revolution}. ${why}`, description: 'Wanted correction and command over the spindle angle.'}),
     turnChart(turn, [['command − wanted', difference, 'solid']], {name: 'command − wanted in µm',
       caption: `The difference of the two, magnified: at most ${micrometres(largest(difference) / 1000)} in revolution ${turn.revolution}.`,
-      description: 'Command minus wanted correction over the spindle angle.'}),
+      description: `Command minus wanted correction over the spindle angle, at most ${micrometres(largest(difference) / 1000)}.`}),
   ];
 }
 
@@ -71,20 +71,6 @@ function harmonicsTable(correction) {
 /** A profile number, which the machine runs as it stands: 1 nm steps. */
 const um = (mm) => isNumber(mm) ? `${fixed(mm * 1000, 3)}${nbsp}µm` : 'not determined';
 
-function correctionSection(data) {
-  const {correction, target, verdict} = data;
-  if (!correction) return section('correction', 'The correction', paragraph('The job has no target surface, or no target axis could be found, so there is no correction.'));
-  const parts = [paragraph(`${works(correction)} is what a fast tool servo adds to the programmed ${correction.face ? 'Z' : 'X'} so that the tool follows the target axis.`)];
-  if (!correction.turns.length) {
-    parts.push(paragraph('The table has no rows.', 'alert'));
-    return section('correction', 'The correction', ...parts);
-  }
-  parts.push(element('div', {class: 'pair'}, correctionMap(correction), profileChart(correction), commandCharts(correction)), harmonicsTable(correction));
-  const U = target.axis ? `U (k = ${tick(verdict.k)}) is ${uncertainty(verdict.k * target.axis.start.u_mm, 'mm')} at the start and ${uncertainty(verdict.k * target.axis.end.u_mm, 'mm')} at the end` : 'it is not known';
-  parts.push(paragraph(`The profile carries the uncertainty of the target axis: ${U}. The actuator's gain and lag follow from the data of the job, which state no uncertainty.`, 'quiet'));
-  return section('correction', 'The correction', ...parts);
-}
-
 const marginLines = (m) => [
   {name: 'stroke', used: m.stroke_used.value, limit: m.stroke_available.value, show: (v) => micrometres(v), what: 'peak to peak, after the reserve'},
   {name: 'slew rate', used: m.slew_used.value, limit: m.slew_available.value, show: (v) => `${significant(v, 3)}${nbsp}mm/s`, what: 'fastest motion'},
@@ -99,33 +85,44 @@ function marginChart(lines) {
     grid: grid({top: 24, right: width < 480 ? 56 : 70}),
     xAxis: axis('used share in %', {min: 0, max}),
     yAxis: axis('', {type: 'category', inverse: true, data: lines.map((line) => line.name), axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink}}),
-    series: [{type: 'bar', barWidth: '52%', emphasis: {disabled: true}, showBackground: max === 100, backgroundStyle: {color: '#eef1f4'},
+    series: [{type: 'bar', barWidth: '52%', emphasis: {disabled: true}, showBackground: max === 100, backgroundStyle: {color: colours.soft},
       data: lines.map((line) => ({value: line.share === null ? null : Number((line.share * 100).toPrecision(6)),
         itemStyle: {color: line.share > 1 ? colours.rejected : colours.series[2]}})),
-      label: {show: true, position: 'right', color: colours.ink, backgroundColor: 'rgb(255 255 255 / 85%)', padding: [1, 2], formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
+      label: {show: true, position: 'right', color: colours.ink, backgroundColor: colours.veil, padding: [1, 2], formatter: ({value}) => isNumber(value) ? `${significant(value, 3)} %` : 'no limit known'},
       markLine: {silent: true, symbol: 'none', data: [{xAxis: 100}], lineStyle: {color: colours.ink, type: 'dashed'}, label: {formatter: 'limit', position: 'start', color: colours.ink}}}],
   });
   return figure({caption: 'How much of each limit the correction uses. A bar beyond the dashed line breaks the limit.',
-    description: 'Used share of stroke, slew rate, bandwidth and following error.', size: 'short', renderer: 'svg', build});
+    description: `Used share of each limit: ${lines.map((line) => `${line.name} ${percent(line.share)}`).join(', ')}.`, size: 'short', renderer: 'svg', build});
 }
 
-function marginSection(data) {
-  if (!data.correction) return null;
-  const {margin, speed_rpm: speed} = data.correction;
-  const lines = marginLines(margin);
+/** What is cut with: the profile, and what the actuator has left. */
+function correctionSection(all) {
+  const {correction, target} = all;
+  if (!correction) return target.of_cut ? section('correction', 'The correction', paragraph('No target axis could be found, so there is no correction.')) : null;
+  if (!correction.turns.length) return section('correction', 'The correction', paragraph('The table has no rows.', 'alert'));
+  const {margin, speed_rpm: speed} = correction;
   const rpm = (value) => `${tick(Number(value.toPrecision(4)))}${nbsp}rpm`;
-  const parts = [margin.follows ? paragraph('The actuator can follow the correction.')
-    : paragraph(`The actuator cannot follow the correction: do not run the table.${margin.breaks ? ` What breaks: ${margin.breaks}.` : ''}`, 'alert')];
-  parts.push(facts([
+  const words = margin.follows ? `The actuator can follow it at ${rpm(speed)}.` : `The actuator cannot follow it at ${rpm(speed)}: do not run the table.${margin.breaks ? ` What breaks: ${margin.breaks}.` : ''}`;
+  return section('correction', 'The correction',
+    paragraph(`${works(correction)} is what a fast tool servo adds to the programmed ${correction.face ? 'Z' : 'X'} so that the tool follows the target axis.`), paragraph(words, margin.follows ? null : 'alert'),
+    element('div', {class: 'pair'}, profileChart(correction), marginChart(marginLines(margin))));
+}
+
+function correctionFold(all) {
+  const {correction, target, verdict} = all;
+  if (!correction?.turns.length) return null;
+  const {margin, speed_rpm: speed} = correction;
+  const rpm = (value) => `${tick(Number(value.toPrecision(4)))}${nbsp}rpm`;
+  const U = target.axis ? `U (k = ${tick(verdict.k)}) is ${uncertainty(verdict.k * target.axis.start.u_mm, 'mm')} at the start and ${uncertainty(verdict.k * target.axis.end.u_mm, 'mm')} at the end` : 'it is not known';
+  return fold('correction-more', 'The correction in full', facts([
     ['Speed of the job', rpm(speed)],
     ['Highest speed that works', margin.max_speed.value > 0 ? rpm(margin.max_speed.value) : 'none'],
     ['Following error if sent uncorrected', micrometres(margin.following_uncompensated.value)],
     ['Following error with this table', micrometres(margin.following.value)],
     ['Set-points per revolution', tick(Number(margin.set_points_per_revolution.toPrecision(4)))],
-  ]));
-  parts.push(element('div', {class: 'pair'}, marginChart(lines),
-    element('div', {}, table('The numbers behind the bars', ['Limit', 'Used', 'Available', 'Share'],
-      lines.map((line) => [element('span', {}, line.name, element('small', {}, line.what)), line.show(line.used), line.show(line.limit), percent(line.share)])),
-    paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve is what stands against it.", 'quiet'))));
-  return section('margin', "The actuator's margin", ...parts);
+  ]), table('What the actuator has left', ['Limit', 'Used', 'Available', 'Share'],
+    marginLines(margin).map((line) => [element('span', {}, line.name, element('small', {}, line.what)), line.show(line.used), line.show(line.limit), percent(line.share)])),
+  paragraph("Predictions from the actuator's data in the job, which state no uncertainty; the stroke reserve is what stands against it.", 'quiet'),
+  element('div', {class: 'pair'}, correctionMap(correction), commandCharts(correction)), harmonicsTable(correction),
+  paragraph(`The profile carries the uncertainty of the target axis: ${U}. The actuator's gain and lag follow from the data of the job, which state no uncertainty.`, 'quiet'));
 }

@@ -24,18 +24,18 @@ const minutes = (plan) => `${tick(Number(plan.minutes.toPrecision(2)))}${nbsp}mi
 function measurementWords(plan) {
   if (!plan) return null;
   if (!plan.plan) return `No plan does it${plan.why_not ? `: ${plan.why_not}` : ''}.`;
-  return `${plan.plan}${plan.what ? `, ${plan.what}` : ''}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
+  return `${plan.what || data.words.measurements[plan.plan]}: chance of the right name ${chance(plan.power_before)} → ${chance(plan.power ?? plan.power_after)}, ${minutes(plan)}${otherPlans(plan)}.`;
 }
 
 function otherPlans({others = []}) {
-  return others.map((o) => `; or ${o.plan} (→ ${chance(o.power)}, ${minutes(o)})`).join('');
+  return others.map((o) => `; or ${o.what || data.words.measurements[o.plan]} (→ ${chance(o.power)}, ${minutes(o)})`).join('');
 }
 
 function classTable(finding, titles) {
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
   return table(members.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
     ['Cause', 'Chance'], members.map((member) => [
-      element('span', {}, member.effect, element('small', {}, (titles[member.effect] ?? '') + (member.structural ? ': the same column, no amount of such data helps' : ''))),
+      element('span', {}, titles[member.effect] ?? member.effect, member.structural ? '; the same readings, no amount of such data helps' : '', element('small', {}, member.effect)),
       chance(member.probability)]));
 }
 
@@ -45,8 +45,8 @@ function findingCard(finding, number, k, titles, face) {
   list.push(['Part of the readings (RMS)', micrometres(finding.rms.value)],
     [face ? 'Tilt at the outer end when left out' : 'Axis shift when left out', estimated(shift, k)],
     ['False-alarm probability (all hypotheses counted)', isNumber(finding.p_value) ? (finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)) : '–']);
-  const parts = [element('h4', {}, `${number}. ${finding.effect}`, cosmetic ? element('span', {class: 'pill neutral'}, face ? 'cosmetic for the run-out' : 'cosmetic for coaxiality') : null),
-    paragraph(titles[finding.effect], 'quiet'), facts(list), classTable(finding, titles)];
+  const parts = [element('h4', {}, `${number}. ${finding.seen}`, cosmetic ? element('span', {class: 'pill neutral'}, face ? 'cosmetic for the run-out' : 'cosmetic for coaxiality') : null),
+    facts(list), classTable(finding, titles)];
   if (finding.alias) parts.push(paragraph(`The sampling cannot tell it from ${finding.alias}.`, 'quiet'));
   if (finding.separate_with) parts.push(paragraph(`To tell apart: ${measurementWords(finding.separate_with)}`));
   return element('div', {class: 'card'}, parts);
@@ -56,7 +56,7 @@ function findingsBlock({findings, unexplained, titles, options: {coverage_factor
   if (!findings.length && !unexplained.length) return null;
   const cards = findings.map((f, i) => findingCard(f, i + 1, k, titles, face));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'},
-    element('h4', {}, `Unexplained: ${u.harmonic}`), paragraph(u.dependence, 'quiet'), facts([['Amplitude', estimated(u.amplitude, k)]]),
+    element('h4', {}, `Unexplained: ${u.seen}`), facts([['Amplitude', estimated(u.amplitude, k)]]),
     paragraph('No catalogued cause explains it. It stays in the model as it is, so that the axis is protected.', 'quiet'))));
   return block('Findings, the most harmful first', paragraph(`± is U = k u, k = ${tick(k)}.`, 'quiet'), element('div', {class: 'cards'}, cards));
 }
@@ -81,7 +81,8 @@ function gainFacts({gain, options: {coverage_factor: k}}, face) {
 const axisNames = {stated: ['stated', 'the average over what may have caused the readings'], named: ['named', 'were all causes those that are named'], ideal: ['ideal fit', 'were there no cause']};
 
 function shareWords({effect, instead_of: instead, probability, axis_shift: shift}, k) {
-  const what = !effect ? `no ${instead} at all` : instead ? `${effect} instead of ${instead}` : `${effect}, too small to be found,`;
+  const [name, other] = [effect, instead].map((id) => id ? worded(id) : '');
+  const what = !effect ? `no ${other} at all` : instead ? `${name} instead of ${other}` : `${name}, too small to be found,`;
   return `${what} (probability ${significant(probability, 2)}) would move it by ${estimated(shift, k)}`;
 }
 
@@ -161,12 +162,12 @@ function notObservableTable({not_observable: all, titles}) {
   const isHarmless = (n) => isNumber(n.axis_bias_typical?.value) && n.axis_bias_typical.value < harmlessMm;
   const list = all.filter((n) => !isHarmless(n)), harmless = all.filter(isHarmless);
   const rest = harmless.length
-    ? paragraph(`Unseen too, but shifting the axis by less than 0.01 µm: ${harmless.map((n) => n.effect).join(', ')}.`, 'quiet') : null;
+    ? paragraph(`Unseen too, but shifting the axis by less than 0.01 µm: ${harmless.map((n) => worded(n.effect)).join('; ')}.`, 'quiet') : null;
   if (!list.length) return block('What these readings cannot show', rest);
   return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
-      element('span', {}, n.effect, element('small', {}, titles[n.effect])), n.why,
-      n.separate_with?.plan ? `${n.separate_with.plan}${n.separate_with.what ? `: ${n.separate_with.what}` : ''}` : '–',
+      element('span', {}, titles[n.effect], element('small', {}, n.effect)), worded(n.why),
+      n.separate_with?.plan ? n.separate_with.what || data.words.measurements[n.separate_with.plan] : '–',
       axisBiasUnit(n.axis_bias_per_unit), seenFrom(n)]), 3), rest);
 }
 
@@ -182,29 +183,43 @@ function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: 
   const found = checks.filter((check) => check.found);
   return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
     found.length ? table('Checks that found something', ['Check', 'What was seen'],
-      found.map((check) => [element('span', {}, check.effect, element('small', {}, titles[check.effect])), check.text]), 2)
+      found.map((check) => [element('span', {}, titles[check.effect], element('small', {}, check.effect)), check.text]), 2)
       : paragraph('No check of the data found anything.', 'quiet'),
     ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
 }
 
 function plansTable(plans) {
-  const rows = feasible(plans).map((plan) => [element('span', {}, plan.plan, element('small', {}, plan.what)),
+  const rows = feasible(plans).map((plan) => [plan.what || data.words.measurements[plan.plan],
     `${chance(plan.power_before)} → ${chance(plan.power)}`, minutes(plan)]);
   return rows.length ? table('The measurements, the best first', ['Measurement', 'Right name', 'Time'], rows) : null;
 }
 
 function nextBlock({next_measurement: next, plans}) {
   if (!next.plan && !next.why_not && !plans.length) return null;
-  const what = next.plan ? measurementWords(next) + (next.separates.length ? ` It separates ${next.separates.join(', ')}.` : '')
+  const what = next.plan ? measurementWords(next) + (next.separates.length ? ` It separates ${next.separates.map(worded).join(', ')}.` : '')
     : next.why_not ? `None: ${next.why_not}.` : 'None: there is nothing to tell apart.';
   const impossible = plans.filter((plan) => plan.why_not);
   return block('Next measurement', paragraph(what), plansChart(plans), plansTable(plans),
-    impossible.length ? paragraph(`Not possible here: ${impossible.map((plan) => `${plan.plan} (${plan.why_not})`).join('; ')}.`, 'quiet') : null);
+    impossible.length ? paragraph(`Not possible here: ${impossible.map((plan) => `${plan.what || data.words.measurements[plan.plan]} (${plan.why_not})`).join('; ')}.`, 'quiet') : null);
 }
 
-function diagnosisSection(reference, index) {
+/** What was seen, each with its causes, their chances and what follows: the page's short form of the findings. */
+function seenList({findings, unexplained, consequences = {}, options: {coverage_factor: k}}, face) {
+  const most = 3;
+  const causes = (f) => [{effect: f.effect, probability: f.probability}, ...f.rivals];
+  const cause = ({effect, probability}, alone) => element('li', {}, joined(`${worded(effect)}${alone ? '' : ` (${chance(probability)})`}`), consequences[effect] ? `: ${consequences[effect]}` : '');
+  const items = findings.map((f) => {
+    const all = causes(f), {axis_shift: shift, cosmetic} = f.axis_bias;
+    return element('li', {}, element('strong', {}, sentence(f.seen)), cosmetic ? ` Without effect on the ${face ? 'run-out' : 'coaxiality'}.` : isNumber(shift?.value) ? joined(` Left out it moves the ${face ? 'tilt' : 'axis'} by ${estimated(shift, k)}.`) : '',
+      element('ul', {}, all.slice(0, most).map((one) => cause(one, all.length === 1)), all.length > most ? element('li', {}, `or ${all.length - most} more, less likely`) : null));
+  });
+  unexplained.forEach((u) => items.push(element('li', {}, element('strong', {}, sentence(u.seen)))));
+  return items.length ? element('ul', {class: 'seen'}, items) : null;
+}
+
+function diagnosisFold(reference, index) {
   const {diagnosis, readings} = reference;
-  const title = `What the model gets wrong: ${reference.name}`;
+  const title = `The diagnosis in full: ${reference.name}`;
   if (!diagnosis) return null;
   const {verdict, findings, hypotheses, false_alarm: alarm} = diagnosis;
   const parts = [paragraph(diagnosisWords[verdict] ?? verdict, 'lead')];
@@ -215,6 +230,6 @@ function diagnosisSection(reference, index) {
   const {status, message} = diagnosis.extended;
   if (status !== 'converged') parts.push(paragraph(`The extended model: ${statusWords[status] ?? status}. ${message}`, 'alert'));
   if (findings.length || diagnosis.unexplained.length) parts.push(gainFacts(diagnosis, readings?.face));
-  parts.push(findingsBlock(diagnosis, readings?.face), axesBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
-  return section(`diagnosis-${index + 1}`, title, ...parts);
+  parts.push(findingsBlock(diagnosis, readings?.face), simulationBlock(reference), notObservableTable(diagnosis), noiseBlock(diagnosis), nextBlock(diagnosis));
+  return fold(`diagnosis-${index + 1}`, title, ...parts);
 }

@@ -60,7 +60,7 @@ const sectionDifferences = (readings, extended) => sectionChart(readings, [['bef
 
 /** Orders that have a name: of harmonics found, and of unexplained patterns. */
 const foundLines = ({findings, unexplained}) => [
-  ...findings.map((f) => ({order: f.parameters.order?.value, name: f.effect})).filter(({order}) => isNumber(order)),
+  ...findings.map((f) => ({order: f.parameters.order?.value, name: f.effect, words: worded(f.effect)})).filter(({order}) => isNumber(order)),
   ...unexplained.map((u) => ({order: Math.abs(u.term.pattern.order ?? 0), name: 'unexplained'})).filter(({order}) => order > 0)];
 
 function spectrumChart(diagnosis, extended) {
@@ -97,7 +97,7 @@ function spectrumChart(diagnosis, extended) {
   });
   return figure({caption: `Spectrum of measured minus simulated${extended ? ', before and after the model was extended. Marks are the lines that were found.' : '.'}` +
     (spectrum.grouped ? ' Each point is the highest of its neighbours.' : ''),
-    description: 'Amplitude over the order before and after, with the found lines.', size: 'map', renderer: 'svg', build});
+    description: `Amplitude over the order${extended ? ' before and after' : ''}, at most ${micrometres(largest(before) / 1000)}${extended ? ` before and ${micrometres(largest(after) / 1000)} after` : ''}${marks.size ? `; found: ${[...marks.values()].flat().join(', ')}` : ''}.`, size: 'map', renderer: 'svg', build});
 }
 
 /** Plans that can be carried out and whose gain is known. */
@@ -110,14 +110,14 @@ function plansChart(plans) {
   const share = (v) => Number((100 * v).toPrecision(4));
   const bars = (name, key, colour) => ({name, type: 'bar', barWidth: '34%', emphasis: {disabled: true}, itemStyle: {color: colour},
     data: shown.map((plan) => share(plan[key]))});
-  const build = () => ({
+  const build = (width) => ({
     grid: grid({top: 48}),
     legend: legend({left: 0, right: 0}),
     xAxis: axis('chance of the right name in %', {min: 0, max: 100}),
-    yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => plan.plan),
-      axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink}}),
+    yAxis: axis('', {type: 'category', inverse: true, data: shown.map((plan) => plan.what || data.words.measurements[plan.plan]),
+      axisTick: {show: false}, splitLine: {show: false}, axisLabel: {color: colours.ink, interval: 0, width: width < 480 ? 130 : 300, overflow: 'break', fontSize: width < 480 ? 10 : 12}}),
     series: [bars('with the data at hand', 'power_before', colours.grey), bars('with the measurement added', 'power', colours.series[2])],
   });
   return figure({caption: 'What each measurement would do, as predicted from its geometry and the noise found here.',
-    description: 'Chance of the right name before and after each plan.', size: shown.length > 5 ? 'map' : 'short', renderer: 'svg', build});
+    description: `Chance of the right name with each measurement: ${shown.map((plan) => `${plan.what} ${chance(plan.power_before)}, then ${chance(plan.power)}`).join('; ')}.`, size: 'short', renderer: 'svg', build, height: (width) => 100 + (width < 480 ? 70 : 46) * shown.length});
 }

@@ -5,8 +5,17 @@
 const nbsp = '\u00a0';
 
 /** No line ends between a number and its unit or within an equation. */
-const joined = (text) => text.replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
+const joined = (text) => worded(text).replace(/(\d) (?=(?:µm|mm|nm|%|°|rpm|min|Hz|s)(?!\p{L}))/gu, `$1${nbsp}`)
   .replace(/(?<!\p{L})(\p{L}) = (?=[\d−])/gu, `$1${nbsp}=${nbsp}`);
+
+/** A text in which an effect goes by its id, with the effect's name in words: each page has its own. */
+let worded = (text) => text;
+
+/** A clause that begins with a word in small letters, with a capital; a name stays as it is. */
+const capital = (text) => /^\p{Ll}+ /u.test(text) ? `${text[0].toUpperCase()}${text.slice(1)}` : text;
+
+/** A clause as a sentence. */
+const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}${/[.!?…]$/.test(text) ? '' : '.'}`;
 
 const isNumber = (x) => typeof x === 'number' && Number.isFinite(x);
 
@@ -90,7 +99,7 @@ function quantity(value, u, unit) {
 function uncertainty(u, unit) {
   if (!isNumber(u)) return '–';
   if (unit === 'mm') return u < 1 ? `${significant(u * 1000, 2)}${nbsp}µm` : `${significant(u, 2)}${nbsp}mm`;
-  if (unit === 'deg') return `${significant(u, 2)}${nbsp}°`;
+  if (unit === 'deg') return `${u < 1e-6 ? significant(u, 2) : fixed(u, decimalsFor(u) ?? 2)}${nbsp}°`;
   return significant(u, 2) + (unit === '1' || unit === '' ? '' : nbsp + unit);
 }
 

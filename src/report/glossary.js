@@ -15,9 +15,10 @@ const glossary = [
   ['X_fts, command', 'X commanded minus X programmed, positive away from the spindle axis. The command is X_fts sent ahead of time, so that the actuator, which lags, arrives at the wanted place.'],
   ['Following error', 'The largest distance between where the tool is and where it is wanted, predicted from the actuator\'s response.'],
   ['Go, no-go', 'Decided with the uncertainty on the side of caution (ISO 14253-1): what the coaxiality is at most, in 95 of 100, must lie within the tolerance. Not proven: neither that nor the contrary is shown, and the line says what would show it. With reservations: within the tolerance whichever model is right, but the data leave the model open. No go either after a slip in the chuck, or where what was found does not reproduce the readings.'],
+  ['Roundness', 'Peak to valley of the trace about its least-squares circle (ISO 12181: RONt, LSCI). Undulations per turn: 2 is an oval, 3 the lobes of a three-jaw chuck.'],
   ['Finding, class', 'A cause that the readings show beyond chance. Where other causes explain them as well, all are listed as its class with their chances: no name is better than the data.'],
   ['Held-out RMS', 'What a model leaves in blocks of readings that it was not fitted to. Only a model that is right predicts what it has not seen.'],
   ['Cosmetic', 'A finding that explains readings but does not move the axis: the part gets no truer by it.'],
 ];
 
-const glossarySection = () => section('terms', 'Terms and conventions', facts(glossary, 'terms'));
+const glossaryFold = () => fold('terms', 'Terms and conventions', facts(glossary, 'terms'));

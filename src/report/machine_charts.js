@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Charts of a machine's job: the error over the volume and along the program, the path with its errors, errors by name.
 
-const shades = {before_um: ['#f7f4ee', '#f6d9b8', '#f0a35e', '#d6604d', '#8c1127', '#3f0713'], after_um: ['#f1f5f8', '#c3dcea', '#7fb5d5', '#3a86b8', '#14477f']};
-const stages = {before: colours.series[1], after: colours.series[0], nominal: '#8b95a1', limit: '#b3001b'};
+const shades = {get before_um() { return colours.before; }, get after_um() { return colours.after; }};
+const stages = {get before() { return colours.series[1]; }, get after() { return colours.series[0]; }, get nominal() { return colours.line; }, get limit() { return colours.rejected; }};
 const um = (value) => micrometres(value / 1000);
 const degreesOrMm = ({unit, value}) => `${tick(Number(value.toPrecision(4)))}${unit === '°' ? '' : nbsp}${unit}`;
 
@@ -70,8 +70,9 @@ function pathView(tips, {words, show, across, up}, magnified) {
   const all = tips.line.map((_, i) => i), every = Math.ceil(all.length / 150);
   const path = (name, by, colour, width, z) => ({name, type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z, itemStyle: {color: colour},
     lineStyle: {color: colour, width}, data: all.map((i) => point(i, by))});
-  const vectors = {name: 'before', type: 'lines', coordinateSystem: 'cartesian2d', silent: true, progressive: 0, z: 3, symbol: ['none', 'none'], itemStyle: {color: stages.before},
-    lineStyle: {color: stages.before, width: 0.9, opacity: 0.7}, data: all.filter((i) => i % every === 0).map((i) => ({coords: [point(i), point(i, tips.by_before_um)]}))};
+  // Gaps between the strokes: a series of `lines` has a canvas of its own, which printers leave blank.
+  const vectors = {name: 'before', type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 3, itemStyle: {color: stages.before}, lineStyle: {color: stages.before, width: 0.9, opacity: 0.7},
+    data: all.filter((i) => i % every === 0).flatMap((i) => [point(i), point(i, tips.by_before_um), ['-', '-']])};
   const series = [path('programmed', null, stages.nominal, 3, 1), path('before', tips.by_before_um, stages.before, 1.1, 4), path('after', tips.by_after_um, stages.after, 1.1, 5), vectors];
   const drawn = series.slice(0, 3).flatMap((s) => s.data), ends = [0, 1].map((k) => drawn.reduce(([low, high], p) => [Math.min(low, p[k]), Math.max(high, p[k])], [Infinity, -Infinity]));
   const sizes = ends.map(([low, high]) => 1.06 * Math.max(high - low, 1e-3));
@@ -80,13 +81,13 @@ function pathView(tips, {words, show, across, up}, magnified) {
     const pixels = [wide(width), tall(width)], scale = Math.min(pixels[0] / sizes[0], pixels[1] / sizes[1]);
     const made = (k, name) => { const middle = (ends[k][0] + ends[k][1]) / 2, half = pixels[k] / scale / 2, [min, max] = [middle - half, middle + half];
       const customValues = name ? niceTicks(min, max, pixels[k] < 300 ? 4 : 6) : [];
-      return {min, max, axisLine: {show: name !== '', lineStyle: {color: '#9aa4b0'}}, splitLine: {show: false}, axisTick: {show: name !== '', customValues, lineStyle: {color: '#9aa4b0'}},
+      return {min, max, axisLine: {show: name !== '', lineStyle: {color: colours.line}}, splitLine: {show: false}, axisTick: {show: name !== '', customValues, lineStyle: {color: colours.line}},
         axisLabel: {show: name !== '', color: colours.ink, hideOverlap: true, formatter: tick, customValues}}; };
     return {grid: {left: 48, top: 64, width: pixels[0], height: pixels[1]}, legend: {...legendOf(series.slice(0, 3), {left: 0, right: 0})},
       xAxis: axis(across, made(0, across)), yAxis: uprightAxis(up, made(1, up)), series};
   };
   const caption = `The path in the part, ${words}, the tip's errors magnified ${tick(magnified)} times.`;
-  return figure({caption, description: `${caption} Before up to ${um(largest(tips.before_um))}, after up to ${um(largest(tips.after_um))}.`, size: 'path', build, height: (width) => tall(width) + 116});
+  return figure({caption, description: `${caption} Before up to ${um(largest(tips.before_um))}, after up to ${um(largest(tips.after_um))}.`, size: 'path', renderer: tips.line.length > 2000 ? 'canvas' : 'svg', build, height: (width) => tall(width) + 116});
 }
 
 const pathViews = (tips) => element('div', {class: 'pair'}, Object.values(views).reverse().map((view) => pathView(tips, view, magnifiedBy(tips))));
@@ -117,11 +118,11 @@ function errorBars(byError) {
     grid: grid({top: 18, right: 56}),
     xAxis: axis('tip moved by at most, in µm', {min: 0, splitNumber: width < 480 ? 4 : 8}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map(({name}) => name), axisTick: {show: false}, splitLine: {show: false},
-      axisLabel: {color: colours.ink, interval: 0, formatter: (name) => width < 480 ? name : `${name}  ${errorWords(name)}`}}),
+      axisLabel: {color: colours.ink, interval: 0, formatter: (name) => `${errorWords(name)} (${name})`, ...(width < 480 ? {width: 116, overflow: 'break', fontSize: 10, lineHeight: 12} : {})}}),
     series: [{name: 'alone', type: 'bar', barWidth: '62%', emphasis: {disabled: true}, itemStyle: {color: colours.series[0]},
       label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => significant(value, 3)}, data: shown.map(({tip}) => 1000 * tip.value)}],
   });
   return figure({caption: 'What each error does to the tip on this program when it is the only one, the largest of it; they add as vectors, and partly cancel.',
-    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${name} ${um(1000 * tip.value)}`).join(', ')}.`,
-    size: 'bars', renderer: 'svg', build, height: () => 70 + 24 * shown.length});
+    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${errorWords(name)} (${name}) ${um(1000 * tip.value)}`).join(', ')}.`,
+    size: 'bars', renderer: 'svg', build, height: (width) => 70 + (width < 480 ? 30 : 24) * shown.length});
 }

@@ -28,17 +28,19 @@ function effectWords(effect) {
   return `${words}, ${form.startsWith('harmonic') ? `${order} times a turn` : `degree ${order}`}`;
 }
 
-const withWords = (effect) => element('span', {}, effect, element('small', {}, effectWords(effect)));
-const planWords = (plans, code) => { const plan = plans.find((p) => p.plan === code); return plan ? `${code}: ${plan.what}` : code; };
+worded = (text) => text.replace(/(?<![\w.(])(?:(?:reversal|drift)\.[XYZABC]|ball\.slip|(?:E[XYZABC]{2}|[XYZABC]0[XYZABCSW])(?:\.\w+)?)(?![\w.]\w|\))/g, (id) => effectWords(id) ? `${effectWords(id)} (${id})` : id);
+
+const withWords = (effect) => element('span', {}, effectWords(effect) || effect, element('small', {}, effect));
+const planWords = (plans, code) => plans.find((p) => p.plan === code)?.what ?? code;
 
 function machineFindingCard(finding, number, plans) {
   const list = [['Size', errorSize(finding.size)], ...Object.entries(finding.parameters).map(([name, p]) => [name, errorSize(p)]),
     ['Part of the readings (RMS)', micrometres(finding.rms.value)],
     ['False-alarm probability (all hypotheses counted)', finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)]];
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
-  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${finding.effect}`), paragraph(`${effectWords(finding.effect)}.`, 'quiet'), facts(list),
+  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(effectWords(finding.effect) || finding.effect)}`, element('small', {}, finding.effect)), facts(list),
     table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
-    finding.alias ? paragraph(`These positions read ${finding.alias} alike.`) : null,
+    finding.alias ? paragraph(`These positions read ${worded(finding.alias)} alike.`) : null,
     finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
     members.length > 1 ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(plans, finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
 }
@@ -57,30 +59,34 @@ function locationTable({extended, baseline}) {
     table('Where the axes stand and point, against the machine\'s file', ['Error', 'Size ± U'], rows));
 }
 
-/** A sentence of a clause; the name of an effect stays as it is. */
-const sentence = (text) => !text ? '' : /^\S+\.\S/.test(text) ? `${text}.` : `${text[0].toUpperCase()}${text.slice(1)}.`;
-
 /** What might be taken for certain and is not, and checks of the data that found something. */
-function checksBlock({remarks = [], checks = []}) {
-  const found = checks.filter((check) => check.found);
-  if (!remarks.length && !found.length) return null;
-  return block('To be minded', element('ul', {}, [...remarks, ...found.map((check) => `${check.effect}: ${check.text}`)].map((text) => element('li', {}, joined(sentence(text))))));
+const mindedOf = ({remarks = [], checks = []}) => [...remarks, ...checks.filter((check) => check.found).map((check) => check.text)];
+
+/** What was found, in a line each, with what explains it as well. */
+function findingsSection({diagnosis}) {
+  const {verdict, findings, unexplained} = diagnosis;
+  const items = findings.map((f) => {
+    const rivals = f.rivals.slice(0, 3).map((r) => `${effectWords(r.effect) || r.effect} (${chance(r.probability)})`);
+    return element('li', {}, element('strong', {}, sentence(effectWords(f.effect) || f.effect)), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
+      rivals.length ? ` Or: ${rivals.join('; ')}${f.rivals.length > 3 ? `; or ${f.rivals.length - 3} more` : ''}.` : '');
+  });
+  unexplained.forEach((u) => items.push(element('li', {}, element('strong', {}, `Unexplained: ${u.pattern}`), ` ${errorSize(u.amplitude)}.`)));
+  return section('diagnosis', 'What the measurement shows', paragraph(machineVerdicts[verdict] ?? verdict), items.length ? element('ul', {class: 'seen'}, items) : null);
 }
 
-function findingsSection({diagnosis}) {
-  const {verdict, findings, unexplained, plans} = diagnosis;
+function findingsFold({diagnosis}) {
+  const {findings, unexplained, plans} = diagnosis;
   const cards = findings.map((f, i) => machineFindingCard(f, i + 1, plans));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
     paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
-  return section('diagnosis', 'What the measurement shows', paragraph(machineVerdicts[verdict] ?? verdict, 'lead'),
-    cards.length ? element('div', {class: 'cards'}, cards) : null, checksBlock(diagnosis), gainBlock(diagnosis), locationTable(diagnosis));
+  return fold('findings', 'The diagnosis in full', cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
 }
 
 /** Effects that share their reason and the plans that show them. */
 function notObservableRows({not_observable: all, plans}) {
   const alike = new Map();
   all.forEach((one) => { const key = JSON.stringify([one.why, one.separate_with]); alike.set(key, [...(alike.get(key) ?? []), one]); });
-  return [...alike.values()].map((group) => [group.map((one) => one.effect).join(', '), sentence(group[0].why), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
+  return [...alike.values()].map((group) => [group.map((one) => `${effectWords(one.effect) || one.effect} (${one.effect})`).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
 }
 
 function rangesTable(ranges) {
@@ -91,13 +97,13 @@ function rangesTable(ranges) {
   return block('Where it was measured', table('Positions of the axes', ['Axis', 'Measured', 'Program'], rows));
 }
 
-function unknownSection({diagnosis, ranges}) {
+function unknownFold({diagnosis, ranges}) {
   const held = diagnosis.baseline.not_determined, unseen = notObservableRows(diagnosis), next = diagnosis.next_measurement;
-  return section('unknown', 'What is not known',
+  return fold('unknown', 'What is not known',
     block('Not seen at these positions', unseen.length
       ? table('Effects that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Effect', 'Why', 'Shown by'], unseen, 3)
       : paragraph('Every effect that is looked for would have been found at 10 µm or 50 µrad.'),
-    paragraph(next.plan ? `Next measurement: ${next.plan}, ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
-    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(one.why)]), 2)) : null,
+    paragraph(next.plan ? `Next measurement: ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
+    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(worded(one.why))]), 2)) : null,
     rangesTable(ranges));
 }

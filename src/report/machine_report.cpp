@@ -143,11 +143,13 @@ Json machine_report_data(const MachineJobResult& result) {
       {"file", result.job.path},
       {"machine", result.job.machine.name},
       {"chain", result.job.machine.chain},
+      {"header", Json::array()},
       {"verdict", verdict_data(result)},
       {"inputs", run.at("inputs")},
       {"ranges", run.at("ranges")},
       {"maps", maps_data(result)},
       {"diagnosis", Json::parse(machine_diagnosis_json(result.diagnosis, result.job.machine))}};
+  for (const auto& [label, text] : result.job.header) data["header"].push_back({label, text});
   if (!result.tips.empty()) data["tips"] = tips_data(result.tips);
   if (result.part) data["part"] = part_data(*result.part);
   if (result.compensation) {

@@ -33,19 +33,17 @@ function banner({verdict}) {
       'div', {class: `banner ${kind}`, role: 'status'},
       element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
       paragraph(
-          line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, ''), 'line'),
-      keyNumbers(verdict),
-      element('p', {class: 'lead'}, element('strong', {}, 'Next: '), joined(verdict.next)));
+          capital(line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, '')), 'line'),
+      keyNumbers(verdict));
 }
 
-function conditions({verdict: {reservations, remarks}}) {
-  const list = (items) => element('ul', {}, items.map((text) => element('li', {}, joined(text))));
-  if (!reservations.length && !remarks.length) return null;
-  return section(
-      'conditions', 'What the verdict rests on',
-      reservations.length ? block('Reservations', list(reservations.map(sentence))) : null,
-      remarks.length ? block('What holds for the numbers', list(remarks)) : null);
+function warningsSection({verdict: {reservations, remarks}, diagnosis}) {
+  const all = [...reservations, ...remarks, ...mindedOf(diagnosis)];
+  return all.length ? section('warnings', 'Mind this', list(all.map(sentence))) : null;
 }
+
+const nextSection = ({verdict: {next}}) =>
+    next ? section('next', 'Next step', list([sentence(next)])) : null;
 
 function programFacts({compensation: c, part, verdict, program}) {
   const angle = ({value}) =>
@@ -85,25 +83,31 @@ function programSection(all) {
   if (!c) return null;
   const lost = c.unreachable.slice(0, 10).map(({line, why}) => [`line ${line}`, why]);
   return section(
-      'program', 'The program before and after', programFacts(all),
+      'program', 'The program before and after',
       lost.length ?
           table(
               `Blocks that cannot be reached: ${lost.length < c.unreachable.length ? `the first ${lost.length} of ` : ''}${c.unreachable.length}`,
               ['Block', 'Why'], lost, 2) :
           null,
-      tips ? alongProgram(tips, verdict) : null, tips ? pathViews(tips) : null);
+      tips ? alongProgram(tips, verdict) : null);
 }
+
+const programFold = (all) => all.compensation ?
+    fold(
+        'program-more', 'The program in full', programFacts(all),
+        all.tips ? pathViews(all.tips) : null) :
+    null;
 
 function errorsSection({compensation: c}) {
   const bars = c ? errorBars(c.by_error) : null;
   return bars ? section('errors', 'The largest errors by name', bars) : null;
 }
 
-function mapSection({maps}) {
+function mapFold({maps}) {
   if (!maps.length) return null;
   const drawn = (map, key, words) => volumeMap(
       map, key, `${words}, ${map.across.name}–${map.up.name}`, roundUpFinely(largest(map[key])));
-  return section(
+  return fold(
       'map', 'The error over the volume',
       paragraph(
           'How far the tip is off in the part over what was measured and what the program uses. After: what is left, and U (k = 2) of the tip. Mind the scales: every map has its own.'),
@@ -113,8 +117,9 @@ function mapSection({maps}) {
               drawn(map, 'after_um', 'After, at most'))));
 }
 
-const inputsSection = ({inputs}) => section(
+const inputsFold = ({inputs, file, machine, chain}) => fold(
     'inputs', 'What went in',
+    facts([['Job', file], ['Machine', `${machine || 'without a name'}: ${chain}`]], 'facts origin'),
     table(
         'Files', ['What', 'File', 'Hash'], inputs.map(({what, file, hash}) => [what, file, hash]),
         3));
@@ -149,29 +154,19 @@ const machineGlossary = [
 ];
 
 function build() {
-  const sections = [
-    conditions(data), programSection(data), errorsSection(data), mapSection(data),
-    findingsSection(data), unknownSection(data), inputsSection(data),
-    section('terms', 'Terms and conventions', facts(machineGlossary, 'terms'))
+  const open = [
+    warningsSection(data), nextSection(data), programSection(data), errorsSection(data),
+    findingsSection(data)
   ].filter(Boolean);
+  const folded = [
+    programFold(data), mapFold(data), findingsFold(data), unknownFold(data), inputsFold(data),
+    fold('terms', 'Terms and conventions', facts(machineGlossary, 'terms'))
+  ].filter(Boolean);
+  const details = element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded);
   document.getElementById('page').replaceChildren(
-      element(
-          'header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`),
-          element('h1', {}, data.title),
-          facts(
-              [
-                ['Job', data.file],
-                ['Machine', `${data.machine || 'without a name'}: ${data.chain}`]
-              ],
-              'facts origin')),
-      banner(data),
-      element(
-          'nav', {'aria-label': 'Contents'},
-          sections.map((s) => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent))),
-      ...sections,
-      element(
-          'footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
+      pageHeader('report', data.title, data.header), banner(data), contents([...open, details]),
+      ...open, details,
+      pageFooter());
 }
 
-build();
-startPage();
+startPage(build);

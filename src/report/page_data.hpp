@@ -8,7 +8,13 @@ namespace trueaxis {
 
 /// The charts of one reference: maps, sections, residuals, histogram; thinned above
 /// `max_points` readings.
-Json readings_data(const ProbeStream& stream, const FitResult& fit);
+/// @param diagnosis of them; none: nullptr. What was found is drawn in the sections then.
+Json readings_data(const ProbeStream& stream, const FitResult& fit,
+                   const Diagnosis* diagnosis = nullptr);
+
+/// A section's trace about its least-squares circle: peak, valley, RMS, harmonics from order 2 on;
+/// null where there is no usable fit.
+Json roundness_data(const ProbeStream& stream, const FitResult& fit);
 
 /// Measured against simulated, before and after: discrepancy, spectrum, maps; null where the model
 /// was not evaluated at every reading.
@@ -21,6 +27,19 @@ Json inputs_data(const JobResult& result);
 
 /// Coaxiality of each reference before and after, the axes over the length to be cut.
 Json target_data(const JobResult& result);
+
+/// The seats along Z and what is cut: z_mm and radius_mm of both ends (a face: X at one Z).
+Json seats_data(const JobResult& result);
+
+/// Standard uncertainty of an axis point at Z, as an ellipse: u along both of its axes, and where
+/// the longer one points.
+Json ellipse_data(const AxisEstimate& estimate, double z_mm);
+
+/// What is to be minded: {text, of}, `of` the references; reservations first.
+Json warnings_data(const JobResult& result);
+
+/// What to do next, sentences.
+Json next_data(const JobResult& result);
 
 /// The table as revolutions and a map, harmonics, the actuator's margin.
 Json correction_data(const Correction& correction);

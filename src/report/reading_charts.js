@@ -33,7 +33,7 @@ function readingMap(readings, key, words, sameLimit = null, note = ` ${mapNote(r
   const build = (width) => readings.thinned
     ? cellMap(readings.cells, values, {limit, positionName: positionName(readings), width})
     : pointMap(readings, values, {limit, width});
-  return figure({caption: words + note, description: words, size: 'map', build});
+  return figure({caption: words + note, description: `${words} Values up to ${micrometres(largest(shown) / 1000)} from zero.`, size: 'map', build});
 }
 
 function pointMap(readings, values, {limit, width}) {
@@ -78,7 +78,7 @@ function residualChart(readings, {x, envelope, name, words}) {
       ...(data.rejected.length ? [rejectedSeries(data.rejected.map((i) => [x[i], inside(readings.points.residual_um[i])]))] : []),
     ],
   });
-  return figure({caption: words + long + edge, description: words, build});
+  return figure({caption: words + long + edge, description: `${words} Up to ${micrometres(largest(shown) / 1000)} from zero.`, build});
 }
 
 /** Stacking needs a category axis: the bins of the band, labelled with round numbers. */
@@ -141,12 +141,12 @@ function polarChart(readings, part) {
     polar: {radius: width < 300 ? '64%' : '74%', center: ['50%', width < 300 ? '57%' : '54%']},
     angleAxis: {type: 'value', min: 0, max: 360, interval: width < 300 ? 90 : 45, startAngle: 0, clockwise: false,
       axisLabel: {color: colours.grey, formatter: (v) => v === 360 ? '' : `${v}°`},
-      axisLine: {lineStyle: {color: '#9aa4b0'}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
+      axisLine: {lineStyle: {color: colours.line}}, axisTick: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     radiusAxis: {min: -base, max: out, interval: step, axisLine: {show: false}, axisTick: {show: false},
       axisLabel: {show: false}, splitLine: {lineStyle: {color: colours.grid}}},
     series,
   });
-  return figure({caption, description: `Polar section at ${place}: measured and model.`, size: 'polar', renderer: 'svg', build});
+  return figure({caption, description: `Polar section at ${place}: measured${model.length ? ' and model' : ''}, up to ${micrometres(largestUm / 1000)} from the dashed circle.`, size: 'polar', renderer: 'svg', build});
 }
 
 /** Histogram of the residuals with the normal curve of sigma. */
@@ -176,7 +176,7 @@ function histogramChart(histogram, sigma_mm, sigmaSource) {
     yAxis: uprightAxis('readings'),
     series,
   });
-  return figure({caption, description: 'Histogram of the residuals and the normal curve.', renderer: 'svg', build});
+  return figure({caption, description: `Histogram of ${total} residuals${hasSigma ? ` and the normal curve of σ = ${significant(sigma, 3)} µm` : ''}.`, renderer: 'svg', build});
 }
 
 const tidy = (value) => Number(value.toPrecision(6));

@@ -36,19 +36,20 @@ Indices nearest(const ChartReadings& all, Indices from, double position_mm, std:
   return from;
 }
 
-Json measured(const ChartReadings& all, const Indices& section) {
+/// `um` of the readings of a section over C.
+Json measured(const ChartReadings& all, const Indices& section, const std::vector<double>& um) {
   std::vector<double> c_deg, value;
   if (section.size() <= 360) {
     for (const std::size_t i : section) {
       c_deg.push_back(all.c_deg[i]);
-      value.push_back(all.deviation_um[i]);
+      value.push_back(um[i]);
     }
     return {{"c_deg", column(c_deg, 3)}, {"um", column(value, 3)}, {"averaged", false}};
   }
   const Bins degrees{0.0, 360.0, 360};
   std::vector<double> sum(degrees.count, 0.0), in_bin(degrees.count, 0.0);
   for (const std::size_t i : section) {
-    sum[degrees.of(all.c_deg[i])] += all.deviation_um[i];
+    sum[degrees.of(all.c_deg[i])] += um[i];
     in_bin[degrees.of(all.c_deg[i])] += 1.0;
   }
   for (std::size_t bin = 0; bin < degrees.count; ++bin) {
@@ -67,8 +68,9 @@ Json curve(const CoaxialNominal& nominal, double position_mm) {
   return {{"step_deg", 3}, {"um", column(value, 3)}};
 }
 
+/// @param found_um what was found adds to each reading; empty: nothing
 Json section_at(const ChartReadings& all, const CoaxialNominal& nominal, const Indices& kept,
-                double position_mm) {
+                double position_mm, const std::vector<double>& found_um) {
   const std::size_t wanted = static_cast<std::size_t>(std::max(24.0, all.readings_per_turn));
   const Indices section = nearest(all, kept, position_mm, all.has_position ? wanted : kept.size());
   double half_width = 0.0;
@@ -79,7 +81,9 @@ Json section_at(const ChartReadings& all, const CoaxialNominal& nominal, const I
             {"half_width_mm", rounded(half_width, 3)},
             {"nominal_mm", rounded(nominal.reading_mm(position_mm), 4)},
             {"readings", section.size()},
-            {"measured", measured(all, section)}};
+            {"measured", measured(all, section, all.deviation_um)}};
+  if (all.has_model) data["residual"] = measured(all, section, all.residual_um);
+  if (!found_um.empty()) data["found"] = measured(all, section, found_um);
   if (nominal.from_fit()) data["model"] = curve(nominal, position_mm);
   return data;
 }
@@ -87,7 +91,8 @@ Json section_at(const ChartReadings& all, const CoaxialNominal& nominal, const I
 /// Up to three polar sections (both ends and the middle): the readings of about one revolution
 /// nearest to each height, means per degree where there are more than 360, and the model's curve
 /// there.
-Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal) {
+Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal,
+                   const std::vector<double>& found_um) {
   Json sections = Json::array();
   const Indices kept = kept_indices(all);
   if (kept.empty()) return sections;
@@ -97,13 +102,26 @@ Json sections_data(const ChartReadings& all, const CoaxialNominal& nominal) {
     high = std::max(high, all.position_mm[i]);
   }
   if (!(high > low)) {
-    sections.push_back(section_at(all, nominal, kept, low));
+    sections.push_back(section_at(all, nominal, kept, low, found_um));
     return sections;
   }
   for (const double share : {0.05, 0.5, 0.95}) {
-    sections.push_back(section_at(all, nominal, kept, low + share * (high - low)));
+    sections.push_back(section_at(all, nominal, kept, low + share * (high - low), found_um));
   }
   return sections;
+}
+
+/// What the extended model adds to the ideal surface at each reading, µm; empty where nothing was
+/// found or it is not known of every reading.
+std::vector<double> found_um(const Diagnosis* diagnosis, const ChartReadings& all) {
+  if (diagnosis == nullptr || (diagnosis->findings.empty() && diagnosis->unexplained.empty()))
+    return {};
+  const auto &before = diagnosis->residual_before_mm, &after = diagnosis->residual_after_mm;
+  if (!all.has_model || before.size() != all.kept.size() || after.size() != all.kept.size())
+    return {};
+  std::vector<double> um;
+  for (std::size_t i = 0; i < before.size(); ++i) um.push_back((before[i] - after[i]) / mm_per_um);
+  return um;
 }
 
 constexpr std::size_t envelope_bins = 400;
@@ -165,7 +183,7 @@ std::vector<double> kept_residuals(const ChartReadings& all) {
 
 }  // namespace
 
-Json readings_data(const ProbeStream& stream, const FitResult& fit) {
+Json readings_data(const ProbeStream& stream, const FitResult& fit, const Diagnosis* diagnosis) {
   const CoaxialNominal nominal(stream, fit);
   const ChartReadings all = chart_readings(stream, fit, nominal);
   const bool thinned = stream.size() > max_points;
@@ -176,7 +194,7 @@ Json readings_data(const ProbeStream& stream, const FitResult& fit) {
             {"has_position", all.has_position},
             {"has_time", !all.time_s.empty()},
             {"has_model", all.has_model},
-            {"sections", sections_data(all, nominal)},
+            {"sections", sections_data(all, nominal, found_um(diagnosis, all))},
             {"histogram", histogram(kept_residuals(all), 3)}};
   if (stream.size() == 0) return data;
   if (!thinned) {

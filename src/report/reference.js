@@ -65,12 +65,7 @@ function statusBlock(reference) {
       ['Iterations', String(reference.iterations)]);
   }
   const parts = [facts(list)];
-  if (reference.notes?.length) parts.push(element('ul', {class: 'quiet'}, reference.notes.map((text) => element('li', {}, text))));
-  if (reference.message) parts.push(paragraph(reference.message, 'alert'));
-  if (reference.not_determined.length) {
-    parts.push(paragraph('These combinations are left open by the readings:'),
-      element('ul', {}, reference.not_determined.map((text) => element('li', {}, text))));
-  }
+  if (reference.notes?.length) parts.push(element('ul', {class: 'quiet'}, reference.notes.map((text) => element('li', {}, sentence(text)))));
   return element('div', {}, parts);
 }
 
@@ -106,7 +101,7 @@ function budgetChart(reference) {
 function rejectedBlock({count, listed}) {
   if (count === 0) return paragraph('No reading was rejected.', 'quiet');
   const more = count > listed.length ? ` The first ${listed.length} are listed, ${count - listed.length} more are not.` : '';
-  return element('details', {}, element('summary', {}, `${count} rejected ${count === 1 ? 'reading' : 'readings'}.${more}`),
+  return element('div', {}, paragraph(`${count} rejected ${count === 1 ? 'reading' : 'readings'}.${more}`, 'quiet'),
     table('Rejected readings: data row of the stream and why', ['Row', 'Why'], listed.map((r) => [String(r.row), r.why]), 2));
 }
 
@@ -129,7 +124,7 @@ function chartBlocks(reference) {
   const thin = readings.thinned ? [paragraph(`${readings.count} readings are too many to draw one by one: charts show means and envelopes of bins. The numbers in the tables use every reading.`, 'quiet')] : [];
   const blocks = [block('Measured and model', ...thin, element('div', {class: 'pair'}, mapFigures(readings)))];
   if (readings.sections.length) {
-    blocks.push(block('Polar sections', paragraph('The part frame seen along −Z, C counter-clockwise from +x. ' +
+    blocks.push(block('Polar sections with the eccentricity', paragraph('The part frame seen along −Z, C counter-clockwise from +x. ' +
       `Outside the dashed circle is ${readings.face ? 'towards +Z' : 'away from the spindle axis'}.`, 'quiet'),
       element('div', {class: 'triple'}, readings.sections.map((part) => polarChart(readings, part)))));
   }
@@ -143,7 +138,32 @@ function chartBlocks(reference) {
   return blocks;
 }
 
-function referenceSection(reference, index) {
+/** What the surface leaves, in the order of what it means: what was seen and its causes, then as polar plots. */
+function formSection(reference, index) {
+  const {readings, diagnosis, roundness} = reference;
+  const solved = reference.status === 'converged' || reference.status === 'max_iterations';
+  const parts = [paragraph(`${diagnosis ? `${diagnosisWords[diagnosis.verdict] ?? diagnosis.verdict} ` : ''}${fitWords(reference)}`)];
+  if (diagnosis) parts.push(seenList(diagnosis, readings?.face));
+  if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...roundnessBlock(reference));
+  const polars = solved && readings ? residualPolars(readings) : [];
+  if (polars.length) {
+    parts.push(paragraph(`What is left when the associated surface is taken away, so that all is centred on the dashed circle; outside is ${readings.face ? 'towards +Z' : 'away from the axis'}.` +
+      (polars.length && readings.sections.some((part) => part.found) ? ' Orange is what was found.' : ''), 'quiet'), element('div', {class: 'triple'}, polars));
+  } else {
+    parts.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
+  }
+  return section(`form-${index + 1}`, `Form: ${reference.name}`, ...parts);
+}
+
+/** The fit in a sentence. */
+function fitWords(reference) {
+  const {points, rejected: {count}, surface, feature, status} = reference;
+  const words = `${points} readings of a ${surface}${feature === 'bore' ? ', a bore' : ''}, ${count ? `${count} left out` : 'none left out'}`;
+  if (status !== 'converged' && status !== 'max_iterations') return `${words}: ${statusWords[status] ?? status}.`;
+  return `${words}; residuals ${micrometres(reference.rms.value)} RMS.`;
+}
+
+function referenceFold(reference, index) {
   const k = reference.coverage_factor;
   const relative = reference.relative ? [paragraph('The stream is of a gauge that reads differences: the radius is not measured, it is the nominal one.', 'quiet')] : [];
   const tables = element('div', {class: 'pair tables'},
@@ -151,6 +171,6 @@ function referenceSection(reference, index) {
     element('div', {}, Object.keys(reference.derived).length ? parameterTable('Derived quantities', reference.derived, k) : null,
       reference.budget.length > 1 && reference.budget.some((line) => Object.values(line.u).some((u) => u.value > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
-  return section(`reference-${index + 1}`, `Reference surface: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
-    block('Rejected readings', rejectedBlock(reference.rejected)), ...chartBlocks(reference));
+  return fold(`reference-${index + 1}`, `The fit in full: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
+    block('Rejected readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
 }

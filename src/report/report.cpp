@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "diagnose/files/axes_text.hpp"
+#include "diagnose/files/consequences.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
@@ -31,9 +33,18 @@ const char* outcome(const JobResult& result) {
   }
 }
 
+/// The verdict's line without the reservations, which stand below it.
+std::string short_line(const Verdict& verdict) {
+  std::string line = verdict.line;
+  for (auto one = verdict.reservations.rbegin(); one != verdict.reservations.rend(); ++one)
+    if (line.ends_with("; " + *one)) line.resize(line.size() - one->size() - 2);
+  return line;
+}
+
 Json verdict_data(const JobResult& result) {
   const Verdict& verdict = result.verdict;
-  Json data{{"outcome", outcome(result)}, {"line", verdict.line}, {"k", verdict.coverage_factor}};
+  Json data{
+      {"outcome", outcome(result)}, {"line", short_line(verdict)}, {"k", verdict.coverage_factor}};
   data["tolerance_mm"] =
       result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
   if (result.target_axis && result.refused.empty()) {
@@ -45,6 +56,27 @@ Json verdict_data(const JobResult& result) {
   return data;
 }
 
+Json header_data(const JobResult& result) {
+  Json lines = Json::array();
+  for (const auto& [label, text] : result.job.header) lines.push_back({label, text});
+  return lines;
+}
+
+/// A title up to what explains it: "roundness of the part".
+std::string short_title(std::string_view title) {
+  return std::string(title.substr(0, title.find(':')));
+}
+
+/// Ids of effects and codes of measurements in words, for texts that hold them.
+Json words_data() {
+  Json words{{"effects", Json::object()}, {"measurements", Json::object()}};
+  for (const Effect& effect : effect_catalogue())
+    words["effects"][std::string(effect.id)] = short_title(effect.title);
+  for (const Separator& separator : separators())
+    words["measurements"][std::string(separator.code)] = std::string(separator.what);
+  return words;
+}
+
 /// What each effect that the page names is called.
 Json titles_of(const Diagnosis& diagnosis) {
   Json titles = Json::object();
@@ -52,6 +84,21 @@ Json titles_of(const Diagnosis& diagnosis) {
   for (const Finding& finding : diagnosis.findings)
     titles[finding.effect()] = finding.term.effect->title;
   return titles;
+}
+
+/// What was seen, finding by finding, and what follows from each cause.
+void add_words(Json& data, const Diagnosis& diagnosis) {
+  const double k = diagnosis.baseline.coverage_factor;
+  data["seen"] = {{"findings", Json::array()}, {"unexplained", Json::array()}};
+  data["consequences"] = Json::object();
+  for (const Finding& finding : diagnosis.findings) {
+    data["seen"]["findings"].push_back(seen_text(finding, k));
+    for (const std::string& id : finding.members())
+      if (const std::string_view what = consequence_of(id); !what.empty())
+        data["consequences"][id] = std::string(what);
+  }
+  for (const Unexplained& pattern : diagnosis.unexplained)
+    data["seen"]["unexplained"].push_back(seen_text(pattern, k));
 }
 
 /// x, y and u of an axis at both ends of what was probed, mm.
@@ -83,6 +130,7 @@ Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
       data["shares"].push_back(share_object(share));
   }
   data["titles"] = titles_of(diagnosis);
+  add_words(data, diagnosis);
   data["axis_of_cut"] = axis_of_cut;
   data["simulation"] = simulation_data(stream, diagnosis, again);
   return data;
@@ -93,7 +141,11 @@ Json reference_data(const JobResult& result, std::size_t i) {
   const bool named = i < result.job.references.size() && !result.job.references[i].name.empty();
   data["name"] = named ? result.job.references[i].name : "reference " + std::to_string(i + 1);
   if (i < result.streams.size()) {
-    data["readings"] = readings_data(result.streams[i], result.fits[i]);
+    const Diagnosis* found =
+        i < result.diagnoses.size() && result.diagnoses[i] ? &*result.diagnoses[i] : nullptr;
+    data["readings"] = readings_data(result.streams[i], result.fits[i], found);
+    if (result.fits[i].surface == SurfaceKind::section)
+      data["roundness"] = roundness_data(result.streams[i], result.fits[i]);
     if (i < result.diagnoses.size() && result.diagnoses[i]) {
       const bool again = i < result.resimulations.size() && result.resimulations[i];
       data["diagnosis"] = diagnosis_data(
@@ -123,7 +175,10 @@ Json report_data(const JobResult& result) {
   Json data{{"schema", "trueaxis.report/2"},   {"version", TRUEAXIS_VERSION},
             {"title", job_title(result.job)},  {"file", result.job.path},
             {"verdict", verdict_data(result)}, {"inputs", inputs_data(result)},
-            {"target", target_data(result)},   {"references", Json::array()}};
+            {"target", target_data(result)},   {"seats", seats_data(result)},
+            {"header", header_data(result)},   {"warnings", warnings_data(result)},
+            {"next", next_data(result)},       {"words", words_data()},
+            {"references", Json::array()}};
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     data["references"].push_back(reference_data(result, i));
   }

@@ -2,11 +2,34 @@
 // Reads the data in the page, builds it top to bottom, then draws the charts.
 
 const data = JSON.parse(document.getElementById('data').textContent);
+worded = (text) => text.replace(/\b[a-z]+\.[a-z_]+/g, (id) => data.words.effects[id] ?? id);
+// What was seen stands beside the findings, which are as in their file.
+for (const {diagnosis} of data.references) {
+  diagnosis?.findings.forEach((f, i) => { f.seen = diagnosis.seen.findings[i]; });
+  diagnosis?.unexplained.forEach((u, i) => { u.seen = diagnosis.seen.unexplained[i]; });
+}
 const outcomes = {go: ['GO', 'good', '✓'], reserved: ['GO with reservations', 'warning', '!'],
-  'not-proven': ['NOT PROVEN', 'warning', '?'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–']};
+  'not-proven': ['NOT PROVEN', 'warning', '?'], 'no-go': ['NO-GO', 'bad', '✗'], done: ['DONE', 'neutral', '–'],
+  fitted: ['FITTED', 'neutral', '–'], ideal: ['IDEAL', 'good', '✓'], effects: ['EFFECTS', 'warning', '!'], unexplained: ['UNEXPLAINED', 'warning', '?'],
+  'not-determined': ['NOT DETERMINED', 'bad', '✗']};
+const outcomeWords = /^(NO-GO|NOT PROVEN|NOT DIAGNOSED|GO with reservations|GO|DONE|IDEAL|EFFECTS|UNEXPLAINED)[:,.]?\s+/;
+
+/** Of a part that is only measured: where its axis is, and what the surface leaves. */
+function measuredNumbers({k}) {
+  const [reference] = data.references, axis = data.target.references[0]?.axis;
+  if (data.references.length !== 1 || !axis) return null;
+  const {face} = data.target.references[0], at = (end) => `${plusMinus(offsetOf(end), end.u_mm, k, 'u unknown')}`;
+  const place = (end) => reference.roundness ? 'Eccentricity' : `Axis off at Z = ${millimetres(end.z_mm, 2)}`;
+  const numbers = face ? [['Tilt', slopeWords(axis, k)]] : [[place(axis.start), at(axis.start)]];
+  if (!face && !reference.roundness) numbers.push([place(axis.end), at(axis.end)]);
+  if (reference.roundness) numbers.push(['Towards', direction(axis.start, k)], ['Roundness, peak to valley', micrometres((reference.roundness.peak_um + reference.roundness.valley_um) / 1000)]);
+  else numbers.push(['Residuals, RMS', micrometres(reference.rms.value)]);
+  return facts(numbers, 'numbers');
+}
 
 function keyNumbers(verdict) {
   const k = verdict.k;
+  if (!data.target.of_cut) return measuredNumbers(verdict);
   const tolerance = isNumber(verdict.tolerance_mm) ? `${tick(verdict.tolerance_mm * 1000)}${nbsp}µm` : 'none given';
   if (!isNumber(verdict.coaxiality_after_mm)) {
     return facts([['Coaxiality', 'not determined: there is no target axis'], ['Tolerance (coaxiality, a diameter)', tolerance]], 'numbers');
@@ -23,32 +46,31 @@ function keyNumbers(verdict) {
 
 function banner() {
   const [word, kind, sign] = outcomes[data.verdict.outcome];
+  const numbers = keyNumbers(data.verdict);
   return element('div', {class: `banner ${kind}`, role: 'status'},
     element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
-    paragraph(data.verdict.line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, ''), 'line'), keyNumbers(data.verdict),
-    paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet'));
+    paragraph(capital(data.verdict.line.replace(outcomeWords, '')), 'line'), numbers,
+    numbers ? paragraph(`± is the expanded uncertainty U = k u with k = ${tick(data.verdict.k)}.`, 'quiet') : null);
 }
 
-function contents(sections) {
-  return element('nav', {'aria-label': 'Contents'}, sections.map((s) =>
-    element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent.replace('Reference surface: ', ''))));
+function warningsSection() {
+  if (!data.warnings.length) return null;
+  return section('warnings', 'Mind this', list(data.warnings.map(({text, of}) => sentence(`${text}${of.length ? ` (${of.join(', ')})` : ''}`))));
 }
 
-function inputsSection() {
-  return section('inputs', 'What went in', element('div', {class: 'columns'}, data.inputs.map((part) =>
-    block(part.title, facts(part.lines)))));
-}
+const nextSection = () => data.next.length ? section('next', 'Next step', list(data.next.map(sentence), data.next.length > 1 ? 'ol' : 'ul')) : null;
+
+const inputsFold = () => data.inputs.length ? fold('inputs', 'What went in', element('div', {class: 'columns'}, data.inputs.map((part) =>
+  block(part.title, facts(part.lines))))) : null;
 
 function build() {
-  const sections = [...data.references.flatMap((r, i) => [diagnosisSection(r, i), referenceSection(r, i)]), targetSection(data), correctionSection(data), marginSection(data),
-    inputsSection(), glossarySection()].filter(Boolean);
-  const hashes = data.references.map((r) => r.input.hash).filter(Boolean).join('\n');
-  document.getElementById('page').replaceChildren(
-    element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} report`), element('h1', {}, data.title),
-      facts([['Job', data.file], ['Input', hashes || 'no hash']], 'facts origin')),
-    banner(), contents(sections), ...sections,
-    element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
+  const each = (make) => data.references.map(make);
+  // Of one section its roundness is what is looked for.
+  const forms = each(formSection), axes = axesSection(data);
+  const open = [warningsSection(), nextSection(), ...(data.references.some((r) => r.roundness) ? [...forms, axes] : [axes, ...forms]), correctionSection(data)].filter(Boolean);
+  const folded = [axesFold(data), ...each((r, i) => [diagnosisFold(r, i), referenceFold(r, i)]).flat(), correctionFold(data), inputsFold(), glossaryFold()].filter(Boolean);
+  const details = element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded);
+  document.getElementById('page').replaceChildren(pageHeader('report', data.title, data.header), banner(), contents([...open, details]), ...open, details, pageFooter([[data.of_stream ? 'Stream' : 'Job', data.file], ...data.references.map((r) => ['Input', r.input.hash || 'no hash'])]));
 }
 
-build();
-startPage();
+startPage(build);

@@ -90,7 +90,7 @@ function tableSection() {
   return section('table', 'Table', without ? paragraph(`No bound: ${without}.`, 'quiet') : null, rows.length > mostRows ? paragraph(`The first ${mostRows} of ${rows.length} rows; sweep.csv has all.`, 'quiet') : null,
     element('div', {class: 'wide'}, table('Errors are estimate − truth; in brackets 95 % intervals; ! is not at the bound.',
       ['Error of', ...data.axes.map((a) => axisWords(a.name)), ...(many ? ['Method'] : []), 'Readings', 'True', 'Bias', 'SD', 'RMSE', '5 %', 'Median', '95 %', 'Bound', 'RMSE / bound', 'U covers', 'Failed', ...(diagnosed ? ['Found', 'Named'] : [])],
-      rows.slice(0, mostRows))), ...failed);
+      rows.slice(0, mostRows), 1, false)), ...failed);
 }
 
 function build() {
@@ -99,9 +99,8 @@ function build() {
   document.getElementById('page').replaceChildren(
     element('header', {}, element('p', {class: 'maker'}, `TrueAxis ${data.version} sweep`), element('h1', {}, data.title),
       facts([['Grid', `${data.cells.length} cells of ${data.repeats} repeats`], ['Surface', data.surface], ['Drawn', drawnText()], ['Seed', data.seed], ['Input', data.input_hash || 'no hash']], 'facts origin')),
-    summary(), element('nav', {'aria-label': 'Contents'}, sections.map((s) => element('a', {href: `#${s.id}`}, s.querySelector('h2').textContent))),
+    summary(), contents(sections),
     ...sections, element('footer', {}, `TrueAxis ${data.version} · ${data.schema} · charts by Apache ECharts`));
 }
 
-build();
-startPage();
+startPage(build);

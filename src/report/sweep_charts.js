@@ -16,7 +16,7 @@ const shown = (unit) => ({mm: [1000, 'µm'], 1: [1000, 'µm/mm'], deg: [1000, '1
 const placeWords = (name) => name.split(', ').map((part) => part.includes(' = ')
   ? `${axisWords(part.slice(0, part.indexOf(' = ')))}: ${part.slice(part.indexOf(' = ') + 3)}` : part).join(', ');
 
-const curvesAPanel = 6;  // as many as there are colours
+const curvesAPanel = 12;  // as many as there are colours
 const mostPanels = 12;   // of one quantity; the table has what is beyond
 
 /** Curves in panels of so many at most: by the leading words of their names where that is enough, else in turn. */
@@ -81,33 +81,9 @@ function acrossAxis(view, width) {
   });
 }
 
-const colourOf = (i) => colours.series[i % colours.series.length];
-
-/** The same without that of what studies add. */
-const curveColour = (i) => colours.series[[0, 2, 3, 4, 5, 1][i % 6]];
-
-/** A legend above a chart of this width, and the height it takes; a name that needs more than a line is broken. */
-function legendAbove(series, width) {
-  const most = width - 40;
-  let height = 20, used = 0, broken = false;
-  for (const {name} of series) {
-    const letters = textWidth(name), lines = Math.ceil(1.1 * letters / most);
-    const needs = 36 + Math.min(letters, most);
-    broken ||= lines > 1;
-    if (used > 0 && (used + needs > width || broken)) { height += 20; used = 0; }
-    height += 15 * (lines - 1);
-    used += needs;
-  }
-  const text = {color: colours.ink, lineHeight: 15, ...(broken ? {width: most, overflow: 'break'} : {})};
-  return {height, legend: legendOf(series, {left: 0, right: 0, itemGap: 8, textStyle: text})};
-}
-
-/** What a name takes in a legend, px. */
-function textWidth(words) {
-  textWidth.canvas ??= document.createElement('canvas').getContext('2d');
-  textWidth.canvas.font = `12px ${fontFamily}`;
-  return textWidth.canvas.measureText(words).width;
-}
+/** Style of a curve; the second colour, which what studies add has, comes last. */
+const curveStyle = (i) => ({...styleOf(i), colour: colours.series[[0, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 1][i % 12]]});
+const curveColour = (i) => curveStyle(i).colour;
 
 /** Ends of a logarithmic scale that small multiples share: in steps of 1, 2, 5. */
 function logEnds(values) {
@@ -124,7 +100,7 @@ function errorChart(sweep, view, quantity, q) {
   const [factor, unit] = shown(quantity.unit);
   const positive = (cells, key) => cells.filter((c) => c.rows[q][key] > 0).map((c) => [view.place(c.point), factor * c.rows[q][key]]);
   const series = view.curves.flatMap((curve, i) => [
-    {name: view.curves.length > 1 ? curve.name : 'RMSE', type: 'scatter', symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: curveColour(i)}},
+    {name: view.curves.length > 1 ? curve.name : 'RMSE', type: 'scatter', symbol: curveStyle(i).symbol, symbolSize: 8, z: 4, data: positive(curve.cells, 'rmse'), itemStyle: {color: curveColour(i)}},
     {name: 'bound', type: 'line', symbol: 'none', data: positive(curve.cells, 'bound'), itemStyle: {color: colours.grey}, lineStyle: {color: colours.grey, type: 'dashed', width: 1.4}},
   ]).filter((s) => s.data.length);
   series.push(...studies.flatMap((study) => study.errorSeries(sweep, view, quantity)));
@@ -133,17 +109,8 @@ function errorChart(sweep, view, quantity, q) {
   const shared = view.panels.length > 1 ? logEnds(view.panels.flatMap((p) => p.curves.flatMap((c) => ['rmse', 'bound'].flatMap((key) => positive(c.cells, key).map(([, v]) => v))))) : {};
   return figure({caption: `${quantity.name}: root mean square error and the least that is possible.${panelWords(view)}`, description: `RMSE of ${quantity.name} over ${view.name}${panelWords(view)}`, height: heightFor(names, view.curves.length > 2 ? 360 : 290),
     build: (width) => ({...roomFor(names, width), xAxis: acrossAxis(view, width),
-      yAxis: uprightAxis(unit, {type: 'log', ...shared, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: '#f0f2f5'}}}), series})});
+      yAxis: uprightAxis(unit, {type: 'log', ...shared, nameTextStyle: {align: 'left', color: colours.grey, padding: [0, 0, 0, -20]}, nameGap: 14, minorTick: {show: true}, minorSplitLine: {show: true, lineStyle: {color: colours.soft}}}), series})});
 }
-
-/** A chart's grid below its legend. */
-function roomFor(series, width) {
-  const above = legendAbove(series, width);
-  return {grid: grid({top: 30 + above.height}), legend: above.legend};
-}
-
-/** What a chart with such a legend needs, so that the plot stays as it is. */
-const heightFor = (series, least) => (width) => Math.max(least, 250 + legendAbove(series, width).height);
 
 /** Bars from low to high with a mark between, `data` of [x, low, mark, high]; side by side by `shift` px. */
 const spans = (name, data, {colour, half, shift = 0}) => ({
@@ -183,7 +150,7 @@ function spreadChart(sweep, view, quantity, q) {
 /** A share with its interval for every quantity, one mark a point of the grid; of one curve. */
 function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) {
   const points = [...curve.cells].sort((a, b) => a.point - b.point);
-  const colour = (i) => points.length <= 6 ? colourOf(i) : colours.measured;
+  const colour = (i) => points.length <= colours.series.length ? styleOf(i).colour : colours.measured;
   const room = 0.8 / points.length;
   const names = sweep.quantities.map((q) => q.name);
   const series = points.map((cell, i) => ({
@@ -201,7 +168,7 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
   const values = series.flatMap((s) => s.data.flatMap((d) => d.slice(1))).concat(reference);
   const margin = 0.08 * (Math.max(...values) - Math.min(...values));
   const step = roundUp((Math.max(...values) - Math.min(...values) + 2 * margin) / 6);
-  const many = series.length > 6;
+  const many = series.length > colours.series.length;
   const of = view.all.length > 1 ? ` ${curve.name}.` : '';
   return figure({caption: `${words}${of} From left to right: ${view.name} ${view.labels.join(', ')}.`, description: words, size: 'map',
     height: many ? undefined : heightFor(series, 360),
@@ -214,13 +181,13 @@ function shareChart(sweep, view, curve, {keys, factor, reference, name, words}) 
 
 /** How often a diagnosis finds, over the grid, with its interval; `key` is "found" or "named". */
 function detectionChart(sweep, view, key, caption) {
-  const curves = view.curves.map((curve, i) => ({...curve, colour: curveColour(i), cells: curve.cells.filter((c) => c.method === 'diagnosis' && c[key])
+  const curves = view.curves.map((curve, i) => ({...curve, ...curveStyle(i), cells: curve.cells.filter((c) => c.method === 'diagnosis' && c[key])
     .sort((a, b) => view.place(a.point) - view.place(b.point))})).filter((curve) => curve.cells.length);
   if (!curves.length) return null;
   const name = (curve) => curves.length > 1 ? curve.name : key;
   const series = curves.flatMap((curve) => [
-    {name: name(curve), type: 'line', symbol: 'circle', symbolSize: 6, z: 4, data: curve.cells.map((c) => [view.place(c.point), 100 * c[key][1]]),
-      itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, width: view.values.every(isNumber) ? 1.6 : 0}},
+    {name: name(curve), type: 'line', symbol: curve.symbol, symbolSize: 6, z: 4, data: curve.cells.map((c) => [view.place(c.point), 100 * c[key][1]]),
+      itemStyle: {color: curve.colour}, lineStyle: {color: curve.colour, type: curve.dash, width: view.values.every(isNumber) ? 1.6 : 0}},
     {...spans(name(curve), curve.cells.map((c) => [view.place(c.point), ...c[key].map((share) => 100 * share)]), {colour: curve.colour, half: 4}), tooltip: {show: false}}]);
   const names = series.filter((s) => s.type === 'line');
   return figure({caption: caption + panelWords(view), description: caption + panelWords(view), height: heightFor(names, curves.length > 2 ? 360 : 290),

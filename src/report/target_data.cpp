@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "job/agreement.hpp"
 #include "job/slip.hpp"
 #include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
@@ -32,7 +31,11 @@ double offset_mm(const Axis& axis, double z_mm) {
 Json axis_data(const AxisEstimate& estimate, double z_start_mm, double z_end_mm) {
   const auto end = [&estimate](double z_mm) {
     const auto [x, y] = estimate.axis.at(z_mm);
-    return Json{{"z_mm", z_mm}, {"x_mm", x}, {"y_mm", y}, {"u_mm", estimate.u_at(z_mm)}};
+    return Json{{"z_mm", z_mm},
+                {"x_mm", x},
+                {"y_mm", y},
+                {"u_mm", estimate.u_at(z_mm)},
+                {"ellipse", ellipse_data(estimate, z_mm)}};
   };
   return {{"start", end(z_start_mm)},
           {"end", end(z_end_mm)},
@@ -89,10 +92,7 @@ Json target_data(const JobResult& result) {
   Json data{{"z_start_mm", length.first},
             {"z_end_mm", length.second},
             {"of_cut", result.job.target.has_value()},
-            {"references", Json::array()},
-            {"apart", Json::array()}};
-  for (const Disagreement& d : result.agreement.disagreements)
-    data["apart"].push_back(how_apart(result, d));
+            {"references", Json::array()}};
   const bool unsure = !slip_objection(result).empty();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);

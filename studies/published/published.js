@@ -21,7 +21,7 @@ function publishedPoints(sweep, view, quantity, value) {
 }
 
 const publishedSeries = (name, data) => data.length ? [{name, type: 'scatter', symbol: 'diamond', symbolSize: 12, z: 6, data,
-  itemStyle: {color: colours.model, borderColor: '#fff', borderWidth: 1}}] : [];
+  itemStyle: {color: colours.model, borderColor: colours.paper, borderWidth: 1}}] : [];
 
 const pEquals = (p) => pText(p).startsWith('>') ? `p ${pText(p)}` : `p = ${pText(p)}`;
 const pText = (p) => !isNumber(p) ? '–' : p > 0.995 ? '> 0.995' : p < 1e-3 ? scientific(p, 1) : significant(p, 2);
@@ -64,7 +64,7 @@ function gainChart(published) {
     xAxis: axis('gain in log-likelihood'),
     yAxis: axis('', {type: 'category', inverse: true, data: published.readings.map((_, i) => String(i + 1)), axisLabel: {color: colours.ink}, splitLine: {show: false}}),
     series: [{name: 'gain', type: 'bar', data, encode: {x: 0, y: 1}, barMaxWidth: 18, itemStyle: {color: colours.measured},
-      label: {show: true, position: 'right', formatter: ({value}) => fixed(value[0], 1)}}]})});
+      label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => fixed(value[0], 1)}}]})});
 }
 
 /** Levels that print has lost, by reading. */

@@ -9,6 +9,7 @@
 #include "format/file.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
 #include "support/open_page.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
@@ -43,6 +44,19 @@ TEST_F(MachineReportPage, TheBlade) {
   const Json data = machine_report_data(result);
   EXPECT_EQ(data.at("maps").size(), 3U);  // X-Y, X-Z, A-C
   EXPECT_EQ(data.at("tips").at("line").size(), result.tips.size());
+}
+
+TEST(MachineReportHeader, IsThatOfTheJob) {
+  const std::string path = TRUEAXIS_SOURCE "/data/jobs/blade.toml";
+  const MachineJob job =
+      read_machine_job_toml(read_file(path) + "\n[header]\nserial = \"0815\"\n", path);
+  EXPECT_EQ(job.header, (JobHeader{{"Serial number", "0815"}}));
+  try {
+    read_machine_job_toml(read_file(path) + "\n[header]\nmachien = \"5-axis\"\n", path);
+    FAIL() << "was read";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("`machine`"), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(MachineReportPage, WithoutAProgram) {
@@ -93,6 +107,7 @@ TEST_F(MachineReportPage, HostileNamesStayText) {
   result.job.name = result.job.machine.name = result.verdict.line = hostile;
   result.verdict.next = hostile;
   result.remarks = {hostile};
+  result.job.header = {{"Part", hostile}};
   result.job.inputs.front().file = hostile;
   result.diagnosis.not_observable.front().why = hostile;
   expect_sound_page(result, "machine_hostile");

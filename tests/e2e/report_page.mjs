@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a report in headless Chromium as a reader would, wide and on a phone, and lists what is wrong:
+// Opens a report in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
 //   node report_page.mjs REPORT.html FOLDER_FOR_SCREENSHOTS
 import {existsSync, mkdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -36,13 +36,20 @@ function inspectCharts() {
   charts.forEach((chart, i) => {
     const box = chart.getDom();
     const name = `chart ${i + 1} (${box.closest('section')?.id}: ${box.getAttribute('aria-label') ?? 'no aria-label'})`;
-    if (!box.getAttribute('aria-label')) problems.push(`${name}: has no text for screen readers`);
+    if (!(box.getAttribute('aria-label')?.length > 12) || box.getAttribute('role') !== 'img') problems.push(`${name}: has no text for screen readers`);
     const series = chart.getOption().series ?? [];
     if (!series.length) problems.push(`${name}: no series`);
     series.forEach((s) => {
       if (!(s.data?.length > 0)) problems.push(`${name}: series ${s.name ?? s.type} has no data`);
     });
     if (box.clientWidth < 200 || box.clientHeight < 150) problems.push(`${name}: ${box.clientWidth} × ${box.clientHeight} px`);
+    // Curves of different names must differ in colour, dash or mark.
+    const looks = new Map();
+    series.filter((s) => s.name && (s.itemStyle?.color || s.lineStyle?.color)).forEach((s) => {
+      const look = JSON.stringify([s.type, s.lineStyle?.color ?? s.itemStyle.color, s.lineStyle?.type, s.lineStyle?.opacity, s.symbol, s.itemStyle?.opacity]);
+      if (looks.has(look) && looks.get(look) !== s.name) problems.push(`${name}: ${s.name} looks like ${looks.get(look)}`);
+      looks.set(look, s.name);
+    });
     const canvas = box.querySelector('canvas');
     const svg = box.querySelector('svg');
     if (canvas && colours(canvas) < 8) problems.push(`${name}: the canvas is blank`);
@@ -50,6 +57,7 @@ function inspectCharts() {
       const shapes = new Set([...svg.querySelectorAll('path')].map((p) => p.getAttribute('d')));
       if (shapes.size < 8 || !svg.querySelector('text')) problems.push(`${name}: the drawing is blank`);
     }
+    if (box.querySelectorAll('canvas').length > 1) problems.push(`${name}: a second canvas, which is blank on paper`);
     if (!canvas && !svg) problems.push(`${name}: nothing is drawn`);
     const cut = texts(chart).filter(({box: at}) => at.x < -1 || at.x + at.width > box.clientWidth + 1 || at.y < -1 || at.y + at.height > box.clientHeight + 1);
     if (cut.length) problems.push(`${name}: text is cut at the edge: ${cut.map((t) => `"${t.text}"`).slice(0, 4).join(', ')}`);
@@ -81,9 +89,83 @@ function inspectFits() {
 
 function inspectText() {
   const text = document.body.innerText;
-  return ['NaN', 'undefined', '[object', 'Infinity', 'null'].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
+  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.000', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
     .map((word) => `the page shows "${word}"`);
 }
+
+/** Codes of measurements, and ids of effects that stand without their name: who reads the page has no catalogue. */
+function inspectWords() {
+  const shown = document.body.cloneNode(true);
+  shown.querySelectorAll('script, small').forEach((e) => e.remove());
+  const {words} = JSON.parse(document.getElementById('data').textContent);
+  const drawn = window.trueaxisReport.charts.flatMap((chart) => chart.getZr().storage.getDisplayList(true)).filter((e) => e.type === 'tspan').map((e) => e.style.text);
+  const text = [shown.textContent, ...drawn].join('\n');
+  const codes = [...Object.keys(words?.measurements ?? {}), 'B1', 'B2', 'L2', 'AC'].filter((code) => new RegExp(`(^|[\\s(,:])${code}([\\s),.:;]|$)`, 'm').test(text));
+  const ids = Object.keys(words?.effects ?? {}).filter((id) => text.includes(id));
+  return [...codes.map((code) => `the page shows the code "${code}"`), ...ids.map((id) => `the page shows the id "${id}"`)];
+}
+
+/** Contrast (WCAG 2) of all text, the page's and the charts', against what is behind the page. */
+function inspectContrast() {
+  const canvas = document.createElement('canvas').getContext('2d');
+  const light = (colour) => {
+    canvas.clearRect(0, 0, 1, 1);
+    canvas.fillStyle = '#000';
+    canvas.fillStyle = colour;
+    canvas.fillRect(0, 0, 1, 1);
+    const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map((v) => v / 255).map((v) => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  const paper = getComputedStyle(document.body).backgroundColor;
+  const known = new Map();
+  const contrast = (colour) => {
+    if (!known.has(colour)) {
+      const [a, b] = [light(colour), light(paper)];
+      known.set(colour, (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05));
+    }
+    return known.get(colour);
+  };
+  const faint = [...document.querySelectorAll('p, td, th, dd, dt, li, h1, h2, h3, small, figcaption, summary')].filter((e) => e.offsetParent && e.textContent.trim() && contrast(getComputedStyle(e).color) < 4.5)
+    .map((e) => e.textContent.trim().slice(0, 30));
+  const drawn = window.trueaxisReport.charts.flatMap((chart) => chart.getZr().storage.getDisplayList(true)).filter((e) => e.type === 'tspan' && !e.ignore && !e.invisible && e.style.text && e.style.fill)
+    .filter((e) => contrast(e.style.fill) < 4.5).map((e) => e.style.text);
+  return [...new Set([...faint, ...drawn])].slice(0, 5).map((text) => `"${text}" is hard to read on ${paper}`);
+}
+
+const paperIsDark = () => { const [r, g, b] = getComputedStyle(document.body).backgroundColor.match(/\d+/g).map(Number); return r + g + b < 200; };
+
+/** In the dark: dark paper that all can be read on; then printed: light, unfolded and nothing beyond the paper's width. */
+async function lookDark(browser) {
+  const page = await browser.newPage({viewport: {width: 1400, height: 1000}, colorScheme: 'dark'});
+  page.setDefaultTimeout(120000);
+  const problems = [];
+  page.on('pageerror', (error) => problems.push(`dark: page error: ${error.message}`));
+  await page.goto(pathToFileURL(resolve(report)).href);
+  await page.waitForFunction(() => window.trueaxisReport?.ready);
+  await page.evaluate(() => { window.trueaxisReport.unfold(); });
+  if (!await page.evaluate(paperIsDark)) problems.push('dark: the page is light');
+  problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
+  await page.screenshot({path: join(folder, 'dark.png'), fullPage: true});
+  await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
+  await page.setViewportSize({width: 703, height: 1000});  // A4 less its margins
+  await page.emulateMedia({media: 'print', colorScheme: 'dark'});
+  // Paper takes what is drawn at once: it waits for no frame.
+  const charts = await page.evaluate(`window.dispatchEvent(new Event('beforeprint')); (${inspectCharts})()`);
+  const folded = await page.evaluate(() => document.querySelectorAll('details:not([open])').length);
+  if (folded) problems.push(`print: ${folded} parts stay folded`);
+  if (await page.evaluate(paperIsDark)) problems.push('print: the paper is dark');
+  problems.push(...[...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectContrast), ...await page.evaluate(inspectClipped)].map((problem) => `print: ${problem}`));
+  console.log(`print: ${charts.count} charts`);
+  await page.evaluate(() => window.dispatchEvent(new Event('afterprint')));
+  const open = await page.evaluate(() => document.querySelectorAll('details[open]').length);
+  if (open) problems.push(`print: ${open} parts stay unfolded afterwards`);
+  await page.close();
+  return problems;
+}
+
+/** Tables that are wider than the paper, which has no scroll bar. */
+const inspectClipped = () => [...document.querySelectorAll('.scroll, .chart')].filter((box) => box.offsetParent && box.scrollWidth > box.clientWidth + 1)
+  .map((box) => `${box.className} is clipped: ${box.scrollWidth} px where there are ${box.clientWidth}: ${box.textContent.slice(0, 40)}`);
 
 async function look(browser, {name, width, height}) {
   const page = await browser.newPage({viewport: {width, height}});
@@ -105,9 +187,13 @@ async function look(browser, {name, width, height}) {
     const ready = page.waitForFunction(() => window.trueaxisReport?.ready);
     ready.catch(() => {});
     await Promise.race([ready, broken]);
+    console.log(`${name}: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
+    problems.push(...await page.evaluate(inspectWidth));
+    await page.screenshot({path: join(folder, `${name}_folded.png`), fullPage: true});
+    await page.evaluate(() => { window.trueaxisReport.unfold(); });
     const charts = await page.evaluate(inspectCharts);
     if (charts.count === 0) problems.push('there is no chart');
-    problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText), ...await page.evaluate(inspectFits));
+    problems.push(...charts.problems, ...await page.evaluate(inspectWidth), ...await page.evaluate(inspectText), ...await page.evaluate(inspectFits), ...await page.evaluate(inspectWords));
     console.log(`${name}: ${charts.count} charts at ${width} px`);
     const cut = await page.evaluate(() => [...document.querySelectorAll('.wide .scroll')].filter((box) => box.scrollWidth > box.clientWidth).length);
     console.log(`${name}: ${cut} wide tables scroll`);
@@ -136,6 +222,7 @@ const problems = [];
 for (const screen of [{name: 'wide', width: 1400, height: 1000}, {name: 'phone', width: 390, height: 844}]) {
   problems.push(...await look(browser, screen));
 }
+if (!problems.length) problems.push(...await lookDark(browser));
 await browser.close();
 problems.forEach((problem) => console.error(problem));
 console.log(problems.length ? `${problems.length} problems` : 'the report is sound');

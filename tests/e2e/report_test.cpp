@@ -97,6 +97,8 @@ TEST_F(ReportPage, HostileNamesStayText) {
   result.job.name = result.job.path = result.verdict.line = hostile;
   result.job.references.front().name = hostile + "\xff";
   result.fits.front().rejected = {{3, hostile}};
+  result.fits.front().notes = result.verdict.reservations = {hostile};
+  result.job.header = {{"Part", hostile}, {hostile, "7"}};
   expect_sound(result, "hostile");
 }
 

@@ -53,21 +53,21 @@ TEST_F(SweepReport, TwoAxesAndTwoMethods) { expect_sound(shipped("noise", 20), "
 
 TEST_F(SweepReport, CasesOfListsAreWords) { expect_sound(shipped("plans", 2), "plans"); }
 
-/// Eight curves, of noises and losses, over five lengths.
+/// Fourteen curves, of noises and losses, over eight lengths.
 study::PublishedSweep many_curves() {
   study::Sweep sweep;
   sweep.base = testing::probed_part(virtual_lathe::PartKind::cylinder);
   sweep.repeats = 4;
   sweep.methods = {study::Method::fit, study::Method::huber};
-  sweep.axes = {testing::over("pass.length_mm", {20.0, 30.0, 40.0, 50.0, 60.0}),
-                testing::over("noise.sigma_mm", {1e-3, 2e-3, 5e-3, 0.01})};
+  sweep.axes = {testing::over("pass.length_mm", {20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0}),
+                testing::over("noise.sigma_mm", {1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 7e-3, 0.01})};
   return {sweep, {}};
 }
 
-// Eight curves of every parameter, in panels of six at most, are all drawn.
-TEST_F(SweepReport, MoreThanSixCurvesAreAllDrawn) {
+// Fourteen curves of every parameter, in panels of twelve at most, are all drawn and told apart.
+TEST_F(SweepReport, MoreThanTwelveCurvesAreAllDrawn) {
   const study::PublishedSweep file = many_curves();
-  const std::size_t curves = 4 * 2;
+  const std::size_t curves = 7 * 2;
   const std::size_t quantities = study::quantities(SurfaceKind::cylinder).size();
   const Opinion opinion = open_page(page_of(file), "sweep_many_curves");
   EXPECT_TRUE(opinion.sound) << opinion.log;

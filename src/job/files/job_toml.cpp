@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "format/file.hpp"
+#include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
 #include "job/files/output_toml.hpp"
 #include "surface/surface.hpp"
@@ -272,6 +273,7 @@ Job read_job_toml(std::string_view content, const std::string& path) {
   Job job;
   job.path = path;
   job.name = root.text("name", path);
+  job.header = read_header(root);
   const double coverage = root.number("coverage_factor", 2.0, most_coverage);
   Sensor sensor;
   if (auto table = root.maybe_table("sensor")) sensor = read_sensor(*table);
@@ -299,7 +301,8 @@ Job read_target_toml(const std::string& path) {
   job.path = path;
   TomlTable root = document.root();
   // A whole job will do: what it says beyond the cut is not asked for here.
-  for (const char* key : {"name", "coverage_factor", "sensor", "reference"}) root.has(key);
+  for (const char* key : {"name", "coverage_factor", "sensor", "reference", "header"})
+    root.has(key);
   read_cut(root, job, true);
   document.finish();
   return job;

@@ -8,6 +8,7 @@
 #include "calibrate/files/measurement_csv.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
+#include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
 #include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
@@ -159,6 +160,7 @@ MachineJob read_machine_job_toml(std::string_view content, const std::string& pa
   MachineJob job;
   job.path = path;
   job.name = root.text("name", path);
+  job.header = read_header(root);
   job.inputs.push_back({"job", path, content_hash(content)});
   Said said;
   read_machine(root.required_table("machine"), said, path);

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/files/fit_screen.hpp"
+#include "job/agreement.hpp"
+#include "job/files/job_results.hpp"
+#include "job/slip.hpp"
+#include "report/page_data.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// What is to be minded, each text once, with the references that it is of.
+class Warnings {
+ public:
+  void add(const std::string& text, const std::string& of = {}) {
+    if (text.empty()) return;
+    const auto same = [&](const Json& one) { return one.at("text") == text; };
+    auto found = std::find_if(list_.begin(), list_.end(), same);
+    if (found == list_.end()) {
+      list_.push_back(Json{{"text", text}, {"of", Json::array()}});
+      found = list_.end() - 1;
+    }
+    if (!of.empty()) (*found)["of"].push_back(of);
+  }
+  const Json& list() const { return list_; }
+
+ private:
+  Json list_ = Json::array();
+};
+
+void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
+  const FitResult& fit = result.fits[i];
+  const std::string name = result.fits.size() > 1 && i < result.job.references.size()
+                               ? result.job.references[i].name
+                               : std::string();
+  warnings.add(fit.message, name);
+  for (const std::string& open : fit.not_determined)
+    warnings.add("The readings leave open: " + open, name);
+  for (const std::string& note : fit.input_notes) warnings.add(note, name);
+  if (i >= result.diagnoses.size() || !result.diagnoses[i]) {
+    for (const std::string& note : fit.notes) warnings.add(note, name);
+    return;
+  }
+  const Diagnosis& diagnosis = *result.diagnoses[i];
+  if (diagnosis.extended.status != FitStatus::converged)
+    warnings.add(diagnosis.extended.message, name);
+  for (const QualityCheck& check : diagnosis.checks)
+    if (check.found && check.effect != "probe.correlated_noise") warnings.add(check.text, name);
+}
+
+std::string chance_text(double probability) {
+  return fmt::format("{:.0f} %", 100.0 * std::clamp(probability, 0.0, 1.0));
+}
+
+/// What the diagnosis asks to be measured next, and what it would tell.
+std::string measurement_text(const NextMeasurement& next) {
+  return fmt::format(
+      "To tell the causes apart: {} (about {:.0f} min). The right cause is then named with a "
+      "chance "
+      "of {} instead of {}",
+      next.what, std::ceil(next.minutes), chance_text(next.power_after),
+      chance_text(next.power_before));
+}
+
+/// The most telling measurement of all diagnoses that found something.
+const NextMeasurement* best_next(const JobResult& result) {
+  const auto gain = [](const NextMeasurement& next) {
+    return next.power_after - next.power_before;
+  };
+  const NextMeasurement* best = nullptr;
+  for (const auto& diagnosis : result.diagnoses) {
+    if (!diagnosis || diagnosis->next.plan.empty() ||
+        (diagnosis->findings.empty() && diagnosis->unexplained.empty()))
+      continue;
+    if (best == nullptr || gain(diagnosis->next) > gain(*best)) best = &diagnosis->next;
+  }
+  return best;
+}
+
+/// For those without a servo: where to tap the part, and how far.
+std::string tap_text(const FitResult& fit) {
+  const std::string screen = axis_screen(fit);
+  const std::size_t at = screen.find("tap    ");
+  return at == std::string::npos ? std::string()
+                                 : "To centre the part by hand: " +
+                                       screen.substr(at + 7, screen.find('\n', at) - at - 7);
+}
+
+std::string cut_text(const JobResult& result) {
+  const ActuatorMargin& margin = result.correction->margin;
+  if (result.verdict.go())
+    return fmt::format("Run table.csv at {:.6g} rpm", result.correction->tool.speed_rpm);
+  if (!margin.follows && margin.max_speed_rpm > 0.0)
+    return fmt::format("Lower the speed to {:.4g} rpm, at which the actuator follows",
+                       margin.max_speed_rpm);
+  return "Do not run the cut. Mend what the verdict names, and run the job again";
+}
+
+}  // namespace
+
+Json warnings_data(const JobResult& result) {
+  Warnings warnings;
+  for (const std::string& reservation : result.verdict.reservations) warnings.add(reservation);
+  warnings.add(result.verdict.moved);
+  if (const std::string slip = slip_objection(result);
+      result.verdict.line.find(slip) == std::string::npos)
+    warnings.add(slip + ". So no axis is given");
+  for (const Inclusion& inclusion : result.inclusions) {
+    std::string text = inclusion_text(inclusion);
+    while (text.ends_with('\n')) text.pop_back();
+    if (!inclusion.included || !inclusion.why.empty()) warnings.add(text);
+  }
+  for (std::size_t i = 0; i < result.fits.size(); ++i) add_reference(warnings, result, i);
+  for (const Disagreement& apart : result.agreement.disagreements)
+    warnings.add("Beyond U, half-way between them, " + how_apart(result, apart));
+  return warnings.list();
+}
+
+Json next_data(const JobResult& result) {
+  Json steps = Json::array();
+  if (!result.verdict.what_would_prove.empty()) steps.push_back(result.verdict.what_would_prove);
+  if (result.correction && result.verdict.what_would_prove.empty())
+    steps.push_back(cut_text(result));
+  if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
+  if (result.correction) return steps;
+  const bool moved = !slip_objection(result).empty();
+  if (result.fits.size() == 1 && !moved)
+    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty()) steps.push_back(tap);
+  if (result.verdict.decision == Decision::no_go)
+    steps.push_back("Mend what the verdict names, and run the job again");
+  else if (std::ranges::none_of(result.fits, [](const FitResult& fit) {
+             return fit.surface == SurfaceKind::section || fit.status != FitStatus::converged;
+           }))
+    steps.push_back(
+        "For a table that cuts the next surface true to this, give a job a [target] and "
+        "a [cut]");
+  return steps;
+}
+
+}  // namespace trueaxis
