@@ -86,7 +86,7 @@ ChebyshevSolution solve(const ChebyshevProgram& program, double reach, double to
     if (in < 0) {
       for (std::size_t i = 0; i < basis.size(); ++i) {
         const double multiplier = lambda[static_cast<Eigen::Index>(i)];
-        if (basis[i] >= dual.rows() || multiplier <= 1e-13) continue;
+        if (basis[i] >= dual.rows() || multiplier <= 1e-12) continue;
         out.rows.push_back(static_cast<std::size_t>(basis[i]));
         out.multipliers.push_back(multiplier);
       }

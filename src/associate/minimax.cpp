@@ -50,6 +50,7 @@ class Search {
       if (gain <= rounding || reach <= 1e-13 * cloud_.length) break;
       reach *= 0.2;
     }
+    polish(out);
     certify(out);
     return out;
   }
@@ -164,6 +165,39 @@ class Search {
     }
     right[p] = -1.0;
     return kkt.completeOrthogonalDecomposition().solve(right).head(p);
+  }
+
+  /// Where fewer points hold the element than it has motions, h is flat about its optimum and goes
+  /// no lower long before the place has all its digits: Newton's step goes by the balance.
+  void polish(Minimax& out) {
+    double last = 1e-5 * cloud_.length;
+    for (int i = 0; i < 6; ++i) {
+      const ChebyshevSolution linear =
+          touching(solve(program_, 1e-3 * cloud_.length, 2e-15 * cloud_.length), out.h);
+      const Eigen::VectorXd step = newton_step(out.placed, linear);
+      const double length = step.norm();
+      if (!std::isfinite(length) || length >= last) return;
+      const Placed placed = recentred(stepped(out.placed, step), cloud_.centroid);
+      const double top = largest(placed);
+      if (top > out.h + 1e-14 * cloud_.length + cloud_.rounding) return;
+      out.placed = placed;
+      out.h = top;
+      last = 0.5 * length;
+      evaluate(placed);
+    }
+  }
+
+  /// Without the rows that are below h and only balance what the place is still off.
+  ChebyshevSolution touching(const ChebyshevSolution& of, double h) const {
+    ChebyshevSolution out = of;
+    out.rows.clear(), out.multipliers.clear();
+    for (std::size_t i = 0; i < of.rows.size(); ++i) {
+      if (h - program_.g[Index(of.rows[i])] > 1e-10 * cloud_.length + 8.0 * cloud_.rounding)
+        continue;
+      out.rows.push_back(of.rows[i]);
+      out.multipliers.push_back(of.multipliers[i]);
+    }
+    return out;
   }
 
   void certify(Minimax& out) const {
