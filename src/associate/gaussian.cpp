@@ -56,6 +56,9 @@ std::string not_determined(const LeastSquares& fit, const PointCloud& cloud) {
   if (std::abs(fit.placed.size) > far * cloud.length ||
       fit.placed.offset.norm() > far * cloud.length)
     return "The points do not show where the element ends: it grows without bound";
+  const bool inside_out =
+      fit.placed.size < 0.0 || (fit.placed.shape == Shape::torus && fit.placed.second_size < 0.0);
+  if (inside_out) return "The least sum of squares is that of an element turned inside out";
   if (least_curvature(fit, cloud) < 1e-13)
     return "The points lie so that more than one such element passes them equally well";
   return {};

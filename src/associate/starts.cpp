@@ -2,9 +2,11 @@
 #include "associate/starts.hpp"
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "associate/distance_kernel.hpp"
@@ -93,6 +95,38 @@ double sum_of_squares(const Placed& placed, const PointCloud& cloud) {
   return sum;
 }
 
+struct Candidate {
+  Placed placed;
+  double cost;
+};
+
+/// A short piece of a torus is a bent cylinder: the best cylinder, bent to all sides and radii.
+void add_bent_cylinders(const PointCloud& cloud, const std::vector<Eigen::Vector3d>& directions,
+                        std::vector<Candidate>& candidates) {
+  Candidate best{{}, std::numeric_limits<double>::infinity()};
+  for (const Eigen::Vector3d& direction : directions) {
+    const Placed placed = start_along(Shape::cylinder, cloud, axes_about(direction));
+    const double cost = sum_of_squares(placed, cloud);
+    if (cost < best.cost) best = {placed, cost};
+  }
+  if (!std::isfinite(best.cost)) return;
+  constexpr int sides = 16;
+  for (const double bend : {1.2, 2.0, 3.5, 6.0, 12.0, 30.0}) {
+    for (int side = 0; side < sides; ++side) {
+      const double angle = 2.0 * std::numbers::pi * side / sides, radius = bend * best.placed.size;
+      const Eigen::Vector3d to = best.placed.axes.transpose() *
+                                 Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      Placed placed = best.placed;
+      placed.shape = Shape::torus;
+      placed.offset += radius * to;
+      placed.second_size = best.placed.size;
+      placed.size = radius;
+      placed.axes = axes_about(to.cross(Eigen::Vector3d(best.placed.axes.row(2))));
+      candidates.push_back({placed, sum_of_squares(placed, cloud)});
+    }
+  }
+}
+
 bool by_principal_axes(Shape shape) {
   return shape == Shape::plane || shape == Shape::line_2d || shape == Shape::line_3d ||
          shape == Shape::circle_2d || shape == Shape::sphere;
@@ -127,16 +161,13 @@ std::vector<Placed> starts_of(Shape shape, const PointCloud& cloud, std::size_t 
   if (by_principal_axes(shape)) return {start_along(shape, cloud, principal_axes(shape, cloud))};
   std::vector<Eigen::Vector3d> directions = half_sphere(cloud.points.size() < 50 ? 600 : 200);
   for (Eigen::Index i = 0; i < 3; ++i) directions.emplace_back(cloud.principal.row(i));
-  struct Candidate {
-    Placed placed;
-    double cost;
-  };
   std::vector<Candidate> candidates;
   for (const Eigen::Vector3d& direction : directions) {
     const Placed placed = start_along(shape, cloud, axes_about(direction));
     const double cost = sum_of_squares(placed, cloud);
     if (std::isfinite(cost)) candidates.push_back({placed, cost});
   }
+  if (shape == Shape::torus) add_bent_cylinders(cloud, directions, candidates);
   std::ranges::stable_sort(candidates, {}, &Candidate::cost);
   std::vector<Placed> starts;
   constexpr double near = 0.99;  // 8°: what is nearer goes the same way
