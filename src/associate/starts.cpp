@@ -114,8 +114,8 @@ void add_bent_cylinders(const PointCloud& cloud, const std::vector<Eigen::Vector
   for (const double bend : {1.2, 2.0, 3.5, 6.0, 12.0, 30.0}) {
     for (int side = 0; side < sides; ++side) {
       const double angle = 2.0 * std::numbers::pi * side / sides, radius = bend * best.placed.size;
-      const Eigen::Vector3d to = best.placed.axes.transpose() *
-                                 Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+      const Eigen::Vector3d to =
+          best.placed.axes.transpose() * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
       Placed placed = best.placed;
       placed.shape = Shape::torus;
       placed.offset += radius * to;
