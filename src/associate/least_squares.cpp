@@ -75,8 +75,6 @@ Parameters step_lengths(Shape shape, const PointCloud& cloud) {
 LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max_iterations) {
   const Parameters lengths = step_lengths(start.shape, cloud), per = lengths.cwiseInverse();
   const auto n = static_cast<double>(cloud.points.size());
-  // A step that would move the surface by less is lost in the rounding of the points.
-  const double shortest = 1e-15 * cloud.length;
   LeastSquares at{start, accumulate(start, cloud)};
   double damping = 0.0, last = std::numeric_limits<double>::infinity();
   for (; at.iterations < max_iterations; ++at.iterations) {
@@ -91,7 +89,7 @@ LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max
     NormalSums normal = accumulate(place, cloud);
     const bool better = normal.sum_of_squares <= at.normal.sum_of_squares;
     // Near the minimum the sum drowns in its rounding; there steps that get shorter are good ones.
-    const bool near = damping == 0.0 && moves < 1e-6 * cloud.length && moves < 0.5 * last;
+    const bool near = damping == 0.0 && moves < 1e-6 * cloud.length && moves < 0.98 * last;
     if (!better && !near) {
       if (moves < 1e-8 * cloud.length) {  // no more digits
         at.converged = true;
@@ -104,9 +102,10 @@ LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max
     damping = damping > 1e-6 ? 0.1 * damping : 0.0;
     at.placed = place;
     at.normal = std::move(normal);
-    const double rate = std::isfinite(last) ? std::min(1.0, moves / last) : 1.0;
+    const double rate = std::isfinite(last) ? std::min(0.999, moves / last) : 0.999;
     last = moves;
-    if (damping == 0.0 && moves * rate <= std::max(shortest, 1e-13 * cloud.length)) {
+    // All the steps that are still to come, as a geometric series.
+    if (damping == 0.0 && moves * rate / (1.0 - rate) <= 1e-13 * cloud.length) {
       at.converged = true;
       return at;
     }
