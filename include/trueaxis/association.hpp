@@ -26,9 +26,10 @@ enum class Criterion {
   minimum_zone,           ///< the largest |distance| (Chebyshev)
   minimum_circumscribed,  ///< the size of a circle, sphere, cylinder, torus that holds all points
   maximum_inscribed,      ///< minus the size of one that holds none
+  constrained,            ///< the sum of squares, the element being outside of the material
 };
-inline constexpr std::array<const char*, 4> criterion_names{
-    "gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"};
+inline constexpr std::array<const char*, 5> criterion_names{
+    "gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed", "constrained"};
 
 /// An element in its place. What it does not have is NaN.
 struct Feature {
@@ -89,13 +90,19 @@ struct AssociatedFeature {
   int iterations = 0;
 };
 
+/// On which side of an element its material lies: inside of a shaft, a ball, below a face (against
+/// the direction of the result); outside of a bore.
+enum class Material { inside, outside };
+
 struct AssociateOptions {
-  int threads = 0;           ///< 0: as many as there are; the result is the same bytes
-  int max_iterations = 500;  ///< of one start; a hard one takes 50
+  Material material = Material::inside;  ///< of the constrained criterion
+  int threads = 0;                       ///< 0: as many as there are; the result is the same bytes
+  int max_iterations = 500;              ///< of one start; a hard one takes 50
 };
 
 /// The element of the points. A line or circle is one of the plane where every third coordinate is
-/// 0. A line, plane or cone has no size, so that only the first two criteria apply.
+/// 0. A line, plane or cone has no size, so that the third and fourth criterion do not apply; a
+/// line or circle of space has no side: the fifth sees a circle along its axis and no line.
 /// @throws ContractViolation for a coordinate that is not finite or a criterion that does not apply
 AssociatedFeature associate(std::span<const Point3> points_mm, Element element, Criterion criterion,
                             const AssociateOptions& options = {});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "associate/constrained_element.hpp"
 #include "associate/describe_feature.hpp"
 #include "associate/distance_kernel.hpp"
 #include "associate/extreme_element.hpp"
@@ -52,6 +53,11 @@ bool orient(Placed& placed) {
   placed.axes.row(2) *= -1.0;
   if (placed.shape == Shape::cone) placed.second_size = -placed.second_size;
   return true;
+}
+
+Placed oriented(Placed placed) {
+  orient(placed);
+  return placed;
 }
 
 void describe(AssociatedFeature& out, const Placed& placed, const PointCloud& cloud) {
@@ -128,7 +134,8 @@ void describe_extreme(AssociatedFeature& out, const ExtremeElement& extreme,
 }  // namespace
 
 std::string association_objection(Element element, Criterion criterion) {
-  if (criterion == Criterion::gaussian || criterion == Criterion::minimum_zone) return {};
+  if (criterion != Criterion::minimum_circumscribed && criterion != Criterion::maximum_inscribed)
+    return {};
   const std::string name = element_names[static_cast<std::size_t>(element)];
   if (element == Element::line || element == Element::plane)
     return "A " + name + " has no size that could be least or largest: ask for minimum_zone";
@@ -169,7 +176,16 @@ AssociatedFeature associate(std::span<const Point3> points_mm, Element element, 
   // The size of a circle in space is that of its points seen along its axis.
   if (shape == Shape::circle_3d && criterion != Criterion::minimum_zone)
     start.shape = Shape::circle_2d;
-  const ExtremeElement extreme = extreme_element(start, cloud, criterion, options.max_iterations);
+  if (criterion == Criterion::constrained && shape == Shape::line_3d) {
+    fail(out, AssociationStatus::not_determined,
+         "A line in space has no side that could be that of the material");
+    return out;
+  }
+  const ExtremeElement extreme =
+      criterion == Criterion::constrained
+          ? constrained_element(oriented(start), cloud, options.material == Material::inside,
+                                options.max_iterations)
+          : extreme_element(start, cloud, criterion, options.max_iterations);
   if (!extreme.why.empty())
     fail(out, AssociationStatus::not_determined, extreme.why);
   else

@@ -78,9 +78,7 @@ NearestSurface nearest_surface(const AssociatedFeature& associated, const Point3
 Balance balance_of(const AssociatedFeature& associated, std::span<const Point3> points_mm) {
   Balance out;
   const Feature& f = associated.feature;
-  for (const AssociationCertificate::Contact& contact : associated.certificate.contacts) {
-    const NearestSurface at = nearest_surface(associated, points_mm[contact.point]);
-    const double weight = contact.multiplier * contact.sign;
+  const auto press = [&](const NearestSurface& at, double weight) {
     out.force = plus(out.force, weight, at.normal);
     out.moment_mm = plus(out.moment_mm, weight, cross(at.arm_mm, at.normal));
     out.size += weight;
@@ -91,6 +89,13 @@ Balance balance_of(const AssociatedFeature& associated, std::span<const Point3> 
                                    height * std::cos(f.half_angle_rad));
     if (associated.element == Element::torus || associated.element == Element::circle)
       out.second_size += weight * dot(at.normal, unit(across));
+  };
+  for (const AssociationCertificate::Contact& contact : associated.certificate.contacts)
+    press(nearest_surface(associated, points_mm[contact.point]), contact.multiplier * contact.sign);
+  if (associated.criterion != Criterion::constrained) return out;
+  for (const Point3& point : points_mm) {
+    const NearestSurface at = nearest_surface(associated, point);
+    press(at, at.distance_mm / static_cast<double>(points_mm.size()));
   }
   return out;
 }

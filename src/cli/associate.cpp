@@ -14,7 +14,7 @@ namespace trueaxis::cli {
 namespace {
 
 struct AssociateCommand {
-  std::string path, element, criterion = "gaussian", unit, json, certificate;
+  std::string path, element, criterion = "gaussian", material, unit, json, certificate;
   int threads = 0;
   bool force = false;
 };
@@ -35,7 +35,9 @@ int execute(const AssociateCommand& options) {
   outputs.check();
   const PointText points = read_points(options.path, options.unit);
   const AssociatedFeature result =
-      associate(points.points_mm, element, criterion, {.threads = options.threads});
+      associate(points.points_mm, element, criterion,
+                {.material = options.material == "outside" ? Material::outside : Material::inside,
+                 .threads = options.threads});
   if (result.status == AssociationStatus::too_few || result.status == AssociationStatus::degenerate)
     throw InputError(options.path, result.why);
   if (!options.json.empty()) outputs.write(options.json, association_json(result, points));
@@ -68,10 +70,17 @@ void add_associate(CLI::App& app, int& exit_code) {
       ->required()
       ->check(CLI::IsMember(std::vector<std::string>(element_names.begin(), element_names.end())));
   command
-      ->add_option("--criterion", options->criterion,
-                   "gaussian, minimum_zone, minimum_circumscribed or maximum_inscribed (gaussian)")
+      ->add_option(
+          "--criterion", options->criterion,
+          "gaussian, minimum_zone, minimum_circumscribed, maximum_inscribed or constrained "
+          "(gaussian)")
       ->check(
           CLI::IsMember(std::vector<std::string>(criterion_names.begin(), criterion_names.end())));
+  command
+      ->add_option("--material", options->material,
+                   "of --criterion constrained: inside of the element (a shaft; of a plane or a "
+                   "line of the plane against its direction or to its right) or outside (a bore)")
+      ->check(CLI::IsMember(std::vector<std::string>{"inside", "outside"}));
   command->add_option("--unit", options->unit, "of the coordinates: mm, um, m or in (mm)")
       ->check(CLI::IsMember(std::vector<std::string>{"mm", "um", "m", "in"}));
   command->add_option("--json", options->json, "write the result here, '-' prints it")
@@ -88,6 +97,10 @@ void add_associate(CLI::App& app, int& exit_code) {
         association_objection(named<Element>(element_names, options->element),
                               named<Criterion>(criterion_names, options->criterion));
     if (!objection.empty()) throw CLI::ValidationError("--criterion", objection);
+    if ((options->criterion == "constrained") == options->material.empty())
+      throw CLI::ValidationError("--material", options->material.empty()
+                                                   ? "say where the material is, inside or outside"
+                                                   : "is for --criterion constrained");
     if (!options->json.empty() && options->json == options->certificate)
       throw CLI::ValidationError("--certificate", "cannot go where --json goes");
     exit_code = execute(*options);

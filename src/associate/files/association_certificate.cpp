@@ -35,7 +35,9 @@ void append_element(std::string& text, const AssociatedFeature& of) {
 void append_balance(std::string& text, const AssociatedFeature& of, const Balance& balance) {
   append(text, "# sum of lambda s n: {}\n", three(balance.force));
   append(text, "# sum of lambda s (arm x n): {} mm\n", three(balance.moment_mm));
-  const bool zone = of.criterion == Criterion::minimum_zone;
+  const bool constrained = of.criterion == Criterion::constrained;
+  if (constrained) text += "# (each with d / n of every one of the n points beside, Eq. 254)\n";
+  const bool zone = of.criterion == Criterion::minimum_zone || constrained;
   const bool flat = of.element == Element::line || of.element == Element::plane;
   const bool tube = !of.in_plane && of.element == Element::circle;
   if (zone && !tube && !(of.element == Element::line && !of.in_plane))
@@ -50,7 +52,7 @@ constexpr const char* how =
     "# point of the element above to it, s is +1 outside and -1 inside, lambda the multiplier.\n"
     "# 1. Every distance follows from the numbers of the element. No point of the file is further\n"
     "#    out (s = +1) or in (s = -1) than those listed.\n"
-    "# 2. No lambda is negative, and they add up to 1.\n"
+    "# 2. No lambda is negative, and they add up to 1 (not for a constrained element).\n"
     "# 3. The sums above are 0 to rounding: the points press on the element like forces in\n"
     "#    equilibrium, so that a motion that lowers the distance of one raises that of another.\n"
     "#    (b: along the generatrix, of a cone; n.r: part of n away from the axis, of a tube. In a\n"
@@ -77,6 +79,8 @@ std::string association_certificate(const AssociatedFeature& of, const PointText
     return text +
            "# How to check it by hand: the sum of d grad d over all points is 0, d the distance;\n"
            "# stationarity is its size a point, gap how far the element is from where it is 0.\n";
+  if (of.criterion == Criterion::constrained)
+    text += "# All points are on the side of the material; those below touch the element.\n";
   append_balance(text, of, balance_of(of, points.points_mm));
   text += how;
   text += "line,x[mm],y[mm],z[mm],s,distance[mm],lambda,nx,ny,nz\n";
