@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "associate/files/association_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::string written(const std::string& text) {
+  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "association_files";
+  std::filesystem::create_directories(folder);
+  const std::string path = folder / "points.txt";
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::vector<Point3> points_in(const std::string& text, const std::string& unit = "") {
+  return read_points(written(text), unit).points_mm;
+}
+
+const std::vector<Point3> two = {{1.5, -2.0, 3.0}, {4.0, 5.0, 6e-3}};
+
+TEST(AssociationFiles, BlanksTabsCommasCommentsAndAByteOrderMark) {
+  EXPECT_EQ(points_in("1.5 -2 3\n4 5 6e-3\n"), two);
+  EXPECT_EQ(points_in("\xEF\xBB\xBF# made by hand\n\n 1.5\t-2\t 3 # first\r\n4,5 , 0.006"), two);
+  EXPECT_EQ(points_in("x y z\n1.5 -2 3\n4 5 6e-3\n"), two);
+}
+
+TEST(AssociationFiles, UnitsOfTheHeaderAndOfTheOption) {
+  const std::vector<Point3> inches = {{25.4, 50.8, -25.4}};
+  EXPECT_EQ(points_in("1 2 -1\n", "in"), inches);
+  EXPECT_EQ(points_in("X [in], Y [in], Z [in]\n1,2,-1\n"), inches);
+  EXPECT_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
+  EXPECT_THROW(points_in("x[um] y[um] z[um]\n1 2 3\n", "mm"), InputError);
+  EXPECT_THROW(points_in("x y w\n1 2 3\n"), InputError);
+}
+
+TEST(AssociationFiles, LinesOfTheCertificateAreThoseOfTheFile) {
+  const PointText text = read_points(written("# a ring\n1 0 0\n\n0 1 0\n-1 0 0\n0 -1.1 0\n"), "");
+  EXPECT_EQ(text.lines, (std::vector<std::size_t>{2, 4, 5, 6}));
+  const AssociatedFeature got =
+      associate(text.points_mm, Element::circle, Criterion::minimum_circumscribed);
+  // Three points hold it: (±1, 0) and (0, −1.1): x² = 1 + y², (1.1 + y)² = 1 + y² (y the centre
+  // up).
+  const double y = (1.0 - 1.21) / 2.2;
+  EXPECT_NEAR(got.feature.point_mm[1], y, 1e-15);
+  EXPECT_NEAR(got.feature.radius_mm, 1.1 + y, 1e-15);
+  const auto json = nlohmann::json::parse(association_json(got, text));
+  EXPECT_EQ(json["schema"], "trueaxis.association/1");
+  EXPECT_EQ(json["radius"]["unit"], "mm");
+  EXPECT_TRUE(json["radius"]["u"].is_null());
+  EXPECT_FALSE(json["radius"]["why"].get<std::string>().empty());
+  EXPECT_TRUE(json["certificate"]["global"]);
+  ASSERT_EQ(json["certificate"]["contacts"].size(), 3U);
+  EXPECT_EQ(json["certificate"]["contacts"][2]["line"], 6);
+  const std::string certificate = association_certificate(got, text);
+  EXPECT_TRUE(certificate.starts_with("# schema: trueaxis.certificate/1\n"));
+  EXPECT_NE(certificate.find("\n6,0,-1.1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace trueaxis
