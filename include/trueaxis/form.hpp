@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "trueaxis/association.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/units.hpp"
 
@@ -20,20 +21,16 @@ namespace trueaxis {
 /// Profile filters of ISO 16610: parts 21 (Gaussian), 31 (robust Gaussian regression), 22 (spline).
 enum class ProfileFilter { none, gaussian, robust_gaussian, spline };
 
-/// LSCI, MZCI, MCCI, MICI of a section, likewise of a cylinder, a line and a plane.
-enum class ReferenceFeature {
-  least_squares,
-  minimum_zone,
-  minimum_circumscribed,
-  maximum_inscribed
-};
-inline constexpr std::array<ReferenceFeature, 4> reference_features{
-    ReferenceFeature::least_squares, ReferenceFeature::minimum_zone,
-    ReferenceFeature::minimum_circumscribed, ReferenceFeature::maximum_inscribed};
+/// Least squares (LSCI), minimum zone (MZCI), minimum circumscribed (MCCI) and maximum inscribed
+/// (MICI) circle of a section; likewise of a cylinder.
+inline constexpr std::array<Criterion, 4> form_criteria{
+    Criterion::gaussian, Criterion::minimum_zone, Criterion::minimum_circumscribed,
+    Criterion::maximum_inscribed};
 
-/// "gaussian" …; "least_squares" … as in files.
+/// "gaussian" … as in files.
 const char* to_string(ProfileFilter filter);
-const char* to_string(ReferenceFeature feature);
+/// Of `criterion_names`.
+const char* name_of(Criterion criterion);
 
 /// One order of a spindle's radial error motion along the probe: cos · cos nC + sin · sin nC.
 struct SpindleOrder {
@@ -52,7 +49,7 @@ struct FormOptions {
   std::optional<double> noise_mm;       ///< standard deviation of a reading; else as it shows
   std::vector<SpindleOrder> spindle{};  ///< known motion: taken off, its u counts
   double spindle_range_mm = 0.0;        ///< range of a motion that is not known by its orders
-  ReferenceFeature datum = ReferenceFeature::minimum_circumscribed;  ///< ISO 5459 of a shaft
+  Criterion datum = Criterion::minimum_circumscribed;  ///< ISO 5459 of a shaft
   double coverage_factor = 2.0;
   int trials = 400;  ///< of the Monte Carlo: u to 3.5 %
   std::uint64_t seed = 12181;
@@ -75,11 +72,11 @@ struct FormHarmonic {
 
 /// A reference circle, in the part frame.
 struct FormCircle {
-  ReferenceFeature feature = ReferenceFeature::least_squares;
+  Criterion criterion = Criterion::gaussian;
   double x_mm = 0.0, y_mm = 0.0, radius_mm = 0.0;
   /// Angles (rad) that it touches, with the multipliers that prove it the least one; Eq. 266.
   std::vector<std::array<double, 2>> touches{};
-  bool determined = true;
+  std::string why_not{};  ///< why there is none; empty: there is
 };
 
 /// The profile of one section, in order of angle.
@@ -126,13 +123,10 @@ struct FormResult {
 FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {},
                        const ProbeStream* datum = nullptr);
 
-/// What points are to be assessed as.
-enum class FormElement { line, circle, plane, cylinder };
-const char* to_string(FormElement element);
-
-/// The same of points x y z (mm) of one element, in any orientation; a circle's and a cylinder's
-/// sections are filtered, a plane and a space line are not.
-FormResult assess_form(std::span<const std::array<double, 3>> points_mm, FormElement element,
+/// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections
+/// of a circle and of a cylinder are filtered, planes and lines are not.
+/// @throws InputError for another element, or points that do not make one
+FormResult assess_form(std::span<const std::array<double, 3>> points_mm, Element element,
                        const FormOptions& options = {});
 
 }  // namespace trueaxis

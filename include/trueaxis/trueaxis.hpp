@@ -5,6 +5,7 @@
 // radius; results for people (FitParameter) are in mm, deg and 1, each with its unit. Files and the
 // report belong to the command.
 
+#include "trueaxis/association.hpp"        // an element through Cartesian points
 #include "trueaxis/calibration.hpp"        // errors of a machine from measurements on it
 #include "trueaxis/compensation.hpp"       // a program rewritten for a machine with errors
 #include "trueaxis/correction.hpp"         // target axis, correction table, actuator

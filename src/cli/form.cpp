@@ -56,10 +56,9 @@ FormOptions chosen(const Options& options) {
   if (options.noise_um >= 0.0) form.noise_mm = options.noise_um * mm_per_um;
   form.spindle_range_mm = options.spindle_range_um * mm_per_um;
   // The datum of ISO 5459: what a mating part would touch.
-  form.datum =
-      form.bore ? ReferenceFeature::maximum_inscribed : ReferenceFeature::minimum_circumscribed;
-  for (const ReferenceFeature feature : reference_features)
-    if (options.datum_association == to_string(feature)) form.datum = feature;
+  form.datum = form.bore ? Criterion::maximum_inscribed : Criterion::minimum_circumscribed;
+  for (const Criterion criterion : form_criteria)
+    if (options.datum_association == name_of(criterion)) form.datum = criterion;
   if (!options.spindle.empty()) form.spindle = read_spindle_motion(options.spindle);
   return form;
 }
@@ -121,9 +120,9 @@ void add_rest(CLI::App& command, Options& options) {
   command
       .add_option("--datum-association", options.datum_association,
                   "minimum_circumscribed (shaft), maximum_inscribed (bore), minimum_zone or "
-                  "least_squares")
+                  "gaussian")
       ->check(CLI::IsMember(
-          {"least_squares", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
+          {"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
   command.add_option("--tolerance-um", options.tolerances,
                      "RONt=2,CYLt=5: judged by ISO 14253-1, exit 1 where one is not proven met");
   command.add_option("--coverage-factor", options.form.coverage_factor, "k of U = k u (2)")

@@ -35,6 +35,7 @@ std::vector<NamedValue> section_against(const AxisLine& datum, const SectionMode
                                         std::span<const double> filtered_mm) {
   const auto [x0, y0] = datum.at(section.z_mm().value_or(0.0));
   const double x = section.x_mm() - x0, y = section.y_mm() - y0;
+  const AxisOffset centre = section.centre(filtered_mm);
   double low = 1e300, high = -1e300;
   for (std::size_t i = 0; i < filtered_mm.size(); ++i) {
     const double c = std::cos(section.raw().at[i]), s = std::sin(section.raw().at[i]);
@@ -45,7 +46,7 @@ std::vector<NamedValue> section_against(const AxisLine& datum, const SectionMode
     high = std::max(high, distance);
   }
   return {{"datum", "runout_circular", "", high - low},
-          {"datum", "concentricity", "", 2.0 * std::hypot(x, y)}};
+          {"datum", "concentricity", "", 2.0 * std::hypot(centre.x_mm - x0, centre.y_mm - y0)}};
 }
 
 /// All values of a part, of whose datum there may be sections too.

@@ -3,29 +3,26 @@
 
 #include <array>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "form/exchange.hpp"
-#include "trueaxis/form.hpp"
 
 namespace trueaxis::form {
-
-Criterion criterion_of(ReferenceFeature feature);
 
 /// A circle about points that stand at angles and distances from a pole near its centre.
 struct AssociatedCircle {
   double x_mm = 0.0, y_mm = 0.0, radius_mm = 0.0;  ///< centre against the pole
   std::vector<double> off_mm;                      ///< of each point, outwards
   std::vector<Nearest::Touch> touches;
-  bool determined = true;
+  std::string why;  ///< why there is none; empty: there is
 };
 
-/// The four circles of a profile. A pole with a radius: circles in the plane, Eq. 265 about each
-/// new centre until it stays (nanometres in three rounds). Without one, `radius_mm` = 0: the
-/// limaçon that a gauge's trace shows.
+/// The circle of a profile. A pole with a radius: that in the plane, by associate(). Without one,
+/// `radius_mm` = 0: the limaçon that a gauge's trace shows, Eq. 265.
 AssociatedCircle associate_circle(std::span<const double> angle_rad,
                                   std::span<const double> deviation_mm, double radius_mm,
-                                  ReferenceFeature feature);
+                                  Criterion criterion);
 
 /// 1, cos θ, sin θ of each angle: a row of Eq. 265.
 Exchange::Rows limacon_rows(std::span<const double> angle_rad);

@@ -28,7 +28,7 @@ Exchange::Exchange(Rows rows, Criterion criterion)
     : rows_(std::make_shared<const Rows>(std::move(rows))), criterion_(criterion) {
   expects(rows_->rows() >= rows_->cols() && rows_->cols() > 0, "more readings than unknowns");
   const Eigen::Index p = rows_->cols();
-  if (criterion_ == Criterion::least_squares) {
+  if (criterion_ == Criterion::gaussian) {
     normal_.compute(rows_->transpose() * *rows_);
     return;
   }
@@ -74,7 +74,7 @@ std::vector<double> Exchange::off(std::span<const double> y, const Nearest& near
 
 Nearest Exchange::operator()(std::span<const double> given) {
   expects(static_cast<Eigen::Index>(given.size()) == rows_->rows(), "a value for every row");
-  if (criterion_ == Criterion::least_squares) return least_squares(given);
+  if (criterion_ == Criterion::gaussian) return least_squares(given);
   const bool zone = criterion_ == Criterion::minimum_zone;
   std::vector<double> y(given.begin(), given.end());
   if (criterion_ == Criterion::maximum_inscribed)

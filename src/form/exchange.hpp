@@ -7,15 +7,9 @@
 #include <span>
 #include <vector>
 
-namespace trueaxis::form {
+#include "trueaxis/association.hpp"
 
-/// What a reference line, circle, plane or cylinder is to make least.
-enum class Criterion {
-  least_squares,
-  minimum_zone,           ///< the largest distance to either side (Chebyshev)
-  minimum_circumscribed,  ///< the size of one that nothing stands out of
-  maximum_inscribed,      ///< − the size of one that stands out of nothing
-};
+namespace trueaxis::form {
 
 /// Parameters q of the nearest Σ q_k φ_k(i) to y_i. q_0 is the size: φ_0 = 1.
 struct Nearest {

@@ -35,7 +35,7 @@ Exchange::Rows height_rows(std::span<const std::array<double, 2>> at_mm, bool pl
 
 HeightModel::HeightModel(std::span<const std::array<double, 2>> at_mm, bool plane,
                          const Names& names)
-    : least_(height_rows(at_mm, plane, scale_of(at_mm)), Criterion::least_squares),
+    : least_(height_rows(at_mm, plane, scale_of(at_mm)), Criterion::gaussian),
       zone_(height_rows(at_mm, plane, scale_of(at_mm)), Criterion::minimum_zone),
       names_(names),
       scale_mm_(scale_of(at_mm)) {}

@@ -40,7 +40,7 @@ Exchange::Rows height_rows(std::span<const std::array<double, 2>> at_mm, bool pl
 using AssessHeights = std::function<std::vector<NamedValue>(std::span<const double> height_mm)>;
 
 /// `spreads` of heights with white noise, which no filter takes off.
-/// @param off_mm about the least-squares feature, by which the noise is judged (Eq. 271)
+/// @param off_mm about the least-squares criterion, by which the noise is judged (Eq. 271)
 std::vector<Spread> spreads_of_heights(std::span<const double> height_mm,
                                        std::span<const double> off_mm, double noise_mm,
                                        const FormOptions& options, const AssessHeights& assess);

@@ -17,15 +17,8 @@ const char* to_string(ProfileFilter filter) {
   return "";
 }
 
-const char* to_string(ReferenceFeature feature) {
-  constexpr const char* names[] = {"least_squares", "minimum_zone", "minimum_circumscribed",
-                                   "maximum_inscribed"};
-  return names[static_cast<std::size_t>(feature)];
-}
-
-const char* to_string(FormElement element) {
-  constexpr const char* names[] = {"line", "circle", "plane", "cylinder"};
-  return names[static_cast<std::size_t>(element)];
+const char* name_of(Criterion criterion) {
+  return criterion_names[static_cast<std::size_t>(criterion)];
 }
 
 }  // namespace trueaxis

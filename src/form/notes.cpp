@@ -111,9 +111,9 @@ void add_notes(const ProbeStream& stream, const Sections& sections, FormResult& 
   note_noise(result);
   for (const SectionForm& section : result.sections)
     for (const FormCircle& circle : section.circles)
-      if (!circle.determined) {
+      if (!circle.why_not.empty()) {
         result.notes.push_back(
-            fmt::format("The {} circle is not held by the readings", to_string(circle.feature)));
+            fmt::format("No {} circle: {}", name_of(circle.criterion), circle.why_not));
         return;
       }
 }

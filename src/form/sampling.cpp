@@ -14,7 +14,7 @@
 namespace trueaxis::form {
 namespace {
 
-constexpr double kept_by = 0.75;         // of the length of a trace
+constexpr double kept_by = 0.75;              // of the length of a trace
 constexpr double turn_rounding = 1.0 + 1e-6;  // angles of a text file
 constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
 

@@ -50,9 +50,9 @@ double shown_noise_mm(const Trace& trace) {
   return mad_sigma(off);
 }
 
-std::string short_name(ReferenceFeature feature, const char* suffix) {
+std::string short_name(Criterion criterion, const char* suffix) {
   constexpr const char* prefix[] = {"LS", "MZ", "MC", "MI"};
-  return std::string(prefix[static_cast<std::size_t>(feature)]) + suffix;
+  return std::string(prefix[static_cast<std::size_t>(criterion)]) + suffix;
 }
 
 SectionModel::SectionModel(const SectionReadings& given, bool radius_known,
@@ -69,7 +69,7 @@ SectionModel::SectionModel(const SectionReadings& given, bool radius_known,
   std::vector<double> off = readings.distance_mm;
   for (double& one : off) one -= plane_radius_mm_;
   const AssociatedCircle circle =
-      associate_circle(readings.angle_rad, off, plane_radius_mm_, ReferenceFeature::least_squares);
+      associate_circle(readings.angle_rad, off, plane_radius_mm_, Criterion::gaussian);
   x_mm_ = circle.x_mm;
   y_mm_ = circle.y_mm;
   mean_mm_ = circle.radius_mm;
@@ -91,14 +91,16 @@ SectionModel::SectionModel(const SectionReadings& given, bool radius_known,
   noise_mm_ = std::max(shown_noise_mm(raw_), options.noise_mm.value_or(0.0) * std::sqrt(averaged));
   make_filter(options);
   profile_mm_ = filtered(raw_.value_mm);
-  for (const ReferenceFeature feature : reference_features) {
-    circles_.emplace_back(limacon_rows(raw_.at), criterion_of(feature));
+  for (const Criterion criterion : form_criteria) {
+    circles_.emplace_back(limacon_rows(raw_.at), criterion);
     circles_.back()(profile_mm_);
   }
 }
 
 void SectionModel::make_filter(const FormOptions& options) {
   cutoff_rad_ = two_pi / options.high_upr;
+  low_upr_ = options.low_upr;
+  high_upr_ = options.filter == ProfileFilter::none ? 1e9 : options.high_upr;
   high_ = low_pass(options.filter, raw_, cutoff_rad_);
   if (high_ && options.low_upr > 1.0)
     low_ = low_pass(options.filter, raw_, two_pi / options.low_upr);
@@ -119,17 +121,17 @@ std::vector<double> SectionModel::filtered(std::span<const double> value_mm) con
 std::vector<NamedValue> SectionModel::assess(std::span<const double> filtered_mm,
                                              bool exactly) const {
   std::vector<NamedValue> values;
-  for (const ReferenceFeature feature : reference_features) {
+  for (const Criterion criterion : form_criteria) {
     std::vector<double> off;
     if (exactly) {
-      off = associate_circle(raw_.at, filtered_mm, plane_radius_mm_, feature).off_mm;
+      off = associate_circle(raw_.at, filtered_mm, plane_radius_mm_, criterion).off_mm;
     } else {
-      const Exchange& at_optimum = circles_[static_cast<std::size_t>(feature)];
+      const Exchange& at_optimum = circles_[static_cast<std::size_t>(criterion)];
       Exchange circle = at_optimum;
       off = circle.off(filtered_mm, circle(filtered_mm));
     }
     const auto [low, high] = range_of(off);
-    const std::string about = short_name(feature, "CI");
+    const std::string about = short_name(criterion, "CI");
     values.push_back({"section", "RONt", about, high - low});
     values.push_back({"section", "RONp", about, std::max(0.0, high)});
     values.push_back({"section", "RONv", about, std::max(0.0, -low)});
@@ -137,6 +139,12 @@ std::vector<NamedValue> SectionModel::assess(std::span<const double> filtered_mm
   }
   values.push_back({"section", "slope", "", largest_known((*slope_)(filtered_mm)), "mm/rad"});
   return values;
+}
+
+AxisOffset SectionModel::centre(std::span<const double> filtered_mm) const {
+  Exchange least = circles_.front();
+  const Eigen::VectorXd q = least(filtered_mm).q;
+  return {x_mm_ + q[1], y_mm_ + q[2]};
 }
 
 SectionForm SectionModel::form() const {
@@ -150,16 +158,15 @@ SectionForm SectionModel::form() const {
     for (const Gap& gap : gaps_of(raw_, longest_step(cutoff_rad_))) form.gaps_rad += gap.length;
     form.transmission = measured_transmission(raw_, *high_, cutoff_rad_);
   }
-  for (const ReferenceFeature feature : reference_features) {
+  for (const Criterion criterion : form_criteria) {
     const AssociatedCircle circle =
-        associate_circle(raw_.at, profile_mm_, plane_radius_mm_, feature);
+        associate_circle(raw_.at, profile_mm_, plane_radius_mm_, criterion);
     FormCircle& out = form.circles.emplace_back();
-    out = {feature,
-           x_mm_ + circle.x_mm,
-           y_mm_ + circle.y_mm,
-           radius_known() ? circle.radius_mm : mean_mm_ + circle.radius_mm,
-           {},
-           circle.determined};
+    out.criterion = criterion;
+    out.x_mm = x_mm_ + circle.x_mm;
+    out.y_mm = y_mm_ + circle.y_mm;
+    out.radius_mm = circle.radius_mm + (radius_known() ? 0.0 : mean_mm_);
+    out.why_not = circle.why;
     for (const Nearest::Touch& touch : circle.touches)
       out.touches.push_back({raw_.at[touch.reading], touch.multiplier});
   }
@@ -169,7 +176,7 @@ SectionForm SectionModel::form() const {
     if (one.order == 0) continue;
     form.harmonics.push_back(
         {one.order, one.amplitude_mm(), one.phase_rad(), noise_mm_ * one.u_per_sigma});
-    if (one.order < 2) continue;
+    if (one.order < 2 || one.order < low_upr_ || one.order > high_upr_) continue;
     const double square = one.amplitude_mm() * one.amplitude_mm();
     squares += square;
     if (square > largest) {
@@ -179,12 +186,13 @@ SectionForm SectionModel::form() const {
   }
   form.lobes_share = squares > 0.0 ? largest / squares : 0.0;
   const double n = static_cast<double>(raw_.size());
-  form.values = {};
+  const FormCircle& least = form.circles.front();
   const double u_centre = form.harmonics.empty() ? 0.0 : form.harmonics.front().u_mm;
   form.values.push_back(
-      {"eccentricity", "LSCI", {std::hypot(x_mm_, y_mm_), u_centre, "mm", ""}, 0.0});
+      {"eccentricity", "LSCI", {std::hypot(least.x_mm, least.y_mm), u_centre, "mm", ""}, 0.0});
   if (radius_known())
-    form.values.push_back({"radius", "LSCI", {mean_mm_, noise_mm_ / std::sqrt(n), "mm", ""}, 0.0});
+    form.values.push_back(
+        {"radius", "LSCI", {least.radius_mm, noise_mm_ / std::sqrt(n), "mm", ""}, 0.0});
   form.profile = {raw_.at, raw_.value_mm, profile_mm_};
   return form;
 }

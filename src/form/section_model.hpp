@@ -15,6 +15,11 @@
 
 namespace trueaxis::form {
 
+/// A place across the axis.
+struct AxisOffset {
+  double x_mm, y_mm;
+};
+
 /// One section ready to be filtered and assessed, as often as a Monte Carlo asks.
 class SectionModel {
  public:
@@ -28,6 +33,9 @@ class SectionModel {
   /// RONt, RONp, RONv, RONq about each circle and the slope of a filtered profile. `exactly`:
   /// circles in the plane; else, for small changes, Eq. 265 about the pole of `raw()`.
   std::vector<NamedValue> assess(std::span<const double> filtered_mm, bool exactly) const;
+
+  /// Centre of the least-squares circle of a filtered profile, in the part frame.
+  AxisOffset centre(std::span<const double> filtered_mm) const;
 
   /// Everything of the section but the uncertainty of `values`.
   SectionForm form() const;
@@ -48,12 +56,12 @@ class SectionModel {
   std::optional<double> z_mm_;
   double x_mm_ = 0.0, y_mm_ = 0.0, mean_mm_ = 0.0, noise_mm_ = 0.0;
   double plane_radius_mm_ = 0.0;  ///< 0: not known
-  double cutoff_rad_ = 0.0, turns_ = 1.0;
+  double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;
   std::size_t readings_ = 0;
   std::shared_ptr<const LowPass> high_, low_;
   std::shared_ptr<const Derivative> slope_;
   std::vector<double> profile_mm_;
-  std::vector<Exchange> circles_;  ///< of reference_features, at their optimum
+  std::vector<Exchange> circles_;  ///< of form_criteria, at their optimum
   std::string trouble_;
 };
 
@@ -62,6 +70,6 @@ class SectionModel {
 double shown_noise_mm(const Trace& trace);
 
 /// "LSCI" … of a circle, "LSCY" … of a cylinder by the `suffix` "CY".
-std::string short_name(ReferenceFeature feature, const char* suffix);
+std::string short_name(Criterion criterion, const char* suffix);
 
 }  // namespace trueaxis::form

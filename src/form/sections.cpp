@@ -109,7 +109,7 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
       rows.row(row++) << 1.0, z, c, sine, z * c, z * sine;
       y.push_back(sections.list[s].distance_mm[k]);
     }
-  const Eigen::VectorXd q = Exchange(rows, Criterion::least_squares)(y).q;
+  const Eigen::VectorXd q = Exchange(rows, Criterion::gaussian)(y).q;
   row = 0;
   for (std::size_t s = 0; s < turns.size(); ++s) {
     SectionReadings& section = sections.list[s];

@@ -29,7 +29,7 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections) : sections_(se
     low = std::min(low, *section.z_mm());
     high = std::max(high, *section.z_mm());
     mean_radius_mm_ += section.radius_mm() / static_cast<double>(sections.size());
-    centre_fits_.emplace_back(limacon_rows(section.raw().at), Criterion::least_squares);
+    centre_fits_.emplace_back(limacon_rows(section.raw().at), Criterion::gaussian);
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
@@ -38,10 +38,9 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections) : sections_(se
   for (const bool cone : {false, true}) {
     const Rows now = about(start_, profiles, cone);
     base_ = now.y;
-    for (const ReferenceFeature feature : reference_features) {
-      if (cone && (sections.size() < 3 || feature > ReferenceFeature::minimum_zone)) continue;
-      const auto [at, made] =
-          fits_.try_emplace({feature, cone}, Exchange(now.rows, criterion_of(feature)));
+    for (const Criterion criterion : form_criteria) {
+      if (cone && (sections.size() < 3 || criterion > Criterion::minimum_zone)) continue;
+      const auto [at, made] = fits_.try_emplace({criterion, cone}, Exchange(now.rows, criterion));
       at->second(now.y);
     }
   }
@@ -99,22 +98,23 @@ AxisLine WholeModel::moved(const AxisLine& axis, const Eigen::VectorXd& q) const
 }
 
 WholeModel::Fitted WholeModel::fitted(const std::vector<std::vector<double>>& filtered_mm,
-                                      ReferenceFeature feature, bool cone, bool exactly) const {
+                                      Criterion criterion, bool cone, bool exactly) const {
   if (!exactly) {
     std::vector<double> y = base_;
     std::size_t row = 0;
     for (std::size_t s = 0; s < sections_.size(); ++s)
       for (std::size_t i = 0; i < filtered_mm[s].size(); ++i)
         y[row++] += filtered_mm[s][i] - sections_[s].profile_mm()[i];
-    Exchange fit = fits_.at({feature, cone});
+    Exchange fit = fits_.at({criterion, cone});
     const Nearest nearest = fit(y);
     return {fit.off(y, nearest), nearest.q, moved(start_, nearest.q)};
   }
+  if (!cone) return associated(filtered_mm, criterion);
   Fitted out;
   out.axis = start_;
   for (int round = 0; round < most_realignments; ++round) {
     Rows now = about(out.axis, filtered_mm, cone);
-    Exchange fit(std::move(now.rows), criterion_of(feature));
+    Exchange fit(std::move(now.rows), criterion);
     const Nearest nearest = fit(now.y);
     out.q = nearest.q;
     out.off_mm = fit.off(now.y, nearest);
@@ -124,9 +124,27 @@ WholeModel::Fitted WholeModel::fitted(const std::vector<std::vector<double>>& fi
   return out;
 }
 
-AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm,
-                          ReferenceFeature feature, bool exactly) const {
-  return fitted(filtered_mm, feature, false, exactly).axis;
+/// The cylinder in space, by associate().
+WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>& filtered_mm,
+                                          Criterion criterion) const {
+  std::vector<Point3> points;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const SectionModel& section = sections_[s];
+    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i) {
+      const double angle = section.raw().at[i], r = section.radius_mm() + filtered_mm[s][i];
+      points.push_back({section.x_mm() + r * std::cos(angle), section.y_mm() + r * std::sin(angle),
+                        *section.z_mm()});
+    }
+  }
+  const AssociatedFeature found = associate(points, Element::cylinder, criterion);
+  const auto& [x, y, z] = found.feature.point_mm;
+  const auto& [l, m, n] = found.feature.direction;
+  return {distances_mm(points, found), {}, {x - l / n * z, y - m / n * z, l / n, m / n}};
+}
+
+AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
+                          bool exactly) const {
+  return fitted(filtered_mm, criterion, false, exactly).axis;
 }
 
 double WholeModel::straightness_of_generatrices(
@@ -175,12 +193,12 @@ std::vector<NamedValue> WholeModel::assess(const std::vector<std::vector<double>
                        const char* unit = "mm") {
     values.push_back({"cylindricity", name, std::move(reference), value, unit});
   };
-  for (const ReferenceFeature feature : reference_features) {
-    const Fitted fit = fitted(filtered_mm, feature, false, exactly);
+  for (const Criterion criterion : form_criteria) {
+    const Fitted fit = fitted(filtered_mm, criterion, false, exactly);
     const auto [low, high] = range_of(fit.off_mm);
     double squares = 0.0;
     for (const double off : fit.off_mm) squares += off * off;
-    const std::string about = short_name(feature, "CY");
+    const std::string about = short_name(criterion, "CY");
     add("CYLt", about, high - low);
     add("CYLp", about, std::max(0.0, high));
     add("CYLv", about, std::max(0.0, -low));
@@ -195,14 +213,13 @@ std::vector<NamedValue> WholeModel::assess(const std::vector<std::vector<double>
   if (sections_.size() > 2) {
     add("STRsa", "", smallest_cylinder_mm(centres(filtered_mm)));
     add("STRsg", "MZLI", straightness_of_generatrices(filtered_mm));
-    const Fitted cone = fitted(filtered_mm, ReferenceFeature::least_squares, true, exactly);
+    const Fitted cone = fitted(filtered_mm, Criterion::gaussian, true, exactly);
     const double slope = cone.q[5] / half_mm_;
     add("CYLtt", "LSCO", 2.0 * std::abs(cone.q[5]));
     add("CYLat", "LSCO", std::atan(slope), "rad");
-    for (const ReferenceFeature feature :
-         {ReferenceFeature::least_squares, ReferenceFeature::minimum_zone}) {
-      const Fitted about_cone = fitted(filtered_mm, feature, true, exactly);
-      add("CONt", short_name(feature, "CO"),
+    for (const Criterion criterion : {Criterion::gaussian, Criterion::minimum_zone}) {
+      const Fitted about_cone = fitted(filtered_mm, criterion, true, exactly);
+      add("CONt", short_name(criterion, "CO"),
           range_of(about_cone.off_mm).length() * std::cos(std::atan(slope)));
     }
   }

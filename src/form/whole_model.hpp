@@ -21,7 +21,7 @@ class WholeModel {
   std::vector<CentrePoint> centres(const std::vector<std::vector<double>>& filtered_mm) const;
 
   /// The axis of the cylinder by a criterion.
-  AxisLine axis(const std::vector<std::vector<double>>& filtered_mm, ReferenceFeature feature,
+  AxisLine axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
                 bool exactly) const;
 
   /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's.
@@ -38,8 +38,9 @@ class WholeModel {
     Eigen::VectorXd q;  ///< radius, x and y in the middle, both at the end, radius at the end
     AxisLine axis;
   };
-  Fitted fitted(const std::vector<std::vector<double>>& filtered_mm, ReferenceFeature feature,
-                bool cone, bool exactly) const;
+  Fitted fitted(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion, bool cone,
+                bool exactly) const;
+  Fitted associated(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
   struct Rows {
     Exchange::Rows rows;
     std::vector<double> y;
@@ -55,7 +56,7 @@ class WholeModel {
   AxisLine start_;
   std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
   std::vector<Exchange> centre_fits_;
-  std::map<std::pair<ReferenceFeature, bool>, Exchange> fits_;  ///< about `start_`, at the optimum
+  std::map<std::pair<Criterion, bool>, Exchange> fits_;  ///< about `start_`, at the optimum
 };
 
 }  // namespace trueaxis::form

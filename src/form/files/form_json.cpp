@@ -31,10 +31,10 @@ Json circle_json(const FormCircle& circle, bool limacon) {
   Json touches = Json::array();
   for (const auto& [angle_rad, multiplier] : circle.touches)
     touches.push_back({{"angle", number(angle_rad / rad_per_deg)}, {"multiplier", multiplier}});
-  Json json{{"reference", to_string(circle.feature)},
-            {"determined", circle.determined},
+  Json json{{"reference", name_of(circle.criterion)},
             {"x", with_unit(circle.x_mm, "mm")},
             {"y", with_unit(circle.y_mm, "mm")}};
+  if (!circle.why_not.empty()) json["why"] = circle.why_not;
   if (!limacon) json["radius"] = with_unit(circle.radius_mm, "mm");
   if (!circle.touches.empty()) json["touches"] = std::move(touches);
   return json;
@@ -86,7 +86,7 @@ std::string form_json(const FormResult& result) {
   json["datum"] =
       result.datum_source.empty()
           ? Json("spindle axis")
-          : Json{{"file", result.datum_source}, {"association", to_string(result.options.datum)}};
+          : Json{{"file", result.datum_source}, {"association", name_of(result.options.datum)}};
   json["coverage_factor"] = result.options.coverage_factor;
   json["options"] = options_json(result.options);
   json["radius_known"] = result.radius_known;

@@ -15,6 +15,7 @@ namespace {
 using layout::padded;
 
 constexpr std::size_t name_width = 16, cell_width = 21, sections_shown = 6;
+constexpr double nothing_mm = 1e-9;  // rounding
 
 const FormValue* find(std::span<const FormValue> values, std::string_view name,
                       std::string_view reference = "") {
@@ -26,6 +27,7 @@ const FormValue* find(std::span<const FormValue> values, std::string_view name,
 /// In µm; slopes in µm a degree, angles in mrad.
 std::string cell(const FormValue* one, double k) {
   if (!one) return "";
+  if (std::abs(one->estimate.value) < nothing_mm && one->estimate.u < nothing_mm) return "0";
   const bool slope = one->estimate.unit == "mm/rad";
   return layout::plus_minus(one->estimate, k, slope ? rad_per_deg / mm_per_um : 1e3, "");
 }
@@ -127,7 +129,9 @@ std::string section_rows(const FormResult& result, bool all) {
             padded(cell(find(section->values, "RONt", "LSCI"), k), cell_width) +
             padded(cell(find(section->values, "RONt", "MZCI"), k), cell_width) +
             padded(cell(find(section->values, "eccentricity"), k), cell_width) +
-            fmt::format("{} ({:.0f} %)\n", section->lobes, 100.0 * section->lobes_share);
+            (section->lobes > 0
+                 ? fmt::format("{} ({:.0f} %)\n", section->lobes, 100.0 * section->lobes_share)
+                 : "too few readings\n");
   if (shown.size() < result.sections.size())
     text += fmt::format("the {} least round of {} sections; --verbose prints all\n", shown.size(),
                         result.sections.size());

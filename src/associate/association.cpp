@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/association.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "associate/describe_feature.hpp"
+#include "associate/distance_kernel.hpp"
+#include "associate/extreme_element.hpp"
+#include "associate/gaussian.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+Shape shape_of(Element element, bool in_plane) {
+  switch (element) {
+    case Element::line:
+      return in_plane ? Shape::line_2d : Shape::line_3d;
+    case Element::circle:
+      return in_plane ? Shape::circle_2d : Shape::circle_3d;
+    case Element::plane:
+      return Shape::plane;
+    case Element::sphere:
+      return Shape::sphere;
+    case Element::cylinder:
+      return Shape::cylinder;
+    case Element::cone:
+      return Shape::cone;
+    case Element::torus:
+      return Shape::torus;
+  }
+  throw ContractViolation("no such element");
+}
+
+/// Least number of points: a line or circle in space has two distances a point.
+std::size_t least_points(Element element) {
+  constexpr std::size_t least[] = {2, 3, 3, 4, 5, 6, 7};
+  return least[static_cast<std::size_t>(element)];
+}
+
+void describe(AssociatedFeature& out, const Placed& placed, const PointCloud& cloud) {
+  const DistanceRange range = range_of(placed, cloud);
+  const bool tube = placed.shape == Shape::line_3d || placed.shape == Shape::circle_3d;
+  out.feature = feature_of(placed);
+  out.rms_mm = std::sqrt(range.sum_of_squares / static_cast<double>(cloud.points.size()));
+  out.zone_mm = tube ? 2.0 * range.largest : range.largest - range.least;
+}
+
+void fail(AssociatedFeature& out, AssociationStatus status, std::string why) {
+  out.status = status;
+  out.why = std::move(why);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  out.feature = out.u = {{nan, nan, nan}, {nan, nan, nan}};
+  out.rms_mm = out.zone_mm = nan;
+}
+
+void describe_gaussian(AssociatedFeature& out, const GaussianElement& gaussian,
+                       const PointCloud& cloud) {
+  const LeastSquares& fit = gaussian.fit;
+  describe(out, fit.placed, cloud);
+  out.iterations = fit.iterations;
+  const ShapeTraits& traits = traits_of(fit.placed.shape);
+  out.u = uncertainty_of(fit.placed, cloud, covariance_of(fit, cloud));
+  if (traits.residuals * cloud.points.size() == traits.parameters)
+    out.why_no_u = "there are as many distances as parameters, so that they show no noise";
+  const auto n = static_cast<double>(cloud.points.size());
+  const Parameters per = step_lengths(fit.placed.shape, cloud).cwiseInverse();
+  const Parameters gradient = per.cwiseProduct(fit.normal.jtd) / n;
+  out.certificate.stationarity = gradient.norm();
+  const ParameterMatrix h = per.asDiagonal() * fit.normal.jtj * per.asDiagonal() / n;
+  out.certificate.gap_mm = std::sqrt(std::max(0.0, gradient.dot(h.ldlt().solve(gradient))));
+  out.certificate.starts = gaussian.starts;
+  const Shape shape = fit.placed.shape;
+  out.certificate.global =
+      shape == Shape::line_2d || shape == Shape::line_3d || shape == Shape::plane;
+  if (!fit.converged) fail(out, AssociationStatus::max_iterations, "The search did not converge");
+}
+
+void describe_extreme(AssociatedFeature& out, const ExtremeElement& extreme,
+                      const PointCloud& cloud) {
+  Placed placed = extreme.best.placed;
+  if (sides_of(placed.shape, out.criterion).size_follows) {
+    double& size = placed.shape == Shape::torus ? placed.second_size : placed.size;
+    const double by =
+        out.criterion == Criterion::minimum_circumscribed ? extreme.best.h : -extreme.best.h;
+    size += by;
+  }
+  describe(out, placed, cloud);
+  out.iterations = extreme.best.iterations;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  out.u = {{nan, nan, nan}, {nan, nan, nan}};
+  out.why_no_u =
+      "an element that rests on few points says nothing of their noise: repeat the measurement";
+  out.certificate = {.contacts = {},
+                     .stationarity = extreme.best.stationarity,
+                     .gap_mm = extreme.best.gap,
+                     .global = extreme.global,
+                     .starts = extreme.starts};
+  for (const Minimax::Contact& contact : extreme.best.contacts) {
+    double distance = 0.0;
+    evaluate_only_distances(placed, cloud.points.subspan(contact.point, 1), &distance);
+    out.certificate.contacts.push_back({contact.point, contact.sign, distance, contact.multiplier});
+  }
+  if (!extreme.best.converged)
+    fail(out, AssociationStatus::max_iterations, "The search did not converge");
+}
+
+}  // namespace
+
+std::string association_objection(Element element, Criterion criterion) {
+  if (criterion == Criterion::gaussian || criterion == Criterion::minimum_zone) return {};
+  const std::string name = element_names[static_cast<std::size_t>(element)];
+  if (element == Element::line || element == Element::plane)
+    return "A " + name + " has no size that could be least or largest: ask for minimum_zone";
+  if (element == Element::cone)
+    return "A cone has two sizes that trade for each other: ask for minimum_zone";
+  return {};
+}
+
+AssociatedFeature associate(std::span<const Point3> points_mm, Element element, Criterion criterion,
+                            const AssociateOptions& options) {
+  expects(association_objection(element, criterion).empty(), "the criterion applies");
+  AssociatedFeature out{.element = element, .criterion = criterion, .points = points_mm.size()};
+  if (points_mm.size() < least_points(element)) {
+    fail(out, AssociationStatus::too_few,
+         "A " + std::string(element_names[static_cast<std::size_t>(element)]) + " needs " +
+             std::to_string(least_points(element)) + " points or more, there are " +
+             std::to_string(points_mm.size()));
+    return out;
+  }
+  const PointCloud cloud = cloud_of(points_mm, options.threads);
+  expects(std::isfinite(cloud.length), "coordinates are finite numbers");
+  out.in_plane = cloud.in_plane && (element == Element::line || element == Element::circle);
+  const Shape shape = shape_of(element, out.in_plane);
+  const GaussianElement gaussian = gaussian_element(shape, cloud, options.max_iterations);
+  if (!gaussian.why.empty()) {
+    fail(out, AssociationStatus::not_determined, gaussian.why);
+    return out;
+  }
+  if (criterion == Criterion::gaussian) {
+    describe_gaussian(out, gaussian, cloud);
+    return out;
+  }
+  Placed start = gaussian.fit.placed;
+  // The size of a circle in space is that of its points seen along its axis.
+  if (shape == Shape::circle_3d && criterion != Criterion::minimum_zone)
+    start.shape = Shape::circle_2d;
+  const ExtremeElement extreme = extreme_element(start, cloud, criterion, options.max_iterations);
+  if (!extreme.why.empty())
+    fail(out, AssociationStatus::not_determined, extreme.why);
+  else
+    describe_extreme(out, extreme, cloud);
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "associate/placed.hpp"
+#include "associate/point_cloud.hpp"
+
+namespace trueaxis {
+
+/// Sums over all points of the products of [J d] at a place (Eq. 245).
+struct NormalSums {
+  ParameterMatrix jtj;
+  Parameters jtd;
+  double sum_of_squares = 0.0;
+};
+NormalSums accumulate(const Placed& placed, const PointCloud& cloud);
+
+/// A minimum of the sum of squares, or where the search for it ended.
+struct LeastSquares {
+  Placed placed;
+  NormalSums normal;
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// Levenberg-Marquardt from `start` in the frame of the element, which goes along with it: every
+/// step is taken where its own derivatives are exact and short (Eq. 246).
+LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max_iterations);
+
+/// What turns a step of each motion into mm at the far end of the points: 1 of a shift or size, the
+/// length of the cloud of an angle.
+Parameters step_lengths(Shape shape, const PointCloud& cloud);
+
+}  // namespace trueaxis

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "associate/minimax.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "associate/chebyshev_program.hpp"
+#include "associate/distance_kernel.hpp"
+#include "associate/least_squares.hpp"
+
+namespace trueaxis {
+namespace {
+
+class Search {
+ public:
+  Search(const PointCloud& cloud, const Sides& sides, const Placed& start)
+      : cloud_(cloud), sides_(sides), motions_(Index(free_motions(start.shape, sides))) {
+    per_ = step_lengths(start.shape, cloud).cwiseInverse();
+    if (sides.size_follows) per_[per_.size() - 1] = 0.0;
+    const Index m = Index(cloud.points.size());
+    sides_count_ = (sides.outer ? 1 : 0) + (sides.inner ? 1 : 0);
+    program_.g.resize(m * sides_count_);
+    program_.a.resize(m * sides_count_, motions_);
+  }
+
+  Minimax run(Placed placed, int max_iterations) {
+    Minimax out{.placed = placed};
+    evaluate(placed);
+    out.h = program_.g.maxCoeff();
+    far_ = std::max(100.0 * cloud_.length, 10.0 * placed.offset.norm());
+    double reach = std::max(2.0 * std::abs(out.h), 1e-9 * cloud_.length);
+    const double rounding = 4e-16 * cloud_.length + 0.25 * cloud_.rounding;
+    for (; out.iterations < max_iterations; ++out.iterations) {
+      const ChebyshevSolution linear = solve(program_, reach, rounding + 1e-15 * reach);
+      if (!linear.solved) break;
+      const double gain = out.h - linear.h;
+      const std::optional<Step> best = better_of(out.placed, linear, reach, out.h);
+      if (best && best->h < out.h - 0.02 * rounding) {
+        const bool good = out.h - best->h > 0.5 * gain;
+        out.placed = recentred(best->placed, cloud_.centroid);
+        evaluate(out.placed);
+        out.h = program_.g.maxCoeff();
+        reach = std::min(cloud_.length, std::max(good ? 2.0 * reach : reach, 2.0 * best->length));
+        if (runs_away(out.placed)) break;
+        continue;
+      }
+      if (gain <= rounding || reach <= 1e-13 * cloud_.length) break;
+      reach *= 0.2;
+    }
+    certify(out);
+    return out;
+  }
+
+ private:
+  using Index = Eigen::Index;
+  struct Step {
+    Placed placed;
+    double h, length;
+  };
+
+  bool runs_away(const Placed& placed) const { return placed.offset.norm() > far_; }
+
+  void evaluate(const Placed& placed) {
+    const Index m = Index(cloud_.points.size());
+    for (Index at = 0; at < m; at += Index(block_size)) {
+      const Index count = std::min(Index(block_size), m - at);
+      evaluate_distances(placed, cloud_.points.subspan(std::size_t(at), std::size_t(count)),
+                         block_);
+      const double* d = block_.column[traits_of(placed.shape).parameters];
+      Index row = at;
+      for (const int sign : {1, -1}) {
+        if (!(sign > 0 ? sides_.outer : sides_.inner)) continue;
+        for (Index i = 0; i < count; ++i) program_.g[row + i] = sign * d[i];
+        for (Index k = 0; k < motions_; ++k)
+          for (Index i = 0; i < count; ++i)
+            program_.a(row + i, k) = sign * per_[k] * block_.column[k][i];
+        row += m;
+      }
+    }
+  }
+
+  double largest(const Placed& placed) const {
+    double d[block_size], top = -1e300;
+    for (std::size_t at = 0; at < cloud_.points.size(); at += block_size) {
+      const std::size_t count = std::min(block_size, cloud_.points.size() - at);
+      evaluate_only_distances(placed, cloud_.points.subspan(at, count), d);
+      for (std::size_t i = 0; i < count; ++i)
+        top = std::max(top, sides_.outer ? (sides_.inner ? std::abs(d[i]) : d[i]) : -d[i]);
+    }
+    return top;
+  }
+
+  Placed stepped(const Placed& from, const Eigen::VectorXd& step) const {
+    Parameters full = Parameters::Zero(per_.size());
+    full.head(motions_) = step.cwiseProduct(per_.head(motions_));
+    return moved(from, full);
+  }
+
+  /// Newton's step where it is one, else the linear step: whichever is lower.
+  std::optional<Step> better_of(const Placed& from, const ChebyshevSolution& linear, double reach,
+                                double h) const {
+    std::optional<Step> best;
+    const auto offer = [&](const Eigen::VectorXd& step) {
+      if (!step.allFinite() || step.lpNorm<Eigen::Infinity>() > 10.0 * reach) return;
+      const Placed placed = stepped(from, step);
+      const double top = largest(placed);
+      if (top < (best ? best->h : h)) best = {placed, top, step.lpNorm<Eigen::Infinity>()};
+    };
+    offer(newton_step(from, linear));
+    offer(linear.step);
+    return best;
+  }
+
+  /// Points of the rows that hold the linear step up.
+  std::vector<Point3> points_of(const ChebyshevSolution& linear) const {
+    std::vector<Point3> out;
+    for (const std::size_t row : linear.rows)
+      out.push_back(cloud_.points[row % cloud_.points.size()]);
+    return out;
+  }
+  int sign_of(std::size_t row) const { return row < cloud_.points.size() && sides_.outer ? 1 : -1; }
+
+  /// Σ λ s ∇²d by differences: nine digits do, as Newton's step is taken again where it ends.
+  Eigen::MatrixXd curvature(const Placed& at, const ChebyshevSolution& linear) const {
+    const std::vector<Point3> points = points_of(linear);
+    const auto value = [&](const Eigen::VectorXd& step) {
+      double d[block_size], sum = 0.0;
+      evaluate_only_distances(stepped(at, step), points, d);
+      for (std::size_t i = 0; i < points.size(); ++i)
+        sum += linear.multipliers[i] * sign_of(linear.rows[i]) * d[i];
+      return sum;
+    };
+    const double size = std::abs(at.size) > 0.0 ? std::abs(at.size) : cloud_.length;
+    const double t = 3e-4 * std::min(cloud_.length, size);
+    Eigen::MatrixXd w(motions_, motions_);
+    for (Index i = 0; i < motions_; ++i) {
+      for (Index j = 0; j <= i; ++j) {
+        const Eigen::VectorXd a = t * Eigen::VectorXd::Unit(motions_, i),
+                              b = t * Eigen::VectorXd::Unit(motions_, j);
+        w(i, j) = w(j, i) =
+            (value(a + b) - value(a - b) - value(b - a) + value(-a - b)) / (4.0 * t * t);
+      }
+    }
+    return w;
+  }
+
+  /// Eq. 250: the step to where the rows that hold the linear step up are equal and their gradients
+  /// balance.
+  Eigen::VectorXd newton_step(const Placed& at, const ChebyshevSolution& linear) const {
+    const Index k = Index(linear.rows.size()), p = motions_;
+    if (k == 0) return Eigen::VectorXd::Constant(p, std::nan(""));
+    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(p + 1 + k, p + 1 + k);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(p + 1 + k);
+    kkt.topLeftCorner(p, p) = curvature(at, linear);
+    for (Index i = 0; i < k; ++i) {
+      const Index row = Index(linear.rows[std::size_t(i)]);
+      kkt.block(p + 1 + i, 0, 1, p) = program_.a.row(row);
+      kkt.block(0, p + 1 + i, p, 1) = program_.a.row(row).transpose();
+      kkt(p + 1 + i, p) = kkt(p, p + 1 + i) = -1.0;
+      right[p + 1 + i] = -program_.g[row];
+    }
+    right[p] = -1.0;
+    return kkt.completeOrthogonalDecomposition().solve(right).head(p);
+  }
+
+  void certify(Minimax& out) const {
+    const ChebyshevSolution linear = solve(program_, cloud_.length, 2e-15 * cloud_.length);
+    Eigen::VectorXd balance = Eigen::VectorXd::Zero(motions_);
+    for (std::size_t i = 0; i < linear.rows.size(); ++i) {
+      const std::size_t row = linear.rows[i];
+      const int sign = sign_of(row);
+      balance += linear.multipliers[i] * program_.a.row(Index(row)).transpose();
+      out.contacts.push_back(
+          {row % cloud_.points.size(), sign, sign * program_.g[Index(row)], linear.multipliers[i]});
+    }
+    out.stationarity = balance.norm();
+    out.gap = std::max(0.0, out.h - linear.h);
+    out.runs_away = runs_away(out.placed);
+    out.converged = linear.solved && !out.runs_away && out.gap <= 1e-9 * cloud_.length;
+  }
+
+  const PointCloud& cloud_;
+  Sides sides_;
+  Index motions_, sides_count_ = 0;
+  Parameters per_;
+  ChebyshevProgram program_;
+  DistanceBlock block_;
+  double far_ = 0.0;  ///< an element that goes further has no end
+};
+
+}  // namespace
+
+Sides sides_of(Shape shape, Criterion criterion) {
+  if (criterion == Criterion::minimum_circumscribed) return {true, false, true};
+  if (criterion == Criterion::maximum_inscribed) return {false, true, true};
+  const bool tube = shape == Shape::line_3d || shape == Shape::circle_3d;
+  return {true, !tube, false};
+}
+
+std::size_t free_motions(Shape shape, const Sides& sides) {
+  return traits_of(shape).parameters - (sides.size_follows ? 1 : 0);
+}
+
+Minimax minimax(const Placed& start, const PointCloud& cloud, const Sides& sides,
+                int max_iterations) {
+  return Search(cloud, sides, start).run(start, max_iterations);
+}
+
+}  // namespace trueaxis
