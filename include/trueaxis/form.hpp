@@ -15,7 +15,7 @@
 
 /// Form parameters of ISO 12181 (roundness), 12180 (cylindricity), 12780 (straightness), 12781
 /// (flatness) and run-out, coaxiality, concentricity and parallelism of ISO 1101, with U
-/// (docs/form.md; docs/theory.md §27). Inside mm and rad; UPR: undulations per revolution.
+/// (docs/form.md; docs/theory.md §29). Inside mm and rad; UPR: undulations per revolution.
 namespace trueaxis {
 
 /// Profile filters of ISO 16610: parts 21 (Gaussian), 31 (robust Gaussian regression), 22 (spline).

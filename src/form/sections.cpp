@@ -36,6 +36,17 @@ double angle_of(const ProbeStream& stream, std::size_t i) {
   return stream.c_rad[i] + (behind ? 0.5 * two_pi : 0.0);
 }
 
+/// Distance from the spindle axis without the motion that is known of it: a probe at +X reads it,
+/// at −X its opposite.
+double part_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
+  const bool behind = stream.indication == Indication::absolute && stream.reading_mm[i] < 0.0;
+  double motion = 0.0;
+  for (const SpindleOrder& one : options.spindle)
+    motion += one.cos_mm * std::cos(one.order * stream.c_rad[i]) +
+              one.sin_mm * std::sin(one.order * stream.c_rad[i]);
+  return spindle_distance(stream, options, i) - (behind ? -motion : motion);
+}
+
 /// Readings by their Z, where Z stands still long enough; empty: it runs on.
 std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
   std::vector<std::size_t> order(stream.size());
@@ -80,7 +91,7 @@ SectionReadings readings_of(const ProbeStream& stream, const FormOptions& option
   double z = 0.0, low = 1e300, high = -1e300;
   for (const std::size_t i : which) {
     section.angle_rad.push_back(angle_of(stream, i));
-    section.distance_mm.push_back(spindle_distance(stream, options, i));
+    section.distance_mm.push_back(part_distance(stream, options, i));
     if (stream.has_position()) z += stream.position_mm[i] / static_cast<double>(which.size());
     low = std::min(low, stream.c_rad[i]);
     high = std::max(high, stream.c_rad[i]);
