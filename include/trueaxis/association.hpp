@@ -64,11 +64,12 @@ struct AssociationCertificate {
 enum class AssociationStatus {
   converged,
   too_few,         ///< fewer points than the element has parameters
+  degenerate,      ///< the points lie in one place, line or plane, where the element needs more
   not_determined,  ///< the points do not single out one element
   max_iterations,
 };
-inline constexpr std::array<const char*, 4> association_status_names{
-    "converged", "too_few", "not_determined", "max_iterations"};
+inline constexpr std::array<const char*, 5> association_status_names{
+    "converged", "too_few", "degenerate", "not_determined", "max_iterations"};
 
 struct AssociatedFeature {
   Element element = Element::circle;

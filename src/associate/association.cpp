@@ -40,6 +40,20 @@ std::size_t least_points(Element element) {
   return least[static_cast<std::size_t>(element)];
 }
 
+/// The frame turned over where the result's direction is the other way: a cone's is to where it
+/// grows, of any other the component largest in size is positive. @returns whether it was
+bool orient(Placed& placed) {
+  Eigen::Index largest = 0;
+  placed.axes.row(2).cwiseAbs().maxCoeff(&largest);
+  const bool over =
+      placed.shape == Shape::cone ? placed.second_size < 0.0 : placed.axes(2, largest) < 0.0;
+  if (!over) return false;
+  placed.axes.row(0) *= -1.0;
+  placed.axes.row(2) *= -1.0;
+  if (placed.shape == Shape::cone) placed.second_size = -placed.second_size;
+  return true;
+}
+
 void describe(AssociatedFeature& out, const Placed& placed, const PointCloud& cloud) {
   const DistanceRange range = range_of(placed, cloud);
   const bool tube = placed.shape == Shape::line_3d || placed.shape == Shape::circle_3d;
@@ -58,7 +72,8 @@ void fail(AssociatedFeature& out, AssociationStatus status, std::string why) {
 
 void describe_gaussian(AssociatedFeature& out, const GaussianElement& gaussian,
                        const PointCloud& cloud) {
-  const LeastSquares& fit = gaussian.fit;
+  LeastSquares fit = gaussian.fit;
+  if (orient(fit.placed)) fit.normal = accumulate(fit.placed, cloud);
   describe(out, fit.placed, cloud);
   out.iterations = fit.iterations;
   const ShapeTraits& traits = traits_of(fit.placed.shape);
@@ -87,6 +102,8 @@ void describe_extreme(AssociatedFeature& out, const ExtremeElement& extreme,
         out.criterion == Criterion::minimum_circumscribed ? extreme.best.h : -extreme.best.h;
     size += by;
   }
+  const bool flat = placed.shape == Shape::plane || placed.shape == Shape::line_2d;
+  const int turned = orient(placed) && flat ? -1 : 1;
   describe(out, placed, cloud);
   out.iterations = extreme.best.iterations;
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -101,7 +118,8 @@ void describe_extreme(AssociatedFeature& out, const ExtremeElement& extreme,
   for (const Minimax::Contact& contact : extreme.best.contacts) {
     double distance = 0.0;
     evaluate_only_distances(placed, cloud.points.subspan(contact.point, 1), &distance);
-    out.certificate.contacts.push_back({contact.point, contact.sign, distance, contact.multiplier});
+    out.certificate.contacts.push_back(
+        {contact.point, turned * contact.sign, distance, contact.multiplier});
   }
   if (!extreme.best.converged)
     fail(out, AssociationStatus::max_iterations, "The search did not converge");
@@ -134,6 +152,10 @@ AssociatedFeature associate(std::span<const Point3> points_mm, Element element, 
   expects(std::isfinite(cloud.length), "coordinates are finite numbers");
   out.in_plane = cloud.in_plane && (element == Element::line || element == Element::circle);
   const Shape shape = shape_of(element, out.in_plane);
+  if (std::string why = degenerate_points(shape, cloud); !why.empty()) {
+    fail(out, AssociationStatus::degenerate, std::move(why));
+    return out;
+  }
   const GaussianElement gaussian = gaussian_element(shape, cloud, options.max_iterations);
   if (!gaussian.why.empty()) {
     fail(out, AssociationStatus::not_determined, gaussian.why);

@@ -11,27 +11,16 @@
 namespace trueaxis {
 namespace {
 
-/// −1 where the result's direction is the other way: a cone's to where it grows, else the largest
-/// component is positive.
-double sense_of(const Placed& placed) {
-  if (placed.shape == Shape::cone) return placed.second_size < 0.0 ? -1.0 : 1.0;
-  Eigen::Index largest = 0;
-  placed.axes.row(2).cwiseAbs().maxCoeff(&largest);
-  return placed.axes(2, largest) < 0.0 ? -1.0 : 1.0;
-}
-
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
 Feature feature_of(const Placed& placed) {
   Feature out;
-  const double sense = sense_of(placed);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Eigen::Index>(i);
     out.point_mm[i] = placed.base[i] + placed.offset[k];
-    out.direction[i] =
-        placed.shape == Shape::sphere ? nan : sense * placed.axes(2, k) + 0.0;  // no −0
+    out.direction[i] = placed.shape == Shape::sphere ? nan : placed.axes(2, k) + 0.0;  // no −0
   }
   switch (placed.shape) {
     case Shape::circle_2d:

@@ -80,8 +80,6 @@ std::string degenerate_points(Shape shape, const PointCloud& cloud) {
 
 GaussianElement gaussian_element(Shape shape, const PointCloud& cloud, int max_iterations) {
   GaussianElement out;
-  out.why = degenerate_points(shape, cloud);
-  if (!out.why.empty()) return out;
   const std::vector<Point3> some = sample_of(cloud, sample_size);
   const PointCloud sample = part_of(cloud, some);
   const bool all = some.size() == cloud.points.size();

@@ -7,7 +7,8 @@
 
 namespace trueaxis {
 
-/// The Gaussian element, and why there is none where `why` is not empty.
+/// The Gaussian element of points that are not degenerate, and why there is none where `why` is not
+/// empty.
 struct GaussianElement {
   LeastSquares fit;
   std::string why;

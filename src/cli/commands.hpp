@@ -12,6 +12,7 @@ void add_import(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app, int& exit_code);
 void add_form(CLI::App& app, int& exit_code);
 void add_diagnose(CLI::App& app, int& exit_code);
+void add_associate(CLI::App& app, int& exit_code);
 void add_advise(CLI::App& app, int& exit_code);
 void add_correct(CLI::App& app, int& exit_code);
 void add_simulate(CLI::App& app, int& exit_code);

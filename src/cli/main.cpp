@@ -20,10 +20,10 @@ int run(int argc, char** argv) {
       "bug.");
   int code = done;
   for (const auto add :
-       {add_run,    add_init,       add_import,    add_fit,    add_form, add_diagnose,
-        add_advise, add_correct,    add_simulate,  add_sweep,  add_plan, add_spindle,
-        add_locate, add_datum,      add_calibrate, add_pose,   add_axes, add_machine,
-        add_errors, add_compensate, add_axis_bias, add_effects})
+       {add_run,        add_init,      add_import,  add_fit,       add_diagnose, add_advise,
+        add_correct,    add_simulate,  add_sweep,   add_plan,      add_spindle,  add_locate,
+        add_datum,      add_calibrate, add_pose,    add_axes,      add_machine,  add_errors,
+        add_compensate, add_axis_bias, add_effects, add_associate, add_form})
     add(app, code);
   try {
     app.parse(argc, argv);

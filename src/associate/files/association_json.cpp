@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "associate/files/association_files.hpp"
+#include "format/json.hpp"
+
+namespace trueaxis {
+namespace {
+
+Json estimate(double value, double u, const char* unit, const std::string& why_no_u,
+              double factor = 1.0) {
+  return to_json(Estimate{.value = value * factor,
+                          .u = u * factor,
+                          .unit = unit,
+                          .why_not = std::isfinite(u) ? "" : why_no_u});
+}
+
+Json vector(const Point3& value, const Point3& u, const char* unit, const std::string& why) {
+  Json json;
+  for (std::size_t i = 0; i < 3; ++i)
+    json[std::string(1, "xyz"[i])] = estimate(value[i], u[i], unit, why);
+  return json;
+}
+
+Json certificate_json(const AssociatedFeature& of, const PointText& points) {
+  const AssociationCertificate& certificate = of.certificate;
+  Json contacts = Json::array();
+  for (const AssociationCertificate::Contact& contact : certificate.contacts)
+    contacts.push_back({{"point", contact.point + 1},
+                        {"line", points.lines[contact.point]},
+                        {"side", contact.sign > 0 ? "outer" : "inner"},
+                        {"distance", with_unit(contact.distance_mm, "mm")},
+                        {"multiplier", contact.multiplier}});
+  return {{"contacts", contacts},
+          {"stationarity", number(certificate.stationarity)},
+          {"gap", with_unit(certificate.gap_mm, "mm")},
+          {"global", certificate.global},
+          {"starts", certificate.starts}};
+}
+
+}  // namespace
+
+std::string association_json(const AssociatedFeature& of, const PointText& points) {
+  const Feature &f = of.feature, &u = of.u;
+  const std::string why = of.why.empty() ? of.why_no_u : of.why;
+  Json json{{"schema", "trueaxis.association/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"input", {{"file", points.source}, {"hash", points.hash}}},
+            {"element", element_names[static_cast<std::size_t>(of.element)]},
+            {"criterion", criterion_names[static_cast<std::size_t>(of.criterion)]},
+            {"status", association_status_names[static_cast<std::size_t>(of.status)]}};
+  if (!of.why.empty()) json["message"] = of.why;
+  json["in_plane"] = of.in_plane;
+  json["points"] = of.points;
+  json["point"] = vector(f.point_mm, u.point_mm, "mm", why);
+  if (of.element != Element::sphere) json["direction"] = vector(f.direction, u.direction, "1", why);
+  const bool sized = of.element != Element::line && of.element != Element::plane;
+  if (sized) json["radius"] = estimate(f.radius_mm, u.radius_mm, "mm", why);
+  if (of.element == Element::cone)
+    json["half_angle"] =
+        estimate(f.half_angle_rad, u.half_angle_rad, "deg", why, 1.0 / rad_per_deg);
+  if (of.element == Element::torus)
+    json["minor_radius"] = estimate(f.minor_radius_mm, u.minor_radius_mm, "mm", why);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::string no_u = "it describes these points and estimates nothing";
+  json["rms"] = estimate(of.rms_mm, nan, "mm", no_u);
+  json["zone"] = estimate(of.zone_mm, nan, "mm", no_u);
+  json["iterations"] = of.iterations;
+  json["certificate"] = certificate_json(of, points);
+  return json_text(json);
+}
+
+}  // namespace trueaxis

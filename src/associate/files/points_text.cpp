@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cctype>
+#include <cmath>
+#include <optional>
+
+#include "associate/files/association_files.hpp"
+#include "format/file.hpp"
+#include "measure/files/stream_csv_number.hpp"
+#include "measure/files/stream_csv_text.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t most_places = 20;
+
+/// Fields between blanks, tabs or commas; a comma may have blanks beside it, two commas have an
+/// empty field between them. Blanks inside and before [brackets] do not separate.
+void split(std::string_view line, std::vector<CsvField>& fields) {
+  const bool commas = line.find(',') != std::string_view::npos;
+  csv_split(line, commas ? ',' : ' ', fields);
+}
+
+/// "x[um]": the unit of the column, "" where it has none; nothing where the text is no such column.
+std::optional<std::string_view> unit_of_column(std::string_view text, char name) {
+  if (text.empty() || std::tolower(static_cast<unsigned char>(text[0])) != name) return {};
+  text = csv_trimmed(text.substr(1));
+  if (text.empty()) return "";
+  if (!text.starts_with('[') || !text.ends_with(']')) return {};
+  return csv_trimmed(text.substr(1, text.size() - 2));
+}
+
+class Reader {
+ public:
+  Reader(const std::string& path, const std::string& unit) : wrong_(path, most_places) {
+    if (!unit.empty()) said_ = csv_find_unit(CsvQuantity::length, unit);
+    if (said_) factor_ = said_->factor;
+  }
+
+  void line(std::string_view text, std::size_t number, PointText& out) {
+    text = csv_without_comment(text);
+    if (csv_trimmed(text).empty()) return;
+    split(text, fields_);
+    if (first_ && !csv_starts_number(fields_.front().text) && header(text, number)) return;
+    first_ = false;
+    if (fields_.size() != 3)
+      return wrong_.add(number, 0,
+                        "has " + std::to_string(fields_.size()) +
+                            (fields_.size() == 1 ? " field" : " fields") +
+                            ", a point has three: x y z (z = 0 throughout for a line or circle of "
+                            "the plane)",
+                        "fields");
+    Point3 point{};
+    bool good = true;
+    for (std::size_t i = 0; i < 3; ++i) good = coordinate(text, number, i, point[i]) && good;
+    if (!good) return;
+    out.points_mm.push_back(point);
+    out.lines.push_back(number);
+  }
+
+  void finish(const PointText& out) {
+    if (out.points_mm.empty() && !wrong_.any()) wrong_.add(0, 0, "has no points");
+    wrong_.throw_if_any();
+  }
+
+ private:
+  bool coordinate(std::string_view line, std::size_t number, std::size_t i, double& value) {
+    const std::string_view text = fields_[i].text;
+    std::errc error{};
+    const char* end = text.data() + text.size();
+    const bool whole =
+        !text.empty() && csv_number(text.data(), end, value, error) == end && error == std::errc{};
+    if (whole && std::isfinite(value)) {
+      value *= factor_;
+      return true;
+    }
+    wrong_.add(number, csv_character(line, fields_[i].byte),
+               csv_quoted(text) + " is no finite number", "number");
+    return false;
+  }
+
+  /// The names of the columns with their unit. @returns false where it is no such line at all
+  bool header(std::string_view line, std::size_t number) {
+    first_ = false;
+    if (fields_.size() != 3) return false;
+    std::optional<CsvUnit> unit;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto name = unit_of_column(fields_[i].text, "xyz"[i]);
+      if (!name) return false;
+      if (name->empty()) continue;
+      const std::size_t column = csv_character(line, fields_[i].byte);
+      const auto found = csv_find_unit(CsvQuantity::length, *name);
+      if (!found)
+        wrong_.add(number, column,
+                   csv_quoted(*name) + " is no unit of length: write " +
+                       csv_known_units(CsvQuantity::length));
+      else if (said_ && found->factor != said_->factor)
+        wrong_.add(number, column,
+                   csv_quoted(*name) + " is not the unit that --unit says: leave one of them out");
+      else if (unit && unit->factor != found->factor)
+        wrong_.add(number, column, "the three columns must have one unit");
+      else
+        unit = found;
+    }
+    if (unit) factor_ = unit->factor;
+    return true;
+  }
+
+  CsvDiagnostics wrong_;
+  std::optional<CsvUnit> said_;
+  double factor_ = 1.0;
+  bool first_ = true;
+  std::vector<CsvField> fields_;
+};
+
+}  // namespace
+
+PointText read_points(const std::string& path, const std::string& unit) {
+  const std::string content = read_file(path);
+  PointText out{.source = path, .hash = content_hash(content), .points_mm = {}, .lines = {}};
+  Reader reader(path, unit);
+  std::size_t number = 0;
+  for (std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < content.size();) {
+    const std::size_t end = std::min(content.find('\n', at), content.size());
+    reader.line(std::string_view(content).substr(at, end - at), ++number, out);
+    at = end + 1;
+  }
+  reader.finish(out);
+  return out;
+}
+
+}  // namespace trueaxis
