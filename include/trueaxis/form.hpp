@@ -43,7 +43,6 @@ struct FormOptions {
   ProfileFilter filter = ProfileFilter::gaussian;
   double low_upr = 1.0;    ///< of the pass band; 1: a low-pass
   double high_upr = 50.0;  ///< where the filter lets 50 % through
-  double cutoff_mm = 0.0;  ///< of open profiles along Z; 0: not filtered
   bool bore = false;
   double ball_radius_mm = 0.0;          ///< 0: the stream's
   std::optional<double> noise_mm;       ///< standard deviation of a reading; else as it shows
@@ -126,7 +125,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {
 /// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections
 /// of a circle and of a cylinder are filtered, planes and lines are not.
 /// @throws InputError for another element, or points that do not make one
-FormResult assess_form(std::span<const std::array<double, 3>> points_mm, Element element,
+FormResult assess_form(std::span<const Point3> points_mm, Element element,
                        const FormOptions& options = {});
 
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "associate/files/association_files.hpp"
 #include "cli/commands.hpp"
 #include "cli/form_tolerance.hpp"
 #include "cli/guarded.hpp"
@@ -23,7 +24,7 @@ struct Options {
   StreamOptions stream;
   FormOptions form;
   std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile;
-  std::string tolerances;
+  std::string tolerances, element, unit;
   double noise_um = -1.0, spindle_range_um = 0.0;
   bool verbose = false, force = false;
 };
@@ -63,22 +64,43 @@ FormOptions chosen(const Options& options) {
   return form;
 }
 
+FormResult of_points(const Options& options, const FormOptions& form) {
+  const PointText points = read_points(options.stream.path, options.unit);
+  Element element = Element::circle;
+  for (std::size_t i = 0; i < element_names.size(); ++i)
+    if (options.element == element_names[i]) element = static_cast<Element>(i);
+  try {
+    FormResult result = assess_form(points.points_mm, element, form);
+    result.source = points.source;
+    result.input_hash = points.hash;
+    return result;
+  } catch (const InputError& error) {  // which file the points are of
+    std::vector<Diagnostic> wrong = error.diagnostics();
+    for (Diagnostic& one : wrong)
+      if (one.file == "points") one.file = points.source;
+    throw InputError(std::move(wrong));
+  }
+}
+
+FormResult assessed(const Options& options, const FormOptions& form) {
+  if (!options.element.empty()) return of_points(options, form);
+  const ProbeStream stream = options.stream.read();
+  if (options.datum.empty()) return assess_form(stream, form);
+  const ProbeStream datum = read_recording(options.datum, options.stream.recording());
+  return assess_form(stream, form, &datum);
+}
+
 int execute(const Options& options) {
   const auto tolerances = parse_form_tolerances(options.tolerances);
   const FormOptions form = chosen(options);
-  const ProbeStream stream = options.stream.read();
-  std::optional<ProbeStream> datum;
   Outputs outputs(options.force);
   outputs.reads(options.stream.path);
   if (!options.spindle.empty()) outputs.reads(options.spindle);
-  if (!options.datum.empty()) {
-    datum = read_recording(options.datum, options.stream.recording());
-    outputs.reads(options.datum);
-  }
+  if (!options.datum.empty()) outputs.reads(options.datum);
   outputs.may_write(options.json, "trueaxis.form");
   outputs.may_write(options.profile, "trueaxis.form_profile");
   outputs.check();
-  const FormResult result = assess_form(stream, form, datum ? &*datum : nullptr);
+  const FormResult result = assessed(options, form);
   const FormVerdict verdict = judge_form(result, tolerances);
   if (!options.json.empty()) outputs.write(options.json, form_json(result));
   if (!options.profile.empty()) outputs.write(options.profile, form_profile_csv(result));
@@ -148,12 +170,25 @@ void add_form(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "form", "roundness, cylindricity, straightness, flatness and run-out (ISO 12181, 1101)");
   auto options = std::make_shared<Options>();
-  options->stream.add_to(*command);
+  options->stream.add_to(*command,
+                         "probe stream (CSV), or points x y z (with --element); '-' for standard "
+                         "input");
+  auto* element =
+      command
+          ->add_option("--element", options->element,
+                       "the file holds points x y z of a circle, cylinder, plane or line")
+          ->check(CLI::IsMember({"circle", "cylinder", "plane", "line"}));
+  command->add_option("--unit", options->unit, "of the points: mm, um, m or in (mm)")
+      ->check(CLI::IsMember({"mm", "um", "m", "in"}))
+      ->needs(element);
   add_filter(*command, *options);
   add_rest(*command, *options);
   command->callback([options, &exit_code] {
     if (!options->json.empty() && options->json == options->profile)
       throw CLI::ValidationError("--profile", "cannot go where --json goes");
+    if (!options->element.empty() && (options->stream.says_anything() || !options->datum.empty()))
+      throw CLI::ValidationError("--element",
+                                 "points have no X_M and no datum: leave out what says of these");
     exit_code = execute(*options);
   });
 }

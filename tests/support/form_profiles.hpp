@@ -20,10 +20,11 @@ inline ProbeStream part_stream(const PartShape& shape, std::size_t readings,
                                const std::vector<double>& z_mm) {
   ProbeStream stream;
   stream.source = "part";
-  for (const double z : z_mm)
+  for (std::size_t section = 0; section < z_mm.size(); ++section)
     for (std::size_t i = 0; i < readings; ++i) {
+      const double z = z_mm[section];
       const double angle = two_pi * static_cast<double>(i) / static_cast<double>(readings);
-      stream.c_rad.push_back(angle + two_pi * static_cast<double>(&z - z_mm.data()));
+      stream.c_rad.push_back(angle + two_pi * static_cast<double>(section));
       stream.reading_mm.push_back(shape(angle, std::isnan(z) ? 0.0 : z));
       if (!std::isnan(z)) stream.position_mm.push_back(z);
     }

@@ -139,8 +139,8 @@ TEST(FormCircle, EveryOptimumIsProven) {
       EXPECT_LT((sum - Eigen::Vector3d(size, 0.0, 0.0)).norm(), 1e-12);
       EXPECT_NEAR(weight, 1.0, 1e-12);
       for (const double one : off) {
-        if (criterion != Criterion::maximum_inscribed) EXPECT_LE(one, extreme + 1e-15);
-        if (criterion != Criterion::minimum_circumscribed) EXPECT_GE(one, -extreme - 1e-15);
+        EXPECT_TRUE(criterion == Criterion::maximum_inscribed || one <= extreme + 1e-15);
+        EXPECT_TRUE(criterion == Criterion::minimum_circumscribed || one >= -extreme - 1e-15);
       }
     }
   }
