@@ -141,6 +141,10 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   if (datum) {
     result.datum_source = datum->source;
     of_datum = sections_of(*datum, options);
+    if (!of_datum.radius_known || !sections.radius_known)
+      throw InputError(datum->source,
+                       "part and datum need radii, which a relative gauge without nominal_radius "
+                       "does not give: `# nominal_radius: R mm` in both streams");
   }
   const std::vector<SectionModel> datum_part =
       models_of(of_datum, options, datum ? datum->source : "");

@@ -17,8 +17,8 @@ namespace trueaxis {
 namespace form {
 namespace {
 
-constexpr double between_sections_mm = 0.05;
-constexpr double thickest_section_mm = 0.5;
+constexpr double between_slices_mm = 0.05;
+constexpr double thickest_slice_mm = 0.5;
 
 using Points = std::span<const Point3>;
 
@@ -63,10 +63,10 @@ std::vector<double> sections_along(const std::vector<Eigen::Vector3d>& points) {
   for (std::size_t begin = 0; begin < order.size();) {
     std::size_t end = begin + 1;
     while (end < order.size() &&
-           points[order[end]].z() - points[order[end - 1]].z() <= between_sections_mm)
+           points[order[end]].z() - points[order[end - 1]].z() <= between_slices_mm)
       ++end;
     const double low = points[order[begin]].z(), high = points[order[end - 1]].z();
-    if (high - low > thickest_section_mm)
+    if (high - low > thickest_slice_mm)
       throw InputError("points",
                        fmt::format("the points of the cylinder stand in no sections (some from "
                                    "{:.4g} to {:.4g} mm along the axis without a break): `trueaxis "

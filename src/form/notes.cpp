@@ -20,6 +20,8 @@ void note_radius(const ProbeStream& stream, const Sections& sections, FormResult
         "reference circles are limaçons. An eccentric circle of radius R reads as {:.3g} µm / (R "
         "in mm) of two lobes more: centre the part or give --nominal-radius",
         0.25 * e * e / mm_per_um));
+    if (result.sections.size() > 1)
+      result.notes.emplace_back("Cylindricity and run-out of several sections need the radius");
   } else if (stream.x_convention && stream.x_convention->said_by == SaidBy::nobody) {
     result.notes.emplace_back(
         "X_M was taken as a radius, which nothing says: give --radius or --diameter");

@@ -9,6 +9,7 @@
 
 #include "form/circle.hpp"
 #include "form/derivative.hpp"
+#include "form/harmonics.hpp"
 #include "form/low_pass.hpp"
 #include "form/sections.hpp"
 #include "form/values.hpp"
@@ -40,6 +41,8 @@ class SectionModel {
   /// Everything of the section but the uncertainty of `values`.
   SectionForm form() const;
 
+  /// Orders of the readings before the filter, as far as these carry.
+  const std::vector<Order>& orders() const { return orders_; }
   const Trace& raw() const { return raw_; }  ///< about the least-squares circle
   const std::vector<double>& profile_mm() const { return profile_mm_; }  ///< that, filtered
   double noise_mm() const { return noise_mm_; }  ///< standard deviation at a place of `raw()`
@@ -61,6 +64,7 @@ class SectionModel {
   std::shared_ptr<const LowPass> high_, low_;
   std::shared_ptr<const Derivative> slope_;
   std::vector<double> profile_mm_;
+  std::vector<Order> orders_;
   std::vector<Exchange> circles_;  ///< of form_criteria, at their optimum
   std::string trouble_;
 };

@@ -15,7 +15,8 @@
 namespace trueaxis::form {
 namespace {
 
-constexpr double one_section_mm = 0.01;  // Z of one section varies by less
+constexpr double between_sections_mm = 0.01;     // Z of one section has no larger step
+constexpr double thickest_of_sections_mm = 0.1;  // a helix runs on
 constexpr double least_of_a_section = 8.0;
 
 double spindle_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
@@ -54,17 +55,20 @@ std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
   if (!stream.has_position()) return {order};
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return stream.position_mm[i]; });
   std::vector<std::vector<std::size_t>> sections;
-  double begin = -1e300;
+  double thickest = 0.0, begin = 0.0, before = 0.0;
   for (const std::size_t i : order) {
     const double z = stream.position_mm[i];
-    if (sections.empty() || z - begin > one_section_mm) {
+    if (sections.empty() || z - before > between_sections_mm) {
       sections.emplace_back();
       begin = z;
     }
+    before = z;
+    thickest = std::max(thickest, z - begin);
     sections.back().push_back(i);
   }
-  const bool helix = static_cast<double>(stream.size()) <
-                     least_of_a_section * static_cast<double>(sections.size());
+  const bool helix = thickest > thickest_of_sections_mm ||
+                     static_cast<double>(stream.size()) <
+                         least_of_a_section * static_cast<double>(sections.size());
   for (auto& section : sections) std::ranges::sort(section);
   return helix ? std::vector<std::vector<std::size_t>>{} : sections;
 }

@@ -8,6 +8,11 @@
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
+namespace {
+
+constexpr double one_place = 0.02;  // of the mean step: angles of several turns, rounded
+
+}  // namespace
 
 double Trace::step(std::size_t i) const {
   return i + 1 < at.size() ? at[i + 1] - at[i] : at.front() + period - at.back();
@@ -36,7 +41,8 @@ std::vector<double> shares_of(const Trace& trace, double longest_step) {
   return shares;
 }
 
-Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm, double period) {
+Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm, double period,
+                   std::size_t most) {
   expects(at.size() == value_mm.size(), "a value for every place");
   std::vector<double> places(at.begin(), at.end());
   if (period > 0.0)
@@ -48,15 +54,20 @@ Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm,
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
   const double extent = order.empty() ? 0.0 : places[order.back()] - places[order.front()];
+  const double together =
+      std::max(one_place * extent / static_cast<double>(std::max<std::size_t>(1, order.size())),
+               most > 0 ? extent / static_cast<double>(most) : 0.0);
   Trace trace;
   trace.period = period;
   for (std::size_t k = 0; k < order.size();) {
-    double sum = 0.0;
+    double at_sum = 0.0, sum = 0.0;
     std::size_t count = 0;
     const double place = places[order[k]];
-    for (; k < order.size() && places[order[k]] - place <= 1e-9 * extent; ++k, ++count)
+    for (; k < order.size() && places[order[k]] - place <= together; ++k, ++count) {
+      at_sum += places[order[k]] - place;
       sum += value_mm[order[k]];
-    trace.at.push_back(place);
+    }
+    trace.at.push_back(place + at_sum / static_cast<double>(count));
     trace.value_mm.push_back(sum / static_cast<double>(count));
   }
   return trace;

@@ -34,7 +34,9 @@ std::vector<Gap> gaps_of(const Trace& trace, double longest);
 /// trapezoidal rule. Beside a gap or an end the other side counts twice.
 std::vector<double> shares_of(const Trace& trace, double longest_step);
 
-/// In order of `at`, readings at one place (within 1e-9 of the extent) averaged.
-Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm, double period);
+/// In order of `at`; readings nearer to each other than a fiftieth of the mean step are averaged,
+/// in place and value, and so are those within extent / `most` where that is not 0.
+Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm, double period,
+                   std::size_t most = 0);
 
 }  // namespace trueaxis::form

@@ -16,6 +16,11 @@ using Engine = boost::random::mt19937_64;
 
 /// Orders of a motion of which the range alone is known: amplitudes fall with the order.
 constexpr int first_unknown = 2, last_unknown = 10;
+/// An order's square over the variance of its coefficients, from which on it is no noise: 5 % of
+/// orders without form are above, as exp(−6/2).
+constexpr double shown_over_noise = 6.0;
+/// What the highest of a profile of noise stands out by, over its standard deviation.
+constexpr double largest_of_noise = 5.0;
 
 double sum_of_squares(std::span<const double> values) {
   double sum = 0.0;
@@ -80,12 +85,33 @@ double noise_passed(const SectionModel& section) {
   return sum_of_squares(section.filtered(noise)) / sum_of_squares(noise);
 }
 
-/// The profile without the part of its variance that is noise. Eq. 271.
+/// Every order without the part that is noise, then filtered. Eq. 271.
+std::vector<double> of_shrunk_orders(const SectionModel& section) {
+  std::vector<double> sum(section.raw().size(), 0.0);
+  for (const Order& one : section.orders()) {
+    const double noise = section.noise_mm() * one.u_per_sigma;
+    const double square = one.cos_mm * one.cos_mm + one.sin_mm * one.sin_mm;
+    if (one.order == 0 || square <= shown_over_noise * noise * noise) continue;
+    const double kept = std::sqrt(1.0 - shown_over_noise * noise * noise / square);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += kept * (one.cos_mm * std::cos(one.order * section.raw().at[i]) +
+                        one.sin_mm * std::sin(one.order * section.raw().at[i]));
+  }
+  return section.filtered(sum);
+}
+
+/// The profile that noise is added to: without its own where what that takes off looks like noise
+/// (a scratch is many small orders and does not), else as much smaller as noise made it. Eq. 271.
 std::vector<double> less_noise(const SectionModel& section) {
   std::vector<double> profile = section.profile_mm();
+  const double noise = section.noise_mm() * std::sqrt(noise_passed(section));
+  const std::vector<double> shrunk = of_shrunk_orders(section);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    largest = std::max(largest, std::abs(profile[i] - shrunk[i]));
+  if (largest <= largest_of_noise * noise) return shrunk;
   const double variance = sum_of_squares(profile) / static_cast<double>(profile.size());
-  const double noise = section.noise_mm() * section.noise_mm() * noise_passed(section);
-  const double kept = variance > noise ? std::sqrt(1.0 - noise / variance) : 0.0;
+  const double kept = variance > noise * noise ? std::sqrt(1.0 - noise * noise / variance) : 0.0;
   for (double& one : profile) one *= kept;
   return profile;
 }
