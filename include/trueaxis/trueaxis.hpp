@@ -14,6 +14,7 @@
 #include "trueaxis/error.hpp"              // InputError, ContractViolation
 #include "trueaxis/fit.hpp"                // association of a surface
 #include "trueaxis/fixture.hpp"            // a part on six locators, on its datums
+#include "trueaxis/form.hpp"               // roundness, cylindricity, run-out with U
 #include "trueaxis/job.hpp"                // streams in, verdict and table out
 #include "trueaxis/machine.hpp"            // a machine of several axes, its errors, compensation
 #include "trueaxis/machine_diagnosis.hpp"  // what the model of a machine gets wrong

@@ -10,6 +10,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_init(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_fit(CLI::App& app, int& exit_code);
+void add_form(CLI::App& app, int& exit_code);
 void add_diagnose(CLI::App& app, int& exit_code);
 void add_associate(CLI::App& app, int& exit_code);
 void add_advise(CLI::App& app, int& exit_code);

@@ -19,11 +19,11 @@ int run(int argc, char** argv) {
       "Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a "
       "bug.");
   int code = done;
-  for (const auto add :
-       {add_run,        add_init,      add_import,  add_fit,       add_diagnose,   add_advise,
-        add_correct,    add_simulate,  add_sweep,   add_plan,      add_spindle,    add_locate,
-        add_datum,      add_calibrate, add_pose,    add_axes,      add_machine,    add_errors,
-        add_compensate, add_axis_bias, add_effects, add_associate, add_completion, add_man})
+  for (const auto add : {add_run,     add_init,      add_import,   add_fit,        add_diagnose,
+                         add_advise,  add_correct,   add_simulate, add_sweep,      add_plan,
+                         add_spindle, add_locate,    add_datum,    add_calibrate,  add_pose,
+                         add_axes,    add_machine,   add_errors,   add_compensate, add_axis_bias,
+                         add_effects, add_associate, add_form,     add_completion, add_man})
     add(app, code);
   try {
     app.parse(argc, argv);

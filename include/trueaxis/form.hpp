@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trueaxis/association.hpp"
+#include "trueaxis/probe_stream.hpp"
+#include "trueaxis/units.hpp"
+
+/// Form parameters of ISO 12181 (roundness), 12180 (cylindricity), 12780 (straightness), 12781
+/// (flatness) and run-out, coaxiality, concentricity and parallelism of ISO 1101, with U
+/// (docs/form.md; docs/theory.md §29). Inside mm and rad; UPR: undulations per revolution.
+namespace trueaxis {
+
+/// Profile filters of ISO 16610: parts 21 (Gaussian), 31 (robust Gaussian regression), 22 (spline).
+enum class ProfileFilter { none, gaussian, robust_gaussian, spline };
+
+/// Least squares (LSCI), minimum zone (MZCI), minimum circumscribed (MCCI) and maximum inscribed
+/// (MICI) circle of a section; likewise of a cylinder.
+inline constexpr std::array<Criterion, 4> form_criteria{
+    Criterion::gaussian, Criterion::minimum_zone, Criterion::minimum_circumscribed,
+    Criterion::maximum_inscribed};
+
+/// "gaussian" … as in files.
+const char* to_string(ProfileFilter filter);
+/// Of `criterion_names`.
+const char* name_of(Criterion criterion);
+
+/// One order of a spindle's radial error motion along the probe: cos · cos nC + sin · sin nC.
+struct SpindleOrder {
+  int order = 2;
+  double cos_mm = 0.0, sin_mm = 0.0;
+  double u_mm = 0.0;  ///< standard uncertainty of either
+};
+
+struct FormOptions {
+  ProfileFilter filter = ProfileFilter::gaussian;
+  double low_upr = 1.0;    ///< of the pass band; 1: a low-pass
+  double high_upr = 50.0;  ///< where the filter lets 50 % through
+  bool bore = false;
+  double ball_radius_mm = 0.0;          ///< 0: the stream's
+  std::optional<double> noise_mm;       ///< standard deviation of a reading; else as it shows
+  std::vector<SpindleOrder> spindle{};  ///< known motion: taken off, its u counts
+  double spindle_range_mm = 0.0;        ///< range of a motion that is not known by its orders
+  Criterion datum = Criterion::minimum_circumscribed;  ///< ISO 5459 of a shaft
+  double coverage_factor = 2.0;
+  int trials = 400;  ///< of the Monte Carlo: u to 3.5 %
+  std::uint64_t seed = 12181;
+  int threads = 0;  ///< 0: as many as there are; the values do not depend on it
+};
+
+/// A value as the standards name it.
+struct FormValue {
+  std::string name;       ///< "RONt", "CYLt", "eccentricity" …
+  std::string reference;  ///< "LSCI" …: what it is about; empty: it needs none
+  Estimate estimate;      ///< value and u, in mm (slopes: mm per rad)
+  double bias_mm = 0.0;   ///< by how much noise makes it larger on average; in u, not taken off
+};
+
+/// One order of a section's profile before the filter, amplitude · cos(nθ − phase), θ in the part.
+struct FormHarmonic {
+  int order = 0;
+  double amplitude_mm = 0.0, phase_rad = 0.0, u_mm = 0.0;
+};
+
+/// A reference circle, in the part frame.
+struct FormCircle {
+  Criterion criterion = Criterion::gaussian;
+  double x_mm = 0.0, y_mm = 0.0, radius_mm = 0.0;
+  /// Angles (rad) that it touches, with the multipliers that prove it the least one; Eq. 266.
+  std::vector<std::array<double, 2>> touches{};
+  std::string why_not{};  ///< why there is none; empty: there is
+};
+
+/// The profile of one section, in order of angle.
+struct FormProfile {
+  std::vector<double> angle_rad, raw_mm, filtered_mm;  ///< about the least-squares circle
+};
+
+struct SectionForm {
+  std::optional<double> z_mm;  ///< mean; nothing: the stream has no Z
+  std::size_t readings = 0;
+  double turns = 1.0;
+  double points_per_cycle = 0.0;  ///< of the shortest wave that the filter lets through
+  double gaps_rad = 0.0;          ///< of interruptions that the filter does not bridge, in all
+  double noise_mm = 0.0;          ///< standard deviation of a reading that U rests on
+  double transmission = 0.5;      ///< of a wave at the cut-off over these angles, measured
+  std::vector<FormCircle> circles;
+  std::vector<FormValue> values;  ///< RONt, RONp, RONv, RONq of each circle; slope, eccentricity
+  std::vector<FormHarmonic> harmonics;
+  int lobes = 0;             ///< the order from 2 on with the largest amplitude
+  double lobes_share = 0.0;  ///< its part of the mean square of all orders from 2 on
+  FormProfile profile;
+};
+
+/// A group of values of the whole: a cylinder, its axis, run-out, a face, a line.
+struct FormGroup {
+  std::string name;  ///< "cylindricity", "axis", "runout", "datum", "flatness", "straightness"
+  std::vector<FormValue> values;
+};
+
+struct FormResult {
+  std::vector<SectionForm> sections;
+  std::vector<FormGroup> groups;
+  FormOptions options;
+  bool radius_known = true;  ///< false: the circles are limaçons, their radius is that of a gauge
+  std::vector<std::string> notes;  ///< what a user should know of the numbers, in sentences
+  std::string source, input_hash, datum_source;
+};
+
+/// Form of what a lateral stream (X_M, C, Z: sections, or a helix that is cut into turns) or a face
+/// stream (Z_M, C, X) shows. Values against a datum are about the axis of `datum`, a stream of the
+/// same clamping; without one about the spindle axis.
+/// @throws InputError with what the readings cannot carry: fewer than 7 a wave at the cut-off, less
+///         than half a turn, several set-ups, angles that look like another unit.
+FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {},
+                       const ProbeStream* datum = nullptr);
+
+/// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections
+/// of a circle and of a cylinder are filtered, planes and lines are not.
+/// @throws InputError for another element, or points that do not make one
+FormResult assess_form(std::span<const Point3> points_mm, Element element,
+                       const FormOptions& options = {});
+
+}  // namespace trueaxis

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trueaxis/form.hpp"
+
+#include <charconv>
+#include <iostream>
+#include <memory>
+
+#include "associate/files/association_files.hpp"
+#include "cli/commands.hpp"
+#include "cli/form_tolerance.hpp"
+#include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "cli/screen.hpp"
+#include "cli/stream_options.hpp"
+#include "form/files/form_json.hpp"
+#include "form/files/form_text.hpp"
+#include "form/files/spindle_motion.hpp"
+#include "format/outputs.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+struct Options {
+  StreamOptions stream;
+  FormOptions form;
+  std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile;
+  std::string tolerances, element, unit;
+  double noise_um = -1.0, spindle_range_um = 0.0;
+  bool verbose = false, force = false;
+};
+
+/// "1-50", "15-500", or one number, the upper.
+void parse_band(const std::string& text, FormOptions& form) {
+  const auto refuse = [&] {
+    throw CLI::ValidationError("--upr", text + " is no pass band such as 1-50");
+  };
+  const auto number = [&](std::string_view part) {
+    double value = 0.0;
+    const auto [end, wrong] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (wrong != std::errc{} || end != part.data() + part.size()) refuse();
+    return value;
+  };
+  const std::size_t dash = text.find('-');
+  form.low_upr = dash == std::string::npos ? 1.0 : number(std::string_view(text).substr(0, dash));
+  form.high_upr =
+      number(dash == std::string::npos ? text : std::string_view(text).substr(dash + 1));
+  if (!(form.low_upr >= 1.0 && form.high_upr > form.low_upr && form.high_upr <= 1500.0)) refuse();
+}
+
+FormOptions chosen(const Options& options) {
+  FormOptions form = options.form;
+  form.filter = options.filter == "none"     ? ProfileFilter::none
+                : options.filter == "robust" ? ProfileFilter::robust_gaussian
+                : options.filter == "spline" ? ProfileFilter::spline
+                                             : ProfileFilter::gaussian;
+  parse_band(options.upr, form);
+  if (options.noise_um >= 0.0) form.noise_mm = options.noise_um * mm_per_um;
+  form.spindle_range_mm = options.spindle_range_um * mm_per_um;
+  // The datum of ISO 5459: what a mating part would touch.
+  form.datum = form.bore ? Criterion::maximum_inscribed : Criterion::minimum_circumscribed;
+  for (const Criterion criterion : form_criteria)
+    if (options.datum_association == name_of(criterion)) form.datum = criterion;
+  if (!options.spindle.empty()) form.spindle = read_spindle_motion(options.spindle);
+  return form;
+}
+
+FormResult of_points(const Options& options, const FormOptions& form) {
+  const PointText points = read_points(options.stream.path, options.unit);
+  Element element = Element::circle;
+  for (std::size_t i = 0; i < element_names.size(); ++i)
+    if (options.element == element_names[i]) element = static_cast<Element>(i);
+  try {
+    FormResult result = assess_form(points.points_mm, element, form);
+    result.source = points.source;
+    result.input_hash = points.hash;
+    return result;
+  } catch (const InputError& error) {  // which file the points are of
+    std::vector<Diagnostic> wrong = error.diagnostics();
+    for (Diagnostic& one : wrong)
+      if (one.file == "points") one.file = points.source;
+    throw InputError(std::move(wrong));
+  }
+}
+
+FormResult assessed(const Options& options, const FormOptions& form) {
+  if (!options.element.empty()) return of_points(options, form);
+  const ProbeStream stream = options.stream.read();
+  if (options.datum.empty()) return assess_form(stream, form);
+  const ProbeStream datum = read_recording(options.datum, options.stream.recording());
+  return assess_form(stream, form, &datum);
+}
+
+int execute(const Options& options) {
+  const auto tolerances = parse_form_tolerances(options.tolerances);
+  const FormOptions form = chosen(options);
+  Outputs outputs(options.force);
+  outputs.reads(options.stream.path);
+  if (!options.spindle.empty()) outputs.reads(options.spindle);
+  if (!options.datum.empty()) outputs.reads(options.datum);
+  outputs.may_write(options.json, "trueaxis.form");
+  outputs.may_write(options.profile, "trueaxis.form_profile");
+  outputs.check();
+  const FormResult result = assessed(options, form);
+  const FormVerdict verdict = judge_form(result, tolerances);
+  if (!options.json.empty()) outputs.write(options.json, form_json(result));
+  if (!options.profile.empty()) outputs.write(options.profile, form_profile_csv(result));
+  outputs.commit();
+  if (options.json != "-" && options.profile != "-")
+    std::cout << verdict.text << form_text(result, options.verbose);
+  return verdict.met ? done : refused;
+}
+
+void add_filter(CLI::App& command, Options& options) {
+  command
+      .add_option("--filter", options.filter,
+                  "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none")
+      ->check(CLI::IsMember({"gaussian", "robust", "spline", "none"}));
+  command.add_option("--upr", options.upr,
+                     "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");
+  command
+      .add_option("--spindle", options.spindle,
+                  "JSON of `trueaxis spindle`: its error motion is taken off, its u counts")
+      ->check(a_place());
+  command
+      .add_option("--spindle-range-um", options.spindle_range_um,
+                  "range of a synchronous error motion that is not known by its orders, in U")
+      ->check(a_length());
+}
+
+void add_rest(CLI::App& command, Options& options) {
+  command.add_flag("--bore", options.form.bore, "probed from inside");
+  command
+      .add_option("--ball-radius", options.form.ball_radius_mm,
+                  "X_M is the centre of a ball of this radius, mm")
+      ->check(a_length());
+  command.add_option("--noise", options.noise_um, "standard deviation of one reading, µm")
+      ->check(a_length());
+  command
+      .add_option("--datum", options.datum,
+                  "probe stream (CSV) of the datum, in the same clamping (the spindle axis)")
+      ->check(a_place());
+  command
+      .add_option("--datum-association", options.datum_association,
+                  "minimum_circumscribed (shaft), maximum_inscribed (bore), minimum_zone or "
+                  "gaussian")
+      ->check(CLI::IsMember(
+          {"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
+  command.add_option("--tolerance-um", options.tolerances,
+                     "RONt=2,CYLt=5: judged by ISO 14253-1, exit 1 where one is not proven met");
+  command.add_option("--coverage-factor", options.form.coverage_factor, "k of U = k u (2)")
+      ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
+  command.add_option("--trials", options.form.trials, "of the Monte Carlo behind U (400)")
+      ->check(CLI::Range(10, 1000000));
+  command.add_option("--seed", options.form.seed, "of the Monte Carlo (12181)");
+  command.add_option("--threads", options.form.threads, "as many as there are (0)")
+      ->check(CLI::Range(0, 1024));
+  command.add_option("--json", options.json, "write the result here (JSON), '-' prints it")
+      ->check(a_place());
+  command
+      .add_option("--profile", options.profile,
+                  "write the profiles here (CSV), before and behind the filter; '-' prints them")
+      ->check(a_place());
+  add_force(command, options.force);
+  add_verbose(command, options.verbose);
+}
+
+}  // namespace
+
+void add_form(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "form", "roundness, cylindricity, straightness, flatness and run-out (ISO 12181, 1101)");
+  auto options = std::make_shared<Options>();
+  options->stream.add_to(*command,
+                         "probe stream (CSV), or points x y z (with --element); '-' for standard "
+                         "input");
+  auto* element =
+      command
+          ->add_option("--element", options->element,
+                       "the file holds points x y z of a circle, cylinder, plane or line")
+          ->check(CLI::IsMember({"circle", "cylinder", "plane", "line"}));
+  command->add_option("--unit", options->unit, "of the points: mm, um, m or in (mm)")
+      ->check(CLI::IsMember({"mm", "um", "m", "in"}))
+      ->needs(element);
+  add_filter(*command, *options);
+  add_rest(*command, *options);
+  command->callback([options, &exit_code] {
+    if (!options->json.empty() && options->json == options->profile)
+      throw CLI::ValidationError("--profile", "cannot go where --json goes");
+    if (!options->element.empty() && (options->stream.says_anything() || !options->datum.empty()))
+      throw CLI::ValidationError("--element",
+                                 "points have no X_M and no datum: leave out what says of these");
+    exit_code = execute(*options);
+  });
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/form_tolerance.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <set>
+#include <sstream>
+
+#include "format/text_layout.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+/// About the minimum zone where a value is about something; what has no such value is about least
+/// squares.
+bool counts(const FormValue& one, const std::string& name) {
+  return one.name == name && (one.reference.empty() || one.reference.starts_with("MZ") ||
+                              name == "CYLrr" || name == "CYLtt" || name == "eccentricity");
+}
+
+std::vector<const FormValue*> all_values(const FormResult& result) {
+  std::vector<const FormValue*> list;
+  for (const SectionForm& section : result.sections)
+    for (const FormValue& one : section.values) list.push_back(&one);
+  for (const FormGroup& group : result.groups)
+    for (const FormValue& one : group.values) list.push_back(&one);
+  return list;
+}
+
+}  // namespace
+
+std::vector<FormTolerance> parse_form_tolerances(const std::string& text) {
+  std::vector<FormTolerance> list;
+  std::istringstream parts(text);
+  for (std::string part; std::getline(parts, part, ',');) {
+    const std::size_t equals = part.find('=');
+    double um = 0.0;
+    const char* end = part.data() + part.size();
+    const char* from = equals == std::string::npos ? end : part.data() + equals + 1;
+    const auto [stop, wrong] = std::from_chars(from, end, um);
+    if (equals == 0 || wrong != std::errc{} || stop != end || !(um > 0.0) || !std::isfinite(um))
+      throw CLI::ValidationError("--tolerance-um", part + " is no tolerance such as RONt=2");
+    list.push_back({part.substr(0, equals), um * mm_per_um});
+  }
+  return list;
+}
+
+FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance>& tolerances) {
+  FormVerdict verdict;
+  const double k = result.options.coverage_factor;
+  for (const FormTolerance& tolerance : tolerances) {
+    const FormValue* worst = nullptr;
+    std::set<std::string> names;
+    for (const FormValue* one : all_values(result)) {
+      if (one->estimate.unit == "mm") names.insert(one->name);
+      if (one->estimate.unit != "mm" || !counts(*one, tolerance.name)) continue;
+      if (!worst ||
+          one->estimate.value + k * one->estimate.u > worst->estimate.value + k * worst->estimate.u)
+        worst = one;
+    }
+    if (!worst) {
+      std::string known;
+      for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
+      throw InputError("--tolerance-um", "there is no value " + tolerance.name +
+                                             " here to hold against a tolerance, but " + known);
+    }
+    const double value = worst->estimate.value, U = k * worst->estimate.u;
+    const bool met = value + U <= tolerance.limit_mm;
+    verdict.met = verdict.met && met;
+    verdict.text += fmt::format("{}: {} {}{} µm, tolerance {:g} µm (ISO 14253-1)\n",
+                                met                              ? "MET"
+                                : value - U > tolerance.limit_mm ? "NOT MET"
+                                                                 : "NOT PROVEN",
+                                worst->name, worst->reference.empty() ? "" : worst->reference + " ",
+                                layout::plus_minus(worst->estimate, k, 1e3, ""),
+                                tolerance.limit_mm / mm_per_um);
+  }
+  return verdict;
+}
+
+}  // namespace trueaxis::cli

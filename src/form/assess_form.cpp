@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "form/face.hpp"
+#include "form/notes.hpp"
+#include "form/sections.hpp"
+#include "form/uncertainty.hpp"
+#include "form/whole_model.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/form.hpp"
+
+namespace trueaxis {
+namespace form {
+namespace {
+
+std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
+                                    const std::string& source) {
+  std::vector<SectionModel> models;
+  std::vector<Diagnostic> wrong;
+  for (const SectionReadings& one : sections.list) {
+    models.emplace_back(one, sections.radius_known, options);
+    if (models.back().trouble().empty()) continue;
+    const std::string where = one.z_mm ? fmt::format("section at Z = {:.6g} mm: ", *one.z_mm) : "";
+    wrong.push_back({source, 0, 0, where + models.back().trouble()});
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  return models;
+}
+
+/// One section against an axis: its run-out and concentricity.
+std::vector<NamedValue> section_against(const AxisLine& datum, const SectionModel& section,
+                                        std::span<const double> filtered_mm) {
+  const auto [x0, y0] = datum.at(section.z_mm().value_or(0.0));
+  const double x = section.x_mm() - x0, y = section.y_mm() - y0;
+  const AxisOffset centre = section.centre(filtered_mm);
+  double low = 1e300, high = -1e300;
+  for (std::size_t i = 0; i < filtered_mm.size(); ++i) {
+    const double c = std::cos(section.raw().at[i]), s = std::sin(section.raw().at[i]);
+    const double r = section.radius_mm() + filtered_mm[i];
+    const double distance =
+        section.radius_known() ? std::hypot(x + r * c, y + r * s) : filtered_mm[i] + x * c + y * s;
+    low = std::min(low, distance);
+    high = std::max(high, distance);
+  }
+  return {{"datum", "runout_circular", "", high - low},
+          {"datum", "concentricity", "", 2.0 * std::hypot(centre.x_mm - x0, centre.y_mm - y0)}};
+}
+
+/// All values of a part, of whose datum there may be sections too.
+class Assessment {
+ public:
+  Assessment(const std::vector<SectionModel>& part, const std::vector<SectionModel>& datum,
+             const FormOptions& options)
+      : part_(part), datum_(datum), options_(options) {
+    if (part.size() > 1 && part.front().radius_known()) whole_.emplace(part);
+    if (datum.size() > 1) whole_datum_.emplace(datum);
+  }
+
+  std::vector<NamedValue> operator()(const Profiles& profiles, bool exactly) const {
+    std::vector<NamedValue> values;
+    const auto append = [&](const std::vector<NamedValue>& more) {
+      values.insert(values.end(), more.begin(), more.end());
+    };
+    for (std::size_t s = 0; s < part_.size(); ++s)
+      append(part_[s].assess(profiles.part_mm[s], exactly));
+    const AxisLine datum = datum_axis(profiles, exactly);
+    if (whole_) append(whole_->assess(profiles.part_mm, exactly));
+    if (whole_)
+      append(whole_->against(datum, profiles.part_mm));
+    else if (part_.size() == 1)
+      append(section_against(datum, part_.front(), profiles.part_mm.front()));
+    return values;
+  }
+
+ private:
+  AxisLine datum_axis(const Profiles& profiles, bool exactly) const {
+    if (whole_datum_) return whole_datum_->axis(profiles.datum_mm, options_.datum, exactly);
+    if (datum_.empty()) return {};
+    const SectionModel& section = datum_.front();
+    const AssociatedCircle circle =
+        associate_circle(section.raw().at, profiles.datum_mm.front(),
+                         section.radius_known() ? section.radius_mm() : 0.0, options_.datum);
+    return {section.x_mm() + circle.x_mm, section.y_mm() + circle.y_mm, 0.0, 0.0};
+  }
+
+  const std::vector<SectionModel>&part_, &datum_;
+  const FormOptions& options_;
+  std::optional<WholeModel> whole_, whole_datum_;
+};
+
+FormGroup& group_named(FormResult& result, const std::string& name) {
+  for (FormGroup& group : result.groups)
+    if (group.name == name) return group;
+  return result.groups.emplace_back(FormGroup{name, {}});
+}
+
+void hand_out(FormResult& result, const std::vector<NamedValue>& values,
+              const std::vector<Spread>& spread) {
+  const std::size_t of_sections = std::ranges::count(values, "section", &NamedValue::group);
+  const std::size_t each = result.sections.empty() ? 0 : of_sections / result.sections.size();
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    const NamedValue& one = values[v];
+    auto& list = one.group == "section" ? result.sections[v / each].values
+                                        : group_named(result, one.group).values;
+    list.push_back(
+        {one.name, one.reference, {one.value, spread[v].u, one.unit, ""}, spread[v].bias});
+  }
+}
+
+Profiles measured_profiles(const std::vector<SectionModel>& part,
+                           const std::vector<SectionModel>& datum) {
+  Profiles out;
+  for (const SectionModel& one : part) out.part_mm.push_back(one.profile_mm());
+  for (const SectionModel& one : datum) out.datum_mm.push_back(one.profile_mm());
+  return out;
+}
+
+}  // namespace
+}  // namespace form
+
+FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
+                       const ProbeStream* datum) {
+  using namespace form;
+  FormResult result;
+  FormOptions& options = result.options = given;
+  result.source = stream.source;
+  result.input_hash = stream.input_hash;
+  expect_options(options);
+  if (!(options.ball_radius_mm > 0.0)) options.ball_radius_mm = stream.ball_radius_mm.value_or(0.0);
+  if (!options.noise_mm) options.noise_mm = stream.sensor_noise_mm;
+  if (stream.kind == StreamKind::face) {
+    assess_face(stream, options, result);
+    return result;
+  }
+  const Sections sections = sections_of(stream, options);
+  const std::vector<SectionModel> part = models_of(sections, options, stream.source);
+  Sections of_datum;
+  if (datum) {
+    result.datum_source = datum->source;
+    of_datum = sections_of(*datum, options);
+    if (!of_datum.radius_known || !sections.radius_known)
+      throw InputError(datum->source,
+                       "part and datum need radii, which a relative gauge without nominal_radius "
+                       "does not give: `# nominal_radius: R mm` in both streams");
+  }
+  const std::vector<SectionModel> datum_part =
+      models_of(of_datum, options, datum ? datum->source : "");
+  const Assessment assessment(part, datum_part, options);
+  const auto values = assessment(measured_profiles(part, datum_part), true);
+  const auto spread = spreads(part, datum_part, options, [&](const Profiles& profiles) {
+    return assessment(profiles, false);
+  });
+  for (const SectionModel& one : part) result.sections.push_back(one.form());
+  result.radius_known = sections.radius_known;
+  hand_out(result, values, spread);
+  add_notes(stream, sections, result);
+  return result;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "form/exchange.hpp"
+
+namespace trueaxis::form {
+
+/// A circle about points that stand at angles and distances from a pole near its centre.
+struct AssociatedCircle {
+  double x_mm = 0.0, y_mm = 0.0, radius_mm = 0.0;  ///< centre against the pole
+  std::vector<double> off_mm;                      ///< of each point, outwards
+  std::vector<Nearest::Touch> touches;
+  std::string why;  ///< why there is none; empty: there is
+};
+
+/// The circle of a profile. A pole with a radius: that in the plane, by associate(). Without one,
+/// `radius_mm` = 0: the limaçon that a gauge's trace shows, Eq. 265.
+AssociatedCircle associate_circle(std::span<const double> angle_rad,
+                                  std::span<const double> deviation_mm, double radius_mm,
+                                  Criterion criterion);
+
+/// 1, cos θ, sin θ of each angle: a row of Eq. 265.
+Exchange::Rows limacon_rows(std::span<const double> angle_rad);
+
+}  // namespace trueaxis::form

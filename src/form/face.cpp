@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/face.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "form/section_model.hpp"
+#include "form/stream_checks.hpp"
+#include "math/statistics.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+constexpr double one_ring_mm = 0.01;
+constexpr std::size_t least_of_a_ring = 8;
+
+/// Readings at one X, in order of X.
+std::vector<std::vector<std::size_t>> rings_of(const ProbeStream& stream) {
+  std::vector<std::size_t> order(stream.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return stream.position_mm[i]; });
+  std::vector<std::vector<std::size_t>> rings;
+  double begin = -1e300;
+  for (const std::size_t i : order) {
+    if (rings.empty() || stream.position_mm[i] - begin > one_ring_mm) {
+      rings.emplace_back();
+      begin = stream.position_mm[i];
+    }
+    rings.back().push_back(i);
+  }
+  std::erase_if(rings, [](const auto& ring) { return ring.size() < least_of_a_ring; });
+  return rings;
+}
+
+std::vector<NamedValue> axial_run_out(const std::vector<std::vector<std::size_t>>& rings,
+                                      std::span<const double> height_mm) {
+  std::vector<NamedValue> values;
+  double circular = 0.0;
+  for (const auto& ring : rings) {
+    double low = 1e300, high = -1e300;
+    for (const std::size_t i : ring) {
+      low = std::min(low, height_mm[i]);
+      high = std::max(high, height_mm[i]);
+    }
+    circular = std::max(circular, high - low);
+  }
+  if (!rings.empty()) values.push_back({"datum", "axial_runout_circular", "", circular});
+  values.push_back({"datum", "axial_runout_total", "", range_of(height_mm).length()});
+  return values;
+}
+
+/// Noise that neighbours in the order of the stream show.
+double noise_in_order(std::span<const double> off_mm) {
+  Trace trace;
+  for (std::size_t i = 0; i < off_mm.size(); ++i) trace.at.push_back(static_cast<double>(i));
+  trace.value_mm.assign(off_mm.begin(), off_mm.end());
+  return trace.size() > 2 ? shown_noise_mm(trace) : 0.0;
+}
+
+}  // namespace
+
+void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
+                    std::span<const double> height_mm, const AssessHeights& more,
+                    FormResult& result) {
+  const HeightModel model(at_mm, plane,
+                          plane ? HeightModel::Names{"flatness", "FLT", "PL"}
+                                : HeightModel::Names{"straightness", "STR", "LI"});
+  const AssessHeights assess = [&](std::span<const double> heights) {
+    std::vector<NamedValue> values = model.assess(heights);
+    if (more)
+      for (NamedValue& one : more(heights)) values.push_back(std::move(one));
+    return values;
+  };
+  const std::vector<double> off = model.off_mm(height_mm);
+  const double noise_mm = std::max(noise_in_order(off), result.options.noise_mm.value_or(0.0));
+  const auto values = assess(height_mm);
+  const auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    if (result.groups.empty() || result.groups.back().name != values[v].group)
+      result.groups.push_back({values[v].group, {}});
+    result.groups.back().values.push_back({values[v].name,
+                                           values[v].reference,
+                                           {values[v].value, spread[v].u, values[v].unit, ""},
+                                           spread[v].bias});
+  }
+  result.notes.push_back(fmt::format(
+      "No filter along the surface: the values are of the readings as they stand, U rests on a "
+      "noise of {:.3g} µm a reading",
+      noise_mm / mm_per_um));
+}
+
+void assess_face(const ProbeStream& stream, const FormOptions&, FormResult& result) {
+  expect_face(stream);
+  std::vector<std::array<double, 2>> at;
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    at.push_back({stream.position_mm[i] * std::cos(stream.c_rad[i]),
+                  stream.position_mm[i] * std::sin(stream.c_rad[i])});
+  const auto rings = rings_of(stream);
+  assess_heights(
+      at, true, stream.reading_mm,
+      [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, result);
+}
+
+}  // namespace trueaxis::form

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/files/form_json.hpp"
+
+#include <fmt/format.h>
+
+#include "format/json.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+Json value_json(const FormValue& one) {
+  Json json{{"name", one.name}};
+  if (!one.reference.empty()) json["reference"] = one.reference;
+  const bool angle = one.estimate.unit == "rad";
+  const double factor = angle ? 1.0 / rad_per_deg : 1.0;
+  json["value"] = number(factor * one.estimate.value);
+  json["u"] = number(factor * one.estimate.u);
+  json["unit"] = angle ? "deg" : one.estimate.unit;
+  json["bias_by_noise"] = number(factor * one.bias_mm);
+  return json;
+}
+
+Json values_json(const std::vector<FormValue>& values) {
+  Json list = Json::array();
+  for (const FormValue& one : values) list.push_back(value_json(one));
+  return list;
+}
+
+Json circle_json(const FormCircle& circle, bool limacon) {
+  Json touches = Json::array();
+  for (const auto& [angle_rad, multiplier] : circle.touches)
+    touches.push_back({{"angle", number(angle_rad / rad_per_deg)}, {"multiplier", multiplier}});
+  Json json{{"reference", name_of(circle.criterion)},
+            {"x", with_unit(circle.x_mm, "mm")},
+            {"y", with_unit(circle.y_mm, "mm")}};
+  if (!circle.why_not.empty()) json["why"] = circle.why_not;
+  if (!limacon) json["radius"] = with_unit(circle.radius_mm, "mm");
+  if (!circle.touches.empty()) json["touches"] = std::move(touches);
+  return json;
+}
+
+Json section_json(const SectionForm& section, bool limacon) {
+  Json json;
+  if (section.z_mm) json["z"] = with_unit(*section.z_mm, "mm");
+  json["readings"] = section.readings;
+  json["turns"] = number(section.turns);
+  json["points_per_cycle"] = number(section.points_per_cycle);
+  json["transmission_at_cut_off"] = number(section.transmission);
+  json["gaps"] = with_unit(section.gaps_rad / rad_per_deg, "deg");
+  json["noise"] = with_unit(section.noise_mm, "mm");
+  json["values"] = values_json(section.values);
+  json["circles"] = Json::array();
+  for (const FormCircle& circle : section.circles)
+    json["circles"].push_back(circle_json(circle, limacon));
+  json["lobes"] = section.lobes;
+  json["lobes_share"] = number(section.lobes_share);
+  json["harmonic_unit"] = {{"amplitude", "mm"}, {"phase", "deg"}, {"u", "mm"}};
+  json["harmonics"] = Json::array();
+  for (const FormHarmonic& one : section.harmonics)
+    json["harmonics"].push_back({{"order", one.order},
+                                 {"amplitude", number(one.amplitude_mm)},
+                                 {"phase", number(one.phase_rad / rad_per_deg)},
+                                 {"u", number(one.u_mm)}});
+  return json;
+}
+
+Json options_json(const FormOptions& options) {
+  Json filter{{"kind", to_string(options.filter)}};
+  if (options.filter != ProfileFilter::none) filter["upr"] = {options.low_upr, options.high_upr};
+  Json json{{"filter", std::move(filter)}, {"side", options.bore ? "bore" : "shaft"}};
+  json["ball_radius"] =
+      options.ball_radius_mm > 0.0 ? with_unit(options.ball_radius_mm, "mm") : Json(nullptr);
+  json["spindle_orders_taken_off"] = options.spindle.size();
+  json["spindle_range"] = with_unit(options.spindle_range_mm, "mm");
+  json["trials"] = options.trials;
+  json["seed"] = options.seed;
+  return json;
+}
+
+}  // namespace
+
+std::string form_json(const FormResult& result) {
+  Json json{{"schema", "trueaxis.form/1"}, {"version", TRUEAXIS_VERSION}};
+  json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
+  json["datum"] =
+      result.datum_source.empty()
+          ? Json("spindle axis")
+          : Json{{"file", result.datum_source}, {"association", name_of(result.options.datum)}};
+  json["coverage_factor"] = result.options.coverage_factor;
+  json["options"] = options_json(result.options);
+  json["radius_known"] = result.radius_known;
+  json["groups"] = Json::array();
+  for (const FormGroup& group : result.groups)
+    json["groups"].push_back({{"name", group.name}, {"values", values_json(group.values)}});
+  json["sections"] = Json::array();
+  for (const SectionForm& section : result.sections)
+    json["sections"].push_back(section_json(section, !result.radius_known));
+  json["notes"] = result.notes;
+  return json_text(json);
+}
+
+std::string form_profile_csv(const FormResult& result) {
+  std::string text =
+      "# schema: trueaxis.form_profile/1\n# of each section about its least-squares circle: the "
+      "readings, and what the filter lets through\nsection,Z[mm],C[deg],raw[um],filtered[um]\n";
+  for (std::size_t s = 0; s < result.sections.size(); ++s) {
+    const SectionForm& section = result.sections[s];
+    for (std::size_t i = 0; i < section.profile.angle_rad.size(); ++i)
+      text += fmt::format("{},{:.6g},{:.6f},{:.6f},{:.6f}\n", s + 1, section.z_mm.value_or(0.0),
+                          section.profile.angle_rad[i] / rad_per_deg,
+                          section.profile.raw_mm[i] / mm_per_um,
+                          section.profile.filtered_mm[i] / mm_per_um);
+  }
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "form/sampling.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+void note_radius(const ProbeStream& stream, const Sections& sections, FormResult& result) {
+  if (!sections.radius_known) {
+    const double e = result.sections.front().values.front().estimate.value;
+    result.notes.push_back(fmt::format(
+        "The radius of the section is not known (a relative gauge without nominal_radius): the "
+        "reference circles are limaçons. An eccentric circle of radius R reads as {:.3g} µm / (R "
+        "in mm) of two lobes more: centre the part or give --nominal-radius",
+        0.25 * e * e / mm_per_um));
+    if (result.sections.size() > 1)
+      result.notes.emplace_back("Cylindricity and run-out of several sections need the radius");
+  } else if (stream.x_convention && stream.x_convention->said_by == SaidBy::nobody) {
+    result.notes.emplace_back(
+        "X_M was taken as a radius, which nothing says: give --radius or --diameter");
+  }
+}
+
+void note_sampling(FormResult& result) {
+  const FormOptions& options = result.options;
+  double gaps = 0.0, worst = 0.5;
+  for (const SectionForm& section : result.sections) {
+    gaps = std::max(gaps, section.gaps_rad);
+    if (std::abs(section.transmission - 0.5) > std::abs(worst - 0.5)) worst = section.transmission;
+  }
+  if (gaps > 0.0)
+    result.notes.push_back(fmt::format(
+        "{:.1f}° of a section have no readings over more than half a wave of the cut-off: nothing "
+        "was put in there, and form there is in no number",
+        gaps / rad_per_deg));
+  if (options.filter != ProfileFilter::none && std::abs(worst - 0.5) > 0.01)
+    result.notes.push_back(fmt::format(
+        "The angles of the readings are uneven or few for the filter: it lets {:.1f} % of a wave "
+        "at the cut-off through here, not 50 %",
+        100.0 * worst));
+  if (options.filter == ProfileFilter::none)
+    result.notes.emplace_back(
+        "No filter: the values are of the readings as they stand, and comparable with no others");
+}
+
+void note_ball(FormResult& result) {
+  const FormOptions& options = result.options;
+  if (!(options.ball_radius_mm > 0.0)) {
+    result.notes.emplace_back(
+        "The ball's radius is not known (--ball-radius): what it bridges is in no U");
+    return;
+  }
+  const SectionForm& section = result.sections.front();
+  const double radius_mm = section.circles.front().radius_mm;
+  for (const FormHarmonic& one : section.harmonics) {
+    if (one.order < 2 || one.order > options.high_upr) continue;
+    const double followed =
+        followed_amplitude_mm(one.order, radius_mm, options.ball_radius_mm, options.bore);
+    if (one.amplitude_mm < 0.5 * followed) continue;
+    result.notes.push_back(fmt::format(
+        "The ball of radius {:g} mm follows {} lobes down to the ground up to an amplitude of "
+        "{:.3g} µm only, and {:.3g} µm were found: valleys are deeper than measured",
+        options.ball_radius_mm, one.order, followed / mm_per_um, one.amplitude_mm / mm_per_um));
+    return;
+  }
+}
+
+void note_noise(FormResult& result) {
+  double share = 0.0, bias = 0.0, value = 0.0;
+  for (const SectionForm& section : result.sections)
+    for (const FormValue& one : section.values)
+      if (one.name == "RONt" && one.estimate.value > 0.0 &&
+          one.bias_mm / one.estimate.value > share) {
+        share = one.bias_mm / one.estimate.value;
+        bias = one.bias_mm;
+        value = one.estimate.value;
+      }
+  if (share > 0.1)
+    result.notes.push_back(fmt::format(
+        "Noise alone makes a RONt of {:.3g} µm larger by {:.3g} µm on average: it is in U, and "
+        "not taken off",
+        value / mm_per_um, bias / mm_per_um));
+}
+
+}  // namespace
+
+void expect_options(const FormOptions& options) {
+  std::vector<Diagnostic> wrong;
+  const auto add = [&](std::string message) { wrong.push_back({"options", 0, 0, message}); };
+  if (!(options.high_upr >= 2.0 && options.high_upr <= 1500.0))
+    add(fmt::format("a cut-off of {:g} UPR: it is from 2 to 1500", options.high_upr));
+  if (!(options.low_upr >= 1.0 && options.low_upr < options.high_upr))
+    add(fmt::format("a pass band of {:g} to {:g} UPR: it begins at 1 or above and ends higher",
+                    options.low_upr, options.high_upr));
+  if (options.trials < 10) add("a Monte Carlo takes 10 trials at least");
+  if (!(options.coverage_factor > 0.0)) add("the coverage factor is above 0");
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+}
+
+void add_notes(const ProbeStream& stream, const Sections& sections, FormResult& result) {
+  result.notes.insert(result.notes.end(), stream.read_as.begin(), stream.read_as.end());
+  result.notes.insert(result.notes.end(), sections.notes.begin(), sections.notes.end());
+  note_radius(stream, sections, result);
+  note_sampling(result);
+  note_ball(result);
+  note_noise(result);
+  for (const SectionForm& section : result.sections)
+    for (const FormCircle& circle : section.circles)
+      if (!circle.why_not.empty()) {
+        result.notes.push_back(
+            fmt::format("No {} circle: {}", name_of(circle.criterion), circle.why_not));
+        return;
+      }
+}
+
+}  // namespace trueaxis::form

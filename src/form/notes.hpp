@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "form/sections.hpp"
+
+namespace trueaxis::form {
+
+/// @throws InputError with every option that is no option
+void expect_options(const FormOptions& options);
+
+/// What a user should know of the numbers.
+void add_notes(const ProbeStream& stream, const Sections& sections, FormResult& result);
+
+}  // namespace trueaxis::form

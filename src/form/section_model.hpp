@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "form/circle.hpp"
+#include "form/derivative.hpp"
+#include "form/harmonics.hpp"
+#include "form/low_pass.hpp"
+#include "form/sections.hpp"
+#include "form/values.hpp"
+
+namespace trueaxis::form {
+
+/// A place across the axis.
+struct AxisOffset {
+  double x_mm, y_mm;
+};
+
+/// One section ready to be filtered and assessed, as often as a Monte Carlo asks.
+class SectionModel {
+ public:
+  SectionModel(const SectionReadings& readings, bool radius_known, const FormOptions& options);
+
+  const std::string& trouble() const { return trouble_; }  ///< why there is no section
+
+  /// The band of the filter of values at the places of `raw()`. Linear.
+  std::vector<double> filtered(std::span<const double> value_mm) const;
+
+  /// RONt, RONp, RONv, RONq about each circle and the slope of a filtered profile. `exactly`:
+  /// circles in the plane; else, for small changes, Eq. 265 about the pole of `raw()`.
+  std::vector<NamedValue> assess(std::span<const double> filtered_mm, bool exactly) const;
+
+  /// Centre of the least-squares circle of a filtered profile, in the part frame.
+  AxisOffset centre(std::span<const double> filtered_mm) const;
+
+  /// Everything of the section but the uncertainty of `values`.
+  SectionForm form() const;
+
+  /// Orders of the readings before the filter, as far as these carry.
+  const std::vector<Order>& orders() const { return orders_; }
+  const Trace& raw() const { return raw_; }  ///< about the least-squares circle
+  const std::vector<double>& profile_mm() const { return profile_mm_; }  ///< that, filtered
+  double noise_mm() const { return noise_mm_; }  ///< standard deviation at a place of `raw()`
+  std::optional<double> z_mm() const { return z_mm_; }
+  double x_mm() const { return x_mm_; }  ///< pole of `raw()` in the part frame
+  double y_mm() const { return y_mm_; }
+  double radius_mm() const { return mean_mm_; }
+  bool radius_known() const { return plane_radius_mm_ > 0.0; }
+
+ private:
+  void make_filter(const FormOptions& options);
+
+  Trace raw_;
+  std::optional<double> z_mm_;
+  double x_mm_ = 0.0, y_mm_ = 0.0, mean_mm_ = 0.0, noise_mm_ = 0.0;
+  double plane_radius_mm_ = 0.0;  ///< 0: not known
+  double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;
+  std::size_t readings_ = 0;
+  std::shared_ptr<const LowPass> high_, low_;
+  std::shared_ptr<const Derivative> slope_;
+  std::vector<double> profile_mm_;
+  std::vector<Order> orders_;
+  std::vector<Exchange> circles_;  ///< of form_criteria, at their optimum
+  std::string trouble_;
+};
+
+/// Standard deviation of the readings of a trace that neighbours show: of what a reading is off the
+/// line through both, by the median. White noise only, with what roughness adds. Eq. 270.
+double shown_noise_mm(const Trace& trace);
+
+/// "LSCI" … of a circle, "LSCY" … of a cylinder by the `suffix` "CY".
+std::string short_name(Criterion criterion, const char* suffix);
+
+}  // namespace trueaxis::form

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "form/exchange.hpp"
+#include "form/stream_checks.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+constexpr double between_sections_mm = 0.01;     // Z of one section has no larger step
+constexpr double thickest_of_sections_mm = 0.1;  // a helix runs on
+constexpr double least_of_a_section = 8.0;
+
+double spindle_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
+  const double ball_mm =
+      options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
+  const double nominal_mm = stream.indication == Indication::relative && stream.nominal_radius_mm
+                                ? *stream.nominal_radius_mm
+                                : 0.0;
+  const bool positions = stream.indication == Indication::absolute;
+  const double towards = options.bore ? ball_mm : -ball_mm;
+  // Behind the axis X_M is negative: the reading is of the point half a turn on.
+  return nominal_mm + std::abs(stream.reading_mm[i]) * (positions ? 1.0 : 0.0) +
+         (positions ? towards : stream.reading_mm[i]);
+}
+
+double angle_of(const ProbeStream& stream, std::size_t i) {
+  const bool behind = stream.indication == Indication::absolute && stream.reading_mm[i] < 0.0;
+  return stream.c_rad[i] + (behind ? 0.5 * two_pi : 0.0);
+}
+
+/// Distance from the spindle axis without the motion that is known of it: a probe at +X reads it,
+/// at −X its opposite.
+double part_distance(const ProbeStream& stream, const FormOptions& options, std::size_t i) {
+  const bool behind = stream.indication == Indication::absolute && stream.reading_mm[i] < 0.0;
+  double motion = 0.0;
+  for (const SpindleOrder& one : options.spindle)
+    motion += one.cos_mm * std::cos(one.order * stream.c_rad[i]) +
+              one.sin_mm * std::sin(one.order * stream.c_rad[i]);
+  return spindle_distance(stream, options, i) - (behind ? -motion : motion);
+}
+
+/// Readings by their Z, where Z stands still long enough; empty: it runs on.
+std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
+  std::vector<std::size_t> order(stream.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  if (!stream.has_position()) return {order};
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return stream.position_mm[i]; });
+  std::vector<std::vector<std::size_t>> sections;
+  double thickest = 0.0, begin = 0.0, before = 0.0;
+  for (const std::size_t i : order) {
+    const double z = stream.position_mm[i];
+    if (sections.empty() || z - before > between_sections_mm) {
+      sections.emplace_back();
+      begin = z;
+    }
+    before = z;
+    thickest = std::max(thickest, z - begin);
+    sections.back().push_back(i);
+  }
+  const bool helix = thickest > thickest_of_sections_mm ||
+                     static_cast<double>(stream.size()) <
+                         least_of_a_section * static_cast<double>(sections.size());
+  for (auto& section : sections) std::ranges::sort(section);
+  return helix ? std::vector<std::vector<std::size_t>>{} : sections;
+}
+
+/// Whole turns of C from the first reading on; what is left at the end is no section.
+std::vector<std::vector<std::size_t>> by_turns(const ProbeStream& stream) {
+  std::vector<std::vector<std::size_t>> turns;
+  const double from = stream.c_rad.front();
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const auto turn = static_cast<std::size_t>(std::abs(stream.c_rad[i] - from) / two_pi + 1e-9);
+    if (turn >= turns.size()) turns.resize(turn + 1);
+    turns[turn].push_back(i);
+  }
+  const double whole = std::abs(stream.c_rad.back() - from) / two_pi;
+  const double step = whole / static_cast<double>(stream.size() - 1);
+  if (whole + step + 1e-6 < static_cast<double>(turns.size())) turns.pop_back();
+  std::erase_if(turns, [](const auto& turn) { return turn.empty(); });
+  return turns;
+}
+
+SectionReadings readings_of(const ProbeStream& stream, const FormOptions& options,
+                            const std::vector<std::size_t>& which) {
+  SectionReadings section;
+  double z = 0.0, low = 1e300, high = -1e300;
+  for (const std::size_t i : which) {
+    section.angle_rad.push_back(angle_of(stream, i));
+    section.distance_mm.push_back(part_distance(stream, options, i));
+    if (stream.has_position()) z += stream.position_mm[i] / static_cast<double>(which.size());
+    low = std::min(low, stream.c_rad[i]);
+    high = std::max(high, stream.c_rad[i]);
+  }
+  const double n = static_cast<double>(which.size());
+  section.turns = (high - low) / two_pi * (n > 1.0 ? n / (n - 1.0) : 1.0);
+  if (stream.has_position()) section.z_mm = z;
+  return section;
+}
+
+/// What cone and tilted axis do between a reading's Z and the section's is taken off. Eq. 268.
+void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std::size_t>>& turns,
+                    Sections& sections) {
+  const auto [low, high] = range_of(stream.position_mm);
+  const double middle = 0.5 * (low + high), half = std::max(0.5 * (high - low), 1e-9);
+  std::size_t count = 0;
+  for (const auto& section : sections.list) count += section.size();
+  Exchange::Rows rows(static_cast<Eigen::Index>(count), 6);
+  std::vector<double> y;
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < turns.size(); ++s)
+    for (std::size_t k = 0; k < turns[s].size(); ++k) {
+      const double z = (stream.position_mm[turns[s][k]] - middle) / half;
+      const double c = std::cos(sections.list[s].angle_rad[k]);
+      const double sine = std::sin(sections.list[s].angle_rad[k]);
+      rows.row(row++) << 1.0, z, c, sine, z * c, z * sine;
+      y.push_back(sections.list[s].distance_mm[k]);
+    }
+  const Eigen::VectorXd q = Exchange(rows, Criterion::gaussian)(y).q;
+  row = 0;
+  for (std::size_t s = 0; s < turns.size(); ++s) {
+    SectionReadings& section = sections.list[s];
+    for (std::size_t k = 0; k < turns[s].size(); ++k, ++row) {
+      const double off = (stream.position_mm[turns[s][k]] - *section.z_mm) / half;
+      section.distance_mm[k] -= off * (q[1] + q[4] * rows(row, 2) + q[5] * rows(row, 3));
+    }
+  }
+  sections.pitch_mm =
+      (high - low) / std::max(1.0, std::abs(stream.c_rad.back() - stream.c_rad.front()) / two_pi);
+  sections.notes.push_back(fmt::format(
+      "The readings run on a helix of {:.4g} mm a turn: each whole turn is taken as a section, "
+      "and what the associated cone rises within it is taken off; form that changes along Z "
+      "within a turn shows as a step where the turn closes",
+      sections.pitch_mm));
+}
+
+}  // namespace
+
+Sections sections_of(const ProbeStream& stream, const FormOptions& options) {
+  expect_sections(stream);
+  Sections sections;
+  sections.radius_known =
+      stream.indication == Indication::absolute || stream.nominal_radius_mm.has_value();
+  auto groups = by_position(stream);
+  const bool helix = groups.empty();
+  if (helix) groups = by_turns(stream);
+  for (const auto& group : groups) sections.list.push_back(readings_of(stream, options, group));
+  if (helix) take_off_slope(stream, groups, sections);
+  return sections;
+}
+
+}  // namespace trueaxis::form

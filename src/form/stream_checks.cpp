@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/stream_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+class Troubles {
+ public:
+  explicit Troubles(const ProbeStream& stream) : stream_(stream) {}
+  void add(std::string message) { list_.push_back({stream_.source, 0, 0, std::move(message)}); }
+  void finish() {
+    if (!list_.empty()) throw InputError(std::move(list_));
+  }
+
+ private:
+  const ProbeStream& stream_;
+  std::vector<Diagnostic> list_;
+};
+
+bool all_finite(std::span<const double> values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
+}
+
+/// How near `length` is to a whole multiple of `unit`, over `unit`; at least one.
+double off_multiple(double length, double unit) {
+  const double times = std::max(1.0, std::round(length / unit));
+  return std::abs(length / unit - times);
+}
+
+/// C in radians under a header of degrees, and the other way round.
+void check_angles(const ProbeStream& stream, Troubles& troubles) {
+  const auto [low, high] = range_of(stream.c_rad);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stream.size(); ++i)
+    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
+  const double covered = high - low + median(steps);
+  if (covered < 0.5 * two_pi) {
+    const double as_said = covered / rad_per_deg;
+    const std::string hint = off_multiple(as_said, two_pi) < 0.01
+                                 ? ": it looks like radians, write C[rad]"
+                             : off_multiple(as_said, 1.0) < 0.01
+                                 ? ": it looks like turns, write C[rev]"
+                                 : ": probe at least half a turn, a whole one for a roundness";
+    troubles.add(
+        fmt::format("C covers {:.4g}° only, and a section needs half a turn{}", as_said, hint));
+  } else if (covered > 300.0 && off_multiple(covered, 360.0) < 1e-3 &&
+             off_multiple(covered, two_pi) > 1e-2) {
+    troubles.add(fmt::format(
+        "C runs over {:.6g} rad, which is no whole number of turns, while {:.0f} degrees are: "
+        "where it is in degrees, write C[deg]",
+        covered, covered));
+  }
+}
+
+void check_common(const ProbeStream& stream, Troubles& troubles) {
+  if (!stream.more_reading_mm.empty())
+    troubles.add(
+        "several sensors X_M1, X_M2 …: `trueaxis spindle` separates form and motion of these; give "
+        "the form one sensor X_M");
+  if (list_set_ups(stream).size() > 1)
+    troubles.add("several set-ups: form is assessed of one, so give a stream for each");
+  if (stream.size() < 4)
+    troubles.add(fmt::format("{} readings: a circle with a form takes 4 at least", stream.size()));
+  if (!all_finite(stream.reading_mm) || !all_finite(stream.c_rad) ||
+      !all_finite(stream.position_mm))
+    troubles.add("a number is not finite");
+  troubles.finish();
+}
+
+}  // namespace
+
+void expect_sections(const ProbeStream& stream) {
+  expects(stream.kind == StreamKind::lateral, "a lateral stream");
+  Troubles troubles(stream);
+  check_common(stream, troubles);
+  if (stream.indication == Indication::absolute) {
+    const auto [low, high] = range_of(stream.reading_mm);
+    if (low * high <= 0.0 || high - low > 0.5 * std::max(std::abs(low), std::abs(high)))
+      troubles.add(fmt::format(
+          "X_M from {:.6g} to {:.6g} mm is no radius of a section: readings of a gauge need "
+          "'# reading: relative' (--relative), with '# nominal_radius: R mm' where it is known",
+          low, high));
+  }
+  check_angles(stream, troubles);
+  troubles.finish();
+}
+
+void expect_face(const ProbeStream& stream) {
+  expects(stream.kind == StreamKind::face, "a stream of a face");
+  Troubles troubles(stream);
+  check_common(stream, troubles);
+  if (stream.position_mm.size() != stream.size()) troubles.add("a face needs the column X");
+  check_angles(stream, troubles);
+  troubles.finish();
+}
+
+}  // namespace trueaxis::form

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/uncertainty.hpp"
+
+#include <algorithm>
+#include <boost/random/mersenne_twister.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+
+#include "base/threads.hpp"
+#include "math/statistics.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+using Engine = boost::random::mt19937_64;
+
+/// Orders of a motion of which the range alone is known: amplitudes fall with the order.
+constexpr int first_unknown = 2, last_unknown = 10;
+/// An order's square over the variance of its coefficients, from which on it is no noise: 5 % of
+/// orders without form are above, as exp(−6/2).
+constexpr double shown_over_noise = 6.0;
+/// What the highest of a profile of noise stands out by, over its standard deviation.
+constexpr double largest_of_noise = 5.0;
+
+double sum_of_squares(std::span<const double> values) {
+  double sum = 0.0;
+  for (const double one : values) sum += one * one;
+  return sum;
+}
+
+/// What trials add to one section: noise, and what is not known of the spindle's motion.
+class Disturbance {
+ public:
+  Disturbance(Engine& engine, const FormOptions& options) : engine_(engine) {
+    for (const SpindleOrder& one : options.spindle)
+      if (one.u_mm > 0.0)
+        motion_.push_back({one.order, one.u_mm * normal_(engine_), one.u_mm * normal_(engine_)});
+    if (options.spindle_range_mm > 0.0) draw_unknown(options.spindle_range_mm);
+  }
+
+  /// The same motion in every section, noise of each reading its own.
+  std::vector<double> of(const SectionModel& section) {
+    std::vector<double> out = motion_at(section.raw().at);
+    for (double& one : out) one += section.noise_mm() * normal_(engine_);
+    return out;
+  }
+
+ private:
+  void draw_unknown(double range_mm) {
+    const std::size_t known = motion_.size();
+    for (int n = first_unknown; n <= last_unknown; ++n)
+      motion_.push_back({n, normal_(engine_) / n, normal_(engine_) / n});
+    std::vector<double> angles;
+    for (int k = 0; k < 360; ++k) angles.push_back(k * rad_per_deg);
+    std::vector<SpindleOrder> drawn(motion_.begin() + static_cast<std::ptrdiff_t>(known),
+                                    motion_.end());
+    std::swap(drawn, motion_);
+    const double scale = range_mm / range_of(motion_at(angles)).length();
+    std::swap(drawn, motion_);
+    for (std::size_t i = known; i < motion_.size(); ++i) {
+      motion_[i].cos_mm *= scale;
+      motion_[i].sin_mm *= scale;
+    }
+  }
+  std::vector<double> motion_at(std::span<const double> angle_rad) const {
+    std::vector<double> out(angle_rad.size(), 0.0);
+    for (const SpindleOrder& one : motion_)
+      for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] += one.cos_mm * std::cos(one.order * angle_rad[i]) +
+                  one.sin_mm * std::sin(one.order * angle_rad[i]);
+    return out;
+  }
+
+  Engine& engine_;
+  boost::random::normal_distribution<double> normal_;
+  std::vector<SpindleOrder> motion_;
+};
+
+/// By how much the filter lowers the variance of noise, from one draw of it.
+double noise_passed(const SectionModel& section) {
+  Engine engine(2012);
+  boost::random::normal_distribution<double> normal;
+  std::vector<double> noise(section.raw().size());
+  for (double& one : noise) one = normal(engine);
+  return sum_of_squares(section.filtered(noise)) / sum_of_squares(noise);
+}
+
+/// Every order without the part that is noise, then filtered. Eq. 271.
+std::vector<double> of_shrunk_orders(const SectionModel& section) {
+  std::vector<double> sum(section.raw().size(), 0.0);
+  for (const Order& one : section.orders()) {
+    const double noise = section.noise_mm() * one.u_per_sigma;
+    const double square = one.cos_mm * one.cos_mm + one.sin_mm * one.sin_mm;
+    if (one.order == 0 || square <= shown_over_noise * noise * noise) continue;
+    const double kept = std::sqrt(1.0 - shown_over_noise * noise * noise / square);
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      sum[i] += kept * (one.cos_mm * std::cos(one.order * section.raw().at[i]) +
+                        one.sin_mm * std::sin(one.order * section.raw().at[i]));
+  }
+  return section.filtered(sum);
+}
+
+/// The profile that noise is added to: without its own where what that takes off looks like noise
+/// (a scratch is many small orders and does not), else as much smaller as noise made it. Eq. 271.
+std::vector<double> less_noise(const SectionModel& section) {
+  std::vector<double> profile = section.profile_mm();
+  const double noise = section.noise_mm() * std::sqrt(noise_passed(section));
+  const std::vector<double> shrunk = of_shrunk_orders(section);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < profile.size(); ++i)
+    largest = std::max(largest, std::abs(profile[i] - shrunk[i]));
+  if (largest <= largest_of_noise * noise) return shrunk;
+  const double variance = sum_of_squares(profile) / static_cast<double>(profile.size());
+  const double kept = variance > noise * noise ? std::sqrt(1.0 - noise * noise / variance) : 0.0;
+  for (double& one : profile) one *= kept;
+  return profile;
+}
+
+std::vector<std::vector<double>> less_noise(const std::vector<SectionModel>& sections) {
+  std::vector<std::vector<double>> out;
+  for (const SectionModel& section : sections) out.push_back(less_noise(section));
+  return out;
+}
+
+void disturb(const std::vector<SectionModel>& sections, Disturbance& disturbance,
+             std::vector<std::vector<double>>& profiles) {
+  for (std::size_t s = 0; s < sections.size(); ++s) {
+    const std::vector<double> added = sections[s].filtered(disturbance.of(sections[s]));
+    for (std::size_t i = 0; i < added.size(); ++i) profiles[s][i] += added[i];
+  }
+}
+
+std::vector<std::vector<double>> touched(const std::vector<SectionModel>& sections,
+                                         const FormOptions& options, bool eroded) {
+  std::vector<std::vector<double>> out;
+  for (const SectionModel& section : sections)
+    out.push_back(eroded && section.radius_known()
+                      ? touched_by_ball(section.raw(), section.profile_mm(), section.radius_mm(),
+                                        options.ball_radius_mm, options.bore)
+                      : section.profile_mm());
+  return out;
+}
+
+/// By how much each value would be another one if the ball had bridged nothing; Eq. 269.
+std::vector<double> by_ball(const std::vector<SectionModel>& part,
+                            const std::vector<SectionModel>& datum, const FormOptions& options,
+                            const Assess& assess, std::size_t count) {
+  std::vector<double> out(count, 0.0);
+  if (!(options.ball_radius_mm > 0.0)) return out;
+  const auto with = assess({touched(part, options, false), touched(datum, options, false)});
+  const auto without = assess({touched(part, options, true), touched(datum, options, true)});
+  for (std::size_t v = 0; v < count; ++v) out[v] = without[v].value - with[v].value;
+  return out;
+}
+
+}  // namespace
+
+std::vector<double> touched_by_ball(const Trace& trace, std::span<const double> centre_mm,
+                                    double radius_mm, double ball_mm, bool bore) {
+  const double bend = radius_mm * radius_mm / ball_mm + (bore ? -radius_mm : radius_mm);
+  const double range = range_of(centre_mm).length();
+  const double widest = bend > 0.0 ? std::sqrt(2.0 * range / bend) : 0.5 * trace.period;
+  const auto n = static_cast<std::ptrdiff_t>(trace.size());
+  const double sense = bore ? -1.0 : 1.0;  // a bore's material lies outwards
+  std::vector<double> out(centre_mm.begin(), centre_mm.end());
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    const auto here = static_cast<std::size_t>(i);
+    for (const std::ptrdiff_t way : {-1, 1}) {
+      double distance = 0.0;
+      for (std::ptrdiff_t k = 1; k < n; ++k) {
+        const auto at = static_cast<std::size_t>(((i + way * k) % n + n) % n);
+        distance += trace.step(way > 0 ? static_cast<std::size_t>(((i + k - 1) % n + n) % n) : at);
+        if (distance > widest) break;
+        const double limit = centre_mm[at] + sense * 0.5 * bend * distance * distance;
+        out[here] = bore ? std::max(out[here], limit) : std::min(out[here], limit);
+      }
+    }
+  }
+  return out;
+}
+
+std::vector<Spread> spreads(const std::vector<SectionModel>& part,
+                            const std::vector<SectionModel>& datum, const FormOptions& options,
+                            const Assess& assess) {
+  const Profiles base{less_noise(part), less_noise(datum)};
+  const std::vector<NamedValue> values = assess(base);
+  const auto trials = static_cast<std::size_t>(options.trials);
+  std::vector<std::vector<double>> drawn(trials);
+  for_each_index(trials, options.threads, [&](std::size_t trial) {
+    Engine engine(options.seed + 0x9E3779B97F4A7C15ULL * (trial + 1));
+    Disturbance disturbance(engine, options);
+    Profiles profiles = base;
+    disturb(part, disturbance, profiles.part_mm);
+    disturb(datum, disturbance, profiles.datum_mm);
+    for (const NamedValue& one : assess(profiles)) drawn[trial].push_back(one.value);
+  });
+  const std::vector<double> ball = by_ball(part, datum, options, assess, values.size());
+  std::vector<Spread> out;
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    double sum = 0.0, squares = ball[v] * ball[v] / 3.0 * static_cast<double>(trials);
+    for (const auto& trial : drawn) {
+      const double off = trial[v] - values[v].value;
+      sum += off;
+      squares += off * off;
+    }
+    const double n = static_cast<double>(trials);
+    out.push_back({std::sqrt(squares / n), sum / n});
+  }
+  return out;
+}
+
+}  // namespace trueaxis::form

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "form/section_model.hpp"
+
+namespace trueaxis::form {
+
+/// Filtered profiles of all sections of the part, and of those of its datum.
+struct Profiles {
+  std::vector<std::vector<double>> part_mm, datum_mm;
+};
+
+using Assess = std::function<std::vector<NamedValue>(const Profiles& profiles)>;
+
+/// Root mean square of what the trials of a Monte Carlo (JCGM 101) are off, and its mean.
+struct Spread {
+  double u, bias;
+};
+
+/// Of every value that `assess` gives, by readings with noise, with what a spindle's motion is
+/// uncertain by, and with what the ball may hide. The profile that noise is added to is the
+/// measured one, less the part of its variance that is noise already (Eqs. 271, 272).
+/// The same numbers on any number of threads.
+std::vector<Spread> spreads(const std::vector<SectionModel>& part,
+                            const std::vector<SectionModel>& datum, const FormOptions& options,
+                            const Assess& assess);
+
+/// What a ball has touched where its centre runs along a trace: the trace eroded by the ball's
+/// parabola. Eq. 269. @param radius_mm of the section, @param ball_mm of the ball
+std::vector<double> touched_by_ball(const Trace& trace, std::span<const double> centre_mm,
+                                    double radius_mm, double ball_mm, bool bore);
+
+}  // namespace trueaxis::form

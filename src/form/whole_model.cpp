@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/whole_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/statistics.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+constexpr int most_realignments = 30;
+constexpr double axis_settled_mm = 1e-12;
+
+std::vector<std::vector<double>> measured(const std::vector<SectionModel>& sections) {
+  std::vector<std::vector<double>> out;
+  for (const SectionModel& section : sections) out.push_back(section.profile_mm());
+  return out;
+}
+
+}  // namespace
+
+WholeModel::WholeModel(const std::vector<SectionModel>& sections) : sections_(sections) {
+  expects(sections.size() >= 2, "two sections at least");
+  double low = 1e300, high = -1e300;
+  for (const SectionModel& section : sections) {
+    expects(section.radius_known() && section.z_mm().has_value(), "sections of a known radius");
+    low = std::min(low, *section.z_mm());
+    high = std::max(high, *section.z_mm());
+    mean_radius_mm_ += section.radius_mm() / static_cast<double>(sections.size());
+    centre_fits_.emplace_back(limacon_rows(section.raw().at), Criterion::gaussian);
+  }
+  middle_mm_ = 0.5 * (low + high);
+  half_mm_ = 0.5 * (high - low);
+  const auto profiles = measured(sections);
+  start_ = least_squares_line(centres(profiles));
+  for (const bool cone : {false, true}) {
+    const Rows now = about(start_, profiles, cone);
+    base_ = now.y;
+    for (const Criterion criterion : form_criteria) {
+      if (cone && (sections.size() < 3 || criterion > Criterion::minimum_zone)) continue;
+      const auto [at, made] = fits_.try_emplace({criterion, cone}, Exchange(now.rows, criterion));
+      at->second(now.y);
+    }
+  }
+}
+
+std::vector<CentrePoint> WholeModel::centres(
+    const std::vector<std::vector<double>>& filtered_mm) const {
+  std::vector<CentrePoint> out;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    Exchange fit = centre_fits_[s];
+    const Eigen::VectorXd q = fit(filtered_mm[s]).q;
+    out.push_back({sections_[s].x_mm() + q[1], sections_[s].y_mm() + q[2], *sections_[s].z_mm()});
+  }
+  return out;
+}
+
+WholeModel::Rows WholeModel::about(const AxisLine& axis,
+                                   const std::vector<std::vector<double>>& filtered_mm,
+                                   bool cone) const {
+  std::size_t count = 0;
+  for (const auto& one : filtered_mm) count += one.size();
+  Rows out{Exchange::Rows(static_cast<Eigen::Index>(count), cone ? 6 : 5), {}};
+  out.y.reserve(count);
+  const Eigen::Vector3d along = Eigen::Vector3d(axis.l, axis.m, 1.0).normalized();
+  Eigen::Index row = 0;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const SectionModel& section = sections_[s];
+    const double z = *section.z_mm();
+    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i) {
+      const double angle = section.raw().at[i], r = section.radius_mm() + filtered_mm[s][i];
+      const auto [x0, y0] = axis.at(z);
+      Eigen::Vector3d off(section.x_mm() + r * std::cos(angle) - x0,
+                          section.y_mm() + r * std::sin(angle) - y0, 0.0);
+      const double on_axis = off.dot(along);
+      off -= on_axis * along;
+      const double distance = off.norm(), c = off.x() / distance, sine = off.y() / distance;
+      const double t = (z + on_axis * along.z() - middle_mm_) / half_mm_;
+      if (cone)
+        out.rows.row(row++) << 1.0, c, sine, t * c, t * sine, t;
+      else
+        out.rows.row(row++) << 1.0, c, sine, t * c, t * sine;
+      out.y.push_back(distance - mean_radius_mm_);
+    }
+  }
+  return out;
+}
+
+AxisLine WholeModel::moved(const AxisLine& axis, const Eigen::VectorXd& q) const {
+  AxisLine out = axis;
+  out.l += q[3] / half_mm_;
+  out.m += q[4] / half_mm_;
+  out.x0_mm += q[1] - q[3] / half_mm_ * middle_mm_;
+  out.y0_mm += q[2] - q[4] / half_mm_ * middle_mm_;
+  return out;
+}
+
+WholeModel::Fitted WholeModel::fitted(const std::vector<std::vector<double>>& filtered_mm,
+                                      Criterion criterion, bool cone, bool exactly) const {
+  if (!exactly) {
+    std::vector<double> y = base_;
+    std::size_t row = 0;
+    for (std::size_t s = 0; s < sections_.size(); ++s)
+      for (std::size_t i = 0; i < filtered_mm[s].size(); ++i)
+        y[row++] += filtered_mm[s][i] - sections_[s].profile_mm()[i];
+    Exchange fit = fits_.at({criterion, cone});
+    const Nearest nearest = fit(y);
+    return {fit.off(y, nearest), nearest.q, moved(start_, nearest.q)};
+  }
+  if (!cone) return associated(filtered_mm, criterion);
+  Fitted out;
+  out.axis = start_;
+  for (int round = 0; round < most_realignments; ++round) {
+    Rows now = about(out.axis, filtered_mm, cone);
+    Exchange fit(std::move(now.rows), criterion);
+    const Nearest nearest = fit(now.y);
+    out.q = nearest.q;
+    out.off_mm = fit.off(now.y, nearest);
+    out.axis = moved(out.axis, nearest.q);
+    if (!nearest.determined || nearest.q.segment(1, 4).norm() < axis_settled_mm) break;
+  }
+  return out;
+}
+
+/// The cylinder in space, by associate().
+WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>& filtered_mm,
+                                          Criterion criterion) const {
+  std::vector<Point3> points;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const SectionModel& section = sections_[s];
+    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i) {
+      const double angle = section.raw().at[i], r = section.radius_mm() + filtered_mm[s][i];
+      points.push_back({section.x_mm() + r * std::cos(angle), section.y_mm() + r * std::sin(angle),
+                        *section.z_mm()});
+    }
+  }
+  const AssociatedFeature found = associate(points, Element::cylinder, criterion);
+  const auto& [x, y, z] = found.feature.point_mm;
+  const auto& [l, m, n] = found.feature.direction;
+  return {distances_mm(points, found), {}, {x - l / n * z, y - m / n * z, l / n, m / n}};
+}
+
+AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
+                          bool exactly) const {
+  return fitted(filtered_mm, criterion, false, exactly).axis;
+}
+
+double WholeModel::straightness_of_generatrices(
+    const std::vector<std::vector<double>>& filtered_mm) const {
+  constexpr int generatrices = 72;
+  Exchange::Rows rows(static_cast<Eigen::Index>(sections_.size()), 2);
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    rows.row(static_cast<Eigen::Index>(s)) << 1.0, (*sections_[s].z_mm() - middle_mm_) / half_mm_;
+  const Exchange line(rows, Criterion::minimum_zone);
+  std::vector<std::vector<double>> angle, distance;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const SectionModel& section = sections_[s];
+    angle.emplace_back(section.raw().at);
+    distance.emplace_back();
+    const auto [x0, y0] = start_.at(*section.z_mm());
+    for (std::size_t i = 0; i < angle[s].size(); ++i) {
+      const double c = std::cos(angle[s][i]), sine = std::sin(angle[s][i]);
+      distance[s].push_back(section.radius_mm() + filtered_mm[s][i] + (section.x_mm() - x0) * c +
+                            (section.y_mm() - y0) * sine);
+    }
+  }
+  double largest = 0.0;
+  for (int g = 0; g < generatrices; ++g) {
+    const double at = two_pi * g / generatrices;
+    std::vector<double> y;
+    for (std::size_t s = 0; s < sections_.size(); ++s) {
+      const std::size_t n = angle[s].size();
+      const auto behind =
+          static_cast<std::size_t>(std::ranges::lower_bound(angle[s], at) - angle[s].begin()) % n;
+      const std::size_t before = (behind + n - 1) % n;
+      const double step = sections_[s].raw().step(before);
+      const double t = std::remainder(at - angle[s][before], two_pi) / step;
+      y.push_back((1.0 - t) * distance[s][before] + t * distance[s][behind]);
+    }
+    Exchange fit = line;
+    const auto off = fit.off(y, fit(y));
+    largest = std::max(largest, range_of(off).length());
+  }
+  return largest;
+}
+
+std::vector<NamedValue> WholeModel::assess(const std::vector<std::vector<double>>& filtered_mm,
+                                           bool exactly) const {
+  std::vector<NamedValue> values;
+  const auto add = [&](const char* name, std::string reference, double value,
+                       const char* unit = "mm") {
+    values.push_back({"cylindricity", name, std::move(reference), value, unit});
+  };
+  for (const Criterion criterion : form_criteria) {
+    const Fitted fit = fitted(filtered_mm, criterion, false, exactly);
+    const auto [low, high] = range_of(fit.off_mm);
+    double squares = 0.0;
+    for (const double off : fit.off_mm) squares += off * off;
+    const std::string about = short_name(criterion, "CY");
+    add("CYLt", about, high - low);
+    add("CYLp", about, std::max(0.0, high));
+    add("CYLv", about, std::max(0.0, -low));
+    add("CYLq", about, std::sqrt(squares / static_cast<double>(fit.off_mm.size())));
+  }
+  std::vector<double> radii;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    Exchange fit = centre_fits_[s];
+    radii.push_back(sections_[s].radius_mm() + fit(filtered_mm[s]).q[0]);
+  }
+  add("CYLrr", "LSCI", range_of(radii).length());
+  if (sections_.size() > 2) {
+    add("STRsa", "", smallest_cylinder_mm(centres(filtered_mm)));
+    add("STRsg", "MZLI", straightness_of_generatrices(filtered_mm));
+    const Fitted cone = fitted(filtered_mm, Criterion::gaussian, true, exactly);
+    const double slope = cone.q[5] / half_mm_;
+    add("CYLtt", "LSCO", 2.0 * std::abs(cone.q[5]));
+    add("CYLat", "LSCO", std::atan(slope), "rad");
+    for (const Criterion criterion : {Criterion::gaussian, Criterion::minimum_zone}) {
+      const Fitted about_cone = fitted(filtered_mm, criterion, true, exactly);
+      add("CONt", short_name(criterion, "CO"),
+          range_of(about_cone.off_mm).length() * std::cos(std::atan(slope)));
+    }
+  }
+  return values;
+}
+
+std::vector<NamedValue> WholeModel::against(
+    const AxisLine& datum, const std::vector<std::vector<double>>& filtered_mm) const {
+  std::vector<NamedValue> values;
+  const Rows distances = about(datum, filtered_mm, false);
+  double circular = 0.0;
+  const auto middles = centres(filtered_mm);
+  std::size_t row = 0;
+  for (std::size_t s = 0; s < sections_.size(); ++s) {
+    const std::span<const double> section(distances.y.data() + row, filtered_mm[s].size());
+    circular = std::max(circular, range_of(section).length());
+    row += filtered_mm[s].size();
+  }
+  const auto add = [&](const char* name, double value) {
+    values.push_back({"datum", name, "", value});
+  };
+  add("runout_circular", circular);
+  add("runout_total", range_of(distances.y).length());
+  add("coaxiality", coaxiality_mm(middles, datum));
+  add("parallelism", smallest_parallel_cylinder_mm(middles, datum));
+  return values;
+}
+
+}  // namespace trueaxis::form

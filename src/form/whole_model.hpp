@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "form/axis_line.hpp"
+#include "form/section_model.hpp"
+#include "form/uncertainty.hpp"
+
+namespace trueaxis::form {
+
+/// All sections of a surface of revolution as one: points about a straight axis.
+class WholeModel {
+ public:
+  /// @param sections of known radius, from two on; they outlive this
+  explicit WholeModel(const std::vector<SectionModel>& sections);
+
+  /// Centres of the sections, least squares.
+  std::vector<CentrePoint> centres(const std::vector<std::vector<double>>& filtered_mm) const;
+
+  /// The axis of the cylinder by a criterion.
+  AxisLine axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
+                bool exactly) const;
+
+  /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's.
+  std::vector<NamedValue> assess(const std::vector<std::vector<double>>& filtered_mm,
+                                 bool exactly) const;
+
+  /// Run-out, coaxiality, concentricity and parallelism (ISO 1101) against an axis.
+  std::vector<NamedValue> against(const AxisLine& datum,
+                                  const std::vector<std::vector<double>>& filtered_mm) const;
+
+ private:
+  struct Fitted {
+    std::vector<double> off_mm;
+    Eigen::VectorXd q;  ///< radius, x and y in the middle, both at the end, radius at the end
+    AxisLine axis;
+  };
+  Fitted fitted(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion, bool cone,
+                bool exactly) const;
+  Fitted associated(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
+  struct Rows {
+    Exchange::Rows rows;
+    std::vector<double> y;
+  };
+  /// Eq. 273 about an axis: distances from it less the mean radius, and their derivatives.
+  Rows about(const AxisLine& axis, const std::vector<std::vector<double>>& filtered_mm,
+             bool cone) const;
+  AxisLine moved(const AxisLine& axis, const Eigen::VectorXd& q) const;
+  double straightness_of_generatrices(const std::vector<std::vector<double>>& filtered_mm) const;
+
+  const std::vector<SectionModel>& sections_;
+  double middle_mm_ = 0.0, half_mm_ = 1.0, mean_radius_mm_ = 0.0;
+  AxisLine start_;
+  std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
+  std::vector<Exchange> centre_fits_;
+  std::map<std::pair<Criterion, bool>, Exchange> fits_;  ///< about `start_`, at the optimum
+};
+
+}  // namespace trueaxis::form

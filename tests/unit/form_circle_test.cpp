@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference circles: profiles whose circles are known in closed form, and the proof of each
+// optimum.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "form/circle.hpp"
+#include "form/exchange.hpp"
+#include "form/harmonics.hpp"
+#include "support/form_profiles.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+constexpr const char* circles[] = {"LSCI", "MZCI", "MCCI", "MICI"};
+constexpr double rounding_mm = 1e-9;  // the goal: 1e-6 µm
+
+// All four circles of an ellipse are concentric with it: RONt is the difference of its half axes.
+TEST(FormCircle, EllipseExactly) {
+  const double a = 25.01, b = 24.99;
+  const FormResult result = assess_form(
+      section_stream([&](double t) { return a * b / std::hypot(b * std::cos(t), a * std::sin(t)); },
+                     720),
+      quick());
+  for (const char* circle : {"LSCI", "MZCI", "MCCI"})
+    EXPECT_NEAR(value_of(result.sections[0].values, "RONt", circle).estimate.value, a - b,
+                rounding_mm)
+        << circle;
+  // Inside, where two points alone hold it, the circle may move along the long axis until the next
+  // ones touch: they are (a − b)h² further off, at a lever of h, the step of the angles.
+  const double step = two_pi / 720.0;
+  EXPECT_NEAR(value_of(result.sections[0].values, "RONt", "MICI").estimate.value, a - b,
+              1.01 * (a - b) * step);
+  EXPECT_NEAR(result.sections[0].circles[2].radius_mm, a, rounding_mm);
+  EXPECT_NEAR(result.sections[0].circles[3].radius_mm, b, (a - b) * step * step);
+}
+
+// n lobes of amplitude a: every circle has RONt = 2a, RONp = RONv = a, RONq = a/√2 about LSCI.
+TEST(FormCircle, LobesExactly) {
+  for (const int n : {2, 3, 5, 8}) {
+    const double a = 2e-3;
+    const FormResult result = assess_form(
+        section_stream([&](double t) { return 25.0 + a * std::cos(n * t); }, 720), quick());
+    const auto& values = result.sections[0].values;
+    for (const char* circle : circles)
+      EXPECT_NEAR(value_of(values, "RONt", circle).estimate.value, 2.0 * a,
+                  n == 2 && std::string(circle) == "MICI" ? 1.01 * 2.0 * a * two_pi / 720.0
+                                                          : rounding_mm)  // as of an ellipse
+          << n << circle;
+    EXPECT_NEAR(value_of(values, "RONp", "LSCI").estimate.value, a, rounding_mm);
+    EXPECT_NEAR(value_of(values, "RONv", "LSCI").estimate.value, a, rounding_mm);
+    EXPECT_NEAR(value_of(values, "RONq", "LSCI").estimate.value, a / std::sqrt(2.0), rounding_mm);
+    EXPECT_EQ(result.sections[0].lobes, n);
+    EXPECT_NEAR(result.sections[0].lobes_share, 1.0, 1e-9);
+    // dr/dθ = n a at most, half a step beside it n a (nh/2)²/2 less; the rule itself (nh)⁴/30.
+    const double step = two_pi / 720.0;
+    EXPECT_NEAR(value_of(values, "slope").estimate.value, n * a,
+                0.13 * a * std::pow(n, 3) * step * step);
+    const FormHarmonic& order = result.sections[0].harmonics.at(static_cast<std::size_t>(n) - 1);
+    EXPECT_NEAR(order.amplitude_mm, a, rounding_mm);
+    EXPECT_NEAR(std::remainder(order.phase_rad, two_pi), 0.0, 1e-6);
+  }
+}
+
+// One reading of N stands out by h. LSCI: h(1 − 3/N) up and (1 + 2 cos(2π/N)) h/N down beside it;
+// MZCI, MCCI, MICI: h, as its neighbours are as near to it as one likes (a gauge: Eq. 265).
+TEST(FormCircle, OneReadingStandsOut) {
+  const double h = 1e-2, n = 360.0;
+  ProbeStream stream = section_stream([&](double t) { return t == 0.0 ? h : 0.0; }, 360);
+  stream.indication = Indication::relative;
+  const auto values = assess_form(stream, quick()).sections[0].values;
+  EXPECT_NEAR(value_of(values, "RONt", "LSCI").estimate.value,
+              h * (1.0 - 3.0 / n) + h / n * (1.0 + 2.0 * std::cos(two_pi / n)), rounding_mm);
+  const double beside = 0.5 * (1.0 - std::cos(two_pi / n));  // what the next reading leaves of it
+  for (const char* circle : {"MZCI", "MCCI", "MICI"})
+    EXPECT_NEAR(value_of(values, "RONt", circle).estimate.value, h, 1.1 * beside * h) << circle;
+}
+
+// A circle that is 1 mm off the axis is round, and its run-out twice its eccentricity.
+TEST(FormCircle, AnEccentricCircleIsRound) {
+  const FormResult result =
+      assess_form(section_stream([](double t) { return eccentric(20.0, 1.0, t); }, 1000), quick());
+  for (const char* circle : circles)
+    EXPECT_NEAR(value_of(result.sections[0].values, "RONt", circle).estimate.value, 0.0,
+                rounding_mm);
+  EXPECT_NEAR(value_of(result.sections[0].values, "eccentricity").estimate.value, 1.0, rounding_mm);
+  EXPECT_NEAR(value_of(result.sections[0].values, "radius").estimate.value, 20.0, rounding_mm);
+  EXPECT_NEAR(value_of(group_of(result, "datum"), "runout_circular").estimate.value, 2.0,
+              rounding_mm);
+  EXPECT_NEAR(value_of(group_of(result, "datum"), "concentricity").estimate.value, 2.0,
+              rounding_mm);
+}
+
+// Pure orders through the Gaussian filter: RONt = 2a · 2^−(n/50)², band-pass T₂(1 − T₁).
+TEST(FormCircle, PureOrdersThroughTheFilter) {
+  const double a = 1e-3;
+  const auto round_by = [&](int n, double low, double high) {
+    FormOptions options = quick(ProfileFilter::gaussian, high);
+    options.low_upr = low;
+    const auto result = assess_form(
+        section_stream([&](double t) { return 25.0 + a * std::cos(n * t); }, 3600), options);
+    return value_of(result.sections[0].values, "RONt", "MZCI").estimate.value;
+  };
+  const auto passes = [](double n, double cutoff) {
+    return std::exp2(-(n / cutoff) * (n / cutoff));
+  };
+  for (const int n : {2, 3, 15, 50}) {
+    EXPECT_NEAR(round_by(n, 1.0, 50.0), 2.0 * a * passes(n, 50.0), rounding_mm) << n;
+    EXPECT_NEAR(round_by(n, 15.0, 150.0), 2.0 * a * passes(n, 150.0) * (1.0 - passes(n, 15.0)),
+                rounding_mm)
+        << n;
+  }
+}
+
+// Eq. 266 on random profiles: the multipliers prove that nothing is better.
+TEST(FormCircle, EveryOptimumIsProven) {
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  for (int repeat = 0; repeat < 50; ++repeat) {
+    std::vector<double> angle, y;
+    for (int i = 0; i < 300; ++i) {
+      angle.push_back(std::uniform_real_distribution<double>(0.0, two_pi)(random));
+      y.push_back(1e-3 * normal(random));
+    }
+    const form::Exchange::Rows rows = form::limacon_rows(angle);
+    for (const Criterion criterion : {Criterion::minimum_zone, Criterion::minimum_circumscribed,
+                                      Criterion::maximum_inscribed}) {
+      form::Exchange exchange(rows, criterion);
+      const form::Nearest nearest = exchange(y);
+      const std::vector<double> off = exchange.off(y, nearest);
+      ASSERT_TRUE(nearest.determined);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      double weight = 0.0;
+      const double extreme =
+          criterion == Criterion::minimum_zone ? std::abs(off[nearest.touches[0].reading]) : 0.0;
+      for (const auto& touch : nearest.touches) {
+        EXPECT_GE(touch.multiplier, -1e-12);
+        const auto row = static_cast<Eigen::Index>(touch.reading);
+        sum += touch.multiplier * touch.side * rows.row(row).transpose();
+        weight += touch.multiplier;
+        EXPECT_NEAR(off[touch.reading], touch.side * extreme, 1e-15);
+      }
+      const double size = criterion == Criterion::minimum_zone            ? 0.0
+                          : criterion == Criterion::minimum_circumscribed ? 1.0
+                                                                          : -1.0;
+      EXPECT_LT((sum - Eigen::Vector3d(size, 0.0, 0.0)).norm(), 1e-12);
+      EXPECT_NEAR(weight, 1.0, 1e-12);
+      for (const double one : off) {
+        EXPECT_TRUE(criterion == Criterion::maximum_inscribed || one <= extreme + 1e-15);
+        EXPECT_TRUE(criterion == Criterion::minimum_circumscribed || one >= -extreme - 1e-15);
+      }
+    }
+  }
+}
+
+// Orders at uneven angles are found together: none leaks into another.
+TEST(FormCircle, HarmonicsAtUnevenAngles) {
+  std::mt19937_64 random(5);
+  form::Trace trace;
+  trace.period = two_pi;
+  for (int i = 0; i < 900; ++i)
+    trace.at.push_back((i + std::uniform_real_distribution<double>(0.1, 0.9)(random)) * two_pi /
+                       900.0);
+  for (const double at : trace.at)
+    trace.value_mm.push_back(1e-3 * std::cos(2.0 * at - 1.0) + 2e-4 * std::cos(77.0 * at - 2.0));
+  const auto orders = form::harmonics_of(trace, 120);
+  for (const form::Order& one : orders) {
+    const double amplitude = one.order == 2 ? 1e-3 : one.order == 77 ? 2e-4 : 0.0;
+    EXPECT_NEAR(one.amplitude_mm(), amplitude, 1e-14) << one.order;
+  }
+  EXPECT_NEAR(orders[77].phase_rad(), 2.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cylindricity and its parts, run-out, coaxiality, parallelism and flatness of parts whose values
+// follow from how they are made.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/form_profiles.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::testing {
+namespace {
+
+constexpr double rounding_mm = 1e-9;
+const std::vector<double> five_z{-20.0, -10.0, 0.0, 10.0, 20.0};
+
+double of(const FormResult& result, const char* group, const char* name,
+          const char* reference = "") {
+  return value_of(group_of(result, group), name, reference).estimate.value;
+}
+
+TEST(FormWhole, AConstantLobedCylinder) {
+  const double a = 3e-3;
+  const FormResult result = assess_form(
+      part_stream([&](double t, double) { return 15.0 + a * std::cos(3.0 * t); }, 360, five_z),
+      quick());
+  for (const char* cylinder : {"LSCY", "MZCY", "MCCY", "MICY"})
+    EXPECT_NEAR(of(result, "cylindricity", "CYLt", cylinder), 2.0 * a, rounding_mm) << cylinder;
+  EXPECT_NEAR(of(result, "cylindricity", "CYLq", "LSCY"), a / std::sqrt(2.0), rounding_mm);
+  for (const char* none : {"STRsa", "STRsg", "CYLrr", "CYLtt", "CYLat"})
+    EXPECT_NEAR(of(result, "cylindricity", none), 0.0, rounding_mm) << none;
+}
+
+// A taper of s: radii ± 20 s; the cylinder of the minimum zone stands in their middle.
+TEST(FormWhole, ATaper) {
+  const double s = 1e-4;
+  const FormResult result = assess_form(
+      part_stream([&](double, double z) { return 15.0 + s * z; }, 360, five_z), quick());
+  EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 40.0 * s, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "CYLrr"), 40.0 * s, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "CYLtt"), 40.0 * s, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "CYLat"), std::atan(s), 1e-12);
+  EXPECT_NEAR(of(result, "cylindricity", "CONt", "MZCO"), 0.0, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "STRsg"), 0.0, rounding_mm);
+}
+
+// A barrel b (z/20)²: straight generatrices are 25 % off by the zone of {16, 4, 0, 4, 16} b/16.
+TEST(FormWhole, ABarrel) {
+  const double b = 4e-3;
+  const FormResult result = assess_form(
+      part_stream([&](double, double z) { return 15.0 - b * z * z / 400.0; }, 360, five_z),
+      quick());
+  EXPECT_NEAR(of(result, "cylindricity", "STRsg"), b, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), b, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "STRsa"), 0.0, rounding_mm);
+}
+
+// An axis bent by b (z/20)² is held by a cylinder of diameter b. Centres by exact circles.
+TEST(FormWhole, ABentAxis) {
+  const double b = 6e-3;
+  const FormResult result = assess_form(
+      part_stream([&](double t, double z) { return eccentric(15.0, b * z * z / 400.0, t); }, 360,
+                  five_z),
+      quick());
+  EXPECT_NEAR(of(result, "cylindricity", "STRsa"), b, rounding_mm);
+  EXPECT_NEAR(result.sections[1].values[0].estimate.value, b / 4.0, rounding_mm);
+  for (const SectionForm& section : result.sections)
+    EXPECT_NEAR(value_of(section.values, "RONt", "MZCI").estimate.value, 0.0, rounding_mm);
+}
+
+// An axis that leaves the spindle axis by 5 µm + z/1000. Sections are cut at right angles to the
+// spindle: the part's own are ellipses of l²R/2 = 8 nm less, which the part here has not.
+TEST(FormWhole, AnAxisBesideTheSpindle) {
+  const double l = 1e-3, e = 5e-3;
+  const FormResult result = assess_form(
+      part_stream([&](double t, double z) { return eccentric(15.0, e + l * z, t); }, 360, five_z),
+      quick());
+  const double end = e + 20.0 * l;
+  EXPECT_NEAR(of(result, "datum", "runout_circular"), 2.0 * end, rounding_mm);
+  EXPECT_NEAR(of(result, "datum", "runout_total"), 2.0 * end, rounding_mm);
+  EXPECT_NEAR(of(result, "datum", "coaxiality"), 2.0 * end, rounding_mm);
+  EXPECT_NEAR(of(result, "datum", "parallelism"), 40.0 * l, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "STRsa"), 0.0, rounding_mm);
+  EXPECT_NEAR(of(result, "cylindricity", "CYLt", "MZCY"), 0.5 * l * l * 15.0, 1e-9);
+}
+
+// Against a datum that stands as it does, the part is coaxial.
+TEST(FormWhole, AgainstADatum) {
+  const PartShape shape = [](double t, double z) { return eccentric(15.0, 0.02 + 5e-4 * z, t); };
+  const ProbeStream part = part_stream(shape, 360, five_z);
+  const ProbeStream datum = part_stream(
+      [](double t, double z) { return eccentric(10.0, 0.02 + 5e-4 * z, t); }, 360, {40.0, 60.0});
+  const FormResult result = assess_form(part, quick(), &datum);
+  // Sections that are circles across the spindle are off a tilted cylinder by l²R/2 = 2e-6 mm.
+  EXPECT_NEAR(of(result, "datum", "coaxiality"), 0.0, 2e-6);
+  EXPECT_NEAR(of(result, "datum", "parallelism"), 0.0, 2e-6);
+  EXPECT_NEAR(of(assess_form(part, quick()), "datum", "coaxiality"), 2.0 * 0.03, rounding_mm);
+}
+
+// A helix of 0.5 mm a turn on a tilted cone: the turns are as round as the cone.
+TEST(FormWhole, AHelixIsCutIntoTurns) {
+  const double s = 0.02, l = 2e-4;
+  ProbeStream stream;
+  for (int i = 0; i < 360 * 6; ++i) {
+    const double c = two_pi * i / 360.0, z = 0.5 * i / 360.0;
+    stream.c_rad.push_back(c);
+    stream.position_mm.push_back(z);
+    stream.reading_mm.push_back(20.0 + s * z + l * z * std::cos(c));
+  }
+  const FormResult result = assess_form(stream, quick());
+  ASSERT_EQ(result.sections.size(), 6U);
+  for (const SectionForm& section : result.sections) {
+    EXPECT_EQ(section.readings, 360U);
+    // Eq. 268 is exact for this part; what is left is the limaçon, (l z)²/4R.
+    EXPECT_LT(value_of(section.values, "RONt", "MZCI").estimate.value, 1e-8);
+  }
+  EXPECT_NE(result.notes.front().find("helix"), std::string::npos);
+}
+
+// A ring that goes up and down twice: flatness 2a; a tilted one is flat, and runs out 2 l X.
+TEST(FormWhole, Faces) {
+  const auto face = [](const std::function<double(double)>& height) {
+    ProbeStream stream;
+    stream.kind = StreamKind::face;
+    for (int i = 0; i < 360; ++i) {
+      stream.c_rad.push_back(i * rad_per_deg);
+      stream.position_mm.push_back(30.0);
+      stream.reading_mm.push_back(height(i * rad_per_deg));
+    }
+    return stream;
+  };
+  const double a = 2e-3, l = 1e-4;
+  const FormResult wavy =
+      assess_form(face([&](double t) { return a * std::cos(2.0 * t); }), quick());
+  EXPECT_NEAR(of(wavy, "flatness", "FLTt", "MZPL"), 2.0 * a, rounding_mm);
+  EXPECT_NEAR(of(wavy, "flatness", "FLTt", "LSPL"), 2.0 * a, rounding_mm);
+  const FormResult tilted =
+      assess_form(face([&](double t) { return l * 30.0 * std::cos(t); }), quick());
+  EXPECT_NEAR(of(tilted, "flatness", "FLTt", "MZPL"), 0.0, rounding_mm);
+  EXPECT_NEAR(of(tilted, "datum", "axial_runout_circular"), 2.0 * l * 30.0, rounding_mm);
+}
+
+}  // namespace
+}  // namespace trueaxis::testing
