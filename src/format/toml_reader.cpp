@@ -359,9 +359,8 @@ void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
   if (!state.table || state.rest_ignored) return;
   for (const auto& [key, node] : *state.table) {
     const std::string word(key.str());
-    const auto& accepted = state.accepted;
-    if (std::find(accepted.begin(), accepted.end(), word) != accepted.end()) continue;
-    const std::string near = nearest_key(word, accepted);
+    if (std::ranges::find(state.accepted, word) != state.accepted.end()) continue;
+    const std::string near = nearest_key(word, state.accepted);
     const toml::source_position at = key.source().begin ? key.source().begin : node.source().begin;
     diagnostics.push_back({path, at.line, at.column,
                            state.where() + " has no key `" + word + "`" +

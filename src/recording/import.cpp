@@ -29,7 +29,11 @@ Recording recognise(const RecordedText& text, const std::string& path, std::size
   }
   Recording recording;
   if (read_table(text, skip, decimal, recording)) return recording;
-  throw InputError(path, "holds no table of numbers: two rows of two numbers are the least");
+  const char* said = !decimal          ? ""
+                     : *decimal == ',' ? " with decimal commas"
+                                       : " with decimal points";
+  throw InputError(path, std::string("holds no table of numbers") + said +
+                             ": two rows of two numbers are the least");
 }
 
 /// "1 Nr., 2 Angle(°), 3 X": what there is to choose from; of a column without a name its number.

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "blind/sealed_run.hpp"
 
-#include <chrono>
-
 #include "measure/files/stream_csv_write.hpp"
-#include "support/command.hpp"
+#include "support/case_runs.hpp"
 
 namespace trueaxis::blind {
 namespace {
 
 using Json = nlohmann::json;
 using std::filesystem::path;
-
-path truth_path(const path& folder) { return folder.string() + ".truth.json"; }
 
 }  // namespace
 
@@ -30,11 +26,11 @@ void write_sealed(const BlindCase& blind_case, const path& folder) {
                    {"noise", blind_case.noise},
                    {"sigma_mm", blind_case.scenario.noise.sigma_mm},
                    {"effects", effects}};
-  testing::write_text(truth_path(folder), truth.dump(2) + '\n');
+  testing::write_text(testing::truth_path(folder), truth.dump(2) + '\n');
 }
 
 Sealed open_truth(const path& folder) {
-  const Json json = testing::read_json(truth_path(folder));
+  const Json json = testing::read_json(testing::truth_path(folder));
   Sealed truth;
   truth.kind = kind_from(json.at("kind").get<std::string>());
   truth.sigma_mm = json.at("sigma_mm");
@@ -77,24 +73,10 @@ Answer read_answer(const Json& json) {
 Answer run_command(const std::string& command, const path& folder, SurfaceId surface) {
   const path out = folder / "diagnosis.json";
   std::filesystem::remove(out);
-  const auto start = std::chrono::steady_clock::now();
-  const testing::CommandResult ran =
-      testing::shell('"' + command + "\" diagnose \"" + (folder / "stream.csv").string() +
-                     "\" --surface " + to_string(surface) + " --json \"" + out.string() + '"');
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  Answer answer;
-  try {
-    if (ran.exit_code == 0) answer = read_answer(testing::read_json(out));
-  } catch (const std::exception& wrong) {
-    answer = Answer{};
-    answer.text = wrong.what();
-  }
-  if (ran.exit_code != 0) {
-    answer.exit_code = ran.exit_code;
-    answer.text = ran.output.substr(0, 400);
-  }
-  answer.seconds = took.count();
-  return answer;
+  return testing::timed_answer<Answer>('"' + command + "\" diagnose \"" +
+                                           (folder / "stream.csv").string() + "\" --surface " +
+                                           to_string(surface) + " --json \"" + out.string() + '"',
+                                       out, read_answer);
 }
 
 }  // namespace trueaxis::blind

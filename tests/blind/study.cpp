@@ -2,25 +2,11 @@
 #include "blind/study.hpp"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "blind/advice.hpp"
+#include "support/case_runs.hpp"
 
 namespace trueaxis::blind {
-namespace {
-
-// splitmix64 (Steele, Lea, Flood 2014): neighbouring numbers, unrelated seeds.
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31U);
-}
-
-}  // namespace
 
 std::vector<Wanted> select(const Selection& selection) {
   std::vector<Wanted> list;
@@ -31,7 +17,7 @@ std::vector<Wanted> select(const Selection& selection) {
     wanted.kind = selection.kinds[i % kinds];
     wanted.plan = selection.plans[i / kinds % plans];
     wanted.surface = selection.surfaces[i / (kinds * plans) % surfaces];
-    wanted.seed = mixed(selection.seed * 0x100000001B3ULL + i) % 1000000007ULL;
+    wanted.seed = testing::seed_of_case(selection.seed, i);
     list.push_back(wanted);
   }
   return list;
@@ -45,38 +31,14 @@ Result run_case(const Wanted& wanted, const StudyOptions& options) {
   result.answer = run_command(options.command, folder, wanted.surface);
   result.score = score(result.made, open_truth(folder), result.answer);
   if (options.follow_advice) follow_advice(result, options.command, folder);
-  if (!options.keep) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::remove(folder.string() + ".truth.json");
-  }
+  if (!options.keep) testing::remove_case(folder);
   return result;
 }
 
 std::vector<Result> run_study(const std::vector<Wanted>& wanted, const StudyOptions& options) {
-  std::vector<Result> results(wanted.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::size_t done = 0;
-  std::exception_ptr failed;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < wanted.size(); i = next++) {
-      try {
-        results[i] = run_case(wanted[i], options);
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done, results[i]);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failed = std::current_exception();
-        next = wanted.size();
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int k = 0; k < std::max(1, options.jobs); ++k) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
-  if (failed) std::rethrow_exception(failed);
-  return results;
+  return testing::run_cases<Result>(
+      wanted, options.jobs, [&](const Wanted& one) { return run_case(one, options); },
+      options.progress);
 }
 
 }  // namespace trueaxis::blind

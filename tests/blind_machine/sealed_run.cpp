@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
-
 #include "blind_machine/study.hpp"
 #include "machine/files/machine_toml.hpp"
-#include "support/command.hpp"
+#include "support/case_runs.hpp"
 
 namespace trueaxis::blind_machine {
 namespace {
@@ -54,26 +52,13 @@ Answer run_command(const Case& one, const Plan& plan, std::uint64_t noise_seed,
   std::filesystem::create_directories(folder);
   testing::write_text(folder / "machine.toml", machine_toml(one.layout->machine));
   testing::write_text(folder / "data.csv", measurement_text(one, plan, noise_seed));
-  testing::write_text(folder.string() + ".truth.json",
+  testing::write_text(testing::truth_path(folder),
                       Json{{"truth", one.truth}, {"lambda", one.lambda}}.dump(1) + '\n');
   const std::string at = folder.string();
-  const auto start = std::chrono::steady_clock::now();
-  const testing::CommandResult ran =
-      testing::shell('"' + command + "\" diagnose \"" + at + "/data.csv\" --machine \"" + at +
-                     "/machine.toml\" --json \"" + at + "/diagnosis.json\" --force");
-  Answer out;
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  try {
-    if (ran.exit_code == 0) out = answer_from(testing::read_json(folder / "diagnosis.json"));
-  } catch (const std::exception& wrong) {
-    out.text = wrong.what();
-  }
-  if (ran.exit_code != 0) {
-    out.exit_code = ran.exit_code;
-    out.text = ran.output.substr(0, 400);
-  }
-  out.seconds = took.count();
-  return out;
+  return testing::timed_answer<Answer>(
+      '"' + command + "\" diagnose \"" + at + "/data.csv\" --machine \"" + at +
+          "/machine.toml\" --json \"" + at + "/diagnosis.json\" --force",
+      folder / "diagnosis.json", answer_from);
 }
 
 }  // namespace trueaxis::blind_machine

@@ -2,28 +2,16 @@
 #include "blind_machine/study.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "blind_machine/elsewhere.hpp"
 #include "machine/files/errors_toml.hpp"
-#include "support/command.hpp"
+#include "support/case_runs.hpp"
 
 namespace trueaxis::blind_machine {
 namespace {
-
-// splitmix64 (Steele, Lea, Flood 2014)
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9E3779B97F4A7C15ULL;
-  x = (x ^ (x >> 30U)) * 0xBF58476D1CE4E5B9ULL;
-  x = (x ^ (x >> 27U)) * 0x94D049BB133111EBULL;
-  return x ^ (x >> 31U);
-}
 
 /// Members of the smallest class that holds the truth; 0: none does.
 std::size_t class_size(const Answer& answer, const std::string& truth) {
@@ -101,7 +89,7 @@ std::vector<Wanted> select(const std::vector<Kind>& kinds, std::size_t cases, st
     const std::size_t round = i / kinds.size();
     list.push_back({kinds[i % kinds.size()], round % layouts().size(),
                     plans[(round + round / layouts().size()) % plans.size()],
-                    mixed(seed * 0x100000001B3ULL + i) % 1000000007ULL});
+                    testing::seed_of_case(seed, i)});
   }
   return list;
 }
@@ -126,38 +114,14 @@ Result run_case(const Wanted& wanted, const StudyOptions& options) {
   if (options.elsewhere && out.answer.exit_code == 0) look_elsewhere(out, options, folder);
   out.outcome = wanted.kind == Kind::advised ? follow_advice(out, options, folder)
                                              : score(out.made, out.answer, out.members);
-  if (!options.keep) {
-    std::filesystem::remove_all(folder);
-    std::filesystem::remove(folder.string() + ".truth.json");
-  }
+  if (!options.keep) testing::remove_case(folder);
   return out;
 }
 
 std::vector<Result> run_study(const std::vector<Wanted>& wanted, const StudyOptions& options) {
-  std::vector<Result> results(wanted.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::size_t done = 0;
-  std::exception_ptr failed;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < wanted.size(); i = next++) {
-      try {
-        results[i] = run_case(wanted[i], options);
-        const std::lock_guard lock(mutex);
-        ++done;
-        if (options.progress) options.progress(done, results[i]);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        failed = std::current_exception();
-        next = wanted.size();
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int k = 0; k < std::max(1, options.jobs); ++k) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
-  if (failed) std::rethrow_exception(failed);
-  return results;
+  return testing::run_cases<Result>(
+      wanted, options.jobs, [&](const Wanted& one) { return run_case(one, options); },
+      options.progress);
 }
 
 }  // namespace trueaxis::blind_machine

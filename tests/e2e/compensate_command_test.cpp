@@ -8,16 +8,14 @@
 
 #include "support/command_fixture.hpp"
 #include "support/nc_programs.hpp"
+#include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
-const std::string machine = data + "trunnion_ac.toml";
-const std::string with_errors =
-    "--machine " + machine + " --errors " + data + "trunnion_ac_errors.toml ";
+const std::string machine = five_axis_data + "trunnion_ac.toml";
 const std::string hole = "N10 G1 X100. Y-50. Z30. A-35. C70. F1000 (hole 3)\n";
 
 class CompensateCommand : public CommandTest {
@@ -29,12 +27,10 @@ class CompensateCommand : public CommandTest {
   }
 };
 
-double value(const nlohmann::json& json) { return json.at("value"); }
-
 // The numbers of the worked example, docs/nc.md and docs/machine.md: machine, errors and results
 // were worked out by hand there.
 TEST_F(CompensateCommand, WritesTheWorkedExampleToTheByte) {
-  const CommandStreams done = compensate("p.nc", hole, with_errors + "-o out.nc --json r.json");
+  const CommandStreams done = compensate("p.nc", hole, of_trunnion + "-o out.nc --json r.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(read_text(folder_ / "out.nc"),
             "N10 G1 X100.0360 Y-50.0571 Z29.9684 A-35.00224 C70.04834 F1000 (hole 3)\n");
@@ -46,27 +42,27 @@ TEST_F(CompensateCommand, WritesTheWorkedExampleToTheByte) {
                                              {"A", 0.002238418994},
                                              {"C", 0.048338174086}};
   for (const auto& [axis, size] : change) {
-    EXPECT_NEAR(value(json.at("largest_change").at(axis)), size, 1e-11) << axis;
+    EXPECT_NEAR(value_of(json.at("largest_change").at(axis)), size, 1e-11) << axis;
     EXPECT_EQ(json.at("largest_change").at(axis).at("unit"), axis < "X" ? "deg" : "mm");
     EXPECT_EQ(json.at("largest_change").at(axis).at("line"), 1);
   }
   EXPECT_FALSE(json.at("largest_change").contains("B"));
-  EXPECT_NEAR(value(json.at("about_tool_axis")), 0.001740449, 1e-9);
+  EXPECT_NEAR(value_of(json.at("about_tool_axis")), 0.001740449, 1e-9);
   const double before = std::hypot(0.014774302663, -0.017636984901, -0.006743673547);
-  EXPECT_NEAR(value(json.at("error_before").at("position")), before, 1e-9);
+  EXPECT_NEAR(value_of(json.at("error_before").at("position")), before, 1e-9);
   // Half of the last decimals, 0.05 um and 5e-6 deg at some 160 mm: less than 0.1 um in all.
-  EXPECT_LT(value(json.at("error_after").at("position")), 1e-4);
+  EXPECT_LT(value_of(json.at("error_after").at("position")), 1e-4);
   EXPECT_EQ(json.at("blocks"),
             (nlohmann::json{{"read", 1}, {"moved", 1}, {"rewritten", 1}, {"inserted", 0}}));
   // The two methods: 100.036036 and 100.036101 of X, and so on.
-  EXPECT_NEAR(value(json.at("exact_minus_differential").at("X")), 65.692605e-6, 1e-10);
-  EXPECT_NEAR(value(json.at("exact_minus_differential").at("C")), 3.279868e-6, 1e-10);
+  EXPECT_NEAR(value_of(json.at("exact_minus_differential").at("X")), 65.692605e-6, 1e-10);
+  EXPECT_NEAR(value_of(json.at("exact_minus_differential").at("C")), 3.279868e-6, 1e-10);
 }
 
 TEST_F(CompensateCommand, TakesTheDifferentialMethodAndTwelveDecimals) {
   const CommandStreams done =
       compensate("p.nc", hole,
-                 with_errors + "-o out.nc --method differential --decimals 12 --angle-decimals 12");
+                 of_trunnion + "-o out.nc --method differential --decimals 12 --angle-decimals 12");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const std::string text = read_text(folder_ / "out.nc");
   const std::map<char, double> expected{{'X', 100.036100964055},
@@ -88,9 +84,9 @@ TEST_F(CompensateCommand, WithoutErrorsGivesTheSameBytes) {
 
 TEST_F(CompensateCommand, ListsAllThatIsRefusedAtOnce) {
   file("p.nc", "G0 X0 Y0 Z0 A0 C0\nG2 X1 Y1 I1\nN7 X#1 B5\nG68.2 P1 X0\nG1 X1e3\n");
-  expect_input_error("compensate p.nc " + with_errors + "-o out.nc --json r.json",
+  expect_input_error("compensate p.nc " + of_trunnion + "-o out.nc --json r.json",
                      "p.nc:2:1: G2 is an arc");
-  const std::string err = command("compensate p.nc " + with_errors + "-o out.nc").err;
+  const std::string err = command("compensate p.nc " + of_trunnion + "-o out.nc").err;
   for (const char* const place : {"p.nc:2:1:", "p.nc:3:4:", "p.nc:3:8:", "p.nc:4:1:", "p.nc:5:4:"})
     EXPECT_TRUE(contains(err, place)) << place << '\n' << err;
 }
@@ -98,7 +94,7 @@ TEST_F(CompensateCommand, ListsAllThatIsRefusedAtOnce) {
 TEST_F(CompensateCommand, WritesOnlyTheResultWhereALimitIsLeft) {
   // 400 mm is X's limit, and the errors ask for more.
   const CommandStreams done = compensate("p.nc", "G1 X0 Y0 Z0 A0 C0\nX400. A-35. C70.\n",
-                                         with_errors + "-o out.nc --json r.json");
+                                         of_trunnion + "-o out.nc --json r.json");
   EXPECT_EQ(done.exit_code, 1);
   EXPECT_TRUE(contains(done.err, "p.nc:2:")) << done.err;
   EXPECT_FALSE(there("out.nc"));
@@ -111,62 +107,62 @@ TEST_F(CompensateCommand, WritesOnlyTheResultWhereALimitIsLeft) {
 TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
   // The tool along C: its direction off by B0C and the like needs a turn of C of any size.
   const CommandStreams done = compensate("p.nc", "G1 X50. Y20. Z30. A0. C10.\n",
-                                         with_errors +
+                                         of_trunnion +
                                              "-o out.nc --json r.json "
                                              "--decimals 12 --angle-decimals 12");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto json = result("r.json");
   ASSERT_EQ(json.at("singular").size(), 1u);
   EXPECT_EQ(json.at("singular")[0].at("line"), 1);
-  EXPECT_LT(value(json.at("error_after").at("position")), 1e-9);
-  EXPECT_NEAR(value(json.at("error_after").at("direction")),
-              value(json.at("singular")[0].at("direction_left")), 1e-9);
+  EXPECT_LT(value_of(json.at("error_after").at("position")), 1e-9);
+  EXPECT_NEAR(value_of(json.at("error_after").at("direction")),
+              value_of(json.at("singular")[0].at("direction_left")), 1e-9);
   // max_rotary_change_deg is 0.5 where the machine says nothing.
   for (const char* const axis : {"A", "C"})
-    EXPECT_LE(value(json.at("largest_change").at(axis)), 0.5 * (1.0 + 1e-9)) << axis;
+    EXPECT_LE(value_of(json.at("largest_change").at(axis)), 0.5 * (1.0 + 1e-9)) << axis;
 }
 
 TEST_F(CompensateCommand, ReplacesNoProgramUnasked) {
   file("out.nc", "(mine)\n");
   file("p.nc", hole);
-  expect_input_error("compensate p.nc " + with_errors + "-o out.nc", "--force");
-  expect_input_error("compensate p.nc " + with_errors + "-o p.nc --force", "is an input");
-  EXPECT_EQ(command("compensate p.nc " + with_errors + "-o out.nc --force").exit_code, 0);
+  expect_input_error("compensate p.nc " + of_trunnion + "-o out.nc", "--force");
+  expect_input_error("compensate p.nc " + of_trunnion + "-o p.nc --force", "is an input");
+  EXPECT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc --force").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.0360"));
   // The same program again, with other numbers, needs no --force.
-  EXPECT_EQ(command("compensate p.nc " + with_errors + "-o out.nc --decimals 6").exit_code, 0);
+  EXPECT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc --decimals 6").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder_ / "out.nc"), "X100.036035"));
 }
 
 TEST_F(CompensateCommand, LeavesFilesThatMayBeTheUsers) {
   file("out.nc.part2", "(the second part of the user's own program)\n");
-  ASSERT_EQ(compensate("p.nc", hole, with_errors + "-o out.nc").exit_code, 0);
+  ASSERT_EQ(compensate("p.nc", hole, of_trunnion + "-o out.nc").exit_code, 0);
   EXPECT_TRUE(there("out.nc.part2"));
 }
 
 TEST_F(CompensateCommand, CutsBlocksWithinATolerance) {
   const CommandStreams done =
       compensate("p.nc", "G1 X100. Y-50. Z30. A-35. C70. F500\nX110. C75.\n",
-                 with_errors + "-o out.nc --json r.json --tolerance-um 1");
+                 of_trunnion + "-o out.nc --json r.json --tolerance-um 1");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto json = result("r.json");
   const auto& between = json.at("between_blocks");
-  EXPECT_GT(value(between.at("before")), 0.1);
-  EXPECT_LE(value(between.at("after")), 1e-3);
+  EXPECT_GT(value_of(between.at("before")), 0.1);
+  EXPECT_LE(value_of(between.at("after")), 1e-3);
   const double inserted = json.at("blocks").at("inserted");
   EXPECT_GT(inserted, 3);
-  EXPECT_LE(inserted + 1, std::ceil(1.3 * std::sqrt(value(between.at("before")) / 1e-3)));
+  EXPECT_LE(inserted + 1, std::ceil(1.3 * std::sqrt(value_of(between.at("before")) / 1e-3)));
 }
 
 TEST_F(CompensateCommand, RanksTheErrors) {
-  ASSERT_EQ(compensate("p.nc", hole, with_errors + "-o out.nc --json r.json").exit_code, 0);
+  ASSERT_EQ(compensate("p.nc", hole, of_trunnion + "-o out.nc --json r.json").exit_code, 0);
   const auto json = result("r.json");
   ASSERT_EQ(json.at("by_error").size(), 15u);
   double previous = 1e9;
   std::map<std::string, double> tip;
   for (const auto& one : json.at("by_error")) {
-    EXPECT_LE(value(one.at("tip")), previous);
-    previous = value(one.at("tip"));
+    EXPECT_LE(value_of(one.at("tip")), previous);
+    previous = value_of(one.at("tip"));
     tip[one.at("name")] = previous;
   }
   // A shift moves the tip by itself; EXX is 30 um · 100/400.
@@ -185,7 +181,7 @@ TEST_F(CompensateCommand, StatesUOfTheTipWhereTheErrorsHaveU) {
       compensate("p.nc", hole, "--machine " + machine + " --errors e.toml -o out.nc --json r.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   // 3 um along X, and 10 urad at the 120 mm from the gauge point to the tip; k = 2.
-  EXPECT_NEAR(value(result("r.json").at("U")), 2.0 * std::hypot(3e-3, 240.0 * std::sin(5e-6)),
+  EXPECT_NEAR(value_of(result("r.json").at("U")), 2.0 * std::hypot(3e-3, 240.0 * std::sin(5e-6)),
               1e-12);
   EXPECT_EQ(result("r.json").at("U").at("line"), 1);
 }
@@ -218,14 +214,14 @@ std::vector<std::string> calls(const fs::path& folder, const std::string& progra
 
 TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfIt) {
   if (shell("command -v rs274").exit_code != 0) GTEST_SKIP() << "rs274 (linuxcnc) is not installed";
-  fs::copy_file(data + "example.nc", folder_ / "p.nc");
+  fs::copy_file(five_axis_data + "example.nc", folder_ / "p.nc");
   file("tool.tbl", "T1 P1 Z120 D1\n");
-  ASSERT_EQ(command("compensate p.nc " + with_errors + "-o out.nc").exit_code, 0);
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o out.nc").exit_code, 0);
   const auto source = calls(folder_, "p.nc"), written = calls(folder_, "out.nc");
   EXPECT_GT(source.size(), 20u);
   EXPECT_EQ(written, source);
   // In pieces it makes more moves, before which a feed mode may be said again, and nothing else.
-  ASSERT_EQ(command("compensate p.nc " + with_errors + "-o pieces.nc --tolerance-um 2").exit_code,
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o pieces.nc --tolerance-um 2").exit_code,
             0);
   const auto pieces = calls(folder_, "pieces.nc");
   EXPECT_GT(pieces.size(), source.size());
@@ -247,9 +243,9 @@ TEST_F(CompensateCommand, LinuxCncMakesTheSameCallsOfRandomPrograms) {
   // The numbers of these programs go further than the axes do.
   file("m.toml", std::regex_replace(read_text(machine), std::regex("limits_[^\n]*"), ""));
   for (int i = 0; i < 8; ++i) {
-    const CommandStreams done = compensate(
-        "p.nc", maker.next(25),
-        "--machine m.toml --errors " + data + "trunnion_ac_errors.toml -o out.nc --force");
+    const CommandStreams done = compensate("p.nc", maker.next(25),
+                                           "--machine m.toml --errors " + five_axis_data +
+                                               "trunnion_ac_errors.toml -o out.nc --force");
     ASSERT_EQ(done.exit_code, 0) << done.err << pasted(read_text(folder_ / "p.nc"));
     const auto source = calls(folder_, "p.nc");
     EXPECT_GT(source.size(), 10u);
@@ -264,13 +260,13 @@ TEST_F(CompensateCommand, LinuxCncTakesTheLongestLine) {
   file("tool.tbl", "T1 P1 Z120 D1\n");
   const std::string words = "G1 X100. Y-50. Z30. A-35. C70. F1000 (";
   ASSERT_EQ(
-      compensate("p.nc", words + std::string(190, 'c') + ")\r\nM2\r\n", with_errors + "-o out.nc")
+      compensate("p.nc", words + std::string(190, 'c') + ")\r\nM2\r\n", of_trunnion + "-o out.nc")
           .exit_code,
       0);
   EXPECT_EQ(read_text(folder_ / "out.nc").find('\r'), 251u);
   EXPECT_FALSE(calls(folder_, "out.nc").empty());
   EXPECT_EQ(compensate("p.nc", words + std::string(191, 'c') + ")\r\nM2\r\n",
-                       with_errors + "-o out.nc --force")
+                       of_trunnion + "-o out.nc --force")
                 .exit_code,
             3);
 }
@@ -280,7 +276,7 @@ TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
     GTEST_SKIP() << "Python's gcode (linuxcnc) is not installed";
   const std::string source =
       "G90 G21\nG0 X0 Y0 Z0 A0 C0\nG1 X100. Y-50. F500\nZ30.\nG20 X3.5\nG21 A-35. C70.\nM2\n";
-  ASSERT_EQ(compensate("p.nc", source, with_errors + "-o out.nc --decimals 12 --angle-decimals 12")
+  ASSERT_EQ(compensate("p.nc", source, of_trunnion + "-o out.nc --decimals 12 --angle-decimals 12")
                 .exit_code,
             0);
   const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + TRUEAXIS_SOURCE +

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -16,9 +17,6 @@ namespace {
 using Joints = std::array<double, 5>;  // X Y Z, first and second rotary axis; mm, degrees
 const std::string module_folder = "/usr/lib/linuxcnc/modules/";
 const std::string source_folder = TRUEAXIS_SOURCE "/tests/e2e/";
-const std::string five_axis_data = TRUEAXIS_SOURCE "/data/five_axis/";
-const std::string of_trunnion = "--machine " + five_axis_data + "trunnion_ac.toml --errors " +
-                                five_axis_data + "trunnion_ac_errors.toml ";
 
 class LinuxCncKinematics : public CommandTest {
  protected:

@@ -2,22 +2,17 @@
 #include <gtest/gtest.h>
 
 #include "support/command_fixture.hpp"
+#include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string cut_data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
-const std::string cut_scenario = "simulate " + cut_data + "cut.toml ";
-const std::string to_compensate = "compensate " + cut_data + "example.nc --machine " + cut_data +
-                                  "trunnion_ac.toml --errors " + cut_data +
-                                  "trunnion_ac_errors.toml ";
+const std::string cut_scenario = "simulate " + five_axis_data + "cut.toml ";
+const std::string to_compensate = "compensate " + five_axis_data + "example.nc " + of_trunnion;
 
-class VirtualCutCommand : public CommandTest {
- protected:
-  double of(const nlohmann::json& json) { return json.at("value"); }
-};
+class VirtualCutCommand : public CommandTest {};
 
 TEST_F(VirtualCutCommand, PrintsWhatTheDocumentationShows) {
   const std::string page = read_text(fs::path(TRUEAXIS_SOURCE) / "docs/virtual_machine.md");
@@ -44,12 +39,13 @@ TEST_F(VirtualCutCommand, JudgesACompensatedProgram) {
   EXPECT_EQ(after.at("schema"), "trueaxis.cut/1");
   EXPECT_EQ(after.at("inputs").size(), 4u);
   EXPECT_EQ(before.at("inputs").size(), 3u);
-  EXPECT_GT(of(before.at("off_at_ends").at("position")), 0.08);
-  EXPECT_LT(of(after.at("off_at_ends").at("position")), 1.3e-4);
+  EXPECT_GT(value_of(before.at("off_at_ends").at("position")), 0.08);
+  EXPECT_LT(value_of(after.at("off_at_ends").at("position")), 1.3e-4);
   for (const char* const part : {"position", "direction"})
-    EXPECT_NEAR(of(after.at("off_at_ends").at(part)), of(said.at("error_after").at(part)), 1e-9);
-  EXPECT_NEAR(of(after.at("off_between")), of(said.at("between_blocks").at("after")),
-              0.01 * of(after.at("off_between")));
+    EXPECT_NEAR(value_of(after.at("off_at_ends").at(part)),
+                value_of(said.at("error_after").at(part)), 1e-9);
+  EXPECT_NEAR(value_of(after.at("off_between")), value_of(said.at("between_blocks").at("after")),
+              0.01 * value_of(after.at("off_between")));
 }
 
 TEST_F(VirtualCutCommand, JudgesOneInPieces) {
@@ -60,14 +56,14 @@ TEST_F(VirtualCutCommand, JudgesOneInPieces) {
   const auto after = result("after.json");
   EXPECT_EQ(after.at("block_ends"), 7);
   EXPECT_GT(after.at("moves"), 20);
-  EXPECT_LT(of(after.at("off_between")), 2e-3);
+  EXPECT_LT(value_of(after.at("off_between")), 2e-3);
   // Again with another step: its own results are replaced.
   EXPECT_EQ(command(cut_scenario + "--program c.nc --json after.json -o path.csv").exit_code, 0);
 }
 
 // Tools, work offsets, inches, inverse time, increments on the way home, axes and tip in one.
 TEST_F(VirtualCutCommand, JudgesAProgramOfEverything) {
-  std::string machine = read_text(cut_data + "trunnion_ac.toml");
+  std::string machine = read_text(five_axis_data + "trunnion_ac.toml");
   machine.insert(machine.find("[program]"),
                  "[workpiece.G55]\norigin_mm = [30, 5, -10]\nrotation_deg = [3, -4, 25]\n"
                  "zero = { X = 5, C = 30, A = -1 }\n[tools.1]\nlength_mm = 80\n[tools.2]\n"
@@ -79,11 +75,11 @@ TEST_F(VirtualCutCommand, JudgesAProgramOfEverything) {
        "G1 Y5 C-10 F500\nG91 G28 Z0\nG90 T2 M6\nG43 H2 G54 G0 X0 Y0 Z40 A-20 C40\n"
        "G1 X10 F300 M8\n/X15 Y10\nG49\nG43.4 H2 X10 Y20 Z30 A-40 C20\nG1 X15 Y25 C30 F400\n"
        "A-50\nG91 G30 Z0\nM30\n%\n");
-  file("cut.toml", "[machine]\nfile = \"m.toml\"\nerrors = \"" + cut_data +
+  file("cut.toml", "[machine]\nfile = \"m.toml\"\nerrors = \"" + five_axis_data +
                        "trunnion_ac_errors.toml\"\n[cut]\nprogram = \"p.nc\"\nstep_mm = 0.1\n"
                        "step_deg = 0.1\n");
   const CommandStreams made =
-      command("compensate p.nc --machine m.toml --errors " + cut_data +
+      command("compensate p.nc --machine m.toml --errors " + five_axis_data +
               "trunnion_ac_errors.toml -o out.nc --tolerance-um 3 --json said.json");
   ASSERT_EQ(made.exit_code, 0) << made.err;
   ASSERT_EQ(command("simulate cut.toml --json before.json").exit_code, 0);
@@ -94,13 +90,13 @@ TEST_F(VirtualCutCommand, JudgesAProgramOfEverything) {
   EXPECT_GT(after.at("moves"), 30);
   for (const char* const part : {"position", "direction"}) {
     const auto &was = before.at("off_at_ends").at(part), &is = after.at("off_at_ends").at(part);
-    EXPECT_NEAR(of(was), of(said.at("error_before").at(part)), 1e-9);
-    EXPECT_NEAR(of(is), of(said.at("error_after").at(part)), 1e-9);
+    EXPECT_NEAR(value_of(was), value_of(said.at("error_before").at(part)), 1e-9);
+    EXPECT_NEAR(value_of(is), value_of(said.at("error_after").at(part)), 1e-9);
     EXPECT_EQ(was.at("line"), said.at("error_before").at(part).at("line"));
   }
-  EXPECT_NEAR(of(before.at("off_between")), of(said.at("between_blocks").at("before")),
-              0.01 * of(before.at("off_between")));
-  EXPECT_LT(of(after.at("off_between")), 1.01 * 3e-3);
+  EXPECT_NEAR(value_of(before.at("off_between")), value_of(said.at("between_blocks").at("before")),
+              0.01 * value_of(before.at("off_between")));
+  EXPECT_LT(value_of(after.at("off_between")), 1.01 * 3e-3);
 }
 
 TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
@@ -116,10 +112,11 @@ TEST_F(VirtualCutCommand, RefusesWhatItCannotCut) {
   expect_input_error(cut_scenario + "--program other.nc -o other.nc --force", "is an input");
   expect_input_error(cut_scenario + "--truth t.json -o path.csv", "leave --truth");
   expect_input_error(cut_scenario + "--seed 3 -o path.csv", "has no noise");
-  expect_input_error("simulate " + cut_data + "ball.toml --program other.nc -o path.csv",
+  expect_input_error("simulate " + five_axis_data + "ball.toml --program other.nc -o path.csv",
                      "--program needs");
-  EXPECT_EQ(command("simulate " + cut_data + "ball.toml --json f.json -o path.csv").exit_code, 2);
-  EXPECT_EQ(command("simulate " + cut_data + "ball.toml").exit_code, 2);
+  EXPECT_EQ(command("simulate " + five_axis_data + "ball.toml --json f.json -o path.csv").exit_code,
+            2);
+  EXPECT_EQ(command("simulate " + five_axis_data + "ball.toml").exit_code, 2);
   EXPECT_EQ(command(cut_scenario + "--json f -o f").exit_code, 2);
 }
 

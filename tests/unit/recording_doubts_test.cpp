@@ -58,6 +58,8 @@ TEST_F(RecordingDoubts, CommasThatMayPartThousandsAreAsked) {
   const std::string text = "Angle\tRadius\tZ\n0\t20,100\t1\n90\t20,200\t2\n";
   expect_said(refusal(text), "decimal=comma");
   EXPECT_EQ(read(text, "decimal=comma").reading_mm, (Readings{20.1, 20.2}));
+  expect_said(refusal("Nr;C;Radius;Z;\n1;0,5;20,1;1,5;\n2;1,5;20,2;2,5;\n", "decimal=point"),
+              "holds no table of numbers with decimal points");
 }
 
 TEST_F(RecordingDoubts, OneNumberThatCannotBeThousandsTells) {

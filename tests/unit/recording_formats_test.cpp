@@ -86,10 +86,10 @@ std::vector<Producer> producers() {
                                       shown_deg(s, i), s.position_mm[i]);
                  },
                  said("X=Diameter,C=Angle(°),Z=4[mm]")});
-  // cnc: nine columns, "%f ", no header, whatever axes there are.
+  // As LinuxCNC 2.9 wrote one: nine numbers, no header, whatever axes there are.
   all.push_back({"linuxcnc_probeopen", "",
                  [](const ProbeStream& s, std::size_t i) {
-                   return fmt::format("{:f} {:f} {:f} {:f} {:f} {:f} {:f} {:f} {:f} \n",
+                   return fmt::format("{:f} {:f} {:f} {:f} {:f} {:f} {:f} {:f} {:f}\n",
                                       s.reading_mm[i], 0.0, s.position_mm[i], 0.0, 0.0,
                                       s.c_rad[i] * deg_per_rad, 0.0, 0.0, 0.0);
                  },

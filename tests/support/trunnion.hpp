@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+/// The shipped machine of five axes with a tilting table, and its errors, as commands are told.
+namespace trueaxis::testing {
+
+inline const std::string five_axis_data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
+inline const std::string of_trunnion = "--machine " + five_axis_data +
+                                       "trunnion_ac.toml --errors " + five_axis_data +
+                                       "trunnion_ac_errors.toml ";
+
+/// Of a quantity in a result.
+inline double value_of(const nlohmann::json& quantity) { return quantity.at("value"); }
+
+}  // namespace trueaxis::testing
