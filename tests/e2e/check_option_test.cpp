@@ -33,7 +33,7 @@ class CheckOption : public CommandTest {
 TEST_F(CheckOption, OfALathe) {
   const std::string cone = data + "streams/shaft_cone_seat.csv";
   expect_checked("run " + data + "jobs/shaft.toml -o out", "fit and diagnose a cone in 1469");
-  expect_checked("run " + cone + " -o out", "by evidence");
+  expect_checked("run " + cone + " -o out", "choose the surface");
   expect_checked("fit " + cone + " --surface cone --json f.json", "f.json");
   expect_checked("diagnose " + cone + " --surface cone --json d.json", "diagnose it");
   expect_checked("advise " + data + "jobs/shaft.toml", "next measurement");

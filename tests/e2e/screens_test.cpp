@@ -40,13 +40,23 @@ class Screens : public CommandTest {
   std::vector<std::string> lathe_commands() {
     std::vector<std::string> all;
     for (const char* const name : {"shaft", "shaft_three_lobes", "bushing"})
-      all.push_back("run " + of + "jobs/" + name + ".toml -o " + name);
+      all.push_back(std::string("run ")
+                        .append(of)
+                        .append("jobs/")
+                        .append(name)
+                        .append(".toml -o ")
+                        .append(name));
     for (const auto& [stream, surface] :
          {std::pair{"shaft_cone_seat", "cone"}, std::pair{"shaft_cylinder_seat", "cylinder"},
           std::pair{"shaft_three_lobes", "cone"}, std::pair{"bushing_bore", "cylinder"},
           std::pair{"bushing_face", "plane"}})
       for (const char* const what : {"fit ", "diagnose "})
-        all.push_back(std::string(what) + of + "streams/" + stream + ".csv --surface " + surface);
+        all.push_back(std::string(what)
+                          .append(of)
+                          .append("streams/")
+                          .append(stream)
+                          .append(".csv --surface ")
+                          .append(surface));
     return all;
   }
 };
@@ -97,7 +107,7 @@ TEST_F(Screens, ValuesHaveTheDigitsOfTheirU) {
   std::size_t pairs = 0;
   for (const std::string& one : all)
     for (const char* const how : {"", " --verbose"}) {
-      const std::string text = command(one + how + forced(one)).out;
+      const std::string text = command(std::string(one).append(how).append(forced(one))).out;
       for (auto at = std::sregex_iterator(text.begin(), text.end(), pair);
            at != std::sregex_iterator(); ++at, ++pairs) {
         EXPECT_EQ((*at)[2].length(), (*at)[4].length()) << one << how << ": " << at->str();
@@ -113,7 +123,7 @@ TEST_F(Screens, NoNumberMeansNever) {
       "(^|[^.0-9])[0-9]{5,}(\\.[0-9]+)? (mm|rpm|deg|s)\\b|[0-9]e\\+?[0-9]+ (mm|µm|deg|rpm|s)\\b");
   for (const std::string& one : lathe_commands())
     for (const char* const how : {"", " --verbose"}) {
-      const std::string text = command(one + how + forced(one)).out;
+      const std::string text = command(std::string(one).append(how).append(forced(one))).out;
       std::smatch found;
       EXPECT_FALSE(std::regex_search(text, found, never)) << one << how << ": " << found.str();
     }

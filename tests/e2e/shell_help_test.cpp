@@ -11,11 +11,12 @@ class ShellHelp : public CommandTest {
  protected:
   /// What bash offers for the last of the words.
   std::vector<std::string> offered(const std::string& words) {
-    file("ask.sh", "source script.bash\ncomplete -p trueaxis || exit 9\nCOMP_WORDS=(trueaxis " +
-                       words +
-                       ")\nCOMP_CWORD=$((${#COMP_WORDS[@]}-1))\n_trueaxis\n"
-                       "printf '%s\\n' \"${COMPREPLY[@]}\"\n");
-    const CommandResult ran = shell("cd '" + folder_.string() + "' && bash ask.sh");
+    std::string script =
+        "source script.bash\ncomplete -p trueaxis || exit 9\nCOMP_WORDS=(trueaxis ";
+    script.append(words).append(")\nCOMP_CWORD=$((${#COMP_WORDS[@]}-1))\n_trueaxis\n");
+    script.append("printf '%s\\n' \"${COMPREPLY[@]}\"\n");
+    file("ask.sh", script);
+    const CommandResult ran = shell(in_folder("bash ask.sh"));
     EXPECT_EQ(ran.exit_code, 0) << ran.output;
     std::istringstream lines(ran.output);
     std::vector<std::string> out;
@@ -23,6 +24,9 @@ class ShellHelp : public CommandTest {
     EXPECT_FALSE(out.empty());
     if (!out.empty()) out.erase(out.begin());  // of `complete -p`
     return out;
+  }
+  std::string in_folder(const std::string& line) {
+    return std::string("cd ").append(shell_word(folder_)).append(" && ").append(line);
   }
   void SetUp() override {
     CommandTest::SetUp();
@@ -80,12 +84,12 @@ TEST_F(ShellHelp, ManualIsTroffWithoutWarnings) {
   for (; std::getline(lines, line) && line.starts_with("  ");) {
     if (line[2] == ' ') continue;
     std::string name = line.substr(2, line.find(' ', 2) - 2);
-    if (const std::size_t dash = name.find('-'); dash != std::string::npos) name.insert(dash, "\\");
-    EXPECT_TRUE(contains(made.out, ".SS trueaxis " + name + "\n")) << name;
+    if (const std::size_t dash = name.find('-'); dash != std::string::npos)
+      name = name.substr(0, dash).append("\\").append(name, dash);
+    EXPECT_TRUE(contains(made.out, std::string(".SS trueaxis ").append(name).append("\n"))) << name;
   }
   if (shell("command -v groff").exit_code != 0) GTEST_SKIP() << "no groff here";
-  const CommandResult ran =
-      shell("cd '" + folder_.string() + "' && groff -man -ww -Tutf8 trueaxis.1 > page.txt");
+  const CommandResult ran = shell(in_folder("groff -man -ww -Tutf8 trueaxis.1 > page.txt"));
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_EQ(ran.output, "");
   EXPECT_TRUE(contains(read_text(folder_ / "page.txt"), "diagnose"));

@@ -70,7 +70,7 @@ TEST(ScenarioWords, OfAFace) {
 TEST(ScenarioWords, BothNamesOfOneThingAreOneTooMany) {
   const std::string part = "[part]\nradius_mm = 20\nsurface = \"cylinder\"\n";
   EXPECT_NE(refusal(part + "kind = \"cone\"\n" + pass)
-                .find("s.toml:4:1: `kind` is an earlier name of `surface`: keep that one"),
+                .find("s.toml:4:8: `kind` is an earlier name of `surface`: keep that one"),
             std::string::npos)
       << refusal(part + "kind = \"cone\"\n" + pass);
   EXPECT_NE(refusal(part + "bore = true\nfeature = \"shaft\"\n" + pass).find("`feature`"),
