@@ -36,7 +36,8 @@ TEST(AssociationFiles, UnitsOfTheHeaderAndOfTheOption) {
   const std::vector<Point3> inches = {{25.4, 50.8, -25.4}};
   EXPECT_EQ(points_in("1 2 -1\n", "in"), inches);
   EXPECT_EQ(points_in("X [in], Y [in], Z [in]\n1,2,-1\n"), inches);
-  EXPECT_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
+  // One rounding of the factor.
+  EXPECT_DOUBLE_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
   EXPECT_THROW(points_in("x[um] y[um] z[um]\n1 2 3\n", "mm"), InputError);
   EXPECT_THROW(points_in("x y w\n1 2 3\n"), InputError);
 }
