@@ -10,6 +10,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t solved_whole = 1500;  ///< so many points are all solved for
+constexpr std::size_t spread_out = 256;     ///< of more, so many from everywhere: they enclose it
 constexpr std::size_t stretches = 512;      ///< of many points each offers its furthest
 
 }  // namespace
@@ -44,8 +45,10 @@ Furthest furthest(const Placed& placed, const PointCloud& cloud, const Sides& si
 }
 
 ChosenPoints::ChosenPoints(const PointCloud& cloud) : cloud_(cloud) {
-  if (cloud.points.size() > solved_whole) return;
-  for (std::size_t i = 0; i < cloud.points.size(); ++i) indices_.push_back(i);
+  const std::size_t n = cloud.points.size();
+  const std::size_t some = n > solved_whole ? spread_out : n;
+  for (std::size_t i = 0; i < some; ++i) indices_.push_back(n > some ? spread_index(i, n) : i);
+  std::ranges::sort(indices_);
   gather();
 }
 

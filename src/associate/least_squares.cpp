@@ -104,8 +104,9 @@ LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max
     at.normal = std::move(normal);
     const double rate = std::isfinite(last) ? std::min(0.999, moves / last) : 0.999;
     last = moves;
-    // All the steps that are still to come, as a geometric series.
-    if (damping == 0.0 && moves * rate / (1.0 - rate) <= 1e-13 * cloud.length) {
+    // All the steps that are still to come, as a geometric series; or no more than rounding.
+    const bool short_way = moves * rate / (1.0 - rate) <= 1e-13 * cloud.length;
+    if (damping == 0.0 && (short_way || moves <= 1e-14 * cloud.length)) {
       at.converged = true;
       return at;
     }

@@ -30,8 +30,14 @@ class Search {
     Minimax out{.placed = placed};
     evaluate(placed);
     out.h = program_.g.maxCoeff();
-    far_ = std::max(100.0 * cloud_.length, 10.0 * placed.offset.norm());
-    double reach = std::max(2.0 * std::abs(out.h), 1e-9 * cloud_.length);
+    // An inscribed element must not step over the points that hold it: outside of them it is
+    // larger.
+    const bool inscribed = sides_.inner && !sides_.outer;
+    const double size = placed.shape == Shape::torus ? placed.second_size : placed.size;
+    far_ = inscribed ? 10.0 * cloud_.length + 2.0 * placed.offset.norm()
+                     : 100.0 * cloud_.length + 10.0 * placed.offset.norm();
+    longest_ = inscribed ? std::min(cloud_.length, 0.1 * size) : cloud_.length;
+    double reach = std::clamp(2.0 * std::abs(out.h), 1e-9 * longest_, longest_);
     const double rounding = 4e-16 * cloud_.length + 0.25 * cloud_.rounding;
     for (; out.iterations < max_iterations; ++out.iterations) {
       const ChebyshevSolution linear = solve(program_, reach, rounding + 1e-15 * reach);
@@ -43,7 +49,7 @@ class Search {
         out.placed = recentred(best->placed, cloud_.centroid);
         evaluate(out.placed);
         out.h = program_.g.maxCoeff();
-        reach = std::min(cloud_.length, std::max(good ? 2.0 * reach : reach, 2.0 * best->length));
+        reach = std::min(longest_, std::max(good ? 2.0 * reach : reach, 2.0 * best->length));
         if (runs_away(out.placed)) break;
         continue;
       }
@@ -105,7 +111,9 @@ class Search {
                                 double h) const {
     std::optional<Step> best;
     const auto offer = [&](const Eigen::VectorXd& step) {
-      if (!step.allFinite() || step.lpNorm<Eigen::Infinity>() > 10.0 * reach) return;
+      if (!step.allFinite() ||
+          step.lpNorm<Eigen::Infinity>() > std::min(10.0 * reach, 1.01 * longest_))
+        return;
       const Placed placed = stepped(from, step);
       const double top = largest(placed);
       if (top < (best ? best->h : h)) best = {placed, top, step.lpNorm<Eigen::Infinity>()};
@@ -222,7 +230,8 @@ class Search {
   Parameters per_;
   ChebyshevProgram program_;
   DistanceBlock block_;
-  double far_ = 0.0;  ///< an element that goes further has no end
+  double longest_ = 0.0;  ///< step
+  double far_ = 0.0;      ///< an element that goes further has no end
 };
 
 }  // namespace

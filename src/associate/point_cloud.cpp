@@ -84,19 +84,17 @@ PointCloud part_of(const PointCloud& cloud, std::span<const Point3> some) {
   return part;
 }
 
+std::size_t spread_index(std::size_t i, std::size_t n) {
+  constexpr double golden = 0.6180339887498949;
+  const double at = 0.5 + golden * static_cast<double>(i);
+  return std::min(n - 1, static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(n)));
+}
+
 std::vector<Point3> sample_of(const PointCloud& cloud, std::size_t most) {
   const std::size_t n = cloud.points.size();
   if (n <= most) return {cloud.points.begin(), cloud.points.end()};
-  constexpr double golden = 0.6180339887498949;
   std::vector<Point3> sample;
-  sample.reserve(most);
-  double at = 0.5;
-  for (std::size_t i = 0; i < most; ++i) {
-    sample.push_back(
-        cloud.points[std::min(n - 1, static_cast<std::size_t>(at * static_cast<double>(n)))]);
-    at += golden;
-    at -= std::floor(at);
-  }
+  for (std::size_t i = 0; i < most; ++i) sample.push_back(cloud.points[spread_index(i, n)]);
   return sample;
 }
 

@@ -28,8 +28,11 @@ PointCloud cloud_of(std::span<const Point3> points, int threads);
 /// A cloud of some of its points, with the numbers of the whole.
 PointCloud part_of(const PointCloud& cloud, std::span<const Point3> some);
 
-/// Some points spread over all of them by the golden ratio, so that no period of the sampling is
-/// met; all, where there are no more than `most`.
+/// Which of n points is the i-th of a sample: spread by the golden ratio, so that no period of the
+/// sampling is met.
+std::size_t spread_index(std::size_t i, std::size_t n);
+
+/// So many points of a cloud; all, where there are no more.
 std::vector<Point3> sample_of(const PointCloud& cloud, std::size_t most);
 
 /// A point in mm from `base`.

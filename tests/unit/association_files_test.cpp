@@ -36,7 +36,8 @@ TEST(AssociationFiles, UnitsOfTheHeaderAndOfTheOption) {
   const std::vector<Point3> inches = {{25.4, 50.8, -25.4}};
   EXPECT_EQ(points_in("1 2 -1\n", "in"), inches);
   EXPECT_EQ(points_in("X [in], Y [in], Z [in]\n1,2,-1\n"), inches);
-  EXPECT_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
+  // One rounding of the factor.
+  EXPECT_DOUBLE_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
   EXPECT_THROW(points_in("x[um] y[um] z[um]\n1 2 3\n", "mm"), InputError);
   EXPECT_THROW(points_in("x y w\n1 2 3\n"), InputError);
 }
@@ -46,19 +47,18 @@ TEST(AssociationFiles, LinesOfTheCertificateAreThoseOfTheFile) {
   EXPECT_EQ(text.lines, (std::vector<std::size_t>{2, 4, 5, 6}));
   const AssociatedFeature got =
       associate(text.points_mm, Element::circle, Criterion::minimum_circumscribed);
-  // Three points hold it: (±1, 0) and (0, −1.1): x² = 1 + y², (1.1 + y)² = 1 + y² (y the centre
-  // up).
-  const double y = (1.0 - 1.21) / 2.2;
-  EXPECT_NEAR(got.feature.point_mm[1], y, 1e-15);
-  EXPECT_NEAR(got.feature.radius_mm, 1.1 + y, 1e-15);
+  // (0, 1) and (0, −1.1) are its ends; the two others are 1.0012 mm from the centre.
+  EXPECT_NEAR(got.feature.point_mm[1], -0.05, 1e-15);
+  EXPECT_NEAR(got.feature.radius_mm, 1.05, 1e-15);
   const auto json = nlohmann::json::parse(association_json(got, text));
   EXPECT_EQ(json["schema"], "trueaxis.association/1");
   EXPECT_EQ(json["radius"]["unit"], "mm");
   EXPECT_TRUE(json["radius"]["u"].is_null());
   EXPECT_FALSE(json["radius"]["why"].get<std::string>().empty());
   EXPECT_TRUE(json["certificate"]["global"]);
-  ASSERT_EQ(json["certificate"]["contacts"].size(), 3U);
-  EXPECT_EQ(json["certificate"]["contacts"][2]["line"], 6);
+  std::vector<int> lines;
+  for (const auto& contact : json["certificate"]["contacts"]) lines.push_back(contact["line"]);
+  EXPECT_TRUE(lines == (std::vector<int>{4, 6}) || lines == (std::vector<int>{6, 4}));
   const std::string certificate = association_certificate(got, text);
   EXPECT_TRUE(certificate.starts_with("# schema: trueaxis.certificate/1\n"));
   EXPECT_NE(certificate.find("\n6,0,-1.1"), std::string::npos);

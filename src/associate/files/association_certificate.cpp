@@ -73,8 +73,10 @@ std::string association_certificate(const AssociatedFeature& of, const PointText
   append(text, "# stationarity: {:.3g}\n# gap: {:.3g} mm\n", certificate.stationarity,
          certificate.gap_mm);
   append(text, "# optimum: {}\n",
-         certificate.global ? std::string("global, the criterion is convex")
-                            : fmt::format("the best from {} starts", certificate.starts));
+         certificate.global ? std::string("global")
+         : certificate.starts == 1
+             ? std::string("local, from the algebraic or the Gaussian element")
+             : fmt::format("the best from {} starts", certificate.starts));
   if (of.criterion == Criterion::gaussian)
     return text +
            "# How to check it by hand: the sum of d grad d over all points is 0, d the distance;\n"

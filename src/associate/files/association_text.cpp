@@ -31,9 +31,15 @@ std::string rows(const std::string& name, const Point3& value, const Point3& u, 
 std::string proof(const AssociatedFeature& of) {
   const AssociationCertificate& certificate = of.certificate;
   if (of.criterion == Criterion::gaussian)
-    return certificate.global || certificate.starts == 1
-               ? std::string("the minimum is the only one")
+    return certificate.global ? std::string("by principal axes: the least of all")
+           : certificate.starts == 1
+               ? std::string("the minimum that the algebraic element leads to")
                : fmt::format("the least minimum from {} starts", certificate.starts);
+  if (of.criterion == Criterion::constrained)
+    return fmt::format(
+        "{} points touch it and balance the pull of all, to {:.1e} mm; the minimum that the "
+        "Gaussian element leads to",
+        certificate.contacts.size(), certificate.gap_mm);
   return fmt::format(
       "{} points hold it, no motion betters it by more than {:.1e} mm to first "
       "order; {}",
