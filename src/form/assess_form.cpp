@@ -75,6 +75,19 @@ class Assessment {
     return values;
   }
 
+  /// What is to be said of the cylinders.
+  std::vector<std::string> notes() const {
+    std::vector<std::string> out;
+    const auto add = [&](std::string note, const char* of) {
+      if (!note.empty()) out.push_back(of + std::move(note));
+    };
+    if (whole_datum_) add(whole_datum_->rocking(options_.datum), "Datum: ");
+    for (const Criterion criterion :
+         {Criterion::minimum_circumscribed, Criterion::maximum_inscribed})
+      if (whole_) add(whole_->rocking(criterion), "");
+    return out;
+  }
+
  private:
   AxisLine datum_axis(const Profiles& profiles, bool exactly) const {
     if (whole_datum_) return whole_datum_->axis(profiles.datum_mm, options_.datum, exactly);
@@ -157,6 +170,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   result.radius_known = sections.radius_known;
   hand_out(result, values, spread);
   add_notes(stream, sections, result);
+  for (std::string& note : assessment.notes()) result.notes.push_back(std::move(note));
   return result;
 }
 

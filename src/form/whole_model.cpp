@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "form/whole_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -139,7 +141,25 @@ WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>
   const AssociatedFeature found = associate(points, Element::cylinder, criterion);
   const auto& [x, y, z] = found.feature.point_mm;
   const auto& [l, m, n] = found.feature.direction;
-  return {distances_mm(points, found), {}, {x - l / n * z, y - m / n * z, l / n, m / n}};
+  double low = middle_mm_ + half_mm_, high = middle_mm_ - half_mm_;
+  for (const auto& contact : found.certificate.contacts) {
+    low = std::min(low, points[contact.point][2]);
+    high = std::max(high, points[contact.point][2]);
+  }
+  return {distances_mm(points, found),
+          {},
+          {x - l / n * z, y - m / n * z, l / n, m / n},
+          std::max(0.0, high - low)};
+}
+
+std::string WholeModel::rocking(Criterion criterion) const {
+  if (criterion == Criterion::gaussian) return "";
+  const Fitted fit = associated(measured(sections_), criterion);
+  if (fit.held_mm >= 0.5 * half_mm_) return "";
+  return fmt::format(
+      "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, and what is "
+      "about it hangs on that",
+      name_of(criterion), fit.held_mm, 2.0 * half_mm_);
 }
 
 AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
