@@ -56,8 +56,6 @@ FormOptions chosen(const Options& options) {
   parse_band(options.upr, form);
   if (options.noise_um >= 0.0) form.noise_mm = options.noise_um * mm_per_um;
   form.spindle_range_mm = options.spindle_range_um * mm_per_um;
-  // The datum of ISO 5459: what a mating part would touch.
-  form.datum = form.bore ? Criterion::maximum_inscribed : Criterion::minimum_circumscribed;
   for (const Criterion criterion : form_criteria)
     if (options.datum_association == name_of(criterion)) form.datum = criterion;
   if (!options.spindle.empty()) form.spindle = read_spindle_motion(options.spindle);
@@ -114,6 +112,35 @@ void add_filter(CLI::App& command, Options& options) {
   command
       .add_option("--filter", options.filter,
                   "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none")
+      ->check(CLI::IsMember({"gaussian", "robust", "spline", "none"}));
+  command.add_option("--upr", options.upr,
+                     "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");
+  command
+      .add_option("--spindle", options.spindle,
+                  "JSON of `trueaxis spindle`: its error motion is taken off, its u counts")
+      ->check(a_place());
+  command
+      .add_option("--spindle-range-um", options.spindle_range_um,
+                  "range of a synchronous error motion that is not known by its orders, in U")
+      ->check(a_length());
+}
+
+void add_rest(CLI::App& command, Options& options) {
+  command.add_flag("--bore", options.form.bore, "probed from inside");
+  command
+      .add_option("--ball-radius", options.form.ball_radius_mm,
+                  "X_M is the centre of a ball of this radius, mm")
+      ->check(a_length());
+  command.add_option("--noise", options.noise_um, "standard deviation of one reading, µm")
+      ->check(a_length());
+  command
+      .add_option("--datum", options.datum,
+                  "probe stream (CSV) of the datum, in the same clamping (the spindle axis)")
+      ->check(a_place());
+  command
+      .add_option("--datum-association", options.datum_association,
+                  "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
+                  "5459:2011) or maximum_inscribed (a bore's)")
       ->check(CLI::IsMember({"gaussian", "robust", "spline", "none"}));
   command.add_option("--upr", options.upr,
                      "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");

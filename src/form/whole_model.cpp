@@ -154,12 +154,25 @@ WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>
 
 std::string WholeModel::rocking(Criterion criterion) const {
   if (criterion == Criterion::gaussian) return "";
-  const Fitted fit = associated(measured(sections_), criterion);
-  if (fit.held_mm >= 0.5 * half_mm_) return "";
+  const auto profiles = measured(sections_);
+  const Fitted fit = associated(profiles, criterion);
+  const Fitted least = associated(profiles, Criterion::gaussian);
+  const char* name = name_of(criterion);
+  if (fit.held_mm < 0.5 * half_mm_)
+    return fmt::format(
+        "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, and what "
+        "is about it hangs on that",
+        name, fit.held_mm, 2.0 * half_mm_);
+  double apart = 0.0;
+  for (const double z : {middle_mm_ - half_mm_, middle_mm_ + half_mm_}) {
+    const auto here = fit.axis.at(z), there = least.axis.at(z);
+    apart = std::max(apart, std::hypot(here[0] - there[0], here[1] - there[1]));
+  }
+  if (apart <= 0.5 * range_of(least.off_mm).length()) return "";
   return fmt::format(
-      "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, and what is "
-      "about it hangs on that",
-      name_of(criterion), fit.held_mm, 2.0 * half_mm_);
+      "The axis of the {} cylinder is {:.3g} µm off that of least squares at an end, more than the "
+      "form explains: a tapered part rocks in it",
+      name, apart / mm_per_um);
 }
 
 AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
