@@ -107,6 +107,7 @@ std::string one_section(const SectionForm& section, double k) {
   if (const FormValue* radius = find(section.values, "radius"))
     text += line("radius", layout::plus_minus(radius->estimate, k, 1.0, "mm"));
   text += line("slope", cell(find(section.values, "slope"), k) + " µm/deg at most");
+  if (section.lobes == 0) return text + line("lobes", "none above the noise");
   text += line("lobes",
                fmt::format("{} ({:.0f} % of the mean square); largest orders, µm: {}",
                            section.lobes, 100.0 * section.lobes_share, harmonics_text(section, 4)));
