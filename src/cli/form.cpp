@@ -141,35 +141,6 @@ void add_rest(CLI::App& command, Options& options) {
       .add_option("--datum-association", options.datum_association,
                   "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
                   "5459:2011) or maximum_inscribed (a bore's)")
-      ->check(CLI::IsMember({"gaussian", "robust", "spline", "none"}));
-  command.add_option("--upr", options.upr,
-                     "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");
-  command
-      .add_option("--spindle", options.spindle,
-                  "JSON of `trueaxis spindle`: its error motion is taken off, its u counts")
-      ->check(a_place());
-  command
-      .add_option("--spindle-range-um", options.spindle_range_um,
-                  "range of a synchronous error motion that is not known by its orders, in U")
-      ->check(a_length());
-}
-
-void add_rest(CLI::App& command, Options& options) {
-  command.add_flag("--bore", options.form.bore, "probed from inside");
-  command
-      .add_option("--ball-radius", options.form.ball_radius_mm,
-                  "X_M is the centre of a ball of this radius, mm")
-      ->check(a_length());
-  command.add_option("--noise", options.noise_um, "standard deviation of one reading, µm")
-      ->check(a_length());
-  command
-      .add_option("--datum", options.datum,
-                  "probe stream (CSV) of the datum, in the same clamping (the spindle axis)")
-      ->check(a_place());
-  command
-      .add_option("--datum-association", options.datum_association,
-                  "minimum_circumscribed (shaft), maximum_inscribed (bore), minimum_zone or "
-                  "gaussian")
       ->check(CLI::IsMember(
           {"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
   command.add_option("--tolerance-um", options.tolerances,
