@@ -6,6 +6,7 @@
 
 #include "form/face.hpp"
 #include "form/notes.hpp"
+#include "form/sampling.hpp"
 #include "form/sections.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
@@ -16,6 +17,8 @@ namespace trueaxis {
 namespace form {
 namespace {
 
+constexpr std::size_t listed = 3;  // sections with the same trouble
+
 std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
                                     const std::string& source) {
   std::vector<SectionModel> models;
@@ -25,6 +28,15 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
     if (models.back().trouble().empty()) continue;
     const std::string where = one.z_mm ? fmt::format("section at Z = {:.6g} mm: ", *one.z_mm) : "";
     wrong.push_back({source, 0, 0, where + models.back().trouble()});
+  }
+  if (wrong.size() > listed) {
+    const std::size_t more = wrong.size() - listed;
+    wrong.resize(listed);
+    int carried = 500;
+    for (const SectionModel& one : models) carried = std::min(carried, highest_order(one.raw()));
+    wrong.push_back(
+        {source, 0, 0,
+         fmt::format("{} more sections likewise; all of them carry up to {} UPR", more, carried)});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   return models;
