@@ -44,11 +44,11 @@ struct FormOptions {
   double low_upr = 1.0;    ///< of the pass band; 1: a low-pass
   double high_upr = 50.0;  ///< where the filter lets 50 % through
   bool bore = false;
-  double ball_radius_mm = 0.0;          ///< 0: the stream's
-  std::optional<double> noise_mm;       ///< standard deviation of a reading; else as it shows
-  std::vector<SpindleOrder> spindle{};  ///< known motion: taken off, its u counts
-  double spindle_range_mm = 0.0;        ///< range of a motion that is not known by its orders
-  Criterion datum = Criterion::minimum_circumscribed;  ///< ISO 5459 of a shaft
+  double ball_radius_mm = 0.0;            ///< 0: the stream's
+  std::optional<double> noise_mm;         ///< standard deviation of a reading; else as it shows
+  std::vector<SpindleOrder> spindle{};    ///< known motion: taken off, its u counts
+  double spindle_range_mm = 0.0;          ///< range of a motion that is not known by its orders
+  Criterion datum = Criterion::gaussian;  ///< of the datum's circle or cylinder
   double coverage_factor = 2.0;
   int trials = 400;  ///< of the Monte Carlo: u to 3.5 %
   std::uint64_t seed = 12181;

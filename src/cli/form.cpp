@@ -56,8 +56,6 @@ FormOptions chosen(const Options& options) {
   parse_band(options.upr, form);
   if (options.noise_um >= 0.0) form.noise_mm = options.noise_um * mm_per_um;
   form.spindle_range_mm = options.spindle_range_um * mm_per_um;
-  // The datum of ISO 5459: what a mating part would touch.
-  form.datum = form.bore ? Criterion::maximum_inscribed : Criterion::minimum_circumscribed;
   for (const Criterion criterion : form_criteria)
     if (options.datum_association == name_of(criterion)) form.datum = criterion;
   if (!options.spindle.empty()) form.spindle = read_spindle_motion(options.spindle);
@@ -141,8 +139,8 @@ void add_rest(CLI::App& command, Options& options) {
       ->check(a_place());
   command
       .add_option("--datum-association", options.datum_association,
-                  "minimum_circumscribed (shaft), maximum_inscribed (bore), minimum_zone or "
-                  "gaussian")
+                  "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
+                  "5459:2011) or maximum_inscribed (a bore's)")
       ->check(CLI::IsMember(
           {"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
   command.add_option("--tolerance-um", options.tolerances,

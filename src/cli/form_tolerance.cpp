@@ -56,8 +56,9 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
     const FormValue* worst = nullptr;
     std::set<std::string> names;
     for (const FormValue* one : all_values(result)) {
-      if (one->estimate.unit == "mm") names.insert(one->name);
-      if (one->estimate.unit != "mm" || !counts(*one, tolerance.name)) continue;
+      if (one->estimate.unit != "mm" || one->name == "radius") continue;
+      names.insert(one->name);
+      if (!counts(*one, tolerance.name)) continue;
       if (!worst ||
           one->estimate.value + k * one->estimate.u > worst->estimate.value + k * worst->estimate.u)
         worst = one;

@@ -6,6 +6,7 @@
 
 #include "form/face.hpp"
 #include "form/notes.hpp"
+#include "form/sampling.hpp"
 #include "form/sections.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
@@ -16,6 +17,8 @@ namespace trueaxis {
 namespace form {
 namespace {
 
+constexpr std::size_t listed = 3;  // sections with the same trouble
+
 std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
                                     const std::string& source) {
   std::vector<SectionModel> models;
@@ -25,6 +28,15 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
     if (models.back().trouble().empty()) continue;
     const std::string where = one.z_mm ? fmt::format("section at Z = {:.6g} mm: ", *one.z_mm) : "";
     wrong.push_back({source, 0, 0, where + models.back().trouble()});
+  }
+  if (wrong.size() > listed) {
+    const std::size_t more = wrong.size() - listed;
+    wrong.resize(listed);
+    int carried = 500;
+    for (const SectionModel& one : models) carried = std::min(carried, highest_order(one.raw()));
+    wrong.push_back(
+        {source, 0, 0,
+         fmt::format("{} more sections likewise; all of them carry up to {} UPR", more, carried)});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   return models;
@@ -73,6 +85,19 @@ class Assessment {
     else if (part_.size() == 1)
       append(section_against(datum, part_.front(), profiles.part_mm.front()));
     return values;
+  }
+
+  /// What is to be said of the cylinders.
+  std::vector<std::string> notes() const {
+    std::vector<std::string> out;
+    const auto add = [&](std::string note, const char* of) {
+      if (!note.empty()) out.push_back(of + std::move(note));
+    };
+    if (whole_datum_) add(whole_datum_->rocking(options_.datum), "Datum: ");
+    for (const Criterion criterion :
+         {Criterion::minimum_circumscribed, Criterion::maximum_inscribed})
+      if (whole_) add(whole_->rocking(criterion), "");
+    return out;
   }
 
  private:
@@ -157,6 +182,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   result.radius_known = sections.radius_known;
   hand_out(result, values, spread);
   add_notes(stream, sections, result);
+  for (std::string& note : assessment.notes()) result.notes.push_back(std::move(note));
   return result;
 }
 

@@ -91,7 +91,14 @@ ProbeStream as_stream(const std::vector<Eigen::Vector3d>& points, bool cylinder)
 
 FormResult revolved(const std::vector<Eigen::Vector3d>& points, Element element,
                     const FormOptions& options) {
-  FormResult result = assess_form(as_stream(points, element == Element::cylinder), options);
+  const ProbeStream stream = as_stream(points, element == Element::cylinder);
+  const auto [low, high] = std::ranges::minmax(stream.reading_mm);
+  if (high - low > 0.5 * high)
+    throw InputError("points",
+                     fmt::format("the points make no {}: they are {:.4g} to {:.4g} mm off "
+                                 "its middle",
+                                 element_names[static_cast<std::size_t>(element)], low, high));
+  FormResult result = assess_form(stream, options);
   // Points know no spindle: there is nothing to be eccentric to.
   std::erase_if(result.groups, [](const FormGroup& group) { return group.name == "datum"; });
   for (SectionForm& section : result.sections)

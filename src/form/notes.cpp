@@ -42,8 +42,10 @@ void note_sampling(FormResult& result) {
         gaps / rad_per_deg));
   if (options.filter != ProfileFilter::none && std::abs(worst - 0.5) > 0.01)
     result.notes.push_back(fmt::format(
-        "The angles of the readings are uneven or few for the filter: it lets {:.1f} % of a wave "
-        "at the cut-off through here, not 50 %",
+        "{}: it lets {:.1f} % of a wave at the cut-off through here, not 50 %",
+        options.filter == ProfileFilter::robust_gaussian
+            ? "The robust filter leaves readings out, and others are few or uneven for it"
+            : "The angles of the readings are uneven or few for the filter",
         100.0 * worst));
   if (options.filter == ProfileFilter::none)
     result.notes.emplace_back(

@@ -11,6 +11,8 @@
 namespace trueaxis::form {
 namespace {
 
+constexpr double least_lobe_mm = 1e-9;  // rounding
+
 /// A section of more readings than this many a wave at the cut-off (and than 8192) is averaged to
 /// it: an average over one of 200 places lets 0.99996 of the wave through.
 constexpr double places_a_wave = 200.0;
@@ -84,7 +86,8 @@ SectionModel::SectionModel(const SectionReadings& given, bool radius_known,
     off = circle.off_mm;
   }
   const auto most = static_cast<std::size_t>(std::max(8192.0, places_a_wave * options.high_upr));
-  raw_ = sorted_trace(readings.angle_rad, off, two_pi, readings.size() > most ? most : 0);
+  raw_ = sorted_trace(readings.angle_rad, off, two_pi, std::max(1.0, turns_),
+                      readings.size() > most ? most : 0);
   if (raw_.size() < 4) {
     trouble_ = "fewer than 4 readings at different angles";
     return;
@@ -184,7 +187,9 @@ SectionForm SectionModel::form() const {
     if (one.order < 2 || one.order < low_upr_ || one.order > high_upr_) continue;
     const double square = one.amplitude_mm() * one.amplitude_mm();
     squares += square;
-    if (square > largest) {
+    const double noise = noise_mm_ * one.u_per_sigma;
+    if (square > largest && square > shown_over_noise * noise * noise &&
+        one.amplitude_mm() > least_lobe_mm) {
       largest = square;
       form.lobes = one.order;
     }

@@ -21,6 +21,10 @@ struct AxisOffset {
   double x_mm, y_mm;
 };
 
+/// An order's square over the variance of its coefficients, from which on it is no noise: 5 % of
+/// orders without form are above, as exp(−6/2).
+inline constexpr double shown_over_noise = 6.0;
+
 /// One section ready to be filtered and assessed, as often as a Monte Carlo asks.
 class SectionModel {
  public:

@@ -16,6 +16,8 @@
 namespace trueaxis::form {
 namespace {
 
+constexpr double few_deg = 60.0;  // of ten turns in radians, of sixty in turns
+
 class Troubles {
  public:
   explicit Troubles(const ProbeStream& stream) : stream_(stream) {}
@@ -48,9 +50,9 @@ void check_angles(const ProbeStream& stream, Troubles& troubles) {
   const double covered = high - low + median(steps);
   if (covered < 0.5 * two_pi) {
     const double as_said = covered / rad_per_deg;
-    const std::string hint = off_multiple(as_said, two_pi) < 0.01
+    const std::string hint = as_said < few_deg && off_multiple(as_said, two_pi) < 0.01
                                  ? ": it looks like radians, write C[rad]"
-                             : off_multiple(as_said, 1.0) < 0.01
+                             : as_said < few_deg && off_multiple(as_said, 1.0) < 0.01
                                  ? ": it looks like turns, write C[rev]"
                                  : ": probe at least half a turn, a whole one for a roundness";
     troubles.add(

@@ -10,7 +10,7 @@
 namespace trueaxis::form {
 namespace {
 
-constexpr double one_place = 0.02;  // of the mean step: angles of several turns, rounded
+constexpr double one_place = 0.1;  // of the step of one turn: angles that jitter or are rounded
 
 }  // namespace
 
@@ -42,7 +42,7 @@ std::vector<double> shares_of(const Trace& trace, double longest_step) {
 }
 
 Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm, double period,
-                   std::size_t most) {
+                   double turns, std::size_t most) {
   expects(at.size() == value_mm.size(), "a value for every place");
   std::vector<double> places(at.begin(), at.end());
   if (period > 0.0)
@@ -54,9 +54,9 @@ Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm,
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return places[i]; });
   const double extent = order.empty() ? 0.0 : places[order.back()] - places[order.front()];
+  const double step = extent * turns / static_cast<double>(std::max<std::size_t>(1, order.size()));
   const double together =
-      std::max(one_place * extent / static_cast<double>(std::max<std::size_t>(1, order.size())),
-               most > 0 ? extent / static_cast<double>(most) : 0.0);
+      std::max(one_place * step, most > 0 ? extent / static_cast<double>(most) : 0.0);
   Trace trace;
   trace.period = period;
   for (std::size_t k = 0; k < order.size();) {

@@ -16,9 +16,6 @@ using Engine = boost::random::mt19937_64;
 
 /// Orders of a motion of which the range alone is known: amplitudes fall with the order.
 constexpr int first_unknown = 2, last_unknown = 10;
-/// An order's square over the variance of its coefficients, from which on it is no noise: 5 % of
-/// orders without form are above, as exp(−6/2).
-constexpr double shown_over_noise = 6.0;
 /// What the highest of a profile of noise stands out by, over its standard deviation.
 constexpr double largest_of_noise = 5.0;
 

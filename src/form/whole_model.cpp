@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "form/whole_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -139,7 +141,38 @@ WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>
   const AssociatedFeature found = associate(points, Element::cylinder, criterion);
   const auto& [x, y, z] = found.feature.point_mm;
   const auto& [l, m, n] = found.feature.direction;
-  return {distances_mm(points, found), {}, {x - l / n * z, y - m / n * z, l / n, m / n}};
+  double low = middle_mm_ + half_mm_, high = middle_mm_ - half_mm_;
+  for (const auto& contact : found.certificate.contacts) {
+    low = std::min(low, points[contact.point][2]);
+    high = std::max(high, points[contact.point][2]);
+  }
+  return {distances_mm(points, found),
+          {},
+          {x - l / n * z, y - m / n * z, l / n, m / n},
+          std::max(0.0, high - low)};
+}
+
+std::string WholeModel::rocking(Criterion criterion) const {
+  if (criterion == Criterion::gaussian) return "";
+  const auto profiles = measured(sections_);
+  const Fitted fit = associated(profiles, criterion);
+  const Fitted least = associated(profiles, Criterion::gaussian);
+  const char* name = name_of(criterion);
+  if (fit.held_mm < 0.5 * half_mm_)
+    return fmt::format(
+        "The {} cylinder rests on {:.3g} of {:.3g} mm of its length: its axis may rock, and what "
+        "is about it hangs on that",
+        name, fit.held_mm, 2.0 * half_mm_);
+  double apart = 0.0;
+  for (const double z : {middle_mm_ - half_mm_, middle_mm_ + half_mm_}) {
+    const auto here = fit.axis.at(z), there = least.axis.at(z);
+    apart = std::max(apart, std::hypot(here[0] - there[0], here[1] - there[1]));
+  }
+  if (apart <= 0.5 * range_of(least.off_mm).length()) return "";
+  return fmt::format(
+      "The axis of the {} cylinder is {:.3g} µm off that of least squares at an end, more than the "
+      "form explains: a tapered part rocks in it",
+      name, apart / mm_per_um);
 }
 
 AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "form/axis_line.hpp"
@@ -24,6 +25,10 @@ class WholeModel {
   AxisLine axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
                 bool exactly) const;
 
+  /// Why the axis of a criterion may rock: the cylinder rests on less than a quarter of the length
+  /// (a tapered shaft touches at one end). Empty: it does not.
+  std::string rocking(Criterion criterion) const;
+
   /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's.
   std::vector<NamedValue> assess(const std::vector<std::vector<double>>& filtered_mm,
                                  bool exactly) const;
@@ -37,6 +42,7 @@ class WholeModel {
     std::vector<double> off_mm;
     Eigen::VectorXd q;  ///< radius, x and y in the middle, both at the end, radius at the end
     AxisLine axis;
+    double held_mm = 0.0;  ///< along the axis, from the first to the last contact
   };
   Fitted fitted(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion, bool cone,
                 bool exactly) const;

@@ -15,7 +15,8 @@ namespace {
 using layout::padded;
 
 constexpr std::size_t name_width = 16, cell_width = 21, sections_shown = 6;
-constexpr double nothing_mm = 1e-9;  // rounding
+constexpr double nothing_mm = 1e-9;   // rounding
+constexpr double least_shown = 1e-4;  // of U, in µm
 
 const FormValue* find(std::span<const FormValue> values, std::string_view name,
                       std::string_view reference = "") {
@@ -29,7 +30,10 @@ std::string cell(const FormValue* one, double k) {
   if (!one) return "";
   if (std::abs(one->estimate.value) < nothing_mm && one->estimate.u < nothing_mm) return "0";
   const bool slope = one->estimate.unit == "mm/rad";
-  return layout::plus_minus(one->estimate, k, slope ? rad_per_deg / mm_per_um : 1e3, "");
+  const double scale = slope ? rad_per_deg / mm_per_um : 1e3;
+  if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
+    return fmt::format("{:.4f} ± < {:g}", scale * one->estimate.value, least_shown);
+  return layout::plus_minus(one->estimate, k, scale, "");
 }
 
 std::string filter_text(const FormOptions& options) {
@@ -103,6 +107,7 @@ std::string one_section(const SectionForm& section, double k) {
   if (const FormValue* radius = find(section.values, "radius"))
     text += line("radius", layout::plus_minus(radius->estimate, k, 1.0, "mm"));
   text += line("slope", cell(find(section.values, "slope"), k) + " µm/deg at most");
+  if (section.lobes == 0) return text + line("lobes", "none above the noise");
   text += line("lobes",
                fmt::format("{} ({:.0f} % of the mean square); largest orders, µm: {}",
                            section.lobes, 100.0 * section.lobes_share, harmonics_text(section, 4)));
@@ -131,7 +136,7 @@ std::string section_rows(const FormResult& result, bool all) {
             padded(cell(find(section->values, "eccentricity"), k), cell_width) +
             (section->lobes > 0
                  ? fmt::format("{} ({:.0f} %)\n", section->lobes, 100.0 * section->lobes_share)
-                 : "too few readings\n");
+                 : "none\n");
   if (shown.size() < result.sections.size())
     text += fmt::format("the {} least round of {} sections; --verbose prints all\n", shown.size(),
                         result.sections.size());
