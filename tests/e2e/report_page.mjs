@@ -89,7 +89,7 @@ function inspectFits() {
 
 function inspectText() {
   const text = document.body.innerText;
-  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.000', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
+  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.00', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
     .map((word) => `the page shows "${word}"`);
 }
 
