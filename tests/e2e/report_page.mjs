@@ -187,7 +187,7 @@ async function look(browser, {name, width, height}) {
     const ready = page.waitForFunction(() => window.trueaxisReport?.ready);
     ready.catch(() => {});
     await Promise.race([ready, broken]);
-    console.log(`${name}: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
+    console.log(`${name} folded: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
     problems.push(...await page.evaluate(inspectWidth));
     await page.screenshot({path: join(folder, `${name}_folded.png`), fullPage: true});
     await page.evaluate(() => { window.trueaxisReport.unfold(); });
