@@ -16,6 +16,7 @@ const palettes = {
 };
 const colours = {...palettes.light};
 const charts = [];
+const oneCanvas = 1e9;  // marks from which on a series has a canvas of its own: on paper the other one would be blank
 
 /** Twelve colours; from the seventh curve on another dash and another mark as well. */
 const styleOf = (i) => ({colour: colours.series[i % colours.series.length], dash: ['solid', 'dashed', 'dotted'][Math.floor(i / 6) % 3],
@@ -205,7 +206,7 @@ function cellMap(cells, values, {limit, positionName, width, cName}) {
       ticks: Array.from({length: width < 480 ? 5 : 9}, (_, i) => i * (width < 480 ? 90 : 45))}),
     yAxis: binAxis(uprightAxis, positionName, {low, high, count: cells.rows, ticks: niceTicks(low, high, 6)}),
     visualMap: colourScale(limit, width),
-    series: [{type: 'heatmap', data, progressive: 0, emphasis: {disabled: true}}],
+    series: [{type: 'heatmap', data, progressive: 0, progressiveThreshold: oneCanvas, emphasis: {disabled: true}}],
   };
 }
 

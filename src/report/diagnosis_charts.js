@@ -44,7 +44,7 @@ function sectionChart(readings, columns, words) {
   const {points} = readings;
   const {kept} = split(points);
   const series = columns.map(([key, name, colour]) => ({
-    name, type: 'scatter', symbolSize: 4, progressive: 0, emphasis: {disabled: true}, itemStyle: {color: colour, opacity: 0.7},
+    name, type: 'scatter', symbolSize: 4, progressive: 0, progressiveThreshold: oneCanvas, emphasis: {disabled: true}, itemStyle: {color: colour, opacity: 0.7},
     data: pairs(points.c_deg, points[key], kept)}));
   return figure({caption: words, description: words,
     build: (width) => ({grid: grid({top: 60}), legend: legend({left: 0, right: 0}), xAxis: angleAxis(width), yAxis: uprightAxis('µm'), series})});

@@ -28,7 +28,7 @@ function volumeMap(map, key, words, limit) {  // `key` has a scale of its own
       xAxis: binAxis(axis, `${across.name} in ${across.unit}`, {...across, ticks: niceTicks(across.low, across.high, width < 480 ? 4 : 6)}),
       yAxis: binAxis(uprightAxis, `${up.name} in ${up.unit}`, {...up, ticks: niceTicks(up.low, up.high, 6)}),
       visualMap: sizeScale(limit, width, shades[key]),
-      series: [{type: 'heatmap', data, progressive: 0, emphasis: {disabled: true}}],
+      series: [{type: 'heatmap', data, progressive: 0, progressiveThreshold: oneCanvas, emphasis: {disabled: true}}],
     })});
 }
 

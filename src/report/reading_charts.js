@@ -43,7 +43,7 @@ function pointMap(readings, values, {limit, width}) {
   const within = (px) => Math.min(16, Math.max(3, px));
   const mark = [within((width - 70) / perTurn), within(250 * perTurn / values.length)];
   const series = [{
-    type: 'scatter', symbol: 'rect', symbolSize: mark, progressive: 0, emphasis: {disabled: true},
+    type: 'scatter', symbol: 'rect', symbolSize: mark, progressive: 0, progressiveThreshold: oneCanvas, emphasis: {disabled: true},
     data: kept.map((i) => [points.c_deg[i], points.position_mm[i], values[i]]),
   }];
   if (rejected.length) series.push(rejectedSeries(pairs(points.c_deg, points.position_mm, rejected)));
@@ -73,7 +73,7 @@ function residualChart(readings, {x, envelope, name, words}) {
     xAxis: thinned ? bandAxis(band, name, envelope === 'c' ? (width < 480 ? 4 : 8) : 6) : envelope === 'c' ? angleAxis(width) : axis(name, spanning(x)),
     yAxis: uprightAxis('measured − model in µm', aboutZero(limit)),
     series: thinned ? bandSeries(band) : [
-      {name: 'residual', type: 'scatter', symbolSize: readings.count > 4000 ? 2 : 4, progressive: 0, emphasis: {disabled: true},
+      {name: 'residual', type: 'scatter', symbolSize: readings.count > 4000 ? 2 : 4, progressive: 0, progressiveThreshold: oneCanvas, emphasis: {disabled: true},
         itemStyle: {color: colours.measured, opacity: 0.65}, data: pairs(x, readings.points.residual_um, data.kept)},
       ...(data.rejected.length ? [rejectedSeries(data.rejected.map((i) => [x[i], inside(readings.points.residual_um[i])]))] : []),
     ],
@@ -114,17 +114,17 @@ function residualCharts(readings) {
 }
 
 /** Polar section: deviations outside or inside the circle of the true-running surface, magnified. */
-function polarChart(readings, part) {
+function polarChart(readings, part, relative) {
   const model = part.model ? part.model.um : [];
   const largestUm = Math.max(largest(part.measured.um), largest(model));
   const step = roundUp(largestUm / 2);
   const out = step * Math.ceil(largestUm * 1.05 / step);
   const base = 2 * out;
-  const magnification = part.nominal_mm > 0 && !readings.face ? part.nominal_mm * 1000 / base : null;
+  const magnification = part.nominal_mm > 0 && !readings.face && !relative ? part.nominal_mm * 1000 / base : null;
   const place = !readings.has_position ? 'the section' : `${readings.face ? 'X' : 'Z'} = ${millimetres(part.position_mm, 2)}`;
   const near = readings.has_position ? `readings within ±${millimetres(part.half_width_mm, 2)}` : `${part.readings} readings`;
   const caption = `At ${place}, ${near}${part.measured.averaged ? `, ${part.readings} readings as means per degree` : ''}. ` +
-    `Dashed: ${readings.has_model ? (readings.face ? 'a face square to the spindle axis' : 'true running, radius ' + millimetres(part.nominal_mm, 3)) : 'mean of the readings'}; ` +
+    `Dashed: ${readings.has_model ? (readings.face ? 'a face square to the spindle axis' : relative ? 'true running' : 'true running, radius ' + millimetres(part.nominal_mm, 3)) : 'mean of the readings'}; ` +
     `${tick(step)} µm a ring${magnification ? `; deviations magnified ${significant(magnification, 2)} times` : ''}.`;
   const curve = model.map((um, i) => [um, i * part.model.step_deg]);
   const zero = Array.from({length: 121}, (_, i) => [0, i * 3]);

@@ -126,7 +126,7 @@ function chartBlocks(reference) {
   if (readings.sections.length) {
     blocks.push(block('Polar sections with the eccentricity', paragraph('The part frame seen along −Z, C counter-clockwise from +x. ' +
       `Outside the dashed circle is ${readings.face ? 'towards +Z' : 'away from the spindle axis'}.`, 'quiet'),
-      element('div', {class: 'triple'}, readings.sections.map((part) => polarChart(readings, part)))));
+      element('div', {class: 'triple'}, readings.sections.map((part) => polarChart(readings, part, reference.relative)))));
   }
   if (!readings.has_model) {
     blocks.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));

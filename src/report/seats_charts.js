@@ -17,9 +17,9 @@ function offsetAlong({start, end}, towards, z) {
 }
 
 /** A seat's outline as polygons of [Z, radius], upper and lower side, about a centre that runs `off(z)` to the side. */
-function outline({face, bore, z_mm: z, radius_mm: r}, off, thickness) {
+function outline({face, bore, z_mm: z, radius_mm: r}, off, {thickness, wall}) {
   if (face) return [1, -1].map((side) => [[z[0], side * r[0]], [z[0], side * r[1]], [z[0] + thickness, side * r[1]], [z[0] + thickness, side * r[0]]]);
-  const near = (k) => Math.max(0, r[k] + (bore ? 6 : -6) * thickness);  // where the material is
+  const near = (k) => Math.max(0, r[k] + (bore ? wall : -wall));  // where the material is
   return [1, -1].map((side) => [[z[0], off(z[0]) + side * r[0]], [z[1], off(z[1]) + side * r[1]], [z[1], off(z[1]) + side * near(1)], [z[0], off(z[0]) + side * near(0)]]);
 }
 
@@ -41,19 +41,19 @@ function seatsChart({seats: {seats, cut}, target, references}) {
   const farthest = ends.reduce((most, end) => !most || offsetOf(end) > offsetOf(most) ? end : most, null);
   const towards = farthest ? Math.atan2(farthest.y_mm, farthest.x_mm) : 0;
   const magnified = farthest && offsetOf(farthest) > 0 ? Number((roundUp(0.12 * radius / offsetOf(farthest))).toPrecision(3)) : 1;
-  const span = Math.max(high - low, 1e-3), thickness = 0.012 * span;
+  const span = Math.max(high - low, 1e-3), size = {thickness: 0.012 * span, wall: 0.2 * radius};
   const series = drawn.map(({seat, line, name}, i) => {
     const style = line ?? {...styleOf(i < 2 ? i : i + 1)};
-    return polygons(name, outline(seat, line ? (z) => magnified * offsetAlong(line.axis, towards, z) : () => 0, thickness), {...style, opacity: 0.35});
+    return polygons(name, outline(seat, line ? (z) => magnified * offsetAlong(line.axis, towards, z) : () => 0, size), {...style, opacity: 0.35});
   });
-  if (cut) series.push(polygons('what is cut', outline(cut, target.axis ? (z) => magnified * offsetAlong(target.axis, towards, z) : () => 0, thickness),
+  if (cut) series.push(polygons('what is cut', outline(cut, target.axis ? (z) => magnified * offsetAlong(target.axis, towards, z) : () => 0, size),
     {colour: colours.series[2], opacity: 0.15, dash: 'dashed'}));
   lines.forEach(({name, axis: a, index, width, colour, dash, opacity}) => {
     const from = seats.find((s) => s.index === index)?.z_mm ?? cut?.z_mm ?? [low, high];
     series.push({name: index < 0 ? 'target axis' : name, type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 4, lineStyle: {width: Math.min(width, 4), color: colour, type: dash, opacity},
       itemStyle: {color: colour}, data: from.map((z) => [z, magnified * offsetAlong(a, towards, z)])});
   });
-  const margin = 0.04 * span, reach = roundUpFinely(Math.max(1.2 * radius, solid.some((s) => s.bore) ? 1.1 * radius + 6 * thickness : 0));
+  const margin = 0.04 * span, reach = roundUpFinely(Math.max(1.2 * radius, solid.some((s) => s.bore) ? 1.1 * radius + size.wall : 0));
   series.push({name: 'spindle axis', type: 'line', symbol: 'none', silent: true, emphasis: {disabled: true}, z: 3, itemStyle: {color: colours.ink},
     lineStyle: {width: 1.2, color: colours.ink, type: [12, 4, 2, 4]}, data: [[low - margin, 0], [high + margin, 0]]});
   const names = series.filter((s, i) => series.findIndex((other) => other.name === s.name) === i);

@@ -36,7 +36,7 @@ json data_of(const std::string& page) {
 /// Screens of 390 × 844 px before anything is unfolded.
 double phone_screens(const Opinion& opinion) {
   std::smatch found;
-  return std::regex_search(opinion.log, found, std::regex("phone: ([0-9.]+) screens"))
+  return std::regex_search(opinion.log, found, std::regex("phone folded: ([0-9.]+) screens"))
              ? std::stod(found[1])
              : NAN;
 }

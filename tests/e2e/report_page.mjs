@@ -89,7 +89,7 @@ function inspectFits() {
 
 function inspectText() {
   const text = document.body.innerText;
-  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.000', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
+  return ['NaN', 'undefined', '[object', 'Infinity', 'null', 'radius 0.00', 'radius 0 '].filter((word) => new RegExp(`(^|[^\\w])${word.replace('[', '\\[')}`).test(text))
     .map((word) => `the page shows "${word}"`);
 }
 
@@ -187,7 +187,7 @@ async function look(browser, {name, width, height}) {
     const ready = page.waitForFunction(() => window.trueaxisReport?.ready);
     ready.catch(() => {});
     await Promise.race([ready, broken]);
-    console.log(`${name}: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
+    console.log(`${name} folded: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
     problems.push(...await page.evaluate(inspectWidth));
     await page.screenshot({path: join(folder, `${name}_folded.png`), fullPage: true});
     await page.evaluate(() => { window.trueaxisReport.unfold(); });

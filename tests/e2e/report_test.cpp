@@ -131,6 +131,22 @@ TEST_F(ReportPage, TheScriptFindsAnEmptyChart) {
   EXPECT_FALSE(opinion.sound);
 }
 
+TEST_F(ReportPage, TheScriptFindsACodeThatNobodyExplains) {
+  const std::string page =
+      replaced(render_report(example::diagnosed_job(200)), "To tell apart: ", "To tell apart RC: ");
+  const Opinion opinion = open_page(page, "code");
+  EXPECT_NE(opinion.log.find("the page shows the code \"RC\""), std::string::npos) << opinion.log;
+  EXPECT_FALSE(opinion.sound);
+}
+
+TEST_F(ReportPage, TheScriptFindsWhatCannotBeReadInTheDark) {
+  const std::string page =
+      replaced(render_report(example::cone_job(100)), "ink: '#e3e8ed'", "ink: '#2a3440'");
+  const Opinion opinion = open_page(page, "too_dark");
+  EXPECT_NE(opinion.log.find("hard to read on"), std::string::npos) << opinion.log;
+  EXPECT_FALSE(opinion.sound);
+}
+
 TEST_F(ReportPage, TheScriptFindsTextThatIsCut) {
   const std::string page = replaced(render_report(example::cone_job(100)),
                                     "padding: [0, 0, 0, -24]", "padding: [0, 0, 0, -60]");
