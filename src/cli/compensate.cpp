@@ -56,6 +56,9 @@ int execute(const Options& options) {
   task.arc_tolerance_mm = options.arcs_mm;
   const ProgramCompensation result =
       compensate_program(model, std::move(text), options.program, task);
+  if (result.blocks_moved == 0)
+    throw InputError(options.program,
+                     "moves no axis of the machine: name the program that cuts the part");
   if (!options.json.empty()) outputs.write(options.json, compensation_json(result, task, inputs));
   if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
   outputs.commit();

@@ -90,8 +90,27 @@ int MachineDiagnosed::diagnose() const {
 }
 
 int MachineDiagnosed::advise() const {
+  Outputs outputs(force);
+  outputs.reads(machine.machine);
+  for (const std::string& path : data) outputs.reads(path);
+  for (const std::string& path : machine.errors) outputs.reads(path);
+  if (!program.empty()) outputs.reads(program);
+  outputs.may_write(json, "trueaxis.machine_diagnosis");
+  outputs.may_write(plan_output, "trueaxis.measurement_plan");
+  outputs.check();
   const Said said = said_of(*this);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
+  if (!plan_output.empty() && said.found.next_plan.empty())
+    throw Refusal("no plan shows or separates anything more: there are no positions to write");
+  if (!json.empty()) {
+    Json object = machine_diagnosis_object(said.found, said.file.machine);
+    if (said.harm) object["program"] = said.program;
+    outputs.write(json, json_text(object));
+  }
+  if (!plan_output.empty())
+    outputs.write(plan_output, measurement_plan_csv(said.found, said.file.machine));
+  outputs.commit();
+  if (json == "-" || plan_output == "-") return done;
   std::cout << machine_advice_text(said.found);
   if (said.harm) std::cout << harm_text(*said.harm);
   return done;
