@@ -88,8 +88,9 @@ struct MachinePlan {
   double minutes = 0.0;
   std::vector<std::string> shows;      ///< effects that are not observable without it
   std::vector<std::string> separates;  ///< findings whose class it tells apart
-  std::vector<PlannedVisit> visits;    ///< in order
-  std::vector<double> covariance;      ///< of `MachineDiagnosis::uncertain` with it
+  MeasurementKind kind = MeasurementKind::ball;
+  std::vector<PlannedVisit> visits;  ///< in order
+  std::vector<double> covariance;    ///< of `MachineDiagnosis::uncertain` with it
 };
 
 /// A number that the tip depends on, before the measurement of a plausible size.

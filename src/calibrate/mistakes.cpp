@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "calibrate/tip_fit.hpp"
 #include "trueaxis/error.hpp"
@@ -16,6 +17,8 @@ constexpr double far_better = 0.5;    // of the RMS: four times the χ²
 constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
 constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
 constexpr double far_too_small = 30;  // times less scatter than is stated
+constexpr double some_numbers = 120;  // of readings, on which a mistake is tried first
+constexpr double some_leeway = 1.3;   // of the RMS that is left of them
 
 /// A way in which columns are written wrongly, and how they are mended.
 struct Mistake {
@@ -101,6 +104,67 @@ std::optional<double> left_mm(const Machine& machine, std::span<const MachineMea
   return fitted.rms_after_mm;
 }
 
+/// Rows here and there, some 120 numbers of them, for a first look at many mistakes.
+std::vector<MachineMeasurement> some_of(std::span<const MachineMeasurement> data,
+                                        std::size_t numbers) {
+  const double share = some_numbers / static_cast<double>(numbers);
+  std::vector<MachineMeasurement> out(data.begin(), data.end());
+  for (MachineMeasurement& file : out) {
+    if (file.kind == MeasurementKind::axis) continue;
+    const auto thin = [&](auto& column) {
+      std::size_t row = 0;
+      // By the golden ratio rows of no period are kept.
+      std::erase_if(column, [&](const auto&) {
+        const double at = static_cast<double>(row++) * (std::numbers::phi - 1.0);
+        return at - std::floor(at) >= share;
+      });
+    };
+    thin(file.setup), thin(file.ball), thin(file.axes), thin(file.deviation_mm);
+    thin(file.length_mm), thin(file.along_mm), thin(file.tool_length_mm), thin(file.time_s);
+  }
+  return out;
+}
+
+/// The RMS of `left_mm`; none either where there are too few rows.
+std::optional<double> left_of_some_mm(const Machine& machine,
+                                      std::span<const MachineMeasurement> data,
+                                      const CalibrationOptions& options) {
+  try {
+    return left_mm(machine, data, options);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void undo(const Mistake& mistake, std::vector<MachineMeasurement>& data) {
+  for (MachineMeasurement& file : data)
+    if (file.kind != MeasurementKind::axis) mistake.undo(file);
+}
+
+/// Whether a mistake is worth a look at all rows: it leaves little of some, or they do not tell.
+class Worthwhile {
+ public:
+  Worthwhile(const Machine& machine, std::span<const MachineMeasurement> data,
+             const CalibrationOptions& options, std::size_t numbers)
+      : machine_(machine), options_(options), some_(some_of(data, numbers)) {
+    if (static_cast<double>(numbers) > some_numbers)
+      as_read_mm_ = left_of_some_mm(machine, some_, options);
+  }
+  bool operator()(const Mistake& mistake) const {
+    if (!as_read_mm_) return true;
+    std::vector<MachineMeasurement> right = some_;
+    undo(mistake, right);
+    const auto again_mm = left_of_some_mm(machine_, right, options_);
+    return again_mm && *again_mm < some_leeway * far_better * *as_read_mm_;
+  }
+
+ private:
+  const Machine& machine_;
+  const CalibrationOptions& options_;
+  std::vector<MachineMeasurement> some_;
+  std::optional<double> as_read_mm_;
+};
+
 }  // namespace
 
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
@@ -118,10 +182,11 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   if (!wrong && as_read_mm < fine_mm) return "";
   std::string best;
   double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
+  const Worthwhile worthwhile(machine, data, options, found.equations);
   for (const Mistake& mistake : mistakes_of(machine, data)) {
+    if (!wrong && !worthwhile(mistake)) continue;
     std::vector<MachineMeasurement> right(data.begin(), data.end());
-    for (MachineMeasurement& file : right)
-      if (file.kind != MeasurementKind::axis) mistake.undo(file);
+    undo(mistake, right);
     const std::optional<double> again_mm = left_mm(machine, right, options);
     if (!again_mm || !(*again_mm < least_mm)) continue;
     least_mm = *again_mm;

@@ -167,6 +167,7 @@ class Planner {
         set_up_minutes + seconds_a_position / 60.0 * static_cast<double>(positions.size());
     out.data = data_;
     MachineMeasurement& file = out.data[file_];
+    out.plan.kind = file.kind;
     file.noise_mm = rows_.front()->sigma_mm;
     const double step_s = file.time_s.size() > 1 ? (file.time_s.back() - file.time_s.front()) /
                                                        static_cast<double>(file.time_s.size() - 1)

@@ -53,19 +53,26 @@ class Regressor {
     products_ = all.transpose() * all;
     right_ = all.transpose() * residuals;
     square_ = residuals.squaredNorm();
+    eliminate_fixed();
   }
 
   RandomEffects run() {
     for (int round = 0; round < most_iterations; ++round) {
-      solve();
+      solve_random();
       if (improve() < settled) break;
     }
-    solve();
-    const VectorXd back = scale_.cwiseProduct(unit_), x = back.cwiseProduct(mean_);
+    set_scale();
+    MatrixXd normal = scale_.asDiagonal() * products_ * scale_.asDiagonal();
+    normal /= variance_;
+    normal.diagonal().tail(random_).array() += 1.0;
+    const Eigen::LLT<MatrixXd> factors(normal);
+    const MatrixXd inverse = factors.solve(MatrixXd::Identity(normal.rows(), normal.cols()));
+    const VectorXd back = scale_.cwiseProduct(unit_);
+    const VectorXd x = back.cwiseProduct(factors.solve(scale_.cwiseProduct(right_) / variance_));
     RandomEffects out;
     out.fixed = x.head(fixed_);
     out.random = x.tail(random_);
-    out.covariance = back.asDiagonal() * inverse_ * back.asDiagonal();
+    out.covariance = back.asDiagonal() * inverse * back.asDiagonal();
     for (const double one : logs_) out.times.push_back(std::exp(one));
     out.times_all = std::exp(common_);
     out.variance = variance_;
@@ -73,36 +80,62 @@ class Regressor {
   }
 
  private:
-  /// Mean and covariance at the sizes so far.
-  void solve() {
+  /// The fixed ones are free at any size of the random ones: their Schur complement stays.
+  void eliminate_fixed() {
+    const Eigen::LLT<MatrixXd> factors(products_.topLeftCorner(fixed_, fixed_));
+    const MatrixXd cross = factors.matrixL().solve(products_.topRightCorner(fixed_, random_));
+    const VectorXd along = factors.matrixL().solve(right_.head(fixed_));
+    beside_ = products_.bottomRightCorner(random_, random_);
+    beside_.noalias() -= cross.transpose() * cross;
+    right_beside_ = right_.tail(random_) - cross.transpose() * along;
+    square_beside_ = square_ - along.squaredNorm();
+  }
+
+  void set_scale() {
     scale_ = VectorXd::Ones(fixed_ + random_);
     Index at = fixed_;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       scale_.segment(at, groups_[g].shares.size()).setConstant(std::exp(logs_[g]));
       at += groups_[g].shares.size();
     }
-    MatrixXd normal = scale_.asDiagonal() * products_ * scale_.asDiagonal();
+  }
+
+  /// Mean and variances of the random ones at the sizes so far.
+  void solve_random() {
+    set_scale();
+    const auto scale = scale_.tail(random_);
+    MatrixXd normal = scale.asDiagonal() * beside_ * scale.asDiagonal();
     normal /= variance_;
-    normal.diagonal().tail(random_).array() += 1.0;
+    normal.diagonal().array() += 1.0;
     const Eigen::LLT<MatrixXd> factors(normal);
-    inverse_ = factors.solve(MatrixXd::Identity(normal.rows(), normal.cols()));
-    mean_ = factors.solve(scale_.cwiseProduct(right_) / variance_);
+    mean_ = factors.solve(scale.cwiseProduct(right_beside_) / variance_);
+    // Of the inverse L⁻ᵀL⁻¹ the diagonal alone: columns of L⁻¹, which begin at their own row.
+    constexpr Index columns = 16;
+    const MatrixXd lower = factors.matrixL();
+    variances_.resize(random_);
+    for (Index j = 0; j < random_; j += columns) {
+      const Index left = random_ - j, some = std::min(columns, left);
+      const MatrixXd part = lower.bottomRightCorner(left, left)
+                                .triangularView<Eigen::Lower>()
+                                .solve(MatrixXd::Identity(left, some));
+      variances_.segment(j, some) = part.colwise().squaredNorm().transpose();
+    }
   }
 
   /// The sizes that are most probable given these; returns the largest change.
   double improve() {
-    const VectorXd x = scale_.cwiseProduct(mean_);
-    const MatrixXd spread = scale_.asDiagonal() * inverse_ * scale_.asDiagonal();
-    const double left =
-        square_ - 2.0 * right_.dot(x) + x.dot(products_ * x) + products_.cwiseProduct(spread).sum();
+    const VectorXd x = scale_.tail(random_).cwiseProduct(mean_);
+    // tr(P S N⁻¹ S) = σ² (n − Σ of the random ones' variances), as N = S P S/σ² + 1 of these.
+    const double spread = variance_ * (static_cast<double>(fixed_ + random_) - variances_.sum());
+    const double left = square_beside_ - 2.0 * right_beside_.dot(x) + x.dot(beside_ * x) + spread;
     const double variance = std::max(least_variance_, left / static_cast<double>(equations_));
     double change = std::abs(std::log(variance / variance_)), sum = 0.0, count = 0.0;
     variance_ = variance;
-    Index at = fixed_;
+    Index at = 0;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       const Index n = groups_[g].shares.size();
-      const double square = std::exp(2.0 * logs_[g]) * (mean_.segment(at, n).squaredNorm() +
-                                                        inverse_.diagonal().segment(at, n).sum());
+      const double square = std::exp(2.0 * logs_[g]) *
+                            (mean_.segment(at, n).squaredNorm() + variances_.segment(at, n).sum());
       at += n;
       if (groups_[g].known) continue;
       const double next = best_log(static_cast<double>(n), square, common_, tau_);
@@ -119,9 +152,11 @@ class Regressor {
   Index fixed_, random_, equations_;
   double least_variance_, tau_, tau_all_;
   std::vector<double> logs_;  ///< ln t
-  VectorXd unit_, right_, scale_, mean_;
-  MatrixXd products_, inverse_;
-  double square_ = 0.0, variance_ = 1.0, common_ = 0.0;
+  VectorXd unit_, right_, scale_;
+  MatrixXd products_;
+  MatrixXd beside_;                           ///< products of the random ones beside the fixed
+  VectorXd right_beside_, mean_, variances_;  ///< of the random ones
+  double square_ = 0.0, square_beside_ = 0.0, variance_ = 1.0, common_ = 0.0;
 };
 
 }  // namespace

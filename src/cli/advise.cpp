@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
+#include "cli/options.hpp"
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "cli/waiting.hpp"
@@ -96,7 +98,9 @@ bool is_of_machine(const CLI::App& command, const Options& options) {
     throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
-    const bool of_machine = name == "--errors" || name == "--sign" || name == "--program";
+    constexpr std::array machines{"--errors", "--sign",   "--program",
+                                  "--json",   "--output", "--force"};
+    const bool of_machine = std::ranges::find(machines, name) != machines.end();
     const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm" ||
                          name == "--check" || (machine && name == "--verbose");
     if (option->count() == 0 || of_both || of_machine == machine || name == "--help") continue;
@@ -118,12 +122,24 @@ void add_advise(CLI::App& app, int& exit_code) {
       "its measurements (CSV), or none before any");
   options->stream.add_meaning_to(*command);
   options->machine.add_to(*command);
+  command
+      ->add_option("-o,--output", options->machine.plan_output,
+                   "with --machine: write the positions of the next measurement here (CSV), to be "
+                   "filled in; '-' prints them")
+      ->check(a_place());
+  command
+      ->add_option("--json", options->machine.json,
+                   "with --machine: write everything here (JSON), '-' prints it")
+      ->check(a_place());
+  add_force(*command, options->machine.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
   add_verbose(*command, options->verbose)->description("with --machine: print everything");
   add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     if (is_of_machine(*command, *options)) {
+      if (!options->machine.json.empty() && options->machine.json == options->machine.plan_output)
+        throw CLI::ValidationError("-o", "cannot go where --json goes");
       options->machine.data = options->data;
       options->machine.false_alarm = options->false_alarm;
       options->machine.verbose = options->verbose;

@@ -79,6 +79,9 @@ int execute(const Options& options) {
   const ProgramCompensation result =
       compensate_program(model, std::move(text), options.program, task);
   waiting.reset();
+  if (result.blocks_moved == 0)
+    throw InputError(options.program,
+                     "moves no axis of the machine: name the program that cuts the part");
   if (!options.json.empty()) outputs.write(options.json, compensation_json(result, task, inputs));
   if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
   outputs.commit();

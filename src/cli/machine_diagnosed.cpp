@@ -132,16 +132,31 @@ int MachineDiagnosed::diagnose() const {
 }
 
 int MachineDiagnosed::advise() const {
-  Outputs outputs;
+  Outputs outputs(force);
   inputs_of(*this, outputs);
+  outputs.may_write(json, "trueaxis.machine_diagnosis");
+  outputs.may_write(plan_output, "trueaxis.measurement_plan");
   const Read read = read_of(*this, outputs);
   if (check) return checked(outputs, would_do(*this, read) + ", propose the next measurement");
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
+  if (!plan_output.empty() && said.found.next_plan.empty())
+    throw Refusal("no plan shows or separates anything more: there are no positions to write");
+  if (!json.empty()) {
+    Json object = machine_diagnosis_object(said.found, read.file.machine);
+    if (said.harm) object["program"] = said.program;
+    outputs.write(json, json_text(object));
+  }
+  if (!plan_output.empty())
+    outputs.write(plan_output, measurement_plan_csv(said.found, read.file.machine));
+  outputs.commit();
+  if (json == "-" || plan_output == "-") return done;
   if (verbose)
     std::cout << machine_advice_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
   else
     print_screen(machine_advice_screen(said.found) + (said.harm ? harm_screen(*said.harm) : ""));
+  for (const std::string& file : {json, plan_output})
+    if (!file.empty()) std::cout << "result " << file << '\n';
   return done;
 }
 

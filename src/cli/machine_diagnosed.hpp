@@ -15,6 +15,7 @@ struct MachineDiagnosed {
   std::vector<std::string> data;  ///< measurements; none: a plan before any
   std::string program;            ///< a part on which the harm is weighed
   std::string json, errors_output;
+  std::string plan_output;  ///< of `advise`: the next measurement as a table
   double false_alarm = 0.01;
   bool force = false, verbose = false, check = false;
 

@@ -8,6 +8,7 @@
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
 #include "nc/program.hpp"
+#include "trueaxis/error.hpp"
 #include "trueaxis/program_harm.hpp"
 
 namespace trueaxis {
@@ -138,6 +139,25 @@ LargestInProgram largest_U(const MatrixXd& tips, const std::vector<double>& cova
   return out;
 }
 
+/// Where no plan lowers U, as what it is largest of no plan shows: the plan that shows most a
+/// minute of what could hide on this program and does a tenth of U there.
+std::string plan_of_hidden(const ProgramHarm& harm, const MachineDiagnosis& diagnosis) {
+  std::string code;
+  double best = 0.0;
+  for (const EffectOnProgram& effect : harm.effects) {
+    const auto hidden =
+        std::ranges::find(diagnosis.not_observable, effect.effect, &MachineNotObservable::effect);
+    if (effect.found || hidden == diagnosis.not_observable.end() ||
+        effect.tip.value < 0.1 * harm.U.value)
+      continue;
+    for (const MachinePlan& plan : diagnosis.plans)
+      if (std::ranges::find(hidden->plans, plan.code) != hidden->plans.end() &&
+          effect.tip.value / plan.minutes > best)
+        best = effect.tip.value / plan.minutes, code = plan.code;
+  }
+  return code;
+}
+
 void choose_next(const ProgramHarm& harm, MachineDiagnosis& diagnosis) {
   if (diagnosis.next_plan == "B1") return;
   diagnosis.next_plan.clear();
@@ -146,6 +166,7 @@ void choose_next(const ProgramHarm& harm, MachineDiagnosis& diagnosis) {
     const double lowered = (harm.U.value - harm.plans[i].U.value) / diagnosis.plans[i].minutes;
     if (lowered > best) best = lowered, diagnosis.next_plan = harm.plans[i].plan;
   }
+  if (diagnosis.next_plan.empty()) diagnosis.next_plan = plan_of_hidden(harm, diagnosis);
 }
 
 }  // namespace
@@ -156,7 +177,8 @@ ProgramHarm weigh_on_program(const Machine& machine, MachineDiagnosis& diagnosis
   out.file = file;
   std::vector<Block> blocks = blocks_of(machine, std::move(text), file);
   out.blocks = blocks.size();
-  if (blocks.empty()) return out;
+  if (blocks.empty())
+    throw InputError(file, "moves no axis of the machine: name the program that cuts the part");
   out.effects = effects_of(machine, diagnosis, blocks);
   if (const std::size_t step = (blocks.size() + most_blocks_of_U - 1) / most_blocks_of_U;
       step > 1) {

@@ -2,6 +2,7 @@
 // `diagnose --machine` and `advise --machine` as a user meets them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "support/command.hpp"
@@ -98,6 +99,65 @@ TEST(MachineDiagnosisCommand, AdvisesBeforeAnyDataAndAfter) {
   ran = trueaxis_command("advise " + ball + " --machine " + machine);
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_NE(ran.output.find("L2: "), std::string::npos) << ran.output;
+}
+
+// The plan as a table has the columns of a measurement: empty it is refused row by row, filled in
+// it is read as one.
+TEST(MachineDiagnosisCommand, WritesThePositionsOfTheNextMeasurement) {
+  const auto folder = fresh_folder("machine_plan");
+  const std::string plan = (folder / "plan.csv").string(), out = (folder / "all.json").string();
+  auto ran = trueaxis_command("advise --machine " + machine + " -o " + plan + " --json " + out);
+  ASSERT_EQ(ran.exit_code, 0) << ran.output;
+  const json measurement = read_json(out).at("next_measurement").at("measurement");
+  std::string text = read_text(plan);
+  EXPECT_EQ(text.find("# schema: trueaxis.measurement_plan/1\n# plan B1"), 0U) << text;
+  const auto lines = std::ranges::count(text, '\n');
+  const auto rows = static_cast<std::ptrdiff_t>(measurement.at("rows").size());
+  EXPECT_GT(rows, 100);
+  const std::string table = text.substr(text.find("setup,ball"));
+  EXPECT_EQ(std::ranges::count(table, ','), (rows + 1) * 10);  // eleven columns
+  EXPECT_GT(lines, rows);
+  ran = trueaxis_command("diagnose " + plan + " --machine " + machine);
+  EXPECT_EQ(ran.exit_code, 3);
+  EXPECT_NE(ran.output.find("dX is empty"), std::string::npos) << ran.output;
+  // Three readings a row, of a wavy pattern: any numbers will do.
+  std::string filled;
+  int row = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text.compare(at, 4, ",,,\n") == 0) {
+      for (const int period : {3, 5, 7}) filled.append(",").append(std::to_string(row % period));
+      filled.append("\n");
+      ++row;
+      at += 3;
+    } else {
+      filled += text[at];
+    }
+  }
+  EXPECT_EQ(row, rows);
+  write_text(folder / "filled.csv", filled);
+  ran = trueaxis_command("diagnose " + (folder / "filled.csv").string() + " --machine " + machine);
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  ran = trueaxis_command("advise " + ball + " --machine " + machine + " -o " + ball);
+  EXPECT_EQ(ran.exit_code, 3) << ran.output;  // never over what is read
+  EXPECT_EQ(trueaxis_command("advise " + ball + " --surface cone -o " + plan).exit_code, 2);
+}
+
+TEST(MachineDiagnosisCommand, RefusesAProgramThatMovesNothing) {
+  const auto folder = fresh_folder("machine_no_program");
+  write_text(folder / "empty.nc", "");
+  write_text(folder / "words.nc", "%\nO1 (nothing)\nG90 G21\nM30\n%\n");
+  for (const char* name : {"empty.nc", "words.nc"}) {
+    const std::string program = (folder / name).string();
+    for (const std::string& command :
+         {"diagnose " + ball + " --machine " + machine + " --program " + program,
+          "compensate " + program + " --machine " + machine + " --errors " + data +
+              "trunnion_ac_errors.toml -o " + (folder / "out.nc").string()}) {
+      const auto ran = trueaxis_command(command);
+      EXPECT_EQ(ran.exit_code, 3) << command << ran.output;
+      EXPECT_NE(ran.output.find("moves no axis"), std::string::npos) << ran.output;
+    }
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.nc"));
 }
 
 TEST(MachineDiagnosisCommand, RefusesWhatIsOfTheOther) {

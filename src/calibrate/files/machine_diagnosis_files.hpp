@@ -16,6 +16,10 @@ std::string machine_diagnosis_json(const MachineDiagnosis& diagnosis, const Mach
 /// For a terminal: µm and µrad.
 std::string machine_diagnosis_text(const MachineDiagnosis& diagnosis);
 
+/// The positions of the next measurement with the columns of a measurement, those that are read
+/// left empty: filled in it is one. Nothing where there is no next measurement.
+std::string measurement_plan_csv(const MachineDiagnosis& diagnosis, const Machine& machine);
+
 /// The next measurement with its positions' count, and what every plan shows and tells apart.
 std::string machine_advice_text(const MachineDiagnosis& diagnosis);
 

@@ -159,9 +159,15 @@ Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions&
   return out;
 }
 
-double own_error(const ErrorModel& errors, AxisName axis, double position) {
-  const std::size_t body = index_of(axis);
-  return sum_of(errors, {true, body, body}, position) + sum_of(errors, {false, body, body}, 0.0);
+double own_error(const Machine& machine, const ErrorModel& errors, AxisName name, double position) {
+  const MachineAxis& axis = *machine.find(name);
+  const std::size_t body = index_of(name);
+  // A carriage under the part that goes along with the tool's way takes it back from the tool.
+  const bool back = axis.carries_workpiece && errors.sign == ErrorSign::moving_part;
+  const Vector3 error = three_of(errors, true, is_rotary(name), body, position);
+  double along = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) along += axis.direction[i] * error[i];
+  return (back ? -along : along) + sum_of(errors, {false, body, body}, 0.0);
 }
 
 Homogeneous part_on_table(const ErrorModel& errors) {

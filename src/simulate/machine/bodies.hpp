@@ -34,8 +34,9 @@ struct Ends {
 Ends ends(const Machine& machine, const ErrorModel& errors, const AxisPositions& axes,
           const AxisPositions& lost = {});
 
-/// What an axis does beside its command along its own letter, mm or rad.
-double own_error(const ErrorModel& errors, AxisName axis, double position);
+/// What the tool does against the workpiece beside the command of one axis, along or about the
+/// axis' own direction: what a read-out between the two shows, mm or rad.
+double own_error(const Machine& machine, const ErrorModel& errors, AxisName axis, double position);
 
 /// Where the part is on its table beside where it should be.
 Homogeneous part_on_table(const ErrorModel& errors);

@@ -74,7 +74,8 @@ class Session {
       row.axes = position;
       approach(position);
       const double q = position[index_of(plan_.axis)];
-      row.actual = q + own_error(errors_, plan_.axis, q) + lost_[index_of(plan_.axis)] + noise();
+      row.actual =
+          q + own_error(machine_, errors_, plan_.axis, q) + lost_[index_of(plan_.axis)] + noise();
       keep(row);
     }
     return std::move(rows_);
