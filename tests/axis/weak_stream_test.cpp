@@ -322,5 +322,14 @@ TEST(Slip, InFewReadingsIsDatedAndMovesTheAxis) {
   EXPECT_GE(within / 4, quantile(boost::math::binomial(streams, 0.935), 1e-3));
 }
 
+// Block by block, the second reading of a pass from behind was whitened with one that is not there
+// (noise of second order, a bore of eight passes): another answer each time, and then an exception.
+TEST(ShortStream, OfAPassFromBehindHasOneAnswer) {
+  const Case of = draw_case(Group::outside, 20261796);
+  const Diagnosis first = diagnosed(of), second = diagnosed(of);
+  EXPECT_EQ(first.extended.status, FitStatus::converged);
+  EXPECT_EQ(first.residual_after_mm, second.residual_after_mm);
+}
+
 }  // namespace
 }  // namespace trueaxis::axis

@@ -159,7 +159,8 @@ void NormalEquations::for_each_block(std::size_t part, const Work& work) const {
     // Where the side changes a pass begins: nothing before it is then read.
     const auto own = at.rear.begin() + static_cast<long>(begin - before);
     const auto side = std::find_if(own, at.rear.end(), [&](char rear) { return rear != *own; });
-    const std::size_t skipped = at.rear[0] != *own ? begin - before : 0;
+    std::size_t skipped = begin - before;
+    while (skipped > 0 && at.rear[skipped - 1] == *own) --skipped;
     at = at.part(skipped, static_cast<std::size_t>(side - at.rear.begin()));
     work(at, begin, number);
     begin = at.begin + at.size();

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "format/outputs.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::string_view ours = "trueaxis.";
+
+/// Takes `word` off the front, where it stands there.
+bool take(std::string_view& text, std::string_view word) {
+  if (!text.starts_with(word)) return false;
+  text.remove_prefix(word.size());
+  return true;
+}
+
+void take_blanks(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size()));
+}
+
+/// The name in front of the version, such as trueaxis.fit/1; empty: none stands there.
+std::string_view schema_at(std::string_view text) {
+  const std::size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", ours.size());
+  const bool named = text.starts_with(ours) && end != text.npos && end > ours.size();
+  return named && text[end] == '/' ? text.substr(0, end) : "";
+}
+
+std::string_view schema_of_json(std::string_view text) {
+  for (const std::string_view word : {"{", "\"schema\"", ":", "\""}) {
+    take_blanks(text);
+    if (!take(text, word)) return "";
+  }
+  return schema_at(text);
+}
+
+/// Of the last of the comments in front of a table that says one.
+std::string_view schema_of_table(std::string_view text) {
+  std::string_view found;
+  while (text.starts_with('#')) {
+    std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(line.size() + 1, text.size()));
+    while (take(line, "#")) continue;
+    const std::string_view said = take(line, " schema: ") ? schema_at(line) : "";
+    if (!said.empty()) found = said;
+  }
+  return found;
+}
+
+std::string_view schema_of_page(std::string_view text) {
+  constexpr std::string_view says = "<meta name=\"generator\" content=\"";
+  std::size_t at = text.starts_with("<!doctype html>") ? text.rfind(says) : text.npos;
+  for (; at != text.npos && at > 0; at = text.rfind(says, at - 1)) {
+    const std::string_view found = schema_at(text.substr(at + says.size()));
+    if (!found.empty()) return found;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string schema_in(std::string_view head) {
+  for (const auto of : {schema_of_json, schema_of_table, schema_of_page})
+    if (const std::string_view found = of(head); !found.empty()) return std::string(found);
+  for (const char* comment : {"// schema: ", "<!-- schema: ", "; schema: ", "( schema: "})
+    if (take(head, comment)) return std::string(schema_at(head));
+  return "";
+}
+
+std::string schema_of_file(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::array<char, 512> head{};
+  in.read(head.data(), head.size());
+  return schema_in({head.data(), static_cast<std::size_t>(in.gcount())});
+}
+
+}  // namespace trueaxis
