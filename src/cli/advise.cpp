@@ -64,8 +64,14 @@ void advise_on_tolerance(JobResult result) {
 
 int advise_job(const Options& options) {
   const std::string content = read_file(options.stream.path);
-  if (is_machine_job(content, options.stream.path))
-    return advise_machine_job(read_machine_job_toml(content, options.stream.path));
+  if (is_machine_job(content, options.stream.path)) {
+    const MachineJob job = read_machine_job_toml(content, options.stream.path);
+    Outputs outputs;
+    outputs.reads(options.stream.path);
+    if (options.check)
+      return checked(outputs, "diagnose the machine and propose the next measurement of it");
+    return advise_machine_job(job, options.verbose);
+  }
   JobResult result;
   result.job = read_job_toml(content, options.stream.path);
   result.streams = read_streams(result.job);
@@ -102,7 +108,7 @@ bool is_of_machine(const CLI::App& command, const Options& options) {
                                   "--json",   "--output", "--force"};
     const bool of_machine = std::ranges::find(machines, name) != machines.end();
     const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm" ||
-                         name == "--check" || (machine && name == "--verbose");
+                         name == "--check" || name == "--verbose";
     if (option->count() == 0 || of_both || of_machine == machine || name == "--help") continue;
     throw CLI::ValidationError(name, machine ? "is of a stream: --machine has none"
                                              : "is of a machine: name it with --machine");
@@ -134,7 +140,7 @@ void add_advise(CLI::App& app, int& exit_code) {
   add_force(*command, options->machine.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
-  add_verbose(*command, options->verbose)->description("with --machine: print everything");
+  add_verbose(*command, options->verbose)->description("of a machine: print everything");
   add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     if (is_of_machine(*command, *options)) {

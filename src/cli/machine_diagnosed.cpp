@@ -93,6 +93,14 @@ int not_converged(const MachineDiagnosed& run, const MachineDiagnosis& found) {
   return numerical;
 }
 
+void say_advice(const MachineDiagnosis& found, const std::optional<ProgramHarm>& harm,
+                bool verbose) {
+  if (verbose)
+    std::cout << machine_advice_text(found) << (harm ? harm_text(*harm) : "");
+  else
+    print_screen(machine_advice_screen(found) + (harm ? harm_screen(*harm) : ""));
+}
+
 }  // namespace
 
 void MachineDiagnosed::add_to(CLI::App& command) {
@@ -151,16 +159,13 @@ int MachineDiagnosed::advise() const {
     outputs.write(plan_output, measurement_plan_csv(said.found, read.file.machine));
   outputs.commit();
   if (json == "-" || plan_output == "-") return done;
-  if (verbose)
-    std::cout << machine_advice_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
-  else
-    print_screen(machine_advice_screen(said.found) + (said.harm ? harm_screen(*said.harm) : ""));
+  say_advice(said.found, said.harm, verbose);
   for (const std::string& file : {json, plan_output})
     if (!file.empty()) std::cout << "result " << file << '\n';
   return done;
 }
 
-int advise_machine_job(const MachineJob& job) {
+int advise_machine_job(const MachineJob& job, bool verbose) {
   MachineDiagnoseOptions options;
   options.calibration.errors = job.known;
   options.false_alarm = job.false_alarm;
@@ -171,10 +176,10 @@ int advise_machine_job(const MachineJob& job) {
     std::cerr << job.path << ": not converged: " << found.baseline.message << '\n';
     return numerical;
   }
-  std::string harm;
+  std::optional<ProgramHarm> harm;
   if (job.program)
-    harm = harm_text(weigh_on_program(job.machine, found, job.program->text, job.program->file));
-  std::cout << machine_advice_text(found) << harm;
+    harm = weigh_on_program(job.machine, found, job.program->text, job.program->file);
+  say_advice(found, harm, verbose);
   return done;
 }
 

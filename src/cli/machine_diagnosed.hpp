@@ -28,6 +28,6 @@ struct MachineDiagnosed {
 };
 
 /// The same of a machine's job: its measurements, what is known, and its program if it has one.
-int advise_machine_job(const MachineJob& job);
+int advise_machine_job(const MachineJob& job, bool verbose);
 
 }  // namespace trueaxis::cli

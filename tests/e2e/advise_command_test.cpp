@@ -33,7 +33,7 @@ TEST_F(AdviseCommand, AMachinesJobIsAdvisedAsItsMeasurements) {
               "zxacy.toml --program " + five_axis + "blade.nc");
   EXPECT_EQ(of_files.exit_code, 0) << of_files.err;
   EXPECT_EQ(of_job.out, of_files.out);
-  EXPECT_TRUE(contains(of_job.out, "next: ")) << of_job.out;
+  EXPECT_TRUE(contains(of_job.out, "NEXT: ")) << of_job.out;
 }
 
 }  // namespace

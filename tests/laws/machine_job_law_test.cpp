@@ -99,5 +99,33 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
   EXPECT_LT(most, 5.0);
 }
 
+// Beside a reversal, which is no function of a position, U counted the noise alone, without the
+// component errors that the measurement does not show: it is no smaller than without the reversal.
+TEST(MachineJobLaw, AReversalTakesNothingOffTheUncertainty) {
+  Draw draw(20261124);
+  const Machine machine = trunnion();
+  const ErrorModel none, truth = drawn_location_errors(machine, draw);
+  MachineJob job;
+  job.machine = machine;
+  job.data = {measure_balls({machine, truth}, {}, sigma_mm, draw)};
+  job.program = MachineJobProgram{"touch.nc", touching_program({machine, none}, draw), {}};
+  const MachineJobResult without = run_machine_job(job);
+  ASSERT_TRUE(without.diagnosis.findings.empty());
+  MachineMeasurement& data = job.data.front();
+  double last = data.axes.front()[0], way = 0.0;
+  for (std::size_t i = 0; i < data.rows(); ++i) {
+    if (data.axes[i][0] != last) way = data.axes[i][0] > last ? 0.5 : -0.5;
+    last = data.axes[i][0];
+    data.deviation_mm[i][0] -= 0.005 * way;
+  }
+  const MachineJobResult with = run_machine_job(job);
+  ASSERT_EQ(with.diagnosis.findings.size(), 1U);
+  ASSERT_TRUE(with.diagnosis.findings.front().errors.empty());
+  // A tenth for the scatter of σ from some hundred residuals, 1/sqrt(2 · 100), and as much again.
+  ASSERT_EQ(with.tips.size(), without.tips.size());
+  for (std::size_t i = 0; i < with.tips.size(); ++i)
+    EXPECT_GT(with.tips[i].u_mm, 0.85 * without.tips[i].u_mm) << i;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

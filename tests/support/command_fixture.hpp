@@ -71,11 +71,11 @@ inline std::string shaft_with(const std::string& effect, const std::string& sigm
   return part + effect;
 }
 
-/// An encoder that is 1.8 deg off its centre under a part 1.2 mm off the spindle's. Of the
+/// An encoder that is 1.2 deg off its centre under a part 1.5 mm off the spindle's. Of the
 /// catalogue's linearised terms that of a probe millimetres off the centre's height comes nearest
 /// to it, and that height moves the lathe's readings quite otherwise.
 inline std::string refuted_shaft() {
-  return shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 1.8\n", "2", 1200.0, 15.0, 1);
+  return shaft_with("id = \"encoder.eccentricity\"\namplitude_deg = 1.2\n", "2", 1500.0, 20.0, 1);
 }
 
 }  // namespace trueaxis::testing

@@ -144,7 +144,7 @@ TEST(SweepLists, AreReadAsInAScenario) {
   expect_complaint(part + effects + "[[axis.case.effect]]\nid = \"part.roundnes\"\n",
                    "is not known");
   // With or without the scenario.
-  expect_complaint("[part]\n" + plans, "needs `kind`");
+  expect_complaint("[part]\n" + plans, "needs `surface`");
 }
 
 TEST(SweepLists, AreOfOneAxisAndHaveNames) {

@@ -32,57 +32,28 @@ ErrorCovariance covariance_of(const MachineFinding& found) {
   return out;
 }
 
-/// Location errors of the diagnosis, correlated as those of the calibration before it.
-ErrorCovariance covariance_of_locations(const MachineDiagnosis& diagnosis) {
-  const Calibration& base = diagnosis.baseline;
-  const std::size_t all = base.parameters.size();
-  ErrorCovariance out;
-  std::vector<std::size_t> at;
-  std::vector<double> u;
-  for (const CalibratedParameter& one : diagnosis.extended) {
-    const auto name = parse_error_name(one.name);
-    if (!name) continue;
-    out.amounts.push_back({.name = *name});
-    u.push_back(one.estimate.u);
-    at.push_back(static_cast<std::size_t>(
-        std::ranges::find(base.parameters, one.name, &CalibratedParameter::name) -
-        base.parameters.begin()));
-  }
-  const auto covariance = [&](std::size_t i, std::size_t j) {
-    return at[i] == all || at[j] == all ? 0.0 : base.covariance[at[i] * all + at[j]];
-  };
-  for (std::size_t i = 0; i < at.size(); ++i)
-    for (std::size_t j = 0; j < at.size(); ++j) {
-      const double scale = std::sqrt(covariance(i, i) * covariance(j, j));
-      const double correlation = i == j ? 1.0 : scale > 0.0 ? covariance(i, j) / scale : 0.0;
-      out.matrix.push_back(correlation * u[i] * u[j]);
-    }
-  return out;
-}
-
 }  // namespace
 
 ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) {
   if (!diagnosis.unexplained.empty()) return diagnosis.errors;  // those of a calibration
-  ErrorModel errors;
-  if (std::ranges::none_of(diagnosis.findings,
-                           [](const MachineFinding& found) { return found.errors.empty(); })) {
-    CalibrationOptions options;
-    options.errors = job.known;
-    for (const MachineFinding& found : diagnosis.findings)
-      options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
-                                  found.errors.end());
-    errors = calibrate(job.machine, job.data, options).errors;
-  } else {
+  CalibrationOptions options;
+  options.errors = job.known;
+  for (const MachineFinding& found : diagnosis.findings)
+    options.errors.terms.insert(options.errors.terms.end(), found.errors.begin(),
+                                found.errors.end());
+  ErrorModel errors = calibrate(job.machine, job.data, options).errors;
+  if (std::ranges::any_of(diagnosis.findings,
+                          [](const MachineFinding& found) { return found.errors.empty(); })) {
+    // What is no error of the machine (reversal, drift, slip) is fitted by the diagnosis alone; U
+    // is that of the calibration, which counts what is not fitted too.
+    ErrorCovariance counted = std::move(errors.covariance);
     errors = diagnosis.errors;
-    const ErrorCovariance located = covariance_of_locations(diagnosis);
     for (ErrorTerm& term : errors.terms)
-      if (std::ranges::any_of(located.amounts, [&](const UncertainAmount& amount) {
+      if (std::ranges::any_of(counted.amounts, [&](const UncertainAmount& amount) {
             return amount.name == term.name && !term.name.component;
           }))
         term.u = 0.0;
-    errors.covariance = job.known.covariance;
-    add_covariance(errors.covariance, located);
+    errors.covariance = std::move(counted);
   }
   for (const MachineFinding& found : diagnosis.findings)
     add_covariance(errors.covariance, covariance_of(found));
