@@ -6,6 +6,7 @@
 #include <numbers>
 #include <string>
 
+#include "diagnose/files/seen.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -69,6 +70,8 @@ TEST(Verdict, ASlipWithoutAClockIsNamedByTheReading) {
                 std::string::npos)
           << result.verdict.line;
       ASSERT_NE(result.diagnoses[0]->slip(), nullptr);
+      EXPECT_EQ(seen_text(*result.diagnoses[0]->slip(), 2.0).find("the part moved at reading "),
+                0u);
       // Half of 40 turns of 36.7: a few readings either way show no step.
       EXPECT_NEAR(result.diagnoses[0]->slip()->parameter("onset").value, 734.0, 10.0);
     }

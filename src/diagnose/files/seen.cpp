@@ -79,6 +79,15 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
          ", " + along;
 }
 
+/// When: of a stream without a clock by the reading.
+std::string date_text(const Finding& slip) {
+  const double onset_s = slip.term.shape.onset_s;
+  const auto onset = std::ranges::find(slip.parameters, "onset", &FitParameter::name);
+  return onset != slip.parameters.end() && onset->estimate.unit == "reading"
+             ? fmt::format("at reading {:.0f}", onset_s + 1.0)
+             : fmt::format("{:.4g} s after the start", onset_s);
+}
+
 }  // namespace
 
 std::string seen_text(const Finding& finding, double k) {
@@ -101,9 +110,7 @@ std::string seen_text(const Finding& finding, double k) {
             return fmt::format("a vibration of {:.4g} Hz, {}", shape.frequency_hz, size);
           },
           [&](const GrowthInTime&) { return "a drift with time, " + size; },
-          [&](const PartStep&) {
-            return fmt::format("the part moved {:.4g} s after the start, {}", shape.onset_s, size);
-          },
+          [&](const PartStep&) { return "the part moved " + date_text(finding) + ", " + size; },
           [&](const PolynomialInZ&) { return "a curve along Z, the same all around, " + size; },
           [&](const auto&) { return title + ", " + size; }},
       finding.term.effect->term);

@@ -39,6 +39,13 @@ constexpr std::string_view job =
 #   trueaxis run job.toml -o result
 name = "bearing seat beside a probed shaft"
 
+[header]                    # stands at the head of the report; date = "…" too
+part = "shaft"
+serial = ""
+operator = ""
+machine = ""
+probe = ""
+
 [sensor]
 u_height_um = 20            # how well the probe stands at the height of the spindle axis
 
