@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // --check: everything is read, what would be done is said, nothing is computed and nothing written.
+#include <regex>
+
 #include "support/command_fixture.hpp"
 
 namespace trueaxis::testing {
@@ -14,7 +16,9 @@ class CheckOption : public CommandTest {
     const CommandStreams done = command(arguments + " --check");
     EXPECT_EQ(done.exit_code, 0) << arguments << '\n' << done.out << done.err;
     EXPECT_TRUE(done.out.starts_with("CHECKED: ")) << arguments << '\n' << done.out;
-    EXPECT_TRUE(contains(done.out, would)) << arguments << '\n' << done.out;
+    // Where a line ends hangs on how long the paths in it are.
+    const std::string said = std::regex_replace(done.out, std::regex("\n +"), " ");
+    EXPECT_TRUE(contains(said, would)) << arguments << '\n' << done.out;
     EXPECT_EQ(done.err, "") << arguments;
     EXPECT_EQ(files_in(folder_), before) << arguments;
   }

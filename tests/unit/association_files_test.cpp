@@ -13,7 +13,8 @@ namespace trueaxis {
 namespace {
 
 std::string written(const std::string& text) {
-  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "association_files";
+  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "association_files" /
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name();
   std::filesystem::create_directories(folder);
   const std::string path = folder / "points.txt";
   std::ofstream(path) << text;

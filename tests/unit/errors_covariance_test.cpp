@@ -16,7 +16,8 @@ namespace {
 class ErrorsCovariance : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(TRUEAXIS_SCRATCH) / "errors_covariance";
+    folder_ = std::filesystem::path(TRUEAXIS_SCRATCH) / "errors_covariance" /
+              ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
     machine_.machine =
         read_machine_toml(TRUEAXIS_SOURCE "/data/five_axis/trunnion_ac.toml").machine;

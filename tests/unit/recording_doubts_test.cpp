@@ -16,7 +16,10 @@ namespace {
 
 class RecordingDoubts : public ::testing::Test {
  protected:
-  void SetUp() override { path_ = (fresh_folder("recording_doubts") / "export.txt").string(); }
+  void SetUp() override {
+    const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
+    path_ = (fresh_folder("recording_doubts/" + test) / "export.txt").string();
+  }
   ProbeStream read(const std::string& text, const std::string& columns = "",
                    std::optional<bool> diameter = std::nullopt) const {
     write_text(path_, text);
