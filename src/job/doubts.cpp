@@ -8,18 +8,15 @@
 #include <optional>
 #include <variant>
 
+#include "job/references.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
+constexpr double much_left = 1.5;    // of the noise: 5/9 of the sum of squares are no noise
 constexpr double least_beats = 3.0;  // of a line with the spindle, over a pass
-
-std::string where(const JobResult& result, std::size_t i) {
-  const std::string& name = result.job.references[i].name;
-  return name.empty() ? "" : name + ": ";
-}
 
 /// Cycles per revolution of a term at the speed and feed of a pass; none: it is no wave.
 std::optional<double> order_in(const TermValue& term, const Pass& pass) {
@@ -73,30 +70,6 @@ std::string open_causes(const Diagnosis& diagnosis) {
   return text;
 }
 
-constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
-constexpr double mostly = 0.5, gathered = 3.0, hardly = 1e-4;
-
-/// The longest run of readings at an end of a stream of which most were left out, and three times
-/// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
-/// out, which the share of all others makes of it once in 10 000 streams. `left_out(k)`: of the
-/// k-th from that end.
-template <typename LeftOut>
-std::size_t left_out_end(std::size_t count, LeftOut left_out) {
-  double total = 0.0, here = 0.0;
-  for (std::size_t i = 0; i < count; ++i) total += left_out(i) ? 1.0 : 0.0;
-  std::size_t longest = 0;
-  for (std::size_t i = 0; i < count / 2; ++i) {
-    here += left_out(i) ? 1.0 : 0.0;
-    const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
-    const double elsewhere = (total - here + 1.0) / rest;
-    const bool is_run = i + 1 >= least_end
-                            ? here >= mostly * run && here / run >= gathered * elsewhere
-                            : here == run && std::pow(elsewhere, run) < hardly;
-    if (is_run) longest = i + 1;
-  }
-  return longest;
-}
-
 /// Whether all passes that turn run at one speed and not in both directions of Z.
 bool one_manner(const std::vector<Pass>& passes) {
   const Pass* first = nullptr;
@@ -118,31 +91,20 @@ bool is_bow(const Finding& finding) {
 
 }  // namespace
 
-std::string left_out_at_an_end(const JobResult& result) {
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    const std::size_t count = result.streams.at(i).size();
-    std::vector<bool> left_out(count, false);
-    const auto mark = [&](const std::vector<Rejected>& rows) {
-      for (const Rejected& r : rows)
-        if (r.row >= 1 && r.row <= count) left_out[r.row - 1] = true;
-    };
-    mark(result.fits[i].rejected);
-    if (result.diagnoses[i]) mark(result.diagnoses[i]->noise.masked);
-    const std::vector<Pass> passes =
-        count > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
-    for (const Pass& pass : passes) {
-      const std::size_t size = pass.end - pass.begin;
-      const std::size_t last =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
-      const std::size_t first =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
-      if (first + last == 0) continue;
-      return fmt::format(
-          "{}most of the {} {} readings of a pass were left out, because they do not lie where the "
-          "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
-          "and probe again, or take that end out of the stream if the surface ends there",
-          where(result, i), last > 0 ? "last" : "first", last > 0 ? last : first);
-    }
+std::string left_unnamed(const JobResult& result) {
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    const Diagnosis& diagnosis = *result.diagnoses[i];
+    const NoiseReport& noise = diagnosis.noise;
+    const double left_mm = diagnosis.gain.rms_after_mm;
+    const double most_mm = much_left * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
+    if (!(left_mm > most_mm)) continue;
+    return fmt::format(
+        "{}what was found leaves {:.2g} µm where the {} show a noise of {:.2g} µm: the readings "
+        "hold "
+        "something that no cause and no pattern explains, and the axis may go with it. See whether "
+        "the part slipped, clamp it again and probe again",
+        of_reference(result, i), left_mm / mm_per_um, noise.source, noise.sigma_mm / mm_per_um);
   }
   return "";
 }
@@ -152,7 +114,7 @@ std::vector<std::string> model_reservations(const JobResult& result) {
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     if (!result.diagnoses[i]) {
       if (result.fits[i].u_factor > 1.0)
-        list.push_back(where(result, i) +
+        list.push_back(of_reference(result, i) +
                        "its readings are not diagnosed, and what they leave correlates");
       continue;
     }
@@ -165,13 +127,13 @@ std::vector<std::string> model_reservations(const JobResult& result) {
           "{}after all that was found a reading scatters by {:.2g} µm, {:.2g} times the stated "
           "noise: the readings hold something that was not found, or the noise was stated too "
           "small",
-          where(result, i), left_mm / mm_per_um, left_mm / stated_mm));
+          of_reference(result, i), left_mm / mm_per_um, left_mm / stated_mm));
     }
     const bool one_pass =
         result.streams.at(i).size() > 0 && one_manner(find_passes(result.streams[i]));
     if (one_pass && std::ranges::any_of(diagnosis.findings, is_bow))
       list.push_back(
-          where(result, i) +
+          of_reference(result, i) +
           "a bow that was seen in one pass, or in passes alike, may as well be a vibration "
           "near the spindle's frequency, which would move the axis: a pass back at "
           "another speed tells");
@@ -204,7 +166,7 @@ std::vector<OpenAxis> open_axes(const JobResult& result) {
     if (moved_mm <= U_mm) continue;
     list.push_back(
         {i, fmt::format("{}the diagnosis moved the axis by {:.2g} µm (U = {:.2g} µm), and {}",
-                        where(result, i), moved_mm / mm_per_um, U_mm / mm_per_um, open)});
+                        of_reference(result, i), moved_mm / mm_per_um, U_mm / mm_per_um, open)});
   }
   return list;
 }
@@ -227,7 +189,8 @@ std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
       return fmt::format(
           "{}{} may be {} too, improbable as its size is, and the axis were then {:.0f} µm "
           "elsewhere: measure it, or {}",
-          where(result, i), share.instead_of, share.effect, share.axis_shift.value / mm_per_um,
+          of_reference(result, i), share.instead_of, share.effect,
+          share.axis_shift.value / mm_per_um,
           plan == result.diagnoses[i]->plans.end() ? std::string(tells.how) : plan->what);
     }
   }
@@ -248,14 +211,14 @@ std::string moves_with_axis(const JobResult& result) {
       return fmt::format(
           "{}a pattern of {:.2g} µm near one undulation per revolution has no known cause, and the "
           "axis goes with it: {}",
-          where(result, i), u.amplitude.value / mm_per_um, next);
+          of_reference(result, i), u.amplitude.value / mm_per_um, next);
     }
     for (const Finding& f : diagnosis.findings) {
       if (!goes_with_axis(f.term, passes)) continue;
       return fmt::format(
           "{}{} is so near to once a revolution that over the stream it gains at most {:.2g} turns "
           "on the part or its eccentricity, and cannot be told from a shift of the axis: {}",
-          where(result, i), f.effect(), least_beats, next);
+          of_reference(result, i), f.effect(), least_beats, next);
     }
   }
   return "";

@@ -30,9 +30,9 @@ std::string moves_with_axis(const JobResult& result);
 /// two apart. Empty: there is none.
 std::string improbable_and_far(const JobResult& result, double tolerance_mm);
 
-/// Of the first reference where outliers gather at an end of a pass: a slip there leaves too few
-/// readings behind it to be a finding, and the part stands elsewhere now. Empty: there is none.
-std::string left_out_at_an_end(const JobResult& result);
+/// Of the first reference where all that was found leaves half as much again as the noise that
+/// repeats, revolutions or a standing spindle show of it. Empty: there is none.
+std::string left_unnamed(const JobResult& result);
 
 /// What the models of the references leave open and a reader of a go must know, a sentence each.
 std::vector<std::string> model_reservations(const JobResult& result);

@@ -112,7 +112,7 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
           "{}what the readings leave is no noise, neighbours are alike ({:.2f}): more of them "
           "prove "
           "nothing. Look for its cause, or clamp the part again and probe again",
-          references[i].name.empty() ? "" : references[i].name + ": ", used.autocorrelation);
+          of_reference(result, i), used.autocorrelation);
     noise.push_back(noise_of(result, i));
     readings += static_cast<double>(result.fits[i].points);
     length_mm =

@@ -55,6 +55,11 @@ AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagn
 
 }  // namespace
 
+std::string of_reference(const JobResult& result, std::size_t i) {
+  const std::string& name = result.job.references[i].name;
+  return name.empty() ? "" : name + ": ";
+}
+
 const FitResult& fit_used(const JobResult& result, std::size_t reference) {
   expects(reference < result.fits.size(), "a reference of the job");
   const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];

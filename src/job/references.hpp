@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
+
+/// "seat: ", before what is said of the i-th reference; empty: it has no name.
+std::string of_reference(const JobResult& result, std::size_t i);
 
 /// The references of a job with a target as the target axis sees them: axis of the fit used,
 /// weight, and the radius at which a tilt counts.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "job/references.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -88,11 +89,6 @@ bool is_sure(const Diagnosis& diagnosis) {
   return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
     return &finding != slip && std::ranges::any_of(finding.members(), is_slip);
   });
-}
-
-std::string of_reference(const JobResult& result, std::size_t i) {
-  const std::string& reference = result.job.references[i].name;
-  return reference.empty() ? "" : reference + ": ";
 }
 
 }  // namespace

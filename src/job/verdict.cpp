@@ -9,6 +9,7 @@
 #include "correct/coaxiality_distribution.hpp"
 #include "job/cut_checks.hpp"
 #include "job/doubts.hpp"
+#include "job/ends_of_stream.hpp"
 #include "job/exchanged.hpp"
 #include "job/proof.hpp"
 #include "job/references.hpp"
@@ -80,14 +81,13 @@ std::string refutation(const JobResult& result) {
   for (std::size_t i = 0; i < result.resimulations.size(); ++i) {
     const auto& again = result.resimulations[i];
     if (!again || !again->why_not.empty() || !refuted(again->comparison)) continue;
-    const std::string& reference = result.job.references[i].name;
     const NextMeasurement& next = result.diagnoses[i]->next;
     const Comparison& c = again->comparison;
     return fmt::format(
         "{}what was found does not reproduce the readings: simulated with them, {:.3g} µm RMS are "
         "left ({:.0f} % of the variance), with the ideal surface {:.3g} µm: {}",
-        reference.empty() ? "" : reference + ": ", c.after.rms_mm / mm_per_um,
-        100.0 * c.after.share, c.before.rms_mm / mm_per_um,
+        of_reference(result, i), c.after.rms_mm / mm_per_um, 100.0 * c.after.share,
+        c.before.rms_mm / mm_per_um,
         next.plan.empty() || next.what.empty() ? "probe again" : next.what);
   }
   return "";
@@ -168,7 +168,8 @@ Verdict decide(const JobResult& result) {
     verdict.line = "DONE: identified, no target to correct" + moved;
     return verdict;
   }
-  for (const auto& forbids : {left_out_at_an_end, moves_with_axis}) {
+  for (const auto& forbids :
+       {left_out_at_an_end, far_off_at_the_end, left_unnamed, moves_with_axis}) {
     if (const std::string why = forbids(result); !why.empty())
       return not_proven(std::move(verdict), why);
   }

@@ -44,6 +44,25 @@ TEST_P(RiskOfAGo, IsFivePercentAtTheEdgeAndNoneFarFromIt) {
   EXPECT_LE(out, most) << "of " << go << " GOs, seeds from " << first_seed;
 }
 
+struct Seen {
+  Group group;
+  std::uint64_t seed;
+};
+class WithheldGo : public testing::TestWithParam<Seen> {};
+
+/// Streams that had a GO which was far out: a slip that four to eight readings follow, and two
+/// slips of which only a turn that cannot be would have made one.
+TEST_P(WithheldGo, IsNoGoAnyMore) {
+  const Outcome o = judge(GetParam().group, GetParam().seed);
+  EXPECT_NE(o.decision, Decision::untoleranced)
+      << "found " << o.found << ", " << o.coaxiality_mm << " mm out, stated " << o.upper_mm;
+}
+
+INSTANTIATE_TEST_SUITE_P(Seen, WithheldGo,
+                         testing::Values(Seen{Group::slip_at_an_end, 784},
+                                         Seen{Group::two_slips, 7854},
+                                         Seen{Group::two_slips, 7933}));
+
 INSTANTIATE_TEST_SUITE_P(Groups, RiskOfAGo, testing::ValuesIn(groups), [](const auto& info) {
   std::string name(name_of(info.param));
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });

@@ -130,6 +130,13 @@ std::vector<Candidate> one_of_each(const std::vector<Candidate>& list) {
   return out;
 }
 
+/// Whether it is the same step with fewer of its parameters, or with others: what no size that can
+/// be makes exactly, such as two slips, one that can be makes nearly.
+bool is_other_form(const Candidate& refused, const Candidate& c) {
+  const Effect* effect = refused.hypothesis.effect;
+  return effect && effect == c.hypothesis.effect && is_step(effect->term);
+}
+
 /// Lobes that grow along the part are those of a spindle that tilts about a bearing anywhere, until
 /// re-chucking tells.
 void add_tilts(const Hypothesis& named, const Problem& problem, std::vector<Hypothesis>& list) {
@@ -344,7 +351,7 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
   });
   const auto refused = std::ranges::find(out.causes, false, &Candidate::possible);
   const auto explains_it = [&](const Candidate& c) {
-    return c.possible && c.gain >= refused->gain;
+    return c.possible && (c.gain >= refused->gain || is_other_form(*refused, c));
   };
   if (refused != out.causes.end() && std::ranges::none_of(out.causes, explains_it))
     out.impossible = *refused;

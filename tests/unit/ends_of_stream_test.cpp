@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A part that moved in the last readings leaves too few of them for a finding; what nothing
+// explains may move the axis. Neither is a GO.
+#include "job/ends_of_stream.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "job/doubts.hpp"
+#include "support/diagnosis_example.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t readings = 400;
+constexpr double sigma_mm = 1e-3;
+
+/// Noise alone is left.
+JobResult with_noise(unsigned seed) {
+  JobResult result = example::diagnosed_job(readings);
+  result.job.references.front().name = "seat";
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> noise(0.0, sigma_mm);
+  result.diagnoses.front()->residual_after_mm.resize(readings);
+  for (double& r : result.diagnoses.front()->residual_after_mm) r = noise(random);
+  return result;
+}
+
+std::vector<double>& left_of(JobResult& result) {
+  return result.diagnoses.front()->residual_after_mm;
+}
+
+TEST(EndsOfStream, NoiseIsTakenForAMovedPartOnceInAThousandStreams) {
+  constexpr unsigned seed = 1, streams = 2000;
+  unsigned alarms = 0;
+  for (unsigned i = 0; i < streams; ++i)
+    alarms += !far_off_at_the_end(with_noise(seed + i)).empty();
+  // Binomial: of 2000 at 10⁻³ more than 8 once in 10 000 times.
+  EXPECT_LE(alarms, 8U) << "seeds from " << seed;
+}
+
+TEST(EndsOfStream, AStepInTheLastReadingsIsSaid) {
+  JobResult result = with_noise(7);
+  for (std::size_t i = readings - 4; i < readings; ++i) left_of(result)[i] += 8.0 * sigma_mm;
+  const std::string said = far_off_at_the_end(result);
+  EXPECT_TRUE(said.starts_with("seat: 4 of the last 8 readings")) << said;
+  EXPECT_NE(said.find("the part may have slipped there"), std::string::npos);
+}
+
+TEST(EndsOfStream, ReadingsThatWereLeftOutAreOffToo) {
+  JobResult result = with_noise(7);
+  for (std::size_t i = readings - 3; i < readings; ++i)
+    left_of(result)[i] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(far_off_at_the_end(result), "");
+}
+
+TEST(EndsOfStream, OutliersThatComeInSuchNumbersElsewhereAreNoStep) {
+  JobResult result = with_noise(7);
+  for (const std::size_t end : {readings, readings / 2})
+    for (std::size_t i = end - 4; i < end; ++i) left_of(result)[i] += 8.0 * sigma_mm;
+  EXPECT_EQ(far_off_at_the_end(result), "");
+}
+
+TEST(EndsOfStream, OneOutlierIsNoStep) {
+  JobResult result = with_noise(7);
+  left_of(result).back() = 50.0 * sigma_mm;
+  EXPECT_EQ(far_off_at_the_end(result), "");
+}
+
+TEST(LeftUnnamed, MoreThanHalfAgainTheNoiseIsNoNoise) {
+  JobResult result = with_noise(7);
+  Diagnosis& diagnosis = *result.diagnoses.front();
+  diagnosis.noise.source = "revolution differences";
+  diagnosis.noise.sigma_mm = sigma_mm, diagnosis.noise.u_sigma_mm = 0.05 * sigma_mm;
+  diagnosis.gain.rms_after_mm = 1.6 * sigma_mm;  // 1.5 (1 + 2 · 0.05) = 1.65
+  EXPECT_EQ(left_unnamed(result), "");
+  diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
+  EXPECT_TRUE(left_unnamed(result).starts_with("seat: what was found leaves 1.7 µm"))
+      << left_unnamed(result);
+}
+
+}  // namespace
+}  // namespace trueaxis
