@@ -81,15 +81,6 @@ const NextMeasurement* best_next(const JobResult& result) {
   return best;
 }
 
-/// For those without a servo: where to tap the part, and how far.
-std::string tap_text(const FitResult& fit) {
-  const std::string screen = axis_screen(fit);
-  const std::size_t at = screen.find("tap    ");
-  return at == std::string::npos ? std::string()
-                                 : "To centre the part by hand: " +
-                                       screen.substr(at + 7, screen.find('\n', at) - at - 7);
-}
-
 std::string cut_text(const JobResult& result) {
   const ActuatorMargin& margin = result.correction->margin;
   if (result.verdict.go())
@@ -129,7 +120,8 @@ Json next_data(const JobResult& result) {
   if (result.correction) return steps;
   const bool moved = !slip_objection(result).empty();
   if (result.fits.size() == 1 && !moved)
-    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty()) steps.push_back(tap);
+    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty())
+      steps.push_back("To centre the part by hand: " + tap);
   if (result.verdict.decision == Decision::no_go)
     steps.push_back("Mend what the verdict names, and run the job again");
   else if (std::ranges::none_of(result.fits, [](const FitResult& fit) {
