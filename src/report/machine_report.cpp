@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
 #include "job/machine/files/machine_job_results.hpp"
 #include "report/page.hpp"
 #include "report/thinning.hpp"
@@ -157,6 +158,21 @@ Json machine_report_data(const MachineJobResult& result) {
     data["program"] = result.job.program->file;
   }
   return data;
+}
+
+std::string render_machine_diagnosis_report(const MachineJobResult& result, const Json& program) {
+  constexpr const char* words[] = {"ideal", "effects", "unexplained"};
+  const auto after_head = [](const std::string& screen, std::size_t head) {
+    return screen.substr(head, screen.find('\n') - head);
+  };
+  const std::string line = after_head(machine_diagnosis_screen(result.diagnosis), 0);
+  Json data = machine_report_data(result);
+  data["of"] = "diagnosis";
+  data["verdict"]["outcome"] = words[static_cast<std::size_t>(result.diagnosis.verdict)];
+  data["verdict"]["line"] = line;
+  data["verdict"]["next"] = after_head(next_screen(result.diagnosis), sizeof "next  ");
+  if (!program.is_null()) data["harm"] = program;
+  return page_of("TrueAxis diagnosis: " + title_of(result.job), line, data, machine_script());
 }
 
 std::string render_machine_report(const MachineJobResult& result) {
