@@ -104,7 +104,7 @@ function harmSection({harm}) {
   ]);
   const U = `U (k${nbsp}=${nbsp}${harm.coverage_factor}) of the tip`;
   const plans = harm.plans.map(
-      ({plan, U: after}) => `${micrometres(after.value)} after plan ${planWords(data.diagnosis.plans, plan)}`);
+      ({plan, U: after}) => `${micrometres(after.value)} after measuring ${planWords(data.diagnosis.plans, plan)}`);
   return section(
       'program', 'On the program',
       paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),

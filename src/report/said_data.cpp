@@ -107,7 +107,8 @@ Json warnings_data(const JobResult& result) {
   }
   for (std::size_t i = 0; i < result.fits.size(); ++i) add_reference(warnings, result, i);
   for (const Disagreement& apart : result.agreement.disagreements)
-    warnings.add("Beyond U, half-way between them, " + how_apart(result, apart));
+    warnings.add("More than U explains, " + how_apart(result, apart) +
+                 ", half-way between the two");
   return warnings.list();
 }
 

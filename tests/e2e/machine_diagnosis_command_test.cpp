@@ -205,6 +205,8 @@ TEST(MachineDiagnosisCommand, WritesAPage) {
     const json shown = json::parse(text.substr(at, text.find("</script>", at) - at));
     EXPECT_EQ(shown.at("schema"), "trueaxis.machine_report/1");
     EXPECT_EQ(shown.at("verdict").at("outcome"), "effects");
+    EXPECT_TRUE(shown.at("verdict").at("next").get<std::string>().starts_with(
+        "Measure the same positions"));
     EXPECT_EQ(shown.at("diagnosis").at("findings"), read_json(json_file).at("findings"));
     EXPECT_FALSE(shown.at("maps").empty());
     EXPECT_EQ(shown.contains("harm"), !program.empty());

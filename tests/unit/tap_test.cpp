@@ -41,9 +41,9 @@ TEST(Tap, IsWhereTheProbeReadsHighest) {
     for (const double sign : {1.0, -1.0}) {
       const std::string text = tap_text(fitted(probed(high_deg, sign)));
       const std::string at =
-          "at C = " + std::to_string(std::lround(high_deg) % 360) + "°: tap it there by 50";
-      EXPECT_NE(text.find(at), std::string::npos) << sign << ' ' << text;
-      EXPECT_EQ(text.find("run-out 100"), 0u) << text;
+          "high spot at C = " + std::to_string(std::lround(high_deg) % 360) + "°, run-out 100";
+      EXPECT_EQ(text.find(at), 0u) << sign << ' ' << text;
+      EXPECT_NE(text.find(" mm: tap there by 50"), std::string::npos) << text;
     }
 }
 
@@ -55,9 +55,9 @@ TEST(Tap, IsSaidAlikeOnScreenAndPage) {
   EXPECT_NE(axis_screen(result).find("tap    " + text + "\n"), std::string::npos);
   FitOptions options;
   options.surface = SurfaceKind::cylinder;
-  EXPECT_NE(
-      render_fit_report(stream, result, options).find("To centre the part by hand: run-out 100"),
-      std::string::npos);
+  EXPECT_NE(render_fit_report(stream, result, options)
+                .find("To centre the part by hand: high spot at C = 30°, run-out 100"),
+            std::string::npos);
 }
 
 TEST(Tap, IsNotSaidOfWhatIsNotKnown) {

@@ -59,10 +59,8 @@ std::string tap_text(const FitResult& fit) {
   const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
   const double c_deg =
       std::fmod(std::round(towards_rad / rad_per_deg) + (rear ? 540.0 : 360.0), 360.0);
-  return fmt::format(
-      "run-out {} at Z {:.6g} mm, high spot under the probe at C = {:.0f}°: tap it there by "
-      "{}",
-      um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
+  return fmt::format("high spot at C = {:.0f}°, run-out {} at Z {:.6g} mm: tap there by {}", c_deg,
+                     um(2.0 * farthest_mm), hundredths(at_z_mm), um(farthest_mm));
 }
 
 std::string axis_screen(const FitResult& fit) {

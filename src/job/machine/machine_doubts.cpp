@@ -172,7 +172,7 @@ std::vector<std::string> machine_remarks(const MachineJobResult& result) {
   });
   if (places)
     all.emplace_back(
-        "Where the part stands as a whole is not known, as the places of balls are not: the "
+        "Where the part stands as a whole is not known, as no ball's place is: the "
         "numbers are of the part without that, and hold once its zero point is probed on this "
         "machine.");
   if (measured_lengths_mm(result.job).size() == 1)
