@@ -99,7 +99,7 @@ TEST_F(FirstHour, FromStandardInput) {
   const std::string fit_dash = "fit - --surface cylinder --json f.json --force";
   for (const std::string& from :
        {fit_dash + " --diameter < export.csv", fit_dash + " --diameter < <(cat export.csv)",
-        "fit <(cat export.csv) --surface cylinder --json f.json --force --diameter"}) {
+        std::string("fit <(cat export.csv) --surface cylinder --json f.json --force --diameter")}) {
     file("ask.sh", std::string(TRUEAXIS_COMMAND " ") + from + "\n");
     const CommandResult done = shell("cd " + shell_word(folder_) + " && bash ask.sh 2>&1");
     ASSERT_EQ(done.exit_code, 0) << from << '\n' << done.output;

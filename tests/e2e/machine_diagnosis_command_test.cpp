@@ -210,9 +210,10 @@ TEST(MachineDiagnosisCommand, WritesAPage) {
     EXPECT_EQ(shown.at("diagnosis").at("findings"), read_json(json_file).at("findings"));
     EXPECT_FALSE(shown.at("maps").empty());
     EXPECT_EQ(shown.contains("harm"), !program.empty());
-    if (!program.empty())
+    if (!program.empty()) {
       EXPECT_EQ(shown.at("harm").at("by_effect"),
                 read_json(json_file).at("program").at("by_effect"));
+    }
     if (!example::can_open_pages()) continue;
     const auto opinion =
         example::open_page(text, program.empty() ? "machine_diagnosis" : "machine_diagnosis_part");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
