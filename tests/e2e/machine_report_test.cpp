@@ -49,8 +49,8 @@ TEST_F(MachineReportPage, TheBlade) {
 
 TEST(MachineReportHeader, IsThatOfTheJob) {
   const std::string path = TRUEAXIS_SOURCE "/data/jobs/blade.toml";
-  const MachineJob job =
-      read_machine_job_toml(read_file(path) + "\n[header]\nserial = \"0815\"\ndate = 2026-03-14\n", path);
+  const MachineJob job = read_machine_job_toml(
+      read_file(path) + "\n[header]\nserial = \"0815\"\ndate = 2026-03-14\n", path);
   EXPECT_EQ(job.header, (JobHeader{{"Serial number", "0815"}, {"Date", "2026-03-14"}}));
   MachineJobResult result;
   result.job = job;

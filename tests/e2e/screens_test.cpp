@@ -49,7 +49,7 @@ class Screens : public CommandTest {
             machines + "zxacy_errors.toml -o holes.nc"};
   }
   std::vector<std::string> lathe_commands() {
-    std::vector<std::string> all;
+    std::vector<std::string> all{"run " + of + "streams/shaft_three_lobes.csv -o alone"};
     for (const char* const name : {"shaft", "shaft_three_lobes", "bushing"})
       all.push_back(std::string("run ")
                         .append(of)
