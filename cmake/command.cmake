@@ -52,6 +52,7 @@ trueaxis_read_once(trueaxis <CLI/CLI.hpp>)
 # What is made of its tables of options is installed beside it.
 add_custom_command(TARGET trueaxis POST_BUILD
   COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
+  COMMAND trueaxis completion zsh > "${PROJECT_BINARY_DIR}/_trueaxis"
   COMMAND trueaxis man > "${PROJECT_BINARY_DIR}/trueaxis.1" VERBATIM)
 
 # The same sweeps on several machines, where Open MPI is installed.

@@ -103,4 +103,7 @@ struct MachineJobResult {
 /// verdict, which is final. @throws InputError as `diagnose_machine` and `compensate_program` do
 MachineJobResult run_machine_job(MachineJob job);
 
+/// The same from a diagnosis of the job's measurements that is made already.
+MachineJobResult run_machine_job(MachineJob job, MachineDiagnosis diagnosis);
+
 }  // namespace trueaxis

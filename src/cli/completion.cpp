@@ -84,6 +84,9 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
       "  COMPREPLY+=($(compgen -W \"$words\" -- \"$now\"))\n"
       "}\n"
       "complete -o filenames -F _trueaxis trueaxis\n";
+  if (shell == "zsh")  // zsh reads an installed one by calling it: that call completes as well
+    script +=
+        "[[ ${funcstack[1]} = _trueaxis ]] && _bash_complete -o filenames -F _trueaxis || true\n";
   return script;
 }
 

@@ -76,9 +76,9 @@ int execute(const Options& options) {
 
 /// Options of a stream beside --machine would be passed over in silence.
 void expect_of_machine(const CLI::App& command) {
-  constexpr const char* fine[] = {"stream",  "--machine", "--errors",  "--sign",
-                                  "--json",  "--output",  "--program", "--false-alarm",
-                                  "--force", "--help",    "--verbose", "--check"};
+  constexpr const char* fine[] = {"stream",   "--machine", "--errors",      "--sign",   "--json",
+                                  "--output", "--program", "--false-alarm", "--report", "--force",
+                                  "--help",   "--verbose", "--check"};
   for (const CLI::Option* option : command.get_options())
     if (option->count() > 0 && std::ranges::find(fine, option->get_name()) == std::end(fine))
       throw CLI::ValidationError(option->get_name(), "is of a stream: --machine has none");
@@ -91,6 +91,10 @@ int execute_either(const CLI::App& command, Options& options, bool surface_said)
     expect_of_machine(command);
     if (!run.errors_output.empty() && run.errors_output == options.result.json)
       throw CLI::ValidationError("-o", "cannot go where --json goes");
+    run.report = options.result.report;
+    if (!run.report.empty() &&
+        (run.report == run.errors_output || run.report == options.result.json))
+      throw CLI::ValidationError("--report", "cannot go where -o or --json goes");
     run.data = options.data;
     run.json = options.result.json;
     run.false_alarm = options.false_alarm;

@@ -17,6 +17,7 @@
 #include "format/outputs.hpp"
 #include "harm/files/harm_files.hpp"
 #include "machine/files/errors_toml.hpp"
+#include "report/machine_report.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/program_harm.hpp"
 
@@ -79,6 +80,28 @@ void inputs_of(const MachineDiagnosed& run, Outputs& outputs) {
   if (!run.program.empty()) outputs.reads(run.program);
 }
 
+/// The diagnosis as a job without a program, for its page.
+MachineJobResult as_job(const MachineDiagnosed& run, const Read& read,
+                        const MachineDiagnosis& found) {
+  MachineJob job;
+  job.machine = read.file.machine;
+  job.known = read.errors;
+  job.data = read.data;
+  job.false_alarm = run.false_alarm;
+  job.name = read.file.machine.name;
+  job.inputs.push_back(
+      {"machine", run.machine.machine, content_hash(read_file(run.machine.machine))});
+  for (const std::string& path : run.machine.errors)
+    job.inputs.push_back({"errors known before", path, content_hash(read_file(path))});
+  for (const MachineMeasurement& one : read.data) {
+    job.inputs.push_back({"measurement", one.source, one.input_hash});
+    job.path += (job.path.empty() ? "" : ", ") + one.source;
+  }
+  if (!run.program.empty())
+    job.inputs.push_back({"program", run.program, content_hash(read.program)});
+  return run_machine_job(std::move(job), found);
+}
+
 std::string would_do(const MachineDiagnosed& run, const Read& read) {
   std::size_t rows = 0;
   for (const MachineMeasurement& one : read.data) rows += one.rows();
@@ -117,6 +140,7 @@ int MachineDiagnosed::diagnose() const {
   inputs_of(*this, outputs);
   outputs.may_write(json, "trueaxis.machine_diagnosis");
   outputs.may_write(errors_output, "trueaxis.errors");
+  outputs.may_write(report, "trueaxis.machine_report");
   const Read read = read_of(*this, outputs);
   if (check) return checked(outputs, would_do(*this, read));
   const Said said = said_of(*this, read);
@@ -127,8 +151,11 @@ int MachineDiagnosed::diagnose() const {
     outputs.write(json, json_text(object));
   }
   outputs.write(errors_output, errors_toml(said.found.errors, &read.file.machine));
+  if (!report.empty())
+    outputs.write(report,
+                  render_machine_diagnosis_report(as_job(*this, read, said.found), said.program));
   outputs.commit();
-  if (json == "-" || errors_output == "-") return done;
+  if (json == "-" || errors_output == "-" || report == "-") return done;
   if (verbose)
     std::cout << machine_diagnosis_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
   else
@@ -136,6 +163,7 @@ int MachineDiagnosed::diagnose() const {
                  next_screen(said.found));
   for (const std::string& file : {json, errors_output})
     if (!file.empty()) std::cout << "result " << file << '\n';
+  if (!report.empty()) std::cout << "report " << report << '\n';
   return done;
 }
 

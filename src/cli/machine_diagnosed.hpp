@@ -14,7 +14,7 @@ struct MachineDiagnosed {
   MachineOptions machine;
   std::vector<std::string> data;  ///< measurements; none: a plan before any
   std::string program;            ///< a part on which the harm is weighed
-  std::string json, errors_output;
+  std::string json, errors_output, report;
   std::string plan_output;  ///< of `advise`: the next measurement as a table
   double false_alarm = 0.01;
   bool force = false, verbose = false, check = false;

@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <iostream>
+#include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
+#include "cli/described.hpp"
 #include "cli/guarded.hpp"
+#include "format/nearest_key.hpp"
 #include "trueaxis/error.hpp"
 
 namespace {
+
+/// Why the first word is no command, and which it may mean; empty where it is one.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::vector<std::string> names;
+  for (const auto& command : trueaxis::cli::commands_of(app)) names.push_back(command.name);
+  if (word.starts_with('-') || std::ranges::find(names, word) != names.end()) return "";
+  const std::string near = trueaxis::nearest_key(word, names);
+  return "trueaxis has no command " + word + (near.empty() ? "" : ", did you mean " + near + "?") +
+         "\ntrueaxis --help lists all.\n";
+}
 
 int run(int argc, char** argv) {
   using namespace trueaxis::cli;
@@ -28,6 +44,10 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const std::string why = unknown_command(app, argc, argv); !why.empty()) {
+      std::cerr << why;
+      return usage;
+    }
     return app.exit(error) == 0 ? done : usage;
   }
   if (app.get_subcommands().empty()) {

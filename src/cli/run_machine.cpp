@@ -99,8 +99,7 @@ int run_machine(MachineJob job, const RunMachineOptions& options) {
     std::cout << "program not written: the verdict is " << to_string(result.verdict.decision)
               << '\n';
   std::cout << "report  " << outputs.in_folder("report.html") << ", beside it "
-            << (result.implausible.empty() ? "errors.toml, " : "") << "diagnosis.json, "
-            << (result.compensation ? "compensation.json, " : "") << "result.json\n";
+            << (result.implausible.empty() ? "errors.toml and " : "") << "the results as JSON\n";
   return result.verdict.go() ? done : refused;
 }
 

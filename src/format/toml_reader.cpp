@@ -8,12 +8,14 @@
 #include <cmath>
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <sstream>
 #include <tuple>
 
 #include "format/file.hpp"
 #include "format/nearest_key.hpp"
 #include "format/toml_units.hpp"
+#include "format/toml_words.hpp"
 
 namespace trueaxis {
 
@@ -26,6 +28,7 @@ struct TomlTable::State {
   bool rest_ignored = false;
   std::vector<std::string> known;  // usual spellings, in the order of asking
   std::vector<std::string> accepted;
+  std::map<std::string, std::string> renamed;  // earlier spellings, and those of today
 
   struct Found {
     std::string key;
@@ -53,40 +56,12 @@ struct TomlDocument::Impl {
   std::vector<Diagnostic> diagnostics;
 
   TomlTable::State* open(const toml::table* table, std::string name, toml::source_position place) {
-    states.push_back({this, table, place, std::move(name), false, false, {}, {}});
+    states.push_back({this, table, place, std::move(name), false, false, {}, {}, {}});
     return &states.back();
   }
   void parse(std::string_view content);
   void report_unknown(const TomlTable::State& state);
 };
-
-namespace {
-
-std::string number_text(double value) { return fmt::format("{:.12g}", value); }
-
-std::string range_text(const Range& range, double factor) {
-  const std::string low = number_text(range.low / factor);
-  const std::string high = number_text(range.high / factor);
-  if (std::isinf(range.high)) return (range.low_open ? "more than " : "at least ") + low;
-  if (std::isinf(range.low)) return (range.high_open ? "less than " : "at most ") + high;
-  return std::string("in ") + (range.low_open ? '(' : '[') + low + ", " + high +
-         (range.high_open ? ')' : ']');
-}
-
-bool contains(const Range& range, double value) {
-  return (range.low_open ? value > range.low : value >= range.low) &&
-         (range.high_open ? value < range.high : value <= range.high);
-}
-
-/// "an integer", "a string"
-std::string type_text(const toml::node& node) {
-  std::ostringstream text;
-  text << node.type();
-  const bool vowel = std::string_view("aeiou").find(text.str().front()) != std::string_view::npos;
-  return (vowel ? "an " : "a ") + text.str();
-}
-
-}  // namespace
 
 TomlTable::State::Found TomlTable::State::find(std::string_view key) {
   const std::vector<KeySpelling> spellings = key_spellings(key);
@@ -122,7 +97,10 @@ void TomlTable::State::note(const toml::source_position& at, std::string message
 }
 
 void TomlTable::State::wrong(const Found& found, const std::string& message) {
-  note(found.node->source().begin, "`" + found.key + "` " + message);
+  const auto earlier = renamed.find(found.key);
+  const std::string now =
+      earlier == renamed.end() ? "" : ", an earlier name of `" + earlier->second + "`,";
+  note(found.node->source().begin, "`" + found.key + "`" + now + ' ' + message);
 }
 
 void TomlTable::State::missing(std::string_view key, std::string_view what) {
@@ -236,6 +214,14 @@ std::string TomlTable::required_text(std::string_view key) {
   return maybe_text(key).value_or("");
 }
 
+std::string TomlTable::text_or_date(std::string_view key) {
+  const State::Found found = state_->find(key);
+  std::ostringstream date;
+  if (found.node && found.node->is_date()) date << *found.node->as_date();
+  if (found.node && found.node->is_date_time()) date << *found.node->as_date_time();
+  return date.str().empty() ? text(key) : date.str();
+}
+
 std::vector<std::string> TomlTable::texts(std::string_view key) {
   const State::Found found = state_->find(key, &toml::node::is_array, "a list [\"a\", \"b\"]");
   if (!found.node) return {};
@@ -324,6 +310,14 @@ std::vector<std::string> TomlTable::keys() const {
 
 bool TomlTable::has(std::string_view key) { return state_->find(key).node != nullptr; }
 
+std::string_view TomlTable::name_of(std::string_view now, std::string_view before) {
+  const std::vector<KeySpelling> today = key_spellings(now), earlier = key_spellings(before);
+  for (std::size_t i = 0; i < earlier.size(); ++i)
+    state_->renamed[earlier[i].key] = today.at(i).key;
+  if (has(before) && has(now)) complain(before, "stands beside it: keep that one");
+  return has(before) ? before : now;
+}
+
 bool TomlTable::has_table(std::string_view key) {
   return state_->find(key).node && state_->find(key).node->is_table();
 }
@@ -360,7 +354,8 @@ void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
   for (const auto& [key, node] : *state.table) {
     const std::string word(key.str());
     if (std::ranges::find(state.accepted, word) != state.accepted.end()) continue;
-    const std::string near = nearest_key(word, state.accepted);
+    std::string near = nearest_key(word, state.accepted);
+    if (const auto now = state.renamed.find(near); now != state.renamed.end()) near = now->second;
     const toml::source_position at = key.source().begin ? key.source().begin : node.source().begin;
     diagnostics.push_back({path, at.line, at.column,
                            state.where() + " has no key `" + word + "`" +

@@ -72,6 +72,8 @@ class TomlTable {
   std::string text(std::string_view key, std::string fallback = {});
   std::optional<std::string> maybe_text(std::string_view key);
   std::string required_text(std::string_view key);
+  /// A text, or a date or date and time of TOML (2026-03-14) as ISO 8601 writes it.
+  std::string text_or_date(std::string_view key);
   /// An array of strings; empty when the key is not there.
   std::vector<std::string> texts(std::string_view key);
   /// A file named by a key, relative names taken from the folder of the TOML file.
@@ -105,6 +107,9 @@ class TomlTable {
   /// Whether the file has `key` in any unit of its kind. Makes the key known.
   bool has(std::string_view key);
   bool has_table(std::string_view key);  ///< and it is a table
+  /// The name under which a key stands: today's, or an earlier one of the same unit, whose messages
+  /// then name today's. Both are an error.
+  std::string_view name_of(std::string_view now, std::string_view before);
   /// Notes a diagnostic at `key` if the file has it, else at the table. Say what to do.
   void complain(std::string_view key, std::string message);
   /// Keys that nobody asks for are not reported (after another diagnostic has said all).

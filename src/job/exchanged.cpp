@@ -84,10 +84,10 @@ std::string wrong_unit_of_c(const JobResult& result, std::size_t i) {
     if (again.status != FitStatus::converged || again.rms_mm > far_better * before_mm ||
         again.points < 2 * again.parameters.size() + 10)
       continue;
-    return fmt::format("{}, and {} are left; {} and {} if {}: {}", turns_of(stream),
-                       um_text(before_mm), turns_of(right), um_text(again.rms_mm),
+    return fmt::format("{}: {}; as written {} are left and {}, else {} and {}",
                        fmt::format(fmt::runtime(mistake.what), reference_and_file(result, i)),
-                       mistake.mend);
+                       mistake.mend, um_text(before_mm), turns_of(stream), um_text(again.rms_mm),
+                       turns_of(right));
   }
   return "";
 }

@@ -167,6 +167,21 @@ ColumnsSaid read_columns_said(const std::string& text) {
   return said;
 }
 
+namespace {
+
+/// Three columns x, y, z, by name or without any.
+bool are_points(const Recording& recording) {
+  if (recording.columns.size() != 3) return false;
+  constexpr RecordedRole roles[] = {RecordedRole::x, RecordedRole::y, RecordedRole::z};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto named = role_of_name(recording.columns[k].name);
+    if (!recording.columns[k].whole.empty() && (!named || named->role != roles[k])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsSaid& said,
                                       std::vector<std::string>& unclear) {
   std::vector<TakenColumn> taken =
@@ -178,6 +193,10 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
     unclear.emplace_back("no column is called X, Radius or Diameter: say which holds the readings");
   if (!has(RecordedRole::c))
     unclear.emplace_back("no column is called C or Angle: say which holds the spindle angle");
+  if (!has(RecordedRole::c) && said.items.empty() && are_points(recording))
+    unclear.emplace_back(
+        "points x y z without a spindle angle are read by trueaxis associate FILE --element "
+        "cylinder, and by trueaxis form FILE --element cylinder");
   return taken;
 }
 

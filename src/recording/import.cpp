@@ -86,7 +86,7 @@ std::string options_suggested(const Recording& recording, const RecordingOptions
   say("was read as " + recording.producer + " with the columns " + listed(recording));
   say(fmt::format("the command that would read it: trueaxis import {}{} -o {}_stream.csv",
                   quoted_path(path), options_suggested(recording, options, unclear),
-                  std::filesystem::path(path).stem().string()));
+                  path == "-" ? "my" : std::filesystem::path(path).stem().string()));
   throw InputError(std::move(diagnostics));
 }
 
@@ -163,10 +163,8 @@ bool is_own_header(const RecordedText& text) {
   return true;
 }
 
-}  // namespace
-
-ImportedRecording import_recording(const std::string& path, const RecordingOptions& options) {
-  const std::string bytes = read_file(path);
+ImportedRecording import_text(const std::string& bytes, const std::string& path,
+                              const RecordingOptions& options) {
   if (bytes.starts_with("PK\x03\x04"))
     throw InputError(path, "is a workbook or another packed file: save its sheet as CSV");
   const RecordedText text(bytes);
@@ -247,21 +245,36 @@ ImportedRecording import_recording(const std::string& path, const RecordingOptio
   return out;
 }
 
+/// What can be read once only: standard input, a pipe.
+bool is_read_once(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return path == "-" || (std::filesystem::exists(status) && std::filesystem::is_other(status));
+}
+
+}  // namespace
+
+ImportedRecording import_recording(const std::string& path, const RecordingOptions& options) {
+  return import_text(read_file(path), path, options);
+}
+
 ProbeStream read_recording(const std::string& path, const RecordingOptions& options) {
   if (options.says_anything()) return import_recording(path, options).stream;
-  if (path == "-") return read_stream_csv(path, options.read);
+  const bool once = is_read_once(path);
+  std::string bytes = once ? read_file(path) : "";
   try {
-    return read_stream_csv(path, options.read);
+    return once ? read_stream_csv_text(bytes, path, options.read)
+                : read_stream_csv(path, options.read);
   } catch (const InputError&) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(path, error)) throw;
-    const std::string bytes = read_file(path);
+    if (!once && !std::filesystem::is_regular_file(path, error)) throw;
+    if (!once) bytes = read_file(path);
     const RecordedText text(bytes);
     Recording table;  // of our own names with decimal commas, as a spreadsheet saves a stream
     const bool commas = read_table(text, 0, {}, table) && table.decimal == ',';
     if (!schema_in(bytes.substr(0, 200)).empty() || (is_own_header(text) && !commas)) throw;
   }
-  return import_recording(path, options).stream;
+  return import_text(bytes, path, options).stream;
 }
 
 }  // namespace trueaxis

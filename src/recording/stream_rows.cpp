@@ -46,10 +46,11 @@ std::string why_no_number(std::string_view cell, char decimal) {
   if (end == std::string_view::npos && cell.find('.') != std::string_view::npos &&
       (decimal == ',' || cell.find(',') != std::string_view::npos))
     return " is not a number: save numbers without a mark that parts thousands";
-  if (end != std::string_view::npos &&
-      recorded_number(csv_trimmed(cell.substr(0, end)), decimal, value))
+  const bool unit = end != std::string_view::npos &&
+                    cell.find_first_of("0123456789", end) == std::string_view::npos;
+  if (unit && recorded_number(csv_trimmed(cell.substr(0, end)), decimal, value))
     return " is not a number alone: write its unit into the header";
-  return " is not a number";
+  return " is not a number: correct it, or remove the row";
 }
 
 class RowMaker {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
 #include "job/machine/files/machine_job_results.hpp"
 #include "report/page.hpp"
 #include "report/thinning.hpp"
@@ -157,6 +158,25 @@ Json machine_report_data(const MachineJobResult& result) {
     data["program"] = result.job.program->file;
   }
   return data;
+}
+
+std::string render_machine_diagnosis_report(const MachineJobResult& result, const Json& program) {
+  constexpr const char* words[] = {"ideal", "effects", "unexplained"};
+  // The screen's lines in words: "->" is an arrow here, and a plan goes by what is done.
+  std::string line = machine_diagnosis_screen(result.diagnosis);
+  line.resize(line.find('\n'));
+  for (std::size_t at = line.find("->"); at != std::string::npos; at = line.find("->", at))
+    line.replace(at, 2, "→");
+  std::string next = next_screen(result.diagnosis).substr(std::string_view("next   ").size());
+  if (const std::string head = result.diagnosis.next_plan + ", "; next.starts_with(head))
+    next.replace(0, head.size(), "Measure ");
+  Json data = machine_report_data(result);
+  data["of"] = "diagnosis";
+  data["verdict"]["outcome"] = words[static_cast<std::size_t>(result.diagnosis.verdict)];
+  data["verdict"]["line"] = line;
+  data["verdict"]["next"] = next.substr(0, next.find('\n'));
+  if (!program.is_null()) data["harm"] = program;
+  return page_of("TrueAxis diagnosis: " + title_of(result.job), line, data, machine_script());
 }
 
 std::string render_machine_report(const MachineJobResult& result) {

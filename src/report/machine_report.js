@@ -7,7 +7,10 @@ const outcomes = {
   reserved: ['GO with reservations', 'warning', '!'],
   'not-proven': ['NOT PROVEN', 'warning', '?'],
   'no-go': ['NO-GO', 'bad', '✗'],
-  done: ['DONE', 'neutral', '–']
+  done: ['DONE', 'neutral', '–'],
+  ideal: ['IDEAL', 'good', '✓'],
+  effects: ['EFFECTS', 'warning', '!'],
+  unexplained: ['UNEXPLAINED', 'bad', '?']
 };
 
 function keyNumbers(verdict) {
@@ -33,7 +36,7 @@ function banner({verdict}) {
       'div', {class: `banner ${kind}`, role: 'status'},
       element('div', {class: 'word'}, element('span', {'aria-hidden': 'true'}, sign), ` ${word}`),
       paragraph(
-          capital(line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE)[:,.]?\s+/, '')), 'line'),
+          capital(line.replace(/^(NO-GO|NOT PROVEN|GO with reservations|GO|DONE|IDEAL|EFFECTS|UNEXPLAINED)[:,.]?\s+/, '')), 'line'),
       keyNumbers(verdict));
 }
 
@@ -92,6 +95,22 @@ function programSection(all) {
       tips ? alongProgram(tips, verdict) : null);
 }
 
+/** What each effect alone does on a program, found or hidden; of a diagnosis that is given one. */
+function harmSection({harm}) {
+  if (!harm) return null;
+  const rows = harm.by_effect.filter((one) => one.tip.value > 0).slice(0, 12).map((one) => [
+    withWords(one.effect), `${one.found ? 'found' : 'may hide'}: ${errorSize(one.size)}`,
+    micrometres(one.tip.value), one.tip.line
+  ]);
+  const U = `U (k${nbsp}=${nbsp}${harm.coverage_factor}) of the tip`;
+  const plans = harm.plans.map(
+      ({plan, U: after}) => `${micrometres(after.value)} after measuring ${planWords(data.diagnosis.plans, plan)}`);
+  return section(
+      'program', 'On the program',
+      paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),
+      rows.length ? table('The tip off by each effect alone', ['Effect', 'Size', 'Tip off by', 'Block'], rows, 2) : null);
+}
+
 const programFold = (all) => all.compensation ?
     fold(
         'program-more', 'The program in full', programFacts(all),
@@ -119,7 +138,7 @@ function mapFold({maps}) {
 
 const inputsFold = ({inputs, file, machine, chain}) => fold(
     'inputs', 'What went in',
-    facts([['Job', file], ['Machine', `${machine || 'without a name'}: ${chain}`]], 'facts origin'),
+    facts([[data.of ? 'Measured' : 'Job', file], ['Machine', `${machine || 'without a name'}: ${chain}`]], 'facts origin'),
     table(
         'Files', ['What', 'File', 'Hash'], inputs.map(({what, file, hash}) => [what, file, hash]),
         3));
@@ -156,7 +175,7 @@ const machineGlossary = [
 function build() {
   const open = [
     warningsSection(data), nextSection(data), programSection(data), errorsSection(data),
-    findingsSection(data)
+    findingsSection(data), harmSection(data)
   ].filter(Boolean);
   const folded = [
     programFold(data), mapFold(data), findingsFold(data), unknownFold(data), inputsFold(data),
@@ -164,7 +183,7 @@ function build() {
   ].filter(Boolean);
   const details = element('section', {id: 'details'}, element('h2', {}, 'Details'), ...folded);
   document.getElementById('page').replaceChildren(
-      pageHeader('report', data.title, data.header), banner(data), contents([...open, details]),
+      pageHeader(data.of ?? 'report', data.title, data.header), banner(data), contents([...open, details]),
       ...open, details,
       pageFooter());
 }

@@ -81,15 +81,6 @@ const NextMeasurement* best_next(const JobResult& result) {
   return best;
 }
 
-/// For those without a servo: where to tap the part, and how far.
-std::string tap_text(const FitResult& fit) {
-  const std::string screen = axis_screen(fit);
-  const std::size_t at = screen.find("tap    ");
-  return at == std::string::npos ? std::string()
-                                 : "To centre the part by hand: " +
-                                       screen.substr(at + 7, screen.find('\n', at) - at - 7);
-}
-
 std::string cut_text(const JobResult& result) {
   const ActuatorMargin& margin = result.correction->margin;
   if (result.verdict.go())
@@ -116,7 +107,8 @@ Json warnings_data(const JobResult& result) {
   }
   for (std::size_t i = 0; i < result.fits.size(); ++i) add_reference(warnings, result, i);
   for (const Disagreement& apart : result.agreement.disagreements)
-    warnings.add("Beyond U, half-way between them, " + how_apart(result, apart));
+    warnings.add("More than U explains, " + how_apart(result, apart) +
+                 ", half-way between the two");
   return warnings.list();
 }
 
@@ -129,7 +121,8 @@ Json next_data(const JobResult& result) {
   if (result.correction) return steps;
   const bool moved = !slip_objection(result).empty();
   if (result.fits.size() == 1 && !moved)
-    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty()) steps.push_back(tap);
+    if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty())
+      steps.push_back("To centre the part by hand: " + tap);
   if (result.verdict.decision == Decision::no_go)
     steps.push_back("Mend what the verdict names, and run the job again");
   else if (std::ranges::none_of(result.fits, [](const FitResult& fit) {

@@ -87,6 +87,16 @@ TEST_F(ExitCode, TwoForUsage) {
   }
 }
 
+TEST_F(ExitCode, TwoForACommandThatIsNone) {
+  const CommandStreams done = command("diagnoze part.csv --surface cone");
+  EXPECT_EQ(done.exit_code, 2);
+  EXPECT_EQ(done.err,
+            "trueaxis has no command diagnoze, did you mean diagnose?\n"
+            "trueaxis --help lists all.\n");
+  EXPECT_TRUE(contains(command("zzzzzz").err, "trueaxis has no command zzzzzz\n"));
+  EXPECT_TRUE(contains(command("fit part.csv").err, "--surface is required"));
+}
+
 TEST_F(ExitCode, ThreeForInput) {
   file("face.csv", "Z_M,C,X\n5,0,20\n5,120,20\n5,240,20\n5,300,10\n");
   file("job.toml", simple_job("stream = \"gone.csv\"\nsurface = \"cone\"\n"));

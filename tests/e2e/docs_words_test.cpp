@@ -26,7 +26,7 @@ std::set<std::string> keys_in(const std::string& source) {
       "\\.(?:maybe_|required_)?(?:number|numbers|integer|flag|text|texts|path|choice|table|tables|"
       "has)"
       "(?:<[^>]*>)?\\(\\s*\"([a-z0-9_]+)\"");
-  const std::regex renamed("name_of\\(table, \"([a-z0-9_]+)\", \"([a-z0-9_]+)\"\\)");
+  const std::regex renamed("\\.name_of\\(\"([a-z0-9_]+)\", \"([a-z0-9_]+)\"\\)");
   std::set<std::string> keys;
   const auto add = [&](std::string key) {
     if (key.ends_with("_rad")) key.replace(key.size() - 3, 3, "deg");

@@ -93,5 +93,26 @@ TEST_F(FirstHour, TheSameImportTwiceAndThenTheJob) {
   EXPECT_EQ(read_text(folder_ / "seat.toml"), job + "# mine\n");
 }
 
+// From standard input, a file or a pipe, it is read as from a file; a stream of our own as well,
+// and what is unclear is asked for.
+TEST_F(FirstHour, FromStandardInput) {
+  const std::string fit_dash = "fit - --surface cylinder --json f.json --force";
+  for (const std::string& from :
+       {fit_dash + " --diameter < export.csv", fit_dash + " --diameter < <(cat export.csv)",
+        std::string("fit <(cat export.csv) --surface cylinder --json f.json --force --diameter")}) {
+    file("ask.sh", std::string(TRUEAXIS_COMMAND " ") + from + "\n");
+    const CommandResult done = shell("cd " + shell_word(folder_) + " && bash ask.sh 2>&1");
+    ASSERT_EQ(done.exit_code, 0) << from << '\n' << done.output;
+    expect_axis(result("f.json"));
+  }
+  ASSERT_EQ(command("import - --diameter -o seat.csv < export.csv").exit_code, 0);
+  ASSERT_EQ(command(fit_dash + " < seat.csv").exit_code, 0);
+  expect_axis(result("f.json"));
+  const CommandStreams unclear = command("diagnose - --surface cylinder < export.csv");
+  EXPECT_EQ(unclear.exit_code, 3);
+  EXPECT_TRUE(contains(unclear.err, "radius or a diameter")) << unclear.err;
+  EXPECT_TRUE(contains(unclear.err, "-o my_stream.csv")) << unclear.err;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

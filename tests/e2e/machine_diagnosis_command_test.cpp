@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/command.hpp"
+#include "support/open_page.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -185,6 +186,41 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
       << ran.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "errors.toml"));
+}
+
+// The page of a diagnosis: opened as a reader would, with and without a program; its verdict and
+// next step are those of the screen, and what each effect does on the program is in it.
+TEST(MachineDiagnosisCommand, WritesAPage) {
+  const auto folder = fresh_folder("machine_diagnosis_page");
+  const std::string page = (folder / "d.html").string(), json_file = (folder / "d.json").string();
+  const std::string zxacy = "diagnose " + data + "zxacy_ball.csv --machine " + data + "zxacy.toml";
+  for (const std::string& program : {std::string(), " --program " + data + "blade.nc"}) {
+    const auto ran = trueaxis_command(zxacy + program + " --report " + page + " --json " +
+                                      json_file + " --force");
+    ASSERT_EQ(ran.exit_code, 0) << ran.output;
+    EXPECT_NE(ran.output.find("\nreport " + page), std::string::npos) << ran.output;
+    const std::string text = read_text(page);
+    const std::string begin = "<script id=\"data\" type=\"application/json\">";
+    const std::size_t at = text.find(begin) + begin.size();
+    const json shown = json::parse(text.substr(at, text.find("</script>", at) - at));
+    EXPECT_EQ(shown.at("schema"), "trueaxis.machine_report/1");
+    EXPECT_EQ(shown.at("verdict").at("outcome"), "effects");
+    EXPECT_TRUE(shown.at("verdict").at("next").get<std::string>().starts_with(
+        "Measure the same positions"));
+    EXPECT_EQ(shown.at("diagnosis").at("findings"), read_json(json_file).at("findings"));
+    EXPECT_FALSE(shown.at("maps").empty());
+    EXPECT_EQ(shown.contains("harm"), !program.empty());
+    if (!program.empty()) {
+      EXPECT_EQ(shown.at("harm").at("by_effect"),
+                read_json(json_file).at("program").at("by_effect"));
+    }
+    if (!example::can_open_pages()) continue;
+    const auto opinion =
+        example::open_page(text, program.empty() ? "machine_diagnosis" : "machine_diagnosis_part");
+    EXPECT_TRUE(opinion.sound) << opinion.log;
+  }
+  const auto same = trueaxis_command(zxacy + " --report " + page + " --json " + page);
+  EXPECT_EQ(same.exit_code, 2) << same.output;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "format/file.hpp"
+#include "job/machine/files/machine_job_results.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
 #include "support/open_page.hpp"
 #include "trueaxis/error.hpp"
@@ -48,9 +49,13 @@ TEST_F(MachineReportPage, TheBlade) {
 
 TEST(MachineReportHeader, IsThatOfTheJob) {
   const std::string path = TRUEAXIS_SOURCE "/data/jobs/blade.toml";
-  const MachineJob job =
-      read_machine_job_toml(read_file(path) + "\n[header]\nserial = \"0815\"\n", path);
-  EXPECT_EQ(job.header, (JobHeader{{"Serial number", "0815"}}));
+  const MachineJob job = read_machine_job_toml(
+      read_file(path) + "\n[header]\nserial = \"0815\"\ndate = 2026-03-14\n", path);
+  EXPECT_EQ(job.header, (JobHeader{{"Serial number", "0815"}, {"Date", "2026-03-14"}}));
+  MachineJobResult result;
+  result.job = job;
+  EXPECT_EQ(machine_job_object(result).at("header"),
+            Json({{"serial", "0815"}, {"date", "2026-03-14"}}));
   try {
     read_machine_job_toml(read_file(path) + "\n[header]\nmachien = \"5-axis\"\n", path);
     FAIL() << "was read";

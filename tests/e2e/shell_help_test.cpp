@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of the tables of options: completion as bash runs it, the manual as troff reads it.
+// What is made of the tables of options: completion as bash and zsh run it, the manual as troff
+// reads it.
 #include <sstream>
 
 #include "support/command_fixture.hpp"
@@ -48,6 +49,38 @@ TEST_F(ShellHelp, CompletesCommandsOptionsWordsAndFiles) {
   EXPECT_EQ(offered("fit scr"), std::vector<std::string>{"script.bash"});
   EXPECT_EQ(offered("fit --json scr"), std::vector<std::string>{"script.bash"});
   EXPECT_FALSE(holds(offered("locate --"), "--surface"));
+}
+
+// Typed into a zsh of its own: Tab, and the line that comes of it; sourced, and installed as a
+// function that zsh reads at the first Tab.
+TEST_F(ShellHelp, CompletesInZsh) {
+  if (shell("command -v zsh").exit_code != 0) GTEST_SKIP() << "no zsh here";
+  const CommandStreams made = command("completion zsh");
+  ASSERT_EQ(made.exit_code, 0);
+  EXPECT_TRUE(made.out.starts_with("#compdef trueaxis\n"));
+  file("script.zsh", made.out);
+  std::filesystem::create_directory(folder_ / "functions");
+  file("functions/_trueaxis", made.out);
+  file("ask.zsh",
+       "zmodload zsh/zpty\nzpty shell zsh -f -i\n"
+       "type() { zpty -w -n shell \"$1\" }\n"
+       "type \"$1\"$'\\ntrueaxis() { print -r -- \"$*\" >> typed.txt }\\n'\nshift\n"
+       "for line in \"$@\"; do type \"trueaxis $line\"$'\\t\\n'; done\n"
+       "type $'exit\\n'\nwhile zpty -r shell shown; do :; done\n");
+  for (const char* const how :
+       {"'autoload -U compinit; compinit -u -D; source ./script.zsh'",
+        "'fpath=(./functions $fpath); autoload -U compinit; compinit -u -D'"}) {
+    file("typed.txt", "");
+    const CommandResult ran =
+        shell(in_folder(std::string("timeout 60 zsh -f ask.zsh ") + how +
+                        " diag 'run --che' 'diagnose x.csv --sur' 'fit x.csv --surface con'"
+                        " 'fit x.csv --json ask' 'fit ask' 'locate --surf'"));
+    EXPECT_EQ(ran.exit_code, 0) << ran.output;
+    EXPECT_EQ(read_text(folder_ / "typed.txt"),
+              "diagnose\nrun --check\ndiagnose x.csv --surface\nfit x.csv --surface cone\n"
+              "fit x.csv --json ask.zsh\nfit ask.zsh\nlocate --surf\n")
+        << how;
+  }
 }
 
 // Every option that --help lists is offered.

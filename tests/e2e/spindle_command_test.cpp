@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "support/command_fixture.hpp"
+#include "support/open_page.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -75,6 +76,19 @@ TEST_F(SpindleCommand, APageHasValuesAndPolarPlots) {
     EXPECT_FALSE(contains(page, wrong)) << wrong;
   EXPECT_EQ(command("spindle s.csv --report s.html").exit_code, 0) << "over its own page";
   EXPECT_NE(command("spindle s.csv --report s.html --svg s.html").exit_code, 0);
+}
+
+// Read in the light, on a phone, in the dark and on paper, which is light.
+TEST_F(SpindleCommand, ThePageIsDarkWhereTheReaderAsksForIt) {
+  simulate(of_data("spindle_three_sensors.toml"), "s.csv");
+  ASSERT_EQ(command("spindle s.csv --report s.html").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder_ / "s.html"), "prefers-color-scheme: dark"));
+  if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
+  const std::string page = (folder_ / "s.html").string(), shots = (folder_ / "shots").string();
+  const CommandResult looked =
+      shell("node " + shell_word(TRUEAXIS_SOURCE "/tests/e2e/plain_page.mjs") + " " +
+            shell_word(page) + " " + shell_word(shots) + " 2>&1");
+  EXPECT_EQ(looked.exit_code, 0) << looked.output;
 }
 
 TEST_F(SpindleCommand, AReversalIsKnownInTheSensitiveDirectionOnly) {

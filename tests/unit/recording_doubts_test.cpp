@@ -108,6 +108,22 @@ TEST_F(RecordingDoubts, WordsWithAnEqualsSign) {
             (Readings{40.5, 40.25}));
 }
 
+// The letter O in a number is no unit.
+TEST_F(RecordingDoubts, ALetterWithinANumberIsNoUnit) {
+  expect_said(refusal("C;Radius;Z\n0;20,1O5;1\n90;20,2;2\n10,5;20,2;2\n"),
+              ":2:3: X: '20,1O5' is not a number: correct it, or remove the row");
+}
+
+// Points have no spindle angle to ask for: they are told the commands that read points.
+TEST_F(RecordingDoubts, PointsWithoutAnAngleAreToldWhoReadsThem) {
+  for (const char* const head : {"x,y,z\n", "X [mm],Y [mm],Z [mm]\n", ""}) {
+    std::string text = head;
+    for (int i = 0; i < 6; ++i) text += fmt::format("{},{}.25,{}.5\n", 20 + i, i, i);
+    expect_said(refusal(text), "trueaxis associate FILE --element cylinder");
+  }
+  EXPECT_EQ(refusal("X,Z,t\n20.5,1,1\n20.25,2,2\n").find("associate"), std::string::npos);
+}
+
 // A thousand rows with every mistake again and again: a message a kind, all in one go, each with
 // its count, in the lines of the file.
 TEST_F(RecordingDoubts, AMessageForEachKindOfMistake) {
@@ -124,7 +140,8 @@ TEST_F(RecordingDoubts, AMessageForEachKindOfMistake) {
   const std::string said = refusal(text);
   EXPECT_EQ(std::ranges::count(said, '\n'), 5) << said;
   for (const char* kind :
-       {":4:6: X: 'n/a' is not a number (so too in 99 further places, in lines 14, 24",
+       {":4:6: X: 'n/a' is not a number: correct it, or remove the row (so too in 99 further "
+        "places, in lines 14, 24",
         ":5:3: C is empty: write a number or remove the row (so too in 99 further places",
         ":6:6: X: '1.040,5' is not a number: save numbers without a mark that parts thousands "
         "(so too in 99",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
@@ -34,6 +35,25 @@ TEST(ReportHeader, IsWhatTheJobSaysInTheOrderOfThePage) {
   EXPECT_EQ(json(report_data(result)["header"]).dump(),
             R"([["Part","<shaft>"],["Date","2026-11-23"]])");
   EXPECT_EQ(render_report(result).find("<shaft>"), std::string::npos) << "it is escaped";
+}
+
+// A date of TOML needs no quotes, alone, with a time, and with an offset; result.json has it.
+TEST(ReportHeader, ADateNeedsNoQuotes) {
+  for (const auto& [written, read] : {std::pair{"2026-03-14", "2026-03-14"},
+                                      {"2026-03-14T07:30:00", "2026-03-14T07:30:00"},
+                                      {"2026-03-14 07:30:00", "2026-03-14T07:30:00"},
+                                      {"2026-03-14T07:30:00Z", "2026-03-14T07:30:00Z"},
+                                      {"\"14.3.2026\"", "14.3.2026"}}) {
+    const Job job = read_job_toml(
+        std::string("[header]\nserial = \"7\"\ndate = ").append(written) + "\n" + reference,
+        "job.toml");
+    EXPECT_EQ(job.header, (JobHeader{{"Serial number", "7"}, {"Date", read}}));
+    JobResult result = example::cone_job(100);
+    result.job.header = job.header;
+    const json expected{{"serial", "7"}, {"date", read}};
+    EXPECT_EQ(json::parse(job_files(result).front().text).at("header"), expected);
+  }
+  EXPECT_FALSE(json::parse(job_files(example::cone_job(100)).front().text).contains("header"));
 }
 
 TEST(ReportHeader, AWrongKeyIsNamedWithTheRightOne) {

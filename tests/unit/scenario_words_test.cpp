@@ -69,9 +69,11 @@ TEST(ScenarioWords, OfAFace) {
 
 TEST(ScenarioWords, BothNamesOfOneThingAreOneTooMany) {
   const std::string part = "[part]\nradius_mm = 20\nsurface = \"cylinder\"\n";
-  EXPECT_NE(refusal(part + "kind = \"cone\"\n" + pass)
-                .find("s.toml:4:8: `kind` is an earlier name of `surface`: keep that one"),
-            std::string::npos)
+  EXPECT_NE(
+      refusal(part + "kind = \"cone\"\n" + pass)
+          .find("s.toml:4:8: `kind`, an earlier name of `surface`, stands beside it: keep that "
+                "one"),
+      std::string::npos)
       << refusal(part + "kind = \"cone\"\n" + pass);
   EXPECT_NE(refusal(part + "bore = true\nfeature = \"shaft\"\n" + pass).find("`feature`"),
             std::string::npos);
@@ -82,6 +84,24 @@ TEST(ScenarioWords, BothNamesOfOneThingAreOneTooMany) {
       "surface = \"cylinder\"\nradius_mm = 20\n",
       "surface = \"cylinder\"\nradius_mm = 21\nz_start_mm = 9\nz_end_mm = 1\n", "sense = 2\n"));
   EXPECT_NE(sense.find("`sense` is \"2\" but must be one of: +c, -c"), std::string::npos) << sense;
+}
+
+// What is wrong with an earlier word used alone is said with the word of today.
+TEST(ScenarioWords, AnEarlierWordIsToldTheNameOfToday) {
+  const std::string target =
+      "surface = \"cylinder\"\nradius_mm = 21\nz_start_mm = 9\nz_end_mm = 1\n";
+  const std::string part = "surface = \"cylinder\"\nradius_mm = 20\n";
+  const std::pair<std::string, const char*> cases[] = {
+      {refusal("[part]\nkind = \"cylindr\"\n" + pass),
+       "`kind`, an earlier name of `surface`, is \"cylindr\" but must be one of"},
+      {refusal("[part]\nkid = \"cylinder\"\n" + pass), "did you mean `surface`?"},
+      {refusal("[part]\nbore = \"yes\"\n" + part + pass),
+       "`bore`, an earlier name of `feature`, is a string: give true or false"},
+      {refusal(with_cut(part, target, "height_um = \"low\"\n")),
+       "`height_um`, an earlier name of `tool_height_um`, is a string"},
+      {refusal(with_cut(part, target, "hight_um = 1\n")), "did you mean `tool_height_um`?"}};
+  for (const auto& [said, expected] : cases)
+    EXPECT_NE(said.find(expected), std::string::npos) << said;
 }
 
 TEST(Never, SizesThatNothingHasAreSaidInWords) {

@@ -24,14 +24,14 @@ std::string line(const std::string& head, const std::string& text) { return head
 std::string verdict_line(const Diagnosis& d) {
   const auto found = d.findings.size(), unexplained = d.unexplained.size();
   const std::string rms = fmt::format(
-      "residuals {} RMS, noise of a reading {}",
+      "residuals {} RMS, noise {}",
       um(d.verdict == DiagnosisVerdict::ideal ? d.baseline.rms_mm : d.gain.rms_after_mm),
       um(d.noise.sigma_mm));
   if (d.verdict == DiagnosisVerdict::ideal)
     return std::string("IDEAL: the readings show a ") + to_string(d.baseline.surface) +
            " and nothing else; " + rms;
   std::string text = d.verdict == DiagnosisVerdict::effects ? "EFFECTS: " : "UNEXPLAINED: ";
-  text += fmt::format("{} thing{} seen that the ideal {} has not", found + unexplained,
+  text += fmt::format("{} thing{} that the ideal {} has not", found + unexplained,
                       found + unexplained == 1 ? "" : "s", to_string(d.baseline.surface));
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
   return text + "; " + rms;

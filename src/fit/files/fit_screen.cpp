@@ -42,10 +42,10 @@ std::string rejected_text(const FitResult& result) {
                      fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
 }
 
-/// For those without a servo: at which C the part stands out towards the probe, at the end that is
-/// farther off, and how far to tap it there. The run-out is twice the distance of the axis; a probe
-/// behind meets what stands out half a turn later.
-std::string tap_screen(const FitResult& fit) {
+}  // namespace
+
+std::string tap_text(const FitResult& fit) {
+  if (fit.status != FitStatus::converged || fit.surface == SurfaceKind::plane) return "";
   double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const auto at = fit.axis.axis.at(z);
@@ -57,14 +57,11 @@ std::string tap_screen(const FitResult& fit) {
   }
   if (!(farthest_mm > 2.0 * fit.coverage_factor * fit.axis.u_at(at_z_mm))) return "";
   const bool rear = !fit.set_ups.empty() && fit.set_ups.back().side == Root::rear;
-  const double c_deg = std::fmod(towards_rad / rad_per_deg + (rear ? 540.0 : 360.0), 360.0);
-  return fmt::format(
-      "tap    run-out {} at Z {:.6g} mm, high spot under the probe at C = {:.0f}°: tap it there by "
-      "{}\n",
-      um(2.0 * farthest_mm), hundredths(at_z_mm), c_deg, um(farthest_mm));
+  const double c_deg =
+      std::fmod(std::round(towards_rad / rad_per_deg) + (rear ? 540.0 : 360.0), 360.0);
+  return fmt::format("high spot at C = {:.0f}°, run-out {} at Z {:.6g} mm: tap there by {}", c_deg,
+                     um(2.0 * farthest_mm), hundredths(at_z_mm), um(farthest_mm));
 }
-
-}  // namespace
 
 std::string axis_screen(const FitResult& fit) {
   if (fit.status != FitStatus::converged) return "";
@@ -84,7 +81,8 @@ std::string axis_screen(const FitResult& fit) {
     }
     text += fmt::format(" at Z {:.6g} mm\n", hundredths(z));
   }
-  return text + tap_screen(fit);
+  if (const std::string tap = tap_text(fit); !tap.empty()) text += "tap    " + tap + "\n";
+  return text;
 }
 
 std::string fit_screen(const FitResult& result) {

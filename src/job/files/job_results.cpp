@@ -10,6 +10,7 @@
 #include "diagnose/files/diagnosis_text.hpp"
 #include "fit/files/fit_files.hpp"
 #include "format/file.hpp"
+#include "format/toml_header.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
 #include "recording/import.hpp"
@@ -181,6 +182,7 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
   json["schema"] = "trueaxis.run/2";
   json["version"] = TRUEAXIS_VERSION;
   json["job"] = result.job.name;
+  if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
   json["verdict"] = verdict_object(result.verdict);
   Json references = Json::array();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {

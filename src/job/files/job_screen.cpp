@@ -21,7 +21,8 @@ using namespace layout;
 constexpr std::size_t most_findings = 2;
 constexpr double least_mm = 1e-5;  // what nobody measures
 
-/// Of a reference: its name, what was seen of it, and its axis where it is the only one.
+/// Of a reference: its name, what was seen of it, and its axis where it is the only one and no
+/// table takes it off.
 std::string reference_screen(const JobResult& result, std::size_t i) {
   const FitResult& fit = fit_used(result, i);
   const std::string& name = result.job.references[i].name;
@@ -35,7 +36,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
           " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
-  if (result.fits.size() == 1) text += axis_screen(fit);
+  if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
   return text;
 }
 

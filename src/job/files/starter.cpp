@@ -39,7 +39,7 @@ constexpr std::string_view job =
 #   trueaxis run job.toml -o result
 name = "bearing seat beside a probed shaft"
 
-[header]                    # stands at the head of the report; date = "…" too
+[header]                    # stands at the head of the report; date = 2026-03-14 too
 part = "shaft"
 serial = ""
 operator = ""

@@ -172,13 +172,13 @@ std::vector<std::string> machine_remarks(const MachineJobResult& result) {
   });
   if (places)
     all.emplace_back(
-        "The measurement does not tell where the part stands as a whole, as the places of balls "
-        "are unknown: the numbers are of the part without that, and hold once its zero point is "
-        "probed on this machine.");
+        "Where the part stands as a whole is not known, as no ball's place is: the "
+        "numbers are of the part without that, and hold once its zero point is probed on this "
+        "machine.");
   if (measured_lengths_mm(result.job).size() == 1)
     all.emplace_back(
-        "It was measured with one length of tool, which shows where the tip is and not the "
-        "direction of the spindle: directions are those of the errors that were found.");
+        "One length of tool does not show the direction of the spindle: it shows where the tip "
+        "is, and directions are those of the errors that were found.");
   const bool no_u = std::ranges::any_of(result.job.known.terms,
                                         [](const ErrorTerm& term) { return !(term.u > 0.0); });
   if (no_u) all.emplace_back("Errors known beforehand that state no u are taken as exact.");

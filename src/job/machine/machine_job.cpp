@@ -104,15 +104,22 @@ void map_alone(MachineJobResult& result, const MachineModel& model) {
 }  // namespace machine_job
 
 MachineJobResult run_machine_job(MachineJob job) {
-  using namespace machine_job;
   expects(!job.data.empty(), "a measurement");
+  MachineDiagnoseOptions options;
+  options.calibration.errors = job.known;
+  options.false_alarm = job.false_alarm;
+  MachineDiagnosis diagnosis = diagnose_machine(job.machine, job.data, options);
+  return run_machine_job(std::move(job), std::move(diagnosis));
+}
+
+MachineJobResult run_machine_job(MachineJob job, MachineDiagnosis diagnosis) {
+  using namespace machine_job;
   MachineJobResult result;
   result.job = std::move(job);
-  MachineDiagnoseOptions options;
-  options.calibration.errors = result.job.known;
-  options.false_alarm = result.job.false_alarm;
-  result.diagnosis = diagnose_machine(result.job.machine, result.job.data, options);
-  result.implausible = implausible(result.diagnosis.baseline, options.calibration);
+  result.diagnosis = std::move(diagnosis);
+  CalibrationOptions known;
+  known.errors = result.job.known;
+  result.implausible = implausible(result.diagnosis.baseline, known);
   MachineJobVerdict numbers;
   if (result.diagnosis.baseline.converged) {
     result.errors = job_errors(result.job, result.diagnosis);

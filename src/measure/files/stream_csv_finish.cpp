@@ -147,10 +147,15 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   if (!angle.running && csv_is_wrapped(stream.c_rad, turn)) unwrap(stream.c_rad, turn);
   const auto [low, high] = std::minmax_element(stream.c_rad.begin(), stream.c_rad.end());
   if (*high - *low < 1e-3 * turn) {
-    diagnostics.add(
-        header.line, angle.character,
-        "C never moves: a stationary capture alone locates nothing, add readings around "
-        "the part");
+    const auto [least, most] =
+        std::minmax_element(stream.reading_mm.begin(), stream.reading_mm.end());
+    const bool exchanged = *most - *least > 0.25 * turn && *least > -turn && *most < 1.01 * turn;
+    diagnostics.add(header.line, angle.character,
+                    exchanged ? fmt::format("C never moves, and the readings run from {:.6g} to "
+                                            "{:.6g}: are these two columns exchanged?",
+                                            *least, *most)
+                              : "C never moves: a stationary capture alone locates nothing, add "
+                                "readings around the part");
     return;
   }
   const double half = stream.x_convention->diameter ? 0.5 : 1.0;

@@ -15,18 +15,9 @@ namespace {
 
 using namespace virtual_lathe;
 
-/// The name under which a key stands: a job's, or what a scenario called it before.
-const char* name_of(TomlTable& table, const char* now, const char* before) {
-  if (!table.has(before)) return now;
-  if (table.has(now))
-    table.complain(before, std::string("is an earlier name of `") + now + "`: keep that one");
-  return before;
-}
-
 /// `feature = "bore"`, or `bore = true` as before.
 bool read_bore(TomlTable& table) {
-  if (std::string_view(name_of(table, "feature", "bore")) == "bore")
-    return table.flag("bore", false);
+  if (table.name_of("feature", "bore") == "bore") return table.flag("bore", false);
   return table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
 }
 
@@ -56,7 +47,7 @@ void read_shape(TomlTable& table, Part& part) {
 
 void read_part(TomlTable table, Scenario& scenario) {
   Part& part = scenario.part;
-  part.kind = table.required_choice<PartKind>(name_of(table, "surface", "kind"),
+  part.kind = table.required_choice<PartKind>(table.name_of("surface", "kind"),
                                               {{"cylinder", PartKind::cylinder},
                                                {"cone", PartKind::cone},
                                                {"face", PartKind::face},
@@ -181,18 +172,19 @@ std::optional<Effect> read_effect(TomlTable table) {
 CutTarget read_target(TomlTable table) {
   CutTarget target;
   target.kind = table.choice<CutKind>(
-      name_of(table, "surface", "kind"),
+      table.name_of("surface", "kind"),
       {{"cylinder", CutKind::cylinder}, {"cone", CutKind::cone}, {"face", CutKind::face}},
       CutKind::cylinder);
   const bool face = target.kind == CutKind::face;
-  const char* const start = face ? name_of(table, "radius_start_mm", "x_start_mm") : "z_start_mm";
-  const char* const end = face ? name_of(table, "radius_end_mm", "x_end_mm") : "z_end_mm";
+  const std::string_view start =
+      face ? table.name_of("radius_start_mm", "x_start_mm") : "z_start_mm";
+  const std::string_view end = face ? table.name_of("radius_end_mm", "x_end_mm") : "z_end_mm";
   target.start_mm = table.required_number(start);
   target.end_mm = table.required_number(end);
   if (target.start_mm == target.end_mm)
     table.complain(end, "equals the start: give the cut a length");
   if (face) {
-    target.z_face_mm = table.required_number(name_of(table, "z_mm", "z_face_mm"));
+    target.z_face_mm = table.required_number(table.name_of("z_mm", "z_face_mm"));
     return target;
   }
   target.bore = read_bore(table);
@@ -211,7 +203,7 @@ CutTarget read_target(TomlTable table) {
 CutTool read_tool(TomlTable table) {
   CutTool tool;
   tool.nose_radius_mm = table.number("nose_radius_mm", 0.0, Range::non_negative());
-  tool.height_mm = table.number(name_of(table, "tool_height_mm", "height_mm"), 0.0);
+  tool.height_mm = table.number(table.name_of("tool_height_mm", "height_mm"), 0.0);
   tool.angle_from_probe_rad = table.number("angle_from_probe_rad", 0.0);
   tool.speed_rpm = table.number("speed_rpm", tool.speed_rpm, Range::positive());
   tool.sense =

@@ -23,13 +23,14 @@ class PolarPlot {
   PolarPlot(double left, std::string title, double largest_mm)
       : left_(left), title_(std::move(title)), per_step_mm_(step_for(largest_mm)) {}
 
-  void line(std::span<const double> angle_rad, std::span<const double> value_mm,
+  void line(std::span<const double> angle_rad, std::span<const double> value_mm, const char* of,
             const char* colour) {
     std::string path;
     for (std::size_t i = 0; i < angle_rad.size(); ++i)
       add_point(path, i == 0 ? 'M' : 'L', angle_rad[i], value_mm[i]);
-    body_ += format("<path d=\"{}Z\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n", path,
-                    colour);
+    body_ +=
+        format("<path class=\"{}\" d=\"{}Z\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n",
+               of, path, colour);
   }
 
   void band(std::span<const double> angle_rad, std::span<const double> value_mm,
@@ -40,7 +41,8 @@ class PolarPlot {
         add_point(path, i == 0 ? 'M' : 'L', angle_rad[i], value_mm[i] + sign * half_mm[i]);
       path += 'Z';
     }
-    body_ += format("<path d=\"{}\" fill=\"#f4b183\" fill-rule=\"evenodd\"/>\n", path);
+    body_ +=
+        format("<path class=\"band\" d=\"{}\" fill=\"#f4b183\" fill-rule=\"evenodd\"/>\n", path);
   }
 
   void cloud(std::span<const double> angle_rad, std::span<const double> value_mm) {
@@ -49,7 +51,8 @@ class PolarPlot {
       add_point(path, 'M', angle_rad[i], value_mm[i]);
       path += "h.8";
     }
-    body_ += format("<path d=\"{}\" stroke=\"#9aa7b4\" stroke-width=\".8\"/>\n", path);
+    body_ +=
+        format("<path class=\"cloud\" d=\"{}\" stroke=\"#9aa7b4\" stroke-width=\".8\"/>\n", path);
   }
 
   std::string svg(const std::string& caption) const {
@@ -125,7 +128,7 @@ std::vector<std::string> plots_of(const ErrorMotion& motion, bool axial, double 
       std::max(largest_of(curves.motion_mm), largest_of(curves.total_mm)));
   plot.cloud(curves.total_angle_rad, curves.total_mm);
   plot.band(curves.angle_rad, curves.motion_mm, times(k, curves.u_motion_mm));
-  plot.line(curves.angle_rad, curves.motion_mm, "#c55a11");
+  plot.line(curves.angle_rad, curves.motion_mm, "motion", "#c55a11");
   std::vector<std::string> plots{plot.svg("synchronous " +
                                           value_of(motion.sensitive.synchronous, k) + ", total " +
                                           value_of(motion.sensitive.total, k))};
@@ -133,7 +136,7 @@ std::vector<std::string> plots_of(const ErrorMotion& motion, bool axial, double 
   PolarPlot form(left + apart, axial ? "Form of the face" : "Form of the part",
                  largest_of(curves.form_mm));
   form.band(curves.angle_rad, curves.form_mm, times(k, curves.u_form_mm));
-  form.line(curves.angle_rad, curves.form_mm, "#1f4e79");
+  form.line(curves.angle_rad, curves.form_mm, "form", "#1f4e79");
   plots.push_back(form.svg(value_of(motion.form, k)));
   return plots;
 }

@@ -16,17 +16,30 @@ namespace {
 using fmt::format;
 
 constexpr const char* style = R"(
-body { margin: 0 auto; max-width: 1100px; padding: 16px; color: #1d2733; background: #fff;
+:root { --ink: #1d2733; --quiet: #5b6673; --line: #d9dfe6; --paper: #fff; --link: #0b5a94; }
+@media screen and (prefers-color-scheme: dark) {
+  :root { --ink: #e3e8ed; --quiet: #a9b3be; --line: #323c46; --paper: #14191f; --link: #7cc0ff;
+    color-scheme: dark; }
+  svg rect { fill: var(--paper); }
+  svg text { fill: var(--ink); }
+  svg circle { stroke: #4a5663; }
+  svg .band { fill: #7d4a22; }
+  svg .cloud { stroke: #74818e; }
+  svg .motion { stroke: #ff9d57; }
+  svg .form { stroke: #7cc0ff; }
+}
+body { margin: 0 auto; max-width: 1100px; padding: 16px; color: var(--ink); background: var(--paper);
   font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; }
 h1 { font-size: 24px; line-height: 1.2; overflow-wrap: anywhere; }
 h2 { font-size: 19px; margin-top: 28px; }
+summary { color: var(--link); cursor: pointer; }
 .plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); }
 .plots svg { width: 100%; height: auto; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 14px; }
-th, td { padding: 5px 9px; border-bottom: 1px solid #d9dfe6; text-align: right; }
-th:first-child { text-align: left; position: sticky; left: 0; background: #fff; }
-.quiet { color: #5b6673; font-size: 13.5px; }
+th, td { padding: 5px 9px; border-bottom: 1px solid var(--line); text-align: right; }
+th:first-child { text-align: left; position: sticky; left: 0; background: var(--paper); }
+.quiet { color: var(--quiet); font-size: 13.5px; }
 )";
 
 std::string row(const std::string& name, const std::vector<std::string>& cells) {
@@ -112,6 +125,7 @@ std::string spindle_page(const SpindleResult& result) {
   for (const std::string& note : result.notes) body += "<p>" + escape_html(note) + "</p>\n";
   return std::string("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n") +
          "<meta name=\"generator\" content=\"trueaxis.spindle_report/1\">\n"
+         "<meta name=\"color-scheme\" content=\"light dark\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
          "<title>TrueAxis spindle</title>\n<style>" +
          style + "</style>\n</head>\n<body>\n<h1>Part and spindle</h1>\n<p class=\"quiet\">" +

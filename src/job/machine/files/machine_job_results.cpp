@@ -7,6 +7,7 @@
 #include "compensate/files/compensation_json.hpp"
 #include "compensate/files/compensation_text.hpp"
 #include "format/text_layout.hpp"
+#include "format/toml_header.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -73,6 +74,7 @@ Json machine_job_object(const MachineJobResult& result) {
             {"machine", result.job.machine.name},
             {"inputs", std::move(inputs)},
             {"verdict", verdict_json(result)}};
+  if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
   if (result.part)
     json["part_as_a_whole"] = {{"about", vector_json(result.part->about_mm, 1.0, "mm")},
                                {"shift", vector_json(result.part->shift_mm, 1.0, "mm")},

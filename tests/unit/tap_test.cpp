@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where to tap a part: where the probe reads it highest, by half of its run-out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "fit/files/fit_screen.hpp"
+#include "report/stream_report.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double off_mm = 0.05, noise_mm = 1e-4;
+
+/// A cylinder that stands out towards the probe at C = `high_deg`: a front probe reads
+/// r + off cos(C − high), one behind the same with its sign turned.
+ProbeStream probed(double high_deg, double sign) {
+  ProbeStream stream;
+  stream.source = "shaft.csv";
+  for (int i = 0; i < 400; ++i) {
+    const double c_rad = 0.61 * i;
+    stream.c_rad.push_back(c_rad);
+    stream.position_mm.push_back(-0.1 * i);
+    stream.reading_mm.push_back(sign * (25.0 + off_mm * std::cos(c_rad - high_deg * rad_per_deg) +
+                                        noise_mm * std::sin(7.7 * i)));
+  }
+  return stream;
+}
+
+FitResult fitted(const ProbeStream& stream) {
+  FitOptions options;
+  options.surface = SurfaceKind::cylinder;
+  return fit(stream, options);
+}
+
+// 2 off = 100 µm of run-out; the offset is known to some 0.01 µm, so the digits are those of 50 µm.
+TEST(Tap, IsWhereTheProbeReadsHighest) {
+  for (const double high_deg : {30.0, 200.0, 359.8})
+    for (const double sign : {1.0, -1.0}) {
+      const std::string text = tap_text(fitted(probed(high_deg, sign)));
+      const std::string at =
+          "high spot at C = " + std::to_string(std::lround(high_deg) % 360) + "°, run-out 100";
+      EXPECT_EQ(text.find(at), 0u) << sign << ' ' << text;
+      EXPECT_NE(text.find(" mm: tap there by 50"), std::string::npos) << text;
+    }
+}
+
+TEST(Tap, IsSaidAlikeOnScreenAndPage) {
+  const ProbeStream stream = probed(30.0, 1.0);
+  const FitResult result = fitted(stream);
+  const std::string text = tap_text(result);
+  ASSERT_FALSE(text.empty());
+  EXPECT_NE(axis_screen(result).find("tap    " + text + "\n"), std::string::npos);
+  FitOptions options;
+  options.surface = SurfaceKind::cylinder;
+  EXPECT_NE(render_fit_report(stream, result, options)
+                .find("To centre the part by hand: high spot at C = 30\\u00b0, run-out 100"),
+            std::string::npos);
+}
+
+TEST(Tap, IsNotSaidOfWhatIsNotKnown) {
+  FitResult result = fitted(probed(30.0, 1.0));
+  result.status = FitStatus::rank_deficient;
+  EXPECT_EQ(tap_text(result), "");
+  EXPECT_EQ(axis_screen(result), "");
+}
+
+}  // namespace
+}  // namespace trueaxis
