@@ -154,6 +154,7 @@ Json reference_data(const JobResult& result, std::size_t i) {
     }
     data["extended"] = &fit_used(result, i) != &result.fits[i] &&
                        result.diagnoses[i]->verdict != DiagnosisVerdict::ideal;
+    if (i < result.forms.size()) data["form"] = part_form_data(result.forms[i]);
     data["relative"] = result.streams[i].indication == Indication::relative;
   }
   return data;

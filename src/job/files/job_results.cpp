@@ -12,6 +12,7 @@
 #include "format/file.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
+#include "job/files/part_form_files.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
@@ -189,9 +190,11 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
                    {"fit", fit_object(result.fits[i])}};
     if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
     if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
+    if (i < result.forms.size()) reference["form"] = part_form_object(result.forms[i]);
     references.push_back(reference);
   }
   json["references"] = references;
+  json["forms_met"] = forms_met(result);
   if (result.fits.size() > 1 || !result.agreement.reason.empty())
     json["agreement"] = agreement_object(result);
   if (result.target_axis)
@@ -296,7 +299,8 @@ std::string inclusion_text(const Inclusion& i) {
 std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
-    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
+    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) +
+            (i < result.forms.size() ? part_form_text(result.forms[i]) : "") + "\n";
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions)
