@@ -16,9 +16,9 @@ namespace {
 
 constexpr std::array<double, 2> asked_by_default{1.0, 50.0};  // where a tolerance is stated
 constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
-constexpr int trials_of_a_job = 200;  // u to 5 %
-constexpr int fewest_trials = 10;     // where the value alone is asked for
-/// PartReadings × trials of one assessment, beyond which u is taken of fewer trials: some seconds.
+constexpr int trials_that_judge = 400, trials_that_show = 50;  // u to 3.5 and to 10 %
+constexpr int fewest_trials = 10;                              // where the value alone is asked for
+/// Readings × trials of one assessment, beyond which u is taken of fewer trials: some seconds.
 constexpr double most_work = 2e7;
 constexpr std::size_t too_many = 2'000'000;
 
@@ -45,7 +45,7 @@ class Question {
       options_.noise_mm = part.diagnosis->noise.sigma_mm;
     const double readings = static_cast<double>(part.stream.size());
     options_.trials = static_cast<int>(
-        std::clamp(most_work / readings, double{fewest_trials}, double{trials_of_a_job}));
+        std::clamp(most_work / readings, double{fewest_trials}, double{trials_that_judge}));
   }
 
   FormOptions& options() { return options_; }
@@ -127,6 +127,7 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
   const ProbeStream& stream = question.part().stream();
   FormOptions& options = question.options();
   options.filter = task.filter;
+  if (!task.judges()) options.trials = std::min(options.trials, trials_that_show);
   if (stream.kind == StreamKind::lateral) {
     out.carried_upr = carried_upr(stream, options);
     const auto [low, high] = band_of(task, out.carried_upr);

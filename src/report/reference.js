@@ -153,6 +153,7 @@ function formSection(reference, index) {
     parts.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
   }
   if (reference.form) parts.push(partFormBlock(reference.form));
+  if (reference.datums) parts.push(datumsBlock(reference.datums));
   return section(`form-${index + 1}`, `Form: ${reference.name}`, ...parts);
 }
 

@@ -36,6 +36,15 @@ std::string values_text(const FormResult& form) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
+/// Of the first that is there: "RONt 7.3 ± 2.9 µm".
+std::string first_value_text(const FormResult& form, bool named = true) {
+  for (const auto& [name, reference] : shown)
+    if (const FormValue* one = worst_value(form, name, reference))
+      return (named ? std::string(name) + " " : "") +
+             value_text(*one, form.options.coverage_factor);
+  return "no value";
+}
+
 const char* word_of(Conformity conformity) {
   constexpr const char* words[] = {"MET", "NOT MET", "NOT PROVEN", "NOT JUDGED"};
   return words[static_cast<std::size_t>(conformity)];
@@ -76,11 +85,16 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
     text += "form   " + of + judgement_text(form, one) + "\n";
   if (!form.judgements.empty()) return text;
   if (!form.why_not.empty()) return "form   " + of + "not assessed: " + form.why_not + "\n";
-  text = "form   " + of + values_text(form.with_open()) + " (" + band_words(form) + ")";
+  text = "form   " + of;
   if (form.less_open)
-    text += "; were what was seen not the part's " + values_text(*form.less_open);
+    text += first_value_text(form.with_open()) + " (" + first_value_text(*form.less_open, false) +
+            " were what was seen not the part's), ";
   else if (form.less_motion)
-    text += ", as probed " + values_text(form.probed);
+    text += first_value_text(*form.less_motion) + " (as probed " +
+            first_value_text(form.probed, false) + "), ";
+  else
+    text += values_text(form.probed) + ", ";
+  text += band_words(form);
   return text + "\n";
 }
 
