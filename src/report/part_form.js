@@ -7,7 +7,7 @@ const formReferences = {MZCI: 'minimum zone circle', MZCY: 'minimum zone cylinde
 const conformityWords = {met: 'met', not_met: 'not met', not_proven: 'not proven', not_judged: 'not judged'};
 
 /** A value ± U with the digits of its U. */
-const formCell = (one, k) => one ? plusMinus(one.mm, one.u_mm, k, 'no U') : '–';
+const formCell = (one, k) => !one ? '–' : Math.abs(one.mm) < 1e-9 ? '0' : plusMinus(one.mm, one.u_mm, k, 'no U');
 
 /** What the columns of a table are: as probed, less what is not of the part, less what may not be. */
 function formCases({motion, open}) {
@@ -21,7 +21,7 @@ function formCasesWords({motion, open}) {
   if (!motion.length && !open.length) return 'Nothing was found that is not of the part. A motion of the spindle too small to be found, or one that looks like form, is in the values.';
   const words = [];
   if (motion.length) words.push(`Not of the part, and taken off the readings: ${motion.join(', ')}.`);
-  if (open.length) words.push(`The readings do not tell whether this is of the part: ${open.join(', ')}. The part's own form lies between both columns, and a tolerance is held against both.`);
+  if (open.length) words.push(`The readings do not tell whether what looks like ${open.join(', ')} is of the part. The part's own form lies between both columns, and a tolerance is held against both.`);
   return words.join(' ');
 }
 
@@ -67,7 +67,7 @@ function partFormBlock(form) {
   const heads = formCases(form), {k} = form;
   parts.push(paragraph(formCasesWords(form)));
   parts.push(table(`Values ± U (k = ${tick(k)}), ${form.filter}`, ['Value', 'About', ...heads],
-    form.values.map((row) => [formNames[row.name] ?? row.name, formReferences[row.reference] ?? '–', ...row.cases.map((one) => formCell(one, k))]), 2));
+    form.values.map((row) => [formNames[row.name] ?? row.name, formReferences[row.reference] ?? '–', ...row.cases.map((one) => formCell(one, k))]), 2, true));
   if (!form.worst) return block('Form of the part', ...parts);
   parts.push(element('div', {class: 'pair'}, [formPolar(form), formHarmonics(form)].filter(Boolean)));
   parts.push(table(`This section about each circle ± U, ${form.filter}`, ['Value', 'least squares (LSCI)', 'minimum zone (MZCI)', 'circumscribed (MCCI)', 'inscribed (MICI)'],
@@ -75,7 +75,7 @@ function partFormBlock(form) {
   if (form.section_count > 1) {
     const more = form.section_count > form.sections.length ? `, the ${form.sections.length} largest of ${form.section_count}` : '';
     parts.push(table(`RONt of each section about the minimum zone circle${more}`, ['Z', ...heads, 'Lobes'],
-      form.sections.map((row) => [isNumber(row.z_mm) ? millimetres(row.z_mm, 2) : '–', ...row.cases.map((one) => formCell(one, k)), row.lobes ? String(row.lobes) : '–'])));
+      form.sections.map((row) => [isNumber(row.z_mm) ? millimetres(row.z_mm, 2) : '–', ...row.cases.map((one) => formCell(one, k)), row.lobes ? String(row.lobes) : '–']), 1, true));
   }
   if (form.notes.length) parts.push(element('ul', {class: 'quiet'}, form.notes.map((text) => element('li', {}, joined(sentence(text))))));
   return block('Form of the part', ...parts);

@@ -25,6 +25,15 @@ const FormValue* of(const SectionForm& section, const char* name, const char* re
   return nullptr;
 }
 
+/// Of a cone these hold its taper, and conicity stands for them.
+bool of_cylinder(std::string_view name) { return name == "CYLt" || name == "runout_total"; }
+
+/// A cone's circumscribed and inscribed cylinders are of no use: nothing is said of them.
+bool of_cylinders(const std::string& note) {
+  return note.find("minimum_circumscribed") != std::string::npos ||
+         note.find("maximum_inscribed") != std::string::npos;
+}
+
 Json estimate_data(const FormValue* one) {
   if (!one) return nullptr;
   return {{"mm", one->estimate.value}, {"u_mm", one->estimate.u}};
@@ -33,8 +42,10 @@ Json estimate_data(const FormValue* one) {
 /// A row a value, a column a case.
 Json values_data(const std::vector<const FormResult*>& cases) {
   Json rows = Json::array();
+  const bool cone = is_tapered(*cases.front());
   for (const auto& [name, reference] : shown) {
     if (!worst_value(*cases.front(), name, reference)) continue;
+    if (cone && of_cylinder(name)) continue;
     Json row{{"name", name}, {"reference", reference}, {"cases", Json::array()}};
     for (const FormResult* one : cases)
       row["cases"].push_back(estimate_data(worst_value(*one, name, reference)));
@@ -47,7 +58,8 @@ std::vector<std::size_t> worst_sections(const FormResult& form) {
   std::vector<std::pair<double, std::size_t>> all;
   for (std::size_t i = 0; i < form.sections.size(); ++i)
     if (const FormValue* round = of(form.sections[i], "RONt", "MZCI"))
-      all.emplace_back(-round->estimate.value, i);
+      all.emplace_back(-round->estimate.value - form.options.coverage_factor * round->estimate.u,
+                       i);
   std::ranges::stable_sort(all);
   if (all.size() > rows_shown) all.resize(rows_shown);
   std::vector<std::size_t> out;
@@ -153,7 +165,14 @@ Json part_form_data(const PartForm& form) {
   data["values"] = values_data(cases);
   data["sections"] = sections_data(cases);
   data["worst"] = filtered ? worst_data(form.with_open()) : Json(nullptr);
-  data["notes"] = form.probed.notes;
+  data["notes"] = Json::array();
+  for (std::string note : form.probed.notes) {
+    if (is_tapered(form.probed) && of_cylinders(note)) continue;
+    constexpr std::string_view option = " (--ball-radius)";
+    if (const std::size_t at = note.find(option); at != std::string::npos)
+      note.erase(at, option.size());
+    data["notes"].push_back(note);
+  }
   return data;
 }
 

@@ -31,4 +31,7 @@ std::string judgement_text(const PartForm& form, const FormJudgement& judgement)
 /// "Gaussian 1-50 UPR" or "no filter".
 std::string filter_words(const FormOptions& options);
 
+/// Whether the sections' radii change as a cone's: conicity then stands for cylindricity.
+bool is_tapered(const FormResult& form);
+
 }  // namespace trueaxis

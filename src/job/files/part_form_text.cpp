@@ -17,10 +17,11 @@ using layout::plus_minus;
 constexpr std::array<const char*, 2> shown[] = {
     {"RONt", "MZCI"}, {"CYLt", "MZCY"}, {"CONt", "MZCO"}, {"FLTt", "MZPL"}};
 
-/// A cylinder's cylindricity, a cone's conicity: of a taper of 0.1 mm and more a cone's.
+constexpr double least_taper_mm = 0.1;  // of a cone that is meant to be one
+
+/// A cylinder's cylindricity, a cone's conicity.
 bool counts(const FormResult& form, std::string_view name) {
-  const FormValue* taper = worst_value(form, "CYLtt", "");
-  const bool cone = taper && std::abs(taper->estimate.value) > 0.1;
+  const bool cone = is_tapered(form);
   return name == "CYLt" ? !cone : name == "CONt" ? cone : true;
 }
 
@@ -58,6 +59,11 @@ std::string band_words(const PartForm& form) {
 
 }  // namespace
 
+bool is_tapered(const FormResult& form) {
+  const FormValue* taper = worst_value(form, "CYLtt", "");
+  return taper && std::abs(taper->estimate.value) > least_taper_mm;
+}
+
 std::string filter_words(const FormOptions& options) {
   constexpr const char* names[] = {"no filter", "Gaussian", "robust Gaussian", "spline"};
   const char* name = names[static_cast<std::size_t>(options.filter)];
@@ -72,8 +78,8 @@ std::string judgement_text(const PartForm& form, const FormJudgement& one) {
   if (one.conformity == Conformity::not_judged) return head + one.why + "; " + tolerance;
   std::string value = value_text(one.high, k);
   if (one.low.estimate.value != one.high.estimate.value)
-    value = fmt::format("{} or {}, as {} is of the part or not", value_text(one.low, k), value,
-                        fmt::join(form.open, ", "));
+    value = fmt::format("{} or {}, as what was seen is not or is of the part",
+                        value_text(one.low, k), value);
   const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", *one.z_mm) : "";
   return fmt::format("{}{}{}, {} ({})", head, value, place, tolerance, band_words(form));
 }
