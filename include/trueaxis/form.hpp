@@ -122,6 +122,10 @@ struct FormResult {
 FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {},
                        const ProbeStream* datum = nullptr);
 
+/// The highest cut-off (UPR) that every section of a lateral stream carries by 7 readings a wave
+/// (ISO 12181-2), 500 at most; below 2 no filter can be had. @throws InputError as assess_form
+int carried_upr(const ProbeStream& stream, const FormOptions& options = {});
+
 /// The same of points x y z (mm) of a line, circle, plane or cylinder, in any orientation. Sections
 /// of a circle and of a cylinder are filtered, planes and lines are not.
 /// @throws InputError for another element, or points that do not make one

@@ -12,6 +12,7 @@
 #include "trueaxis/correction.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/part_form.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/resimulation.hpp"
 #include "trueaxis/units.hpp"
@@ -35,6 +36,7 @@ struct JobReference {
   FitOptions fit;
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
+  FormTask form{};              ///< tolerances of its form and how it is filtered
 };
 
 /// The axis of a diagnosed reference that a cut is about. Whichever it is, the verdict holds the
@@ -145,6 +147,7 @@ struct JobResult {
   std::vector<std::optional<Diagnosis>> diagnoses;
   /// Every diagnosed reference as the virtual lathe takes it again.
   std::vector<std::optional<Resimulation>> resimulations;
+  std::vector<PartForm> forms;  ///< of every reference that is fitted and no profile of one's own
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;
@@ -156,9 +159,13 @@ struct JobResult {
 /// something and it converged, else that of the ideal surface.
 const FitResult& fit_used(const JobResult& result, std::size_t reference);
 
-/// Fit, diagnosis, the diagnosed measured again by the virtual lathe, target axis, correction, and
-/// the verdict, which is final. Streams come read, one per reference. Where the cut is refused (a
-/// tool that does not meet the target), the reason is the verdict's and nothing is thrown.
+/// Whether every tolerance of form is proven met. The verdict is of the cut and does not hold them.
+bool forms_met(const JobResult& result);
+
+/// Fit, diagnosis, form, the diagnosed measured again by the virtual lathe, target axis,
+/// correction, and the verdict, which is final. Streams come read, one per reference. Where the cut
+/// is refused (a tool that does not meet the target), the reason is the verdict's and nothing is
+/// thrown.
 /// @throws InputError as fit() does, and when the target lies on the probed length of a reference
 ///         and the job does not say its stock.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);

@@ -19,6 +19,7 @@
 #include "trueaxis/machine.hpp"            // a machine of several axes, its errors, compensation
 #include "trueaxis/machine_diagnosis.hpp"  // what the model of a machine gets wrong
 #include "trueaxis/machine_job.hpp"        // measurements in, errors, verdict and program out
+#include "trueaxis/part_form.hpp"          // form without what is not of the part
 #include "trueaxis/probe_stream.hpp"       // the readings
 #include "trueaxis/resimulation.hpp"       // the diagnosed part measured again
 #include "trueaxis/spindle.hpp"            // part and spindle separated

@@ -12,11 +12,11 @@
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "cli/waiting.hpp"
-#include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/part_form_files.hpp"
 #include "report/stream_report.hpp"
 #include "trueaxis/diagnosis.hpp"
 
@@ -58,15 +58,19 @@ int execute(const Options& options) {
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
   const Diagnosis diagnosis = diagnose(stream, diagnose_options);
+  const PartForm form = part_form({stream, &diagnosis}, diagnose_options.fit, {});
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);
-  if (!json.empty()) outputs.write(json, diagnosis_json(diagnosis));
+  if (!json.empty()) outputs.write(json, diagnosis_with_form(diagnosis, form));
   if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, diagnosis));
   if (!report.empty())
-    outputs.write(report, render_diagnosis_report(stream, diagnosis, diagnose_options.fit));
+    outputs.write(report, render_diagnosis_report(stream, diagnosis, diagnose_options.fit, form));
   outputs.commit();
-  if (!options.result.printed() && options.verbose) std::cout << diagnosis_text(diagnosis);
-  if (!options.result.printed() && !options.verbose) print_screen(diagnosis_screen(diagnosis));
+  if (!options.result.printed() && options.verbose)
+    std::cout << diagnosis_text(diagnosis) << part_form_text(form);
+  if (!options.result.printed() && !options.verbose)
+    print_screen(broken_fit(diagnosis) ? diagnosis_screen(diagnosis)
+                                       : screen_with_form(diagnosis_screen(diagnosis), form));
   if (const FitResult* fit = broken_fit(diagnosis)) {
     std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
     return numerical;

@@ -32,7 +32,7 @@ namespace {
 int exit_code_of(const JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  return !fitted ? numerical : result.verdict.go() ? done : refused;
+  return !fitted ? numerical : result.verdict.go() && forms_met(result) ? done : refused;
 }
 
 struct Options {

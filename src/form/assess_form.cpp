@@ -186,4 +186,16 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   return result;
 }
 
+int carried_upr(const ProbeStream& stream, const FormOptions& given) {
+  using namespace form;
+  FormOptions options = given;
+  options.filter = ProfileFilter::none;
+  int carried = 500;
+  for (const SectionReadings& one : sections_of(stream, options).list) {
+    const SectionModel model(one, true, options);
+    carried = std::min(carried, model.trouble().empty() ? highest_order(model.raw()) : 0);
+  }
+  return carried;
+}
+
 }  // namespace trueaxis

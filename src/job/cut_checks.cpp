@@ -53,7 +53,7 @@ std::string readable(double length_mm) {
 /// A shaft to be cut in the hollow of a bore, or a bore outside of a shaft.
 std::string hollow_objection(const JobResult& result, std::size_t i) {
   const bool bore = result.job.target->bore;
-  const std::optional<Material> wall = material_over(result, i);
+  const std::optional<MaterialMet> wall = material_over(result, i);
   if (!wall || result.fits[i].bore == bore || wall->least.material_mm > wall->least.U_mm) return "";
   return fmt::format(
       "the target is a {} and the probed surface of {} a {}: at {} there is no material between "
@@ -63,7 +63,7 @@ std::string hollow_objection(const JobResult& result, std::size_t i) {
 }
 
 std::string stock_objection(const JobResult& result, std::size_t i) {
-  const std::optional<Material> over = material_over(result, i);
+  const std::optional<MaterialMet> over = material_over(result, i);
   const bool face = result.job.target->kind == TargetKind::face;
   if (!over || (!face && result.fits[i].bore != result.job.target->bore)) return "";
   const std::string& name = result.job.references[i].name;

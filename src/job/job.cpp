@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/job.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "job/agreement.hpp"
 #include "job/conclude.hpp"
+#include "job/form_judgement.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -23,7 +25,32 @@ void diagnose_all(JobResult& result) {
   }
 }
 
+/// What run-out is about; nothing: the spindle axis.
+std::optional<std::size_t> datum_of(const JobResult& result, const FormTask& task) {
+  for (std::size_t i = 0; i < result.job.references.size(); ++i)
+    if (task.runout_tolerance_mm && result.job.references[i].name == task.runout_datum) return i;
+  return {};
+}
+
+void assess_forms(JobResult& result) {
+  const auto diagnosed = [&](std::size_t i) {
+    return DiagnosedStream{result.streams[i],
+                           result.diagnoses[i] ? &*result.diagnoses[i] : nullptr};
+  };
+  for (std::size_t i = 0; i < result.streams.size(); ++i) {
+    const JobReference& reference = result.job.references[i];
+    const auto datum = datum_of(result, reference.form);
+    const DiagnosedStream of_part = diagnosed(i), of_datum = diagnosed(datum.value_or(i));
+    result.forms.push_back(
+        part_form(of_part, reference.fit, reference.form, datum ? &of_datum : nullptr));
+  }
+}
+
 }  // namespace
+
+bool forms_met(const JobResult& result) {
+  return std::ranges::all_of(result.forms, &PartForm::met);
+}
 
 JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   expects(job.references.size() == streams.size() && !streams.empty(), "one stream per reference");
@@ -35,7 +62,9 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   }
   result.agreement = hold_together(result);
   diagnose_all(result);
+  assess_forms(result);
   conclude(result);
+  reserve_forms(result);
   return result;
 }
 

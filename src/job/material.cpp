@@ -64,7 +64,7 @@ std::optional<std::pair<double, double>> overlap_mm(const JobResult& result, std
   return from < to ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 
-std::optional<Material> material_over(const JobResult& result, std::size_t i) {
+std::optional<MaterialMet> material_over(const JobResult& result, std::size_t i) {
   const auto over = overlap_mm(result, i);
   if (!over || !result.target_axis) return std::nullopt;
   const TargetSurface& target = *result.job.target;
@@ -74,7 +74,7 @@ std::optional<Material> material_over(const JobResult& result, std::size_t i) {
   const Revolved wanted{{x, y, axis.slope_x, axis.slope_y, target.z_start_mm},
                         target.radius_mm,
                         target.tan_half_angle};
-  std::optional<Material> found;
+  std::optional<MaterialMet> found;
   for (int p = 0; p < places; ++p) {
     const double at = over->first + (over->second - over->first) * p / (places - 1);
     for (int a = 0; a < angles; ++a) {
@@ -82,7 +82,7 @@ std::optional<Material> material_over(const JobResult& result, std::size_t i) {
       Place place = faces(result, i) ? between_faces(fit, axis, target.z_face_mm, c_rad, at)
                                      : between_revolved(fit, wanted, c_rad, at);
       if (fit.bore) place.material_mm = -place.material_mm;
-      if (!found) found = Material{place, place};
+      if (!found) found = MaterialMet{place, place};
       if (place.material_mm - place.U_mm < found->least.material_mm - found->least.U_mm)
         found->least = place;
       if (place.material_mm + place.U_mm > found->most.material_mm + found->most.U_mm)

@@ -20,12 +20,12 @@ struct Place {
   double U_mm = 0.0;
 };
 
-struct Material {
+struct MaterialMet {
   Place least, most;
 };
 
 /// The material that the tool would meet over the overlap: from the fitted surface as clamped to
 /// the target about the target axis. With features of two sides it is the wall between them.
-std::optional<Material> material_over(const JobResult& result, std::size_t reference);
+std::optional<MaterialMet> material_over(const JobResult& result, std::size_t reference);
 
 }  // namespace trueaxis

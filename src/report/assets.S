@@ -24,6 +24,7 @@ trueaxis_report_js_begin:
     .incbin "report/charts.js"
     .incbin "report/reading_charts.js"
     .incbin "report/form_charts.js"
+    .incbin "report/part_form.js"
     .incbin "report/seats_charts.js"
     .incbin "report/reference.js"
     .incbin "report/diagnosis_charts.js"

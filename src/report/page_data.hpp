@@ -16,6 +16,10 @@ Json readings_data(const ProbeStream& stream, const FitResult& fit,
 /// null where there is no usable fit.
 Json roundness_data(const ProbeStream& stream, const FitResult& fit);
 
+/// Form of the part: tolerances, values with and without what is not of it, the worst section with
+/// its circles and harmonics, a row a section.
+Json part_form_data(const PartForm& form);
+
 /// Measured against simulated, before and after: discrepancy, spectrum, maps; null where the model
 /// was not evaluated at every reading.
 /// @param again by the virtual lathe; none: the model stands for it

@@ -144,7 +144,7 @@ function formSection(reference, index) {
   const solved = reference.status === 'converged' || reference.status === 'max_iterations';
   const parts = [paragraph(`${diagnosis ? `${diagnosisWords[diagnosis.verdict] ?? diagnosis.verdict} ` : ''}${fitWords(reference)}`)];
   if (diagnosis) parts.push(seenList(diagnosis, readings?.face));
-  if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...roundnessBlock(reference));
+  if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...(reference.form ? [partFormBlock(reference.form)] : []), ...roundnessBlock(reference));
   const polars = solved && readings ? residualPolars(readings) : [];
   if (polars.length) {
     parts.push(paragraph(`What is left when the associated surface is taken away, so that all is centred on the dashed circle; outside is ${readings.face ? 'towards +Z' : 'away from the axis'}.` +
@@ -152,6 +152,8 @@ function formSection(reference, index) {
   } else {
     parts.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
   }
+  if (reference.form) parts.push(partFormBlock(reference.form));
+  if (reference.datums) parts.push(datumsBlock(reference.datums));
   return section(`form-${index + 1}`, `Form: ${reference.name}`, ...parts);
 }
 

@@ -9,6 +9,7 @@
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
+#include "job/files/datum_axes_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 
@@ -154,6 +155,9 @@ Json reference_data(const JobResult& result, std::size_t i) {
     }
     data["extended"] = &fit_used(result, i) != &result.fits[i] &&
                        result.diagnoses[i]->verdict != DiagnosisVerdict::ideal;
+    if (const auto axes = datum_axes(result, i); !axes.empty())
+      data["datums"] = datum_axes_array(axes, fit_used(result, i));
+    if (i < result.forms.size()) data["form"] = part_form_data(result.forms[i]);
     data["relative"] = result.streams[i].indication == Indication::relative;
   }
   return data;

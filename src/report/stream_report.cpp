@@ -59,13 +59,14 @@ std::string render_fit_report(const ProbeStream& stream, const FitResult& fit,
 }
 
 std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& diagnosis,
-                                    const FitOptions& options) {
+                                    const FitOptions& options, const PartForm& form) {
   JobResult result = job_of(stream, diagnosis.baseline, options);
   const bool fitted = diagnosis.baseline.status == FitStatus::converged;
   result.diagnoses.emplace_back();
   result.resimulations.emplace_back();
   if (fitted) {
     result.diagnoses.front() = diagnosis;
+    result.forms.push_back(form);
     result.resimulations.front() = resimulate(diagnosis, stream, options.ball_radius_mm);
   }
   const char* outcome = !fitted                                          ? "not-determined"

@@ -5,6 +5,7 @@
 
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/part_form.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
@@ -15,6 +16,6 @@ std::string render_fit_report(const ProbeStream& stream, const FitResult& fit,
 
 /// The same of a diagnosed one; the part is measured again by the virtual lathe, as in a run.
 std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& diagnosis,
-                                    const FitOptions& options);
+                                    const FitOptions& options, const PartForm& form);
 
 }  // namespace trueaxis

@@ -13,6 +13,8 @@
 #include "format/toml_header.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_checks.hpp"
+#include "job/files/datum_axes_files.hpp"
+#include "job/files/part_form_files.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
@@ -191,9 +193,15 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
                    {"fit", fit_object(result.fits[i])}};
     if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
     if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
+    if (i < result.forms.size()) reference["form"] = part_form_object(result.forms[i]);
+    if (const auto axes = datum_axes(result, i); !axes.empty()) {
+      reference["association"] = "least squares along the probe line";
+      reference["other_associations"] = datum_axes_array(axes, fit_used(result, i));
+    }
     references.push_back(reference);
   }
   json["references"] = references;
+  json["forms_met"] = forms_met(result);
   if (result.fits.size() > 1 || !result.agreement.reason.empty())
     json["agreement"] = agreement_object(result);
   if (result.target_axis)
@@ -298,7 +306,9 @@ std::string inclusion_text(const Inclusion& i) {
 std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
-    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) + "\n";
+    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) +
+            (i < result.forms.size() ? part_form_text(result.forms[i]) : "") +
+            datum_axes_text(datum_axes(result, i), fit_used(result, i)) + "\n";
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions)

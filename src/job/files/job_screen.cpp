@@ -11,6 +11,7 @@
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/part_form_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -36,6 +37,8 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
           " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
+  if (i < result.forms.size())
+    text += part_form_screen(result.forms[i], result.fits.size() > 1 ? name : "");
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
   return text;
 }

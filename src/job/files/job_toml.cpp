@@ -11,6 +11,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
+#include "job/files/form_toml.hpp"
 #include "job/files/output_toml.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
@@ -71,6 +72,7 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
+  reference.form = read_form_task(table, reference.fit.surface);
   reference.fit.ball_radius_mm = sensor.ball_radius_mm;
   reference.fit.noise_mm = sensor.noise_mm;
   reference.fit.influences = sensor.influences;
@@ -283,6 +285,7 @@ Job read_job_toml(std::string_view content, const std::string& path) {
     root.complain("reference",
                   "is missing: add a [[reference]] with stream and surface, or, for a machine of "
                   "several axes, a [machine]");
+  check_runout_datums(root, job);
   read_cut(root, job, false);
   for (const JobReference& reference : job.references) {
     if (job.target && reference.fit.surface == SurfaceKind::section) {

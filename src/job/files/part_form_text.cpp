@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "format/text_layout.hpp"
+#include "job/files/part_form_files.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+using layout::plus_minus;
+
+/// What a screen shows of the whole: its name and what it is about.
+constexpr std::array<const char*, 2> shown[] = {
+    {"RONt", "MZCI"}, {"CYLt", "MZCY"}, {"CONt", "MZCO"}, {"FLTt", "MZPL"}};
+
+constexpr double least_taper_mm = 0.1;  // of a cone that is meant to be one
+
+/// A cylinder's cylindricity, a cone's conicity.
+bool counts(const FormResult& form, std::string_view name) {
+  const bool cone = is_tapered(form);
+  return name == "CYLt" ? !cone : name == "CONt" ? cone : true;
+}
+
+std::string value_text(const FormValue& one, double k) {
+  return plus_minus(one.estimate, k, 1.0 / mm_per_um, "µm");
+}
+
+std::string values_text(const FormResult& form) {
+  std::vector<std::string> words;
+  for (const auto& [name, reference] : shown)
+    if (const FormValue* one = worst_value(form, name, reference); one && counts(form, name))
+      words.push_back(fmt::format("{} {}", name, value_text(*one, form.options.coverage_factor)));
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+/// Of the first that is there: "RONt 7.3 ± 2.9 µm".
+std::string first_value_text(const FormResult& form, bool named = true) {
+  for (const auto& [name, reference] : shown)
+    if (const FormValue* one = worst_value(form, name, reference))
+      return (named ? std::string(name) + " " : "") +
+             value_text(*one, form.options.coverage_factor);
+  return "no value";
+}
+
+const char* word_of(Conformity conformity) {
+  constexpr const char* words[] = {"MET", "NOT MET", "NOT PROVEN", "NOT JUDGED"};
+  return words[static_cast<std::size_t>(conformity)];
+}
+
+/// "1-4 UPR, which is all that the readings carry"
+std::string band_words(const PartForm& form) {
+  if (form.probed.sections.empty()) return "not filtered";
+  return filter_words(form.probed.options);
+}
+
+}  // namespace
+
+bool is_tapered(const FormResult& form) {
+  const FormValue* taper = worst_value(form, "CYLtt", "");
+  return taper && std::abs(taper->estimate.value) > least_taper_mm;
+}
+
+std::string filter_words(const FormOptions& options) {
+  constexpr const char* names[] = {"no filter", "Gaussian", "robust Gaussian", "spline"};
+  const char* name = names[static_cast<std::size_t>(options.filter)];
+  if (options.filter == ProfileFilter::none) return name;
+  return fmt::format("{} {:g}-{:g} UPR", name, options.low_upr, options.high_upr);
+}
+
+std::string judgement_text(const PartForm& form, const FormJudgement& one) {
+  const double k = form.probed.options.coverage_factor;
+  const std::string head = fmt::format("{} {}: ", one.what, word_of(one.conformity));
+  const std::string tolerance = fmt::format("tolerance {:g} µm", one.tolerance_mm / mm_per_um);
+  if (one.conformity == Conformity::not_judged) return head + one.why + "; " + tolerance;
+  std::string value = value_text(one.high, k);
+  if (one.low.estimate.value != one.high.estimate.value)
+    value = fmt::format("{} or {}, as what was seen is not or is of the part",
+                        value_text(one.low, k), value);
+  const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", *one.z_mm) : "";
+  return fmt::format("{}{}{}, {} ({})", head, value, place, tolerance, band_words(form));
+}
+
+std::string part_form_screen(const PartForm& form, const std::string& name) {
+  const std::string of = name.empty() ? "" : name + ": ";
+  std::string text;
+  for (const FormJudgement& one : form.judgements)
+    text += "form   " + of + judgement_text(form, one) + "\n";
+  if (!form.judgements.empty()) return text;
+  if (!form.why_not.empty()) return "form   " + of + "not assessed: " + form.why_not + "\n";
+  text = "form   " + of;
+  if (form.less_open)
+    text += first_value_text(form.with_open()) + " (" + first_value_text(*form.less_open, false) +
+            " were what was seen not the part's), ";
+  else if (form.less_motion)
+    text += first_value_text(*form.less_motion) + " (as probed " +
+            first_value_text(form.probed, false) + "), ";
+  else
+    text += values_text(form.probed) + ", ";
+  text += band_words(form);
+  return text + "\n";
+}
+
+std::string screen_with_form(std::string screen, const PartForm& form) {
+  const std::size_t axis = screen.find("\naxis   ");
+  const std::size_t at = axis == std::string::npos ? screen.size() : axis + 1;
+  return screen.insert(at, part_form_screen(form, ""));
+}
+
+std::string part_form_text(const PartForm& form) {
+  std::string text;
+  const auto line = [&](const std::string& one) { text += layout::wrapped("form        ", one); };
+  if (!form.why_not.empty()) line("not assessed: " + form.why_not);
+  if (form.why_not.empty()) {
+    line(fmt::format("as probed {} ({}; worst of {} section{})", values_text(form.probed),
+                     band_words(form), form.probed.sections.size(),
+                     form.probed.sections.size() == 1 ? "" : "s"));
+    if (form.less_motion)
+      line(
+          fmt::format("less {}: {}", fmt::join(form.motion, ", "), values_text(*form.less_motion)));
+    if (form.less_open)
+      line(
+          fmt::format("less {} as well, of which the readings do not tell whether it is of the "
+                      "part: {}",
+                      fmt::join(form.open, ", "), values_text(*form.less_open)));
+  }
+  for (const FormJudgement& one : form.judgements) line(judgement_text(form, one));
+  return text;
+}
+
+}  // namespace trueaxis

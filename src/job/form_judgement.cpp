@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/form_judgement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis {
+namespace {
+
+FormJudgement judged(const char* what, const char* parameter, const char* reference,
+                     double tolerance_mm, const PartForm& form) {
+  FormJudgement out{what, parameter, tolerance_mm, Conformity::not_judged,
+                    {},   {},        {},           form.why_not};
+  if (!form.why_not.empty()) return out;
+  const SectionForm* section = nullptr;
+  const FormValue* with = worst_value(form.with_open(), parameter, reference, &section);
+  const FormValue* without = worst_value(form.without_open(), parameter, reference);
+  if (!with || !without || !with->estimate.determined() || !without->estimate.determined()) {
+    out.why = std::string("the readings give no ") + parameter;
+    if (!form.probed.radius_known) out.why += ": a gauge without nominal_radius shows no radius";
+    return out;
+  }
+  const double k = form.probed.options.coverage_factor;
+  const bool ordered = with->estimate.value >= without->estimate.value;
+  out.high = ordered ? *with : *without;
+  out.low = ordered ? *without : *with;
+  if (section) out.z_mm = section->z_mm;
+  const auto most = [&](const FormValue& v) { return v.estimate.value + k * v.estimate.u; };
+  const auto least = [&](const FormValue& v) { return v.estimate.value - k * v.estimate.u; };
+  out.conformity = std::max(most(*with), most(*without)) <= tolerance_mm ? Conformity::met
+                   : std::min(least(*with), least(*without)) > tolerance_mm
+                       ? Conformity::not_met
+                       : Conformity::not_proven;
+  return out;
+}
+
+}  // namespace
+
+void judge(const FormTask& task, PartForm& form) {
+  if (task.roundness_tolerance_mm)
+    form.judgements.push_back(
+        judged("roundness", "RONt", "MZCI", *task.roundness_tolerance_mm, form));
+  if (task.cylindricity_tolerance_mm)
+    form.judgements.push_back(
+        judged("cylindricity", "CYLt", "MZCY", *task.cylindricity_tolerance_mm, form));
+  if (!task.runout_tolerance_mm) return;
+  const bool face = worst_value(form.probed, "axial_runout_circular", "") != nullptr;
+  form.judgements.push_back(judged(face ? "axial run-out" : "circular run-out",
+                                   face ? "axial_runout_circular" : "runout_circular", "",
+                                   *task.runout_tolerance_mm, form));
+}
+
+void reserve_forms(JobResult& result) {
+  Verdict& verdict = result.verdict;
+  for (std::size_t i = 0; i < result.forms.size(); ++i)
+    for (const FormJudgement& one : result.forms[i].judgements) {
+      if (one.conformity == Conformity::met) continue;
+      constexpr const char* words[] = {"met", "NOT MET", "NOT PROVEN", "NOT JUDGED"};
+      const std::string why = fmt::format("the {} of {} is {}, and the verdict is of the cut alone",
+                                          one.what, result.job.references[i].name,
+                                          words[static_cast<std::size_t>(one.conformity)]);
+      verdict.reservations.push_back(why);
+      verdict.line += "; " + why;
+      if (verdict.decision != Decision::go) continue;
+      verdict.decision = Decision::go_with_reservations;
+      verdict.line = "GO with reservations" + verdict.line.substr(2);
+    }
+}
+
+bool PartForm::met() const {
+  return std::ranges::all_of(
+      judgements, [](const FormJudgement& one) { return one.conformity == Conformity::met; });
+}
+
+const FormValue* worst_value(const FormResult& form, const std::string& name,
+                             const std::string& reference, const SectionForm** section) {
+  const double k = form.options.coverage_factor;
+  const FormValue* worst = nullptr;
+  const auto look = [&](const std::vector<FormValue>& values, const SectionForm* of) {
+    for (const FormValue& one : values) {
+      if (one.name != name || (!reference.empty() && one.reference != reference)) continue;
+      if (worst && !(one.estimate.value + k * one.estimate.u >
+                     worst->estimate.value + k * worst->estimate.u))
+        continue;
+      worst = &one;
+      if (section) *section = of;
+    }
+  };
+  for (const SectionForm& one : form.sections) look(one.values, &one);
+  for (const FormGroup& group : form.groups) look(group.values, nullptr);
+  return worst;
+}
+
+const char* to_string(Conformity conformity) {
+  static constexpr const char* words[] = {"met", "not_met", "not_proven", "not_judged"};
+  return words[static_cast<std::size_t>(conformity)];
+}
+
+}  // namespace trueaxis

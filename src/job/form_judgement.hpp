@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trueaxis/job.hpp"
+#include "trueaxis/part_form.hpp"
+
+namespace trueaxis {
+
+/// Holds every tolerance of the task against the form of the part: met where the larger value + U
+/// is no more, not met where the smaller value − U is more, else not proven (ISO 14253-1; Eq. 292).
+/// The two differ where the readings leave open what is of the part.
+void judge(const FormTask& task, PartForm& form);
+
+/// The verdict is of the cut: where a tolerance of form is not proven met, it says so as a
+/// reservation, and a GO is one with reservations.
+void reserve_forms(JobResult& result);
+
+}  // namespace trueaxis

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "job/files/part_form_files.hpp"
+#include "report/page_data.hpp"
+#include "report/thinning.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr std::size_t rows_shown = 12;    // of the sections, the worst
+constexpr std::size_t most_points = 720;  // of a polar plot
+constexpr std::array<const char*, 2> shown[] = {
+    {"RONt", "MZCI"},  {"CYLt", "MZCY"},        {"CONt", "MZCO"},     {"STRsa", ""},
+    {"FLTt", "MZPL"},  {"runout_circular", ""}, {"runout_total", ""}, {"axial_runout_circular", ""},
+    {"coaxiality", ""}};
+
+const FormValue* of(const SectionForm& section, const char* name, const char* reference) {
+  for (const FormValue& one : section.values)
+    if (one.name == name && one.reference == reference) return &one;
+  return nullptr;
+}
+
+/// Of a cone these hold its taper, and conicity stands for them.
+bool of_cylinder(std::string_view name) { return name == "CYLt" || name == "runout_total"; }
+
+/// A cone's circumscribed and inscribed cylinders are of no use: nothing is said of them.
+bool of_cylinders(const std::string& note) {
+  return note.find("minimum_circumscribed") != std::string::npos ||
+         note.find("maximum_inscribed") != std::string::npos;
+}
+
+Json estimate_data(const FormValue* one) {
+  if (!one) return nullptr;
+  return {{"mm", one->estimate.value}, {"u_mm", one->estimate.u}};
+}
+
+/// A row a value, a column a case.
+Json values_data(const std::vector<const FormResult*>& cases) {
+  Json rows = Json::array();
+  const bool cone = is_tapered(*cases.front());
+  for (const auto& [name, reference] : shown) {
+    if (!worst_value(*cases.front(), name, reference)) continue;
+    if (cone && of_cylinder(name)) continue;
+    Json row{{"name", name}, {"reference", reference}, {"cases", Json::array()}};
+    for (const FormResult* one : cases)
+      row["cases"].push_back(estimate_data(worst_value(*one, name, reference)));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::size_t> worst_sections(const FormResult& form) {
+  std::vector<std::pair<double, std::size_t>> all;
+  for (std::size_t i = 0; i < form.sections.size(); ++i)
+    if (const FormValue* round = of(form.sections[i], "RONt", "MZCI"))
+      all.emplace_back(-round->estimate.value - form.options.coverage_factor * round->estimate.u,
+                       i);
+  std::ranges::stable_sort(all);
+  if (all.size() > rows_shown) all.resize(rows_shown);
+  std::vector<std::size_t> out;
+  for (const auto& [value, i] : all) out.push_back(i);
+  return out;
+}
+
+Json sections_data(const std::vector<const FormResult*>& cases) {
+  std::vector<std::size_t> list = worst_sections(*cases.back());
+  std::ranges::sort(list);
+  Json rows = Json::array();
+  for (const std::size_t i : list) {
+    const SectionForm& section = cases.front()->sections[i];
+    Json row{{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
+             {"readings", section.readings},
+             {"cases", Json::array()},
+             {"lobes", cases.back()->sections[i].lobes}};
+    for (const FormResult* one : cases)
+      row["cases"].push_back(estimate_data(of(one->sections[i], "RONt", "MZCI")));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json column_of(std::span<const double> values, double scale, int decimals, std::size_t step) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < values.size(); i += step) out.push_back(values[i] * scale);
+  return column(out, decimals);
+}
+
+/// Distance of a circle from that of least squares at the angles of a profile, µm.
+Json circle_data(const SectionForm& section, const FormCircle& circle, double off_mm,
+                 std::size_t step) {
+  const FormCircle& least = section.circles.front();
+  std::vector<double> um;
+  for (std::size_t i = 0; i < section.profile.angle_rad.size(); i += step) {
+    const double a = section.profile.angle_rad[i];
+    um.push_back(((circle.x_mm - least.x_mm) * std::cos(a) +
+                  (circle.y_mm - least.y_mm) * std::sin(a) + circle.radius_mm - least.radius_mm +
+                  off_mm) /
+                 mm_per_um);
+  }
+  return column(um, 4);
+}
+
+/// The section whose RONt is the largest: its trace, the filtered profile, the minimum zone's
+/// circles, its values and harmonics.
+Json worst_data(const FormResult& form) {
+  const std::vector<std::size_t> worst = worst_sections(form);
+  if (worst.empty()) return nullptr;
+  const SectionForm& section = form.sections[worst.front()];
+  const FormProfile& profile = section.profile;
+  const std::size_t step = 1 + profile.angle_rad.size() / most_points;
+  Json data{{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
+            {"readings", section.readings},
+            {"lobes", section.lobes},
+            {"c_deg", column_of(profile.angle_rad, 1.0 / rad_per_deg, 2, step)},
+            {"raw_um", column_of(profile.raw_mm, 1.0 / mm_per_um, 4, step)},
+            {"um", column_of(profile.filtered_mm, 1.0 / mm_per_um, 4, step)},
+            {"orders", Json::array()},
+            {"values", Json::array()}};
+  for (const FormCircle& circle : section.circles) {
+    const FormValue* peak = of(section, "RONp", "MZCI");
+    const FormValue* valley = of(section, "RONv", "MZCI");
+    if (circle.criterion != Criterion::minimum_zone || !circle.why_not.empty() || !peak || !valley)
+      continue;
+    data["outer_um"] = circle_data(section, circle, peak->estimate.value, step);
+    data["inner_um"] = circle_data(section, circle, -valley->estimate.value, step);
+  }
+  for (const FormHarmonic& one : section.harmonics)
+    if (one.order >= 2 && one.order <= form.options.high_upr)
+      data["orders"].push_back({{"order", one.order},
+                                {"amplitude_um", rounded(one.amplitude_mm / mm_per_um, 4)},
+                                {"phase_deg", rounded(one.phase_rad / rad_per_deg, 1)}});
+  for (const char* name : {"RONt", "RONp", "RONv", "RONq"}) {
+    Json row{{"name", name}, {"about", Json::array()}};
+    for (const char* circle : {"LSCI", "MZCI", "MCCI", "MICI"})
+      row["about"].push_back(estimate_data(of(section, name, circle)));
+    data["values"].push_back(std::move(row));
+  }
+  return data;
+}
+
+}  // namespace
+
+Json part_form_data(const PartForm& form) {
+  Json data{{"why_not", form.why_not}, {"judgements", Json::array()}};
+  for (const FormJudgement& one : form.judgements)
+    data["judgements"].push_back(
+        {{"conformity", to_string(one.conformity)}, {"text", judgement_text(form, one)}});
+  if (!form.why_not.empty()) return data;
+  std::vector<const FormResult*> cases{&form.probed};
+  if (form.less_motion) cases.push_back(&*form.less_motion);
+  if (form.less_open) cases.push_back(&*form.less_open);
+  const bool filtered = !form.probed.sections.empty();
+  data["filter"] = filtered ? filter_words(form.probed.options) : "not filtered";
+  data["carried_upr"] = form.carried_upr;
+  data["high_upr"] = form.probed.options.high_upr;
+  data["section_count"] = form.probed.sections.size();
+  data["motion"] = form.motion;
+  data["open"] = form.open;
+  data["k"] = form.probed.options.coverage_factor;
+  data["values"] = values_data(cases);
+  data["sections"] = sections_data(cases);
+  data["worst"] = filtered ? worst_data(form.with_open()) : Json(nullptr);
+  data["notes"] = Json::array();
+  for (std::string note : form.probed.notes) {
+    if (is_tapered(form.probed) && of_cylinders(note)) continue;
+    constexpr std::string_view option = " (--ball-radius)";
+    if (const std::size_t at = note.find(option); at != std::string::npos)
+      note.erase(at, option.size());
+    data["notes"].push_back(note);
+  }
+  return data;
+}
+
+}  // namespace trueaxis
