@@ -4,6 +4,7 @@ find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
+pkg_check_modules(INTERCHANGE REQUIRED IMPORTED_TARGET libzip pugixml hdf5 matio libmd)
 
 file(GLOB TRUEAXIS_ASSETS CONFIGURE_DEPENDS src/report/*.js src/report/*.css src/report/*.html)
 add_library(trueaxis_lib STATIC ${TRUEAXIS_FILES})
@@ -12,7 +13,7 @@ set_target_properties(trueaxis_lib PROPERTIES OUTPUT_NAME trueaxis EXPORT_NAME t
 target_include_directories(trueaxis_lib PRIVATE src)
 target_compile_definitions(trueaxis_lib PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
 target_link_libraries(trueaxis_lib PUBLIC trueaxis_core PRIVATE $<BUILD_INTERFACE:trueaxis_flags>
-  Eigen3::Eigen nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH)
+  Eigen3::Eigen nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH PkgConfig::INTERCHANGE)
 set_source_files_properties(src/report/assets.S PROPERTIES COMPILE_DEFINITIONS TRUEAXIS_ECHARTS="${TRUEAXIS_ECHARTS}"
   OBJECT_DEPENDS "${TRUEAXIS_ECHARTS};${TRUEAXIS_ASSETS}")
 trueaxis_compile_rooms_as_one(trueaxis_lib)

@@ -8,13 +8,16 @@
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "format/outputs.hpp"
+#include "format/text_layout.hpp"
+#include "interchange/number_file.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
 
 struct AssociateCommand {
-  std::string path, element, criterion = "gaussian", material, unit, json, certificate;
+  std::string path, element, criterion = "gaussian", material, unit, array;
+  std::string json, certificate, distances, x3p;
   int threads = 0;
   bool force = false;
 };
@@ -32,8 +35,10 @@ int execute(const AssociateCommand& options) {
   outputs.reads(options.path);
   outputs.may_write(options.json, "trueaxis.association");
   outputs.may_write(options.certificate, "trueaxis.certificate");
+  outputs.may_write(options.distances, "trueaxis.distances");
+  outputs.may_write(options.x3p, "trueaxis.cloud");
   outputs.check();
-  const PointText points = read_points(options.path, options.unit);
+  const PointText points = read_points(options.path, options.unit, options.array);
   const AssociatedFeature result =
       associate(points.points_mm, element, criterion,
                 {.material = options.material == "outside" ? Material::outside : Material::inside,
@@ -44,13 +49,30 @@ int execute(const AssociateCommand& options) {
   const bool converged = result.status == AssociationStatus::converged;
   if (converged && !options.certificate.empty())
     outputs.write(options.certificate, association_certificate(result, points));
+  if (converged && !options.distances.empty())
+    outputs.write(options.distances, association_distances(result, points));
+  if (!options.x3p.empty())
+    outputs.write(options.x3p, x3p_of_points(metres_of(points), TRUEAXIS_VERSION));
   outputs.commit();
   if (!converged) {
     std::cerr << options.path << ": " << result.why << ".\n";
     return numerical;
   }
-  if (options.json != "-" && options.certificate != "-") std::cout << association_text(result);
+  if (options.json == "-" || options.certificate == "-" || options.distances == "-") return done;
+  std::cout << association_text(result);
+  for (const std::string& note : points.notes)
+    std::cout << layout::wrapped("  note           ", note);
   return done;
+}
+
+/// Each file goes to a place of its own.
+void expect_apart(const std::vector<std::pair<std::string, std::string>>& places) {
+  for (std::size_t i = 1; i < places.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (!places[i].second.empty() && places[i].second == places[k].second)
+        throw CLI::ValidationError(places[i].first, "cannot go where " + places[k].first + " goes");
+  if (places.back().second == "-")
+    throw CLI::ValidationError("--x3p", "is a binary file: give it a name");
 }
 
 }  // namespace
@@ -61,7 +83,10 @@ void add_associate(CLI::App& app, int& exit_code) {
                          "the geometrical element of Cartesian points, by any of four "
                          "criteria, with what proves it");
   auto options = std::make_shared<AssociateCommand>();
-  command->add_option("points", options->path, "x y z a line (text), '-' for standard input")
+  command
+      ->add_option(
+          "points", options->path,
+          "x y z a line (text), or an X3P, HDF5, MATLAB or NumPy file; '-' for standard input")
       ->required();
   command
       ->add_option("--element", options->element,
@@ -81,13 +106,22 @@ void add_associate(CLI::App& app, int& exit_code) {
                    "of --criterion constrained: inside of the element (a shaft; of a plane or a "
                    "line of the plane against its direction or to its right) or outside (a bore)")
       ->check(CLI::IsMember(std::vector<std::string>{"inside", "outside"}));
-  command->add_option("--unit", options->unit, "of the coordinates: mm, um, m or in (mm)")
+  command
+      ->add_option("--unit", options->unit,
+                   "of the coordinates: mm, um, m or in (mm; of a binary file what it says)")
       ->check(CLI::IsMember(std::vector<std::string>{"mm", "um", "m", "in"}));
+  command->add_option("--array", options->array, array_help)->check(a_place());
   command->add_option("--json", options->json, "write the result here, '-' prints it")
       ->check(a_place());
   command
       ->add_option("--certificate", options->certificate,
                    "write what proves it here, to be checked by hand, '-' prints it")
+      ->check(a_place());
+  command
+      ->add_option("--distances", options->distances,
+                   "write every point with its distance here (CSV), '-' prints them")
+      ->check(a_place());
+  command->add_option("--x3p", options->x3p, "write the points here as X3P (ISO 25178-72)")
       ->check(a_place());
   command->add_option("--threads", options->threads, "threads (0: as many as there are)")
       ->check(CLI::NonNegativeNumber);
@@ -101,8 +135,10 @@ void add_associate(CLI::App& app, int& exit_code) {
       throw CLI::ValidationError("--material", options->material.empty()
                                                    ? "say where the material is, inside or outside"
                                                    : "is for --criterion constrained");
-    if (!options->json.empty() && options->json == options->certificate)
-      throw CLI::ValidationError("--certificate", "cannot go where --json goes");
+    expect_apart({{"--json", options->json},
+                  {"--certificate", options->certificate},
+                  {"--distances", options->distances},
+                  {"--x3p", options->x3p}});
     exit_code = execute(*options);
   });
 }

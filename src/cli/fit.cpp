@@ -7,6 +7,7 @@
 
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
+#include "cli/fit_criterion.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/screen.hpp"
@@ -25,6 +26,7 @@ struct Options {
   StreamOptions stream;
   AssociationOptions association;
   ResultOptions result;
+  FitCriterion criterion;
   bool verbose = false, check = false;
 };
 
@@ -69,12 +71,17 @@ void add_fit(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command);
   options->association.add_to(*command)->required();
+  options->criterion.add_to(*command);
   options->result.add_to(*command, "its residual here (CSV)");
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     options->result.expect_apart();
-    exit_code = execute(*options);
+    options->criterion.expect_fitting(options->association, options->result, *command);
+    exit_code =
+        options->criterion.along_probe()
+            ? execute(*options)
+            : options->criterion.execute(options->stream, options->association, options->result);
   });
 }
 

@@ -24,7 +24,7 @@ struct Options {
   StreamOptions stream;
   FormOptions form;
   std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile;
-  std::string tolerances, element, unit;
+  std::string tolerances, element, unit, array;
   double noise_um = -1.0, spindle_range_um = 0.0;
   bool verbose = false, force = false;
 };
@@ -63,7 +63,7 @@ FormOptions chosen(const Options& options) {
 }
 
 FormResult of_points(const Options& options, const FormOptions& form) {
-  const PointText points = read_points(options.stream.path, options.unit);
+  const PointText points = read_points(options.stream.path, options.unit, options.array);
   Element element = Element::circle;
   for (std::size_t i = 0; i < element_names.size(); ++i)
     if (options.element == element_names[i]) element = static_cast<Element>(i);
@@ -179,6 +179,7 @@ void add_form(CLI::App& app, int& exit_code) {
   command->add_option("--unit", options->unit, "of the points: mm, um, m or in (mm)")
       ->check(CLI::IsMember({"mm", "um", "m", "in"}))
       ->needs(element);
+  command->add_option("--array", options->array, array_help)->check(a_place())->needs(element);
   add_filter(*command, *options);
   add_rest(*command, *options);
   command->callback([options, &exit_code] {

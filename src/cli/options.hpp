@@ -8,6 +8,11 @@
 /// What several commands check and are told alike.
 namespace trueaxis::cli {
 
+/// `--array` of a command that reads points.
+inline constexpr const char* array_help =
+    "of an HDF5, MATLAB or NumPy file: the array of three columns that holds the points, or three "
+    "columns, as in X,Y,Z";
+
 /// A finite number from `low` (itself not allowed when `open`) to `high`.
 inline CLI::Validator number_in(double low, bool open, double high, const std::string& meaning) {
   return {[=](const std::string& text) {

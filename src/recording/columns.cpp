@@ -189,6 +189,12 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
   const auto has = [&](RecordedRole role) {
     return std::ranges::find(taken, role, &TakenColumn::role) != taken.end();
   };
+  for (const TakenColumn& column : taken)
+    if (recording.of_numbers && !column.unit_said && !column.unit.empty())
+      unclear.push_back(fmt::format(
+          "{} ({}) has no unit, and a binary file shows none: say it behind the number, {}={}[{}]",
+          described(recording, column.column), word_of(column.role), word_of(column.role),
+          column.column + 1, column.unit));
   if (!has(RecordedRole::x))
     unclear.emplace_back("no column is called X, Radius or Diameter: say which holds the readings");
   if (!has(RecordedRole::c))
@@ -211,7 +217,10 @@ std::string columns_suggested(const Recording& recording) {
                         : named->role == RecordedRole::z ? &z
                                                          : nullptr;
     if (item != nullptr && item->ends_with("…"))
-      *item = std::string(word_of(named->role)) + "=" + std::to_string(k + 1);
+      *item = std::string(word_of(named->role)) + "=" + std::to_string(k + 1) +
+              (recording.of_numbers && recording.columns[k].unit.empty()
+                   ? fmt::format("[{}]", default_unit(named->role))
+                   : "");
   }
   return x + "," + c + "," + z;
 }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <optional>
 
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "interchange/number_file.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_text.hpp"
 #include "recording/column_names.hpp"
@@ -149,6 +151,17 @@ std::vector<Diagnostic> thrown_by(Reading&& reading) {
   return {};
 }
 
+/// The first bytes of a file that can be read again; "" of any other.
+std::string head_of_file(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return {};
+  std::string head(16, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
 /// Whether the first line that is no comment names columns as a stream of TrueAxis does.
 bool is_own_header(const RecordedText& text) {
   for (const std::string_view line : text.lines) {
@@ -165,12 +178,16 @@ bool is_own_header(const RecordedText& text) {
 
 ImportedRecording import_text(const std::string& bytes, const std::string& path,
                               const RecordingOptions& options) {
-  if (bytes.starts_with("PK\x03\x04"))
+  const bool numbers = is_number_file(bytes);
+  if (bytes.starts_with("PK\x03\x04") && !numbers)
     throw InputError(path, "is a workbook or another packed file: save its sheet as CSV");
-  const RecordedText text(bytes);
+  if (numbers && options.skip > 0)
+    throw InputError(path, "is a binary file, which has no lines to skip: leave out --skip");
+  const RecordedText text(numbers ? "" : bytes);
   const ColumnsSaid said =
       options.columns.empty() ? ColumnsSaid{} : read_columns_said(options.columns);
-  const Recording recording = recognise(text, path, options.skip, said.decimal);
+  const Recording recording =
+      numbers ? recorded_numbers(path, bytes) : recognise(text, path, options.skip, said.decimal);
   Unclear unclear;
   if (said.items.empty()) {
     unclear.why = recording.unclear;
@@ -262,6 +279,8 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
   if (options.says_anything()) return import_recording(path, options).stream;
   const bool once = is_read_once(path);
   std::string bytes = once ? read_file(path) : "";
+  if (may_be_number_file(once ? bytes : head_of_file(path)))
+    return once ? import_text(bytes, path, options) : import_recording(path, options).stream;
   try {
     return once ? read_stream_csv_text(bytes, path, options.read)
                 : read_stream_csv(path, options.read);

@@ -39,6 +39,7 @@ struct Recording {
   std::vector<std::string_view> cells;  ///< row by row, columns.size() each
   std::vector<std::size_t> lines;       ///< of each row, 1-based
   char decimal = '.';
+  bool of_numbers = false;            ///< a binary file: a row is its line, a unit must be said
   bool in_thousands = false;          ///< every decimal mark may as well part thousands: 20.100
   std::vector<std::string> notes;     ///< what was passed over or joined, in sentences
   std::vector<std::string> metadata;  ///< lines "# key: value" that are handed on as they are
@@ -68,6 +69,9 @@ bool read_twincat_scope(const RecordedText& text, Recording& out);
 bool read_camonitor(const RecordedText& text, Recording& out);
 /// Words of a letter and a number, "X   10.0012 C   30.0000": DPRNT, point lists of RS-274.
 bool read_words(const RecordedText& text, Recording& out);
+/// The columns of an HDF5, MATLAB or NumPy file, the longest ones; every number to its last digit.
+/// @throws InputError for a broken file
+Recording recorded_numbers(const std::string& path, const std::string& bytes);
 /// Fields between separators, with or without names: spreadsheets, LinuxCNC's PROBEOPEN and
 /// halsampler. The first `skip` lines are not looked at; `decimal`: '.' or ',' where it is said.
 bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> decimal,

@@ -129,6 +129,10 @@ class RowMaker {
   bool wrong(std::size_t i, const TakenColumn& column, std::string message,
              const std::string& kind) {
     const std::size_t line = recording_.lines[i];
+    if (recording_.of_numbers) {
+      diagnostics_.add(line, column.column + 1, std::move(message), kind);
+      return false;
+    }
     const std::string_view whole = text_.lines[line - 1];
     const std::string_view cell = recording_.cell(i, column.column);
     const bool inside = cell.data() >= whole.data() && cell.data() <= whole.data() + whole.size();

@@ -12,17 +12,33 @@ namespace trueaxis {
 struct PointText {
   std::string source, hash;
   std::vector<Point3> points_mm;
-  std::vector<std::size_t> lines;
+  std::vector<std::size_t> lines;    ///< of a binary file its rows
+  std::vector<std::string> notes{};  ///< what was left out, in sentences
+  std::vector<double> metres{};      ///< x, y, z in turn as they were read, where that is in metres
 };
 
 /// A point a line: x y z between blanks, tabs or commas, comments behind '#'. A first line may name
 /// the columns, `x y z` or `x[um],y[um],z[um]`; `unit` ("mm", "um", "m", "in"; empty: not said)
 /// must then be the same. Without either it is mm.
+/// X3P (metres), HDF5, MATLAB and NumPy files are known by their first bytes: of them `array` names
+/// the points, "P" of three columns or "a,b,c", where it is not clear; a unit must be said by the
+/// file (an attribute `units` of HDF5) or by `unit`.
 /// @throws InputError with every line that is no point, with its column.
-PointText read_points(const std::string& path, const std::string& unit);
+PointText read_points(const std::string& path, const std::string& unit,
+                      const std::string& array = "");
+
+/// The same of the bytes of a file that is_number_file() knows.
+PointText points_of_numbers(const std::string& path, const std::string& bytes,
+                            const std::string& unit, const std::string& array);
+
+/// x, y, z in turn in metres: as they were read in metres, else of mm by one rounding.
+std::vector<double> metres_of(const PointText& points);
 
 std::string association_text(const AssociatedFeature& associated);
 std::string association_json(const AssociatedFeature& associated, const PointText& points);
+
+/// Every point in mm with its distance from the element, in the order of the file (CSV).
+std::string association_distances(const AssociatedFeature& associated, const PointText& points);
 
 /// The optimum as an auditor checks it by hand (Eq. 253).
 std::string association_certificate(const AssociatedFeature& associated, const PointText& points);

@@ -73,4 +73,19 @@ std::string association_text(const AssociatedFeature& of) {
   return text;
 }
 
+std::string association_distances(const AssociatedFeature& of, const PointText& points) {
+  std::string text = fmt::format(
+      "# schema: trueaxis.distances/1\n# version: {}\n# input: {} ({})\n# element: {}\n"
+      "# criterion: {}\nline,x[mm],y[mm],z[mm],distance[mm]\n",
+      TRUEAXIS_VERSION, points.source, points.hash,
+      element_names[static_cast<std::size_t>(of.element)],
+      criterion_names[static_cast<std::size_t>(of.criterion)]);
+  const std::vector<double> distances = distances_mm(points.points_mm, of);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const Point3& p = points.points_mm[i];
+    text += fmt::format("{},{},{},{},{}\n", points.lines[i], p[0], p[1], p[2], distances[i]);
+  }
+  return text;
+}
+
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 
 #include "associate/files/association_files.hpp"
 #include "format/file.hpp"
+#include "interchange/number_file.hpp"
 #include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_text.hpp"
 
@@ -114,8 +115,10 @@ class Reader {
 
 }  // namespace
 
-PointText read_points(const std::string& path, const std::string& unit) {
+PointText read_points(const std::string& path, const std::string& unit, const std::string& array) {
   const std::string content = read_file(path);
+  if (is_number_file(content)) return points_of_numbers(path, content, unit, array);
+  if (!array.empty()) throw InputError(path, "is a text of points: leave out --array");
   PointText out{.source = path, .hash = content_hash(content), .points_mm = {}, .lines = {}};
   Reader reader(path, unit);
   std::size_t number = 0;

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "associate/stream/stream_points.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "trueaxis/error.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+
+Element element_of(SurfaceKind surface) {
+  switch (surface) {
+    case SurfaceKind::cone:
+      return Element::cone;
+    case SurfaceKind::cylinder:
+      return Element::cylinder;
+    case SurfaceKind::plane:
+      return Element::plane;
+    case SurfaceKind::section:
+      return Element::circle;
+    case SurfaceKind::own:
+      break;
+  }
+  expects(false, "a surface of the catalogue");
+  return Element::circle;
+}
+
+StreamPoints points_of_stream(const ProbeStream& stream, SurfaceKind surface,
+                              const StreamPointOptions& options) {
+  std::vector<Diagnostic> wrong;
+  const auto refuse = [&](std::string why) { wrong.push_back({stream.source, 0, 0, why}); };
+  const bool face = surface == SurfaceKind::plane, section = surface == SurfaceKind::section;
+  if (face != (stream.kind == StreamKind::face))
+    refuse(face ? "has X_M and no Z_M: a plane is associated with a face stream"
+                : "is a face stream: associate a plane");
+  if (!face && !section && !stream.has_position()) refuse("has no Z: associate a section");
+  if (!stream.more_reading_mm.empty())
+    refuse("has several sensors: points need the one at +X; give it a stream of its own");
+  if (list_set_ups(stream).size() > 1)
+    refuse("has several set-ups, in each of which the part stands otherwise: give each a stream");
+  const bool relative = !face && stream.indication == Indication::relative;
+  if (relative && !stream.nominal_radius_mm)
+    refuse("is a gauge's reading, which is no position: say --nominal-radius");
+  StreamPoints out;
+  out.ball_radius_mm =
+      options.ball_radius_mm > 0.0 ? options.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
+  if (relative && surface == SurfaceKind::cone && out.ball_radius_mm == 0.0)
+    refuse(
+        "is a gauge's reading of a cone, which a ball touches beside its own Z: say "
+        "--ball-radius, of a knife edge a small one");
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  if (out.ball_radius_mm == 0.0 && surface == SurfaceKind::cone)
+    out.notes.emplace_back(
+        "X_M was taken as the contact; where it is a ball's centre, say --ball-radius: the cone "
+        "is then smaller by the radius over the cosine of its half angle");
+  const double nominal = relative ? *stream.nominal_radius_mm : 0.0;
+  out.points_mm.reserve(stream.size());
+  for (std::size_t i = 0; i < stream.size(); ++i) {
+    const double c = std::cos(stream.c_rad[i]), s = std::sin(stream.c_rad[i]);
+    if (face) {
+      const double x = stream.position_mm[i];
+      out.points_mm.push_back({x * c, x * s, stream.reading_mm[i]});
+    } else {
+      const double x = nominal + stream.reading_mm[i];
+      out.points_mm.push_back({x * c, x * s, section ? 0.0 : stream.position_mm[i]});
+    }
+  }
+  return out;
+}
+
+Feature surface_below(const AssociatedFeature& of_centres, const StreamPoints& points, bool bore) {
+  Feature feature = of_centres.feature;
+  const double ball = points.ball_radius_mm * (bore ? -1.0 : 1.0);
+  switch (of_centres.element) {
+    case Element::cone:
+      feature.radius_mm -= ball / std::cos(feature.half_angle_rad);
+      break;
+    case Element::plane: {  // the ball is above the face, on the side of +Z
+      const double up = feature.direction[2] < 0.0 ? -1.0 : 1.0;
+      for (std::size_t i = 0; i < 3; ++i)
+        feature.point_mm[i] -= up * points.ball_radius_mm * feature.direction[i];
+      break;
+    }
+    default:
+      feature.radius_mm -= ball;
+  }
+  return feature;
+}
+
+std::vector<SurfaceNumber> surface_numbers(SurfaceKind surface, const Feature& feature) {
+  const Point3 &p = feature.point_mm, &d = feature.direction;
+  const double up = d[2] < 0.0 ? -1.0 : 1.0;  // along +Z
+  const double l = up * d[0], m = up * d[1], n = up * d[2];
+  if (surface == SurfaceKind::plane)
+    return {{"l", l, "1"}, {"m", m, "1"}, {"d", l * p[0] + m * p[1] + n * p[2]}};
+  if (surface == SurfaceKind::section)
+    return {{"x0", p[0]}, {"y0", p[1]}, {"radius", feature.radius_mm}};
+  const double s = p[2] / n;  // from where the axis crosses Z = 0 to the point
+  std::vector<SurfaceNumber> numbers{
+      {"x0", p[0] - s * l}, {"y0", p[1] - s * m}, {"l", l, "1"}, {"m", m, "1"}};
+  if (surface == SurfaceKind::cone) {
+    const double apex = feature.radius_mm / std::tan(feature.half_angle_rad);
+    numbers.push_back({"k", s - up * apex});
+    numbers.push_back({"half_angle", feature.half_angle_rad / rad_per_deg, "deg"});
+  } else {
+    numbers.push_back({"radius", feature.radius_mm});
+  }
+  return numbers;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/fit_criterion.hpp"
+
+#include <algorithm>
+#include <iostream>
+
+#include "associate/files/stream_association.hpp"
+#include "cli/guarded.hpp"
+#include "format/outputs.hpp"
+
+namespace trueaxis::cli {
+namespace {
+
+Criterion criterion_of(const std::string& name) {
+  if (name == "orthogonal") return Criterion::gaussian;
+  const auto at = std::ranges::find(criterion_names, name);
+  return static_cast<Criterion>(at - criterion_names.begin());
+}
+
+}  // namespace
+
+void FitCriterion::add_to(CLI::App& command) {
+  command
+      .add_option("--criterion", name,
+                  "probe (default: least squares along the probe line), or of the readings as "
+                  "points: orthogonal, minimum_zone, minimum_circumscribed, maximum_inscribed")
+      ->check(CLI::IsMember(std::vector<std::string>{
+          "probe", "orthogonal", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
+  command
+      .add_option("--certificate", certificate,
+                  "of these: write what proves the optimum here, '-' prints it")
+      ->check(a_place());
+}
+
+void FitCriterion::expect_fitting(const AssociationOptions& association,
+                                  const ResultOptions& result, const CLI::App& command) const {
+  const auto refuse = [](const std::string& option, const std::string& why) {
+    throw CLI::ValidationError(option, why);
+  };
+  if (along_probe()) {
+    if (!certificate.empty())
+      refuse("--certificate", "is of a --criterion other than probe, whose proof is its U");
+    return;
+  }
+  for (const char* option : {"--loss", "--noise", "--coverage-factor", "--report", "--check"})
+    if (command.count(option) > 0) refuse(option, "is of --criterion probe: leave it out");
+  const std::string objection =
+      association_objection(element_of(surface_from_id(association.surface)), criterion_of(name));
+  if (!objection.empty()) refuse("--criterion", objection);
+  if (!certificate.empty() && (certificate == result.json || certificate == result.residuals))
+    refuse("--certificate", "cannot go where --json or --residuals goes");
+}
+
+int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions& association,
+                          const ResultOptions& result) const {
+  Outputs outputs(result.force);
+  outputs.reads(stream.path);
+  outputs.may_write(result.json, "trueaxis.association");
+  outputs.may_write(result.residuals, "trueaxis.distances");
+  outputs.may_write(certificate, "trueaxis.certificate");
+  outputs.check();
+  const StreamAssociation found = associate_stream(
+      stream.read(), surface_from_id(association.surface), criterion_of(name),
+      {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
+  const bool converged = found.of_centres.status == AssociationStatus::converged;
+  if (!result.json.empty()) outputs.write(result.json, stream_association_json(found));
+  if (converged && !certificate.empty())
+    outputs.write(certificate, association_certificate(found.of_centres, found.points));
+  if (converged && !result.residuals.empty())
+    outputs.write(result.residuals, association_distances(found.of_centres, found.points));
+  outputs.commit();
+  if (!converged) {
+    std::cerr << stream.path << ": " << found.of_centres.why << ".\n";
+    return numerical;
+  }
+  if (!result.printed() && certificate != "-") std::cout << stream_association_text(found);
+  return done;
+}
+
+}  // namespace trueaxis::cli

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <matio.h>
+
+#include <cstdint>
+#include <cstring>
+#include <memory>
+
+#include "interchange/formats.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// The elements of a file of version 5 are each headed by their length: all of them must be there,
+/// which the library does not look at.
+void expect_whole(const std::string& path, const std::string& bytes) {
+  constexpr std::size_t head = 128;
+  const bool little = bytes.size() > head && bytes[126] == 'I' && bytes[127] == 'M';
+  for (std::size_t at = head; at < bytes.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4 && at + 8 <= bytes.size(); ++i)
+      length |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + 4 + i]))
+                << 8U * (little ? i : 3 - i);
+    if (at + 8 > bytes.size() || length > bytes.size() - at - 8)
+      throw InputError(path, "is a MATLAB file that is cut off: copy it again");
+    at += 8 + length;
+  }
+}
+
+template <class T>
+void copy(const matvar_t& of, NumberArray& to) {
+  const T* values = static_cast<const T*>(of.data);
+  for (std::size_t row = 0; row < to.rows; ++row)  // MATLAB's order is column by column
+    for (std::size_t column = 0; column < to.columns; ++column)
+      to.values.push_back(static_cast<double>(values[column * to.rows + row]));
+}
+
+/// Of the class that the variable has; false for what is no number.
+bool copy_numbers(const matvar_t& of, NumberArray& to) {
+  switch (of.class_type) {
+    case MAT_C_DOUBLE:
+      return copy<double>(of, to), true;
+    case MAT_C_SINGLE:
+      return copy<float>(of, to), true;
+    case MAT_C_INT8:
+      return copy<std::int8_t>(of, to), true;
+    case MAT_C_UINT8:
+      return copy<std::uint8_t>(of, to), true;
+    case MAT_C_INT16:
+      return copy<std::int16_t>(of, to), true;
+    case MAT_C_UINT16:
+      return copy<std::uint16_t>(of, to), true;
+    case MAT_C_INT32:
+      return copy<std::int32_t>(of, to), true;
+    case MAT_C_UINT32:
+      return copy<std::uint32_t>(of, to), true;
+    case MAT_C_INT64:
+      return copy<std::int64_t>(of, to), true;
+    case MAT_C_UINT64:
+      return copy<std::uint64_t>(of, to), true;
+    default:
+      return false;
+  }
+}
+
+NumberArray variable(const std::string& path, mat_t* file, matvar_t& of) {
+  NumberArray array;
+  array.name = of.name == nullptr ? "" : of.name;
+  const bool numbers = of.class_type >= MAT_C_DOUBLE && of.class_type <= MAT_C_UINT64;
+  if (!numbers)
+    array.unusable = of.class_type == MAT_C_CHAR     ? "text"
+                     : of.class_type == MAT_C_STRUCT ? "a structure"
+                                                     : "no numbers";
+  else if (of.isComplex != 0)
+    array.unusable = "complex numbers";
+  else if (of.rank != 2)
+    array.unusable = std::to_string(of.rank) + " dimensions";
+  if (!array.unusable.empty()) return array;
+  array.rows = of.dims[0];
+  array.columns = of.dims[1];
+  const std::size_t count = number_count(path, array.name, array.rows, array.columns);
+  if (count > 0 && (Mat_VarReadDataAll(file, &of) != 0 || of.data == nullptr ||
+                    of.nbytes != count * static_cast<std::size_t>(of.data_size)))
+    throw InputError(path, "its variable " + array.name + " cannot be read: copy the file again");
+  array.values.reserve(count);
+  if (count > 0) copy_numbers(of, array);
+  if (array.rows == 1) std::swap(array.rows, array.columns);  // a row vector is a column
+  return array;
+}
+
+/// Version 7.3 is HDF5 whose rows are MATLAB's columns.
+NumberFile read_matlab_hdf5(const std::string& path, const std::string& bytes) {
+  NumberFile file = read_hdf5(path, bytes);
+  file.kind = "a MATLAB file";
+  for (NumberArray& array : file.arrays) {
+    if (!array.unusable.empty()) continue;
+    NumberArray turned = array;
+    std::swap(turned.rows, turned.columns);
+    turned.values.clear();
+    for (std::size_t row = 0; row < turned.rows; ++row)
+      for (std::size_t column = 0; column < turned.columns; ++column)
+        turned.values.push_back(array.at(column, row));
+    if (turned.rows == 1) std::swap(turned.rows, turned.columns);
+    array = std::move(turned);
+  }
+  return file;
+}
+
+}  // namespace
+
+NumberFile read_matlab(const std::string& path, const std::string& bytes) {
+  if (bytes.compare(0, 10, "MATLAB 7.3") == 0) return read_matlab_hdf5(path, bytes);
+  if (path == "-") throw InputError(path, "is a MATLAB file, which is read by its name: give that");
+  if (bytes.compare(0, 10, "MATLAB 5.0") == 0) expect_whole(path, bytes);
+  Mat_LogInitFunc("", [](int, char*) {});  // what is wrong is said by this project
+  const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY),
+                                                     &Mat_Close);
+  if (!file) throw InputError(path, "is no whole MATLAB file: copy it again");
+  NumberFile out{.kind = "a MATLAB file", .arrays = {}};
+  using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
+  for (Variable next(Mat_VarReadNextInfo(file.get()), &Mat_VarFree); next;
+       next.reset(Mat_VarReadNextInfo(file.get())))
+    out.arrays.push_back(variable(path, file.get(), *next));
+  return out;
+}
+
+}  // namespace trueaxis

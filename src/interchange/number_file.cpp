@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "interchange/number_file.hpp"
+
+#include <algorithm>
+
+#include "interchange/formats.hpp"
+#include "interchange/zip_archive.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+enum class Kind { none, npy, npz, hdf5, matlab, x3p };
+
+constexpr std::string_view packed = "PK\x03\x04", hdf5_magic = "\x89HDF\r\n\x1a\n",
+                           npy_magic = "\x93NUMPY", matlab_magic = "MATLAB ";
+
+Kind kind_of(std::string_view bytes) {
+  if (bytes.starts_with(npy_magic)) return Kind::npy;
+  if (bytes.starts_with(hdf5_magic)) return Kind::hdf5;
+  if (bytes.starts_with(matlab_magic) && bytes.substr(0, 128).find("MAT-file") != bytes.npos)
+    return Kind::matlab;
+  if (!bytes.starts_with(packed)) return Kind::none;
+  // The directory of an archive stands at its end, where a broken one has none: the first member.
+  const std::string_view head = bytes.substr(0, 200);
+  const auto names_first = [&](std::string_view name) { return head.find(name) != head.npos; };
+  try {
+    const ZipArchive archive("", bytes);
+    if (archive.has("main.xml")) return Kind::x3p;
+    const auto names = archive.names();
+    if (std::ranges::any_of(names, [](const auto& name) { return name.ends_with(".npy"); }))
+      return Kind::npz;
+  } catch (const InputError&) {
+    if (names_first("main.xml") || names_first("bindata/")) return Kind::x3p;
+    if (names_first(".npy")) return Kind::npz;
+  }
+  return Kind::none;
+}
+
+}  // namespace
+
+bool is_number_file(std::string_view bytes) { return kind_of(bytes) != Kind::none; }
+
+bool may_be_number_file(std::string_view head) {
+  return head.starts_with(packed) || head.starts_with(npy_magic) || head.starts_with(hdf5_magic) ||
+         head.starts_with(matlab_magic);
+}
+
+std::size_t number_count(const std::string& path, const std::string& name, std::size_t rows,
+                         std::size_t columns) {
+  if (rows == 0 || columns == 0) return 0;
+  if (rows > most_numbers / columns)
+    throw InputError(path, (name.empty() ? "it" : "its array " + name) + " would be " +
+                               std::to_string(rows) + " x " + std::to_string(columns) +
+                               " numbers, more than is read of one file (2 GiB)");
+  return rows * columns;
+}
+
+NumberFile read_number_file(const std::string& path, const std::string& bytes) {
+  NumberFile file;
+  switch (kind_of(bytes)) {
+    case Kind::npy: {
+      file = {.kind = "a NumPy array", .arrays = {}};
+      file.arrays.push_back(read_npy(path, "", bytes));
+      break;
+    }
+    case Kind::npz:
+      file = read_npz(path, bytes);
+      break;
+    case Kind::hdf5:
+      file = read_hdf5(path, bytes);
+      break;
+    case Kind::matlab:
+      file = read_matlab(path, bytes);
+      break;
+    case Kind::x3p:
+      file = read_x3p(path, bytes);
+      break;
+    case Kind::none:
+      expects(false, "a file that is_number_file() knows");
+  }
+  if (std::ranges::none_of(file.arrays, [](const auto& a) { return a.unusable.empty(); }))
+    throw InputError(path,
+                     file.arrays.empty()
+                         ? "is " + file.kind + " that holds no array"
+                         : "is " + file.kind + " without a table of real numbers: " + listed(file));
+  return file;
+}
+
+std::vector<NumberColumn> number_columns(const NumberFile& file) {
+  std::vector<NumberColumn> columns;
+  for (const NumberArray& array : file.arrays) {
+    if (!array.unusable.empty()) continue;
+    for (std::size_t k = 0; k < array.columns; ++k) {
+      std::string name = array.name;
+      if (!array.names.empty())
+        name = array.names[k % array.names.size()];
+      else if (array.columns > 1 && !name.empty())
+        name += "." + std::to_string(k + 1);
+      columns.push_back({&array, k, std::move(name)});
+    }
+  }
+  return columns;
+}
+
+std::string listed(const NumberFile& file) {
+  std::string text;
+  for (const NumberArray& array : file.arrays) {
+    text += (text.empty() ? "" : ", ") + (array.name.empty() ? "the array" : array.name) + " (";
+    if (!array.unusable.empty())
+      text += array.unusable;
+    else if (array.columns == 1)
+      text += std::to_string(array.rows) + " numbers";
+    else
+      text += std::to_string(array.rows) + " x " + std::to_string(array.columns);
+    for (const std::string& name : array.names) text += " " + name;
+    text += ")";
+  }
+  return text;
+}
+
+}  // namespace trueaxis

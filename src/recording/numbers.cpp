@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interchange/number_file.hpp"
+#include "recording/recording.hpp"
+
+namespace trueaxis {
+
+Recording recorded_numbers(const std::string& path, const std::string& bytes) {
+  const NumberFile file = read_number_file(path, bytes);
+  std::size_t longest = 0;
+  for (const NumberArray& array : file.arrays)
+    if (array.unusable.empty()) longest = std::max(longest, array.rows);
+  Recording out;
+  out.producer = file.kind;
+  out.notes = file.notes;
+  out.of_numbers = true;
+  std::string left;
+  for (const NumberArray& array : file.arrays)
+    if (!array.unusable.empty() || array.rows != longest)
+      left += (left.empty() ? "" : ", ") + array.name +
+              (array.unusable.empty() ? fmt::format(" ({} rows)", array.rows)
+                                      : " (" + array.unusable + ")");
+  if (!left.empty()) out.notes.push_back(fmt::format("left out of the {} rows: {}", longest, left));
+  std::vector<NumberColumn> columns = number_columns(file);
+  std::erase_if(columns, [&](const NumberColumn& column) { return column.array->rows != longest; });
+  for (const NumberColumn& column : columns) {
+    RecordedColumn one = recorded_column(column.name);  // "C[deg]" of a variable's own name
+    one.name = one.name.substr(one.name.find_last_of('/') + 1);
+    if (!column.array->unit.empty()) one.unit = column.array->unit;
+    one.is_number = true;
+    out.columns.push_back(std::move(one));
+  }
+  for (std::size_t row = 0; row < longest; ++row) {
+    out.lines.push_back(row + 1);
+    for (const NumberColumn& column : columns) {
+      const double value = column.array->at(row, column.column);
+      out.made.push_back(std::isfinite(value) ? fmt::format("{}", value) : "not finite");
+      out.cells.push_back(out.made.back());
+    }
+  }
+  if (columns.size() > 64)
+    out.unclear.push_back(
+        fmt::format("it has {} columns of {} rows: where a reading is a column, transpose it",
+                    columns.size(), longest));
+  return out;
+}
+
+}  // namespace trueaxis
