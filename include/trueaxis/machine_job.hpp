@@ -29,6 +29,7 @@ struct MachineJob {
   std::string path, name;
   Machine machine;
   ErrorModel known;  ///< errors that were known before; what is measured adds to them
+  std::vector<std::string> remarks_of_known{};  ///< what their files do not say
   std::vector<MachineMeasurement> data;
   double false_alarm = 0.01;
   std::optional<MachineJobProgram> program;

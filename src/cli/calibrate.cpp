@@ -14,6 +14,7 @@
 #include "cli/options.hpp"
 #include "cli/screen.hpp"
 #include "cli/waiting.hpp"
+#include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "trueaxis/calibration.hpp"
@@ -38,10 +39,12 @@ int execute(const Options& options) {
   outputs.may_write(options.json, "trueaxis.calibration");
   MachineFile file;
   CalibrationOptions calibration;
+  ErrorsOfFiles given;
   std::vector<MachineMeasurement> data;
   all_of({[&] { file = options.machine.read_machine(); }, [&] { outputs.check(); }});
-  all_of({[&] { calibration.errors = options.machine.read_errors_of(file); },
+  all_of({[&] { given = options.machine.read_errors_of(file); },
           [&] { data = read_measurements(options.data, file.machine); }});
+  calibration.errors = given.errors;
   if (options.check) {
     std::size_t rows = 0;
     for (const MachineMeasurement& one : data) rows += one.rows();
@@ -57,13 +60,14 @@ int execute(const Options& options) {
     return numerical;
   }
   outputs.write(options.output, errors_toml(found.errors, &file.machine));
-  if (!options.json.empty()) outputs.write(options.json, calibration_json(found, file.machine));
+  if (!options.json.empty())
+    outputs.write(options.json, calibration_json(found, file.machine, given.remarks));
   outputs.commit();
   if (options.json == "-" || options.output == "-") return done;
   if (options.verbose)
-    std::cout << calibration_text(found);
+    std::cout << calibration_text(found) << notes_screen(given.remarks);
   else
-    print_screen(calibration_screen(found));
+    print_screen(with_notes(calibration_screen(found), given.remarks));
   std::cout << "errors " << options.output << '\n';
   if (!options.json.empty()) std::cout << "result " << options.json << '\n';
   return done;

@@ -18,6 +18,7 @@
 #include "compensate/files/compensation_text.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
+#include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "nc/program.hpp"
 #include "trueaxis/compensation.hpp"
@@ -51,7 +52,7 @@ int execute(const Options& options) {
   outputs.may_write(options.output, "");
   outputs.may_write(options.json, "trueaxis.compensation");
   MachineFile machine;
-  ErrorModel errors;
+  ErrorsOfFiles of_files;
   std::string text;
   all_of({[&] { outputs.check(); }, [&] { machine = options.machine.read_machine(); },
           [&] {
@@ -61,15 +62,15 @@ int execute(const Options& options) {
   if (options.check) {
     std::size_t moves = 0;
     const ProgramAxes axes(machine.machine);
-    all_of({[&] { errors = options.machine.read_errors_of(machine); },
+    all_of({[&] { of_files = options.machine.read_errors_of(machine); },
             [&] {
               moves = nc::read_program(text, options.program, axes.read_options(options.arcs_mm))
                           .moves.size();
             }});
     return checked(outputs, "rewrite " + std::to_string(moves) + " moves of " + options.program);
   }
-  errors = options.machine.read_errors_of(machine);
-  const MachineModel model(machine.machine, errors);
+  of_files = options.machine.read_errors_of(machine);
+  const MachineModel model(machine.machine, of_files.errors);
   const std::vector<CompensationInput> inputs = inputs_of(options, text);
   CompensationOptions task = options.compensation;
   if (options.method == "differential") task.method = CompensationMethod::differential;
@@ -82,15 +83,16 @@ int execute(const Options& options) {
   if (result.blocks_moved == 0)
     throw InputError(options.program,
                      "moves no axis of the machine: name the program that cuts the part");
-  if (!options.json.empty()) outputs.write(options.json, compensation_json(result, task, inputs));
+  if (!options.json.empty())
+    outputs.write(options.json, compensation_json(result, task, inputs, of_files.remarks));
   if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
   outputs.commit();
   if (!result.unreachable.empty()) throw Refusal(unreachable_text(result, options.program));
   if (options.json == "-" || is_standard_output(options.output)) return done;
   if (options.verbose)
-    std::cout << compensation_text(result);
+    std::cout << compensation_text(result) << notes_screen(of_files.remarks);
   else
-    print_screen(compensation_screen(result));
+    print_screen(with_notes(compensation_screen(result), of_files.remarks));
   std::cout << "program " << options.output << '\n';
   if (!options.json.empty()) std::cout << "result  " << options.json << '\n';
   return done;

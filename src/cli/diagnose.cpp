@@ -114,7 +114,7 @@ int execute_either(const CLI::App& command, Options& options, bool surface_said)
     throw CLI::ValidationError("--program", "is of a machine: name it with --machine");
   if (!run.errors_output.empty())
     throw CLI::ValidationError("-o", "writes the errors of a machine: name it with --machine");
-  if (!run.machine.errors.empty() || !run.machine.sign.empty())
+  if (!run.machine.errors.empty() || !run.machine.sign.empty() || run.machine.large_errors)
     throw CLI::ValidationError("--errors", "is of a machine: name it with --machine");
   options.stream.path = options.data.front();
   options.result.expect_apart();

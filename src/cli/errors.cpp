@@ -6,6 +6,7 @@
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
+#include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_json.hpp"
 #include "machine/files/errors_toml.hpp"
@@ -64,7 +65,7 @@ int execute(const Options& options) {
   if (options.format == "toml" && !options.output_sign.empty())
     throw CLI::ValidationError("--output-sign", "is of --format etalon or isg");
   const MachineFile file = options.machine.read_machine();
-  const ErrorModel errors = options.machine.read_errors_of(file);
+  const auto [errors, remarks] = options.machine.read_errors_of(file);
   const AxisPositions at = positions_of(options.at, file.machine);
   Outputs outputs(options.force);
   outputs.reads(options.machine.machine);
@@ -72,12 +73,13 @@ int execute(const Options& options) {
   outputs.may_write(options.json, "trueaxis.errors_at");
   outputs.may_write(options.output, schema_of(options.format));
   outputs.check();
-  if (!options.json.empty()) outputs.write(options.json, errors_json(file.machine, errors, at));
+  if (!options.json.empty())
+    outputs.write(options.json, errors_json(file.machine, errors, at, remarks));
   if (!options.output.empty())
     outputs.write(options.output, converted(options, file.machine, errors));
   outputs.commit();
   if (options.json != "-" && options.output != "-")
-    std::cout << errors_text(file.machine, errors, at);
+    std::cout << errors_text(file.machine, errors, at) << notes_screen(remarks);
   return done;
 }
 

@@ -14,6 +14,7 @@
 #include "cli/waiting.hpp"
 #include "format/file.hpp"
 #include "format/json.hpp"
+#include "format/notes.hpp"
 #include "format/outputs.hpp"
 #include "harm/files/harm_files.hpp"
 #include "machine/files/errors_toml.hpp"
@@ -27,7 +28,7 @@ namespace {
 /// All that is read.
 struct Read {
   MachineFile file;
-  ErrorModel errors;
+  ErrorsOfFiles given;
   std::vector<MachineMeasurement> data;
   std::string program;
 };
@@ -46,7 +47,7 @@ Read read_of(const MachineDiagnosed& run, Outputs& outputs) {
             if (!run.program.empty()) read.program = read_file(run.program);
           },
           [&] { outputs.check(); }});
-  all_of({[&] { read.errors = run.machine.read_errors_of(read.file); },
+  all_of({[&] { read.given = run.machine.read_errors_of(read.file); },
           [&] { read.data = read_measurements(run.data, read.file.machine); }});
   return read;
 }
@@ -57,7 +58,7 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
   Said out{{}, std::nullopt, nullptr};
   const Machine& machine = read.file.machine;
   MachineDiagnoseOptions options;
-  options.calibration.errors = read.errors;
+  options.calibration.errors = read.given.errors;
   options.false_alarm = run.false_alarm;
   options.covariances = !run.program.empty();
   if (run.data.empty()) {
@@ -66,6 +67,8 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
     out.found = diagnose_machine(machine, read.data, options);
     expect_no_mistake(machine, read.data, options.calibration, out.found.baseline);
   }
+  out.found.remarks.insert(out.found.remarks.end(), read.given.remarks.begin(),
+                           read.given.remarks.end());
   if (run.program.empty() || !out.found.baseline.converged) return out;
   out.harm = weigh_on_program(machine, out.found, read.program, run.program);
   out.program = harm_object(*out.harm);
@@ -160,7 +163,7 @@ int MachineDiagnosed::diagnose() const {
     std::cout << machine_diagnosis_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
   else
     print_screen(machine_diagnosis_screen(said.found) + (said.harm ? harm_screen(*said.harm) : "") +
-                 next_screen(said.found));
+                 notes_screen(read.given.remarks) + next_screen(said.found));
   for (const std::string& file : {json, errors_output})
     if (!file.empty()) std::cout << "result " << file << '\n';
   if (!report.empty()) std::cout << "report " << report << '\n';

@@ -5,7 +5,6 @@
 
 #include "cli/options.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
@@ -24,6 +23,8 @@ void MachineOptions::add_errors_to(CLI::App& command) {
           "what component errors in ISG and Etalon files are of: the part that moves, or tool "
           "minus workpiece")
       ->check(a_sign());
+  command.add_flag("--large-errors", large_errors,
+                   "the errors are larger than machines have, and in the unit that is said");
 }
 
 void MachineOptions::add_work_offset_to(CLI::App& command) {
@@ -33,11 +34,9 @@ void MachineOptions::add_work_offset_to(CLI::App& command) {
 
 MachineFile MachineOptions::read_machine() const { return read_machine_toml(machine); }
 
-ErrorModel MachineOptions::read_errors_of(const MachineFile& file) const {
-  return read_errors(errors, file, foreign_sign());
+ErrorsOfFiles MachineOptions::read_errors_of(const MachineFile& file) const {
+  return read_errors_files(errors, file, {sign_of(sign), large_errors});
 }
-
-std::optional<ErrorSign> MachineOptions::foreign_sign() const { return sign_of(sign); }
 
 Setting MachineOptions::setting_of(const Machine& of) const {
   Setting setting = first_setting(of);

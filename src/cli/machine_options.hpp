@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "trueaxis/machine.hpp"
 
@@ -15,6 +16,7 @@ namespace trueaxis::cli {
 struct MachineOptions {
   std::string machine, sign, work_offset = "G54";
   std::vector<std::string> errors;
+  bool large_errors = false;
 
   void add_machine_to(CLI::App& command);
   void add_errors_to(CLI::App& command);
@@ -23,8 +25,7 @@ struct MachineOptions {
   /// The machine read. @throws InputError
   MachineFile read_machine() const;
   /// Its errors, of all files. @throws InputError
-  ErrorModel read_errors_of(const MachineFile& file) const;
-  std::optional<ErrorSign> foreign_sign() const;
+  ErrorsOfFiles read_errors_of(const MachineFile& file) const;
   /// The program frame and tool to begin with. @throws InputError for an offset that is not there.
   Setting setting_of(const Machine& machine) const;
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
 #include <memory>
 
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
+#include "format/notes.hpp"
 #include "machine/files/positions_csv.hpp"
 
 namespace trueaxis::cli {
@@ -17,7 +19,9 @@ struct Options {
 
 int execute(const Options& options) {
   const MachineFile file = options.machine.read_machine();
-  const MachineModel model(file.machine, options.machine.read_errors_of(file));
+  const ErrorsOfFiles read_errors = options.machine.read_errors_of(file);
+  std::cerr << notes_screen(read_errors.remarks);
+  const MachineModel model(file.machine, read_errors.errors);
   const Setting setting = options.machine.setting_of(file.machine);
   std::vector<ToolPose> poses;
   std::vector<double> twists_rad;

@@ -41,7 +41,7 @@ function banner({verdict}) {
 }
 
 function warningsSection({verdict: {reservations, remarks}, diagnosis}) {
-  const all = [...reservations, ...remarks, ...mindedOf(diagnosis)];
+  const all = [...new Set([...reservations, ...remarks, ...mindedOf(diagnosis)])];
   return all.length ? section('warnings', 'Mind this', list(all.map(sentence))) : null;
 }
 
@@ -71,7 +71,7 @@ function programFacts({compensation: c, part, verdict, program}) {
           `${um(verdict.before_um)} → ${um(verdict.after_um)}`
         ],
         ['Between the ends, new program', um(verdict.between_um)],
-        ['U of the tip (k = 2)', um(verdict.U_um)]);
+        ['U of the tip (k = 2), without where the part stands', um(verdict.U_um)]);
   if (verdict.not_corrected_um > 0)
     list.push(['Found, and not to be corrected', um(verdict.not_corrected_um)]);
   if (part)

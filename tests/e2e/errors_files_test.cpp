@@ -118,6 +118,71 @@ TEST_F(ErrorsFiles, CalibrateGoesOnFromItsOwnErrors) {
   EXPECT_EQ(amounts, 1U);
 }
 
+// Sizes that no machine has are refused (tests/refusals/errors_*), and taken where they are said to
+// be meant: by the file, on the command line, by a job; what is written of them is read again.
+TEST_F(ErrorsFiles, AsLargeAsNoMachineHasThemOnlyWhereItIsSaid) {
+  const std::string head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n",
+                    entry = "[[error]]\nname = \"X0C\"\nvalue_mm = 5.5\n";
+  const auto X0C = [&](const std::string& call) {
+    const CommandStreams done = command("errors " + machine_ + " --json - --errors " + call);
+    return done.exit_code == 0
+               ? nlohmann::json::parse(done.out).at("location").at("X0C").at("value").get<double>()
+               : -done.exit_code;
+  };
+  file("plain.toml", head + entry);
+  file("meant.toml", head + "large_errors = true\n" + entry);
+  file("isg.csv", "X0C\n5.5\n");
+  file("etalon.txt", "[X0C]\nVALUE = 5.5\n");
+  EXPECT_EQ(X0C("plain.toml"), -3);
+  EXPECT_EQ(X0C("isg.csv --sign moving_part"), -3);
+  EXPECT_EQ(X0C("etalon.txt --sign moving_part"), -3);
+  EXPECT_EQ(X0C("meant.toml"), 5.5);
+  EXPECT_EQ(X0C("plain.toml --large-errors"), 5.5);
+  EXPECT_EQ(X0C("isg.csv --sign moving_part --large-errors"), 5.5);
+  EXPECT_EQ(X0C("etalon.txt --sign moving_part --large-errors -o written.toml"), 5.5);
+  EXPECT_EQ(X0C("written.toml"), 5.5);
+  const std::string job = "[machine]\nfile = \"" + data_ +
+                          "zxacy.toml\"\nerrors = [\"plain.toml\"]\nLARGE\n[measure]\ndata = [\"" +
+                          data_ + "zxacy_ball.csv\"]\n";
+  for (const std::string& said : {std::string(), std::string("large_errors = true")}) {
+    std::string text = job;
+    file("job.toml", text.replace(text.find("LARGE"), 5, said));
+    EXPECT_EQ(command("run job.toml -o there --check").exit_code, said.empty() ? 3 : 0) << said;
+  }
+  // The limit itself is allowed.
+  file("plain.toml", head + "[[error]]\nname = \"X0C\"\nvalue_um = 5000\n");
+  EXPECT_EQ(X0C("plain.toml"), 5.0);
+}
+
+// Errors that do not say their machine are taken for those of the one that is given, and that is
+// said by every command that uses them; errors of a workpiece hold on any machine.
+TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
+  const std::string said = "own.toml does not say of which machine its errors are",
+                    head = "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n";
+  file("own.toml", head + "[[error]]\nname = \"X0C\"\nvalue_um = 25\n");
+  file("part.toml", head + "[[error]]\nname = \"X0W\"\nvalue_um = 25\n");
+  ASSERT_EQ(command("errors " + machine_ + " --errors own.toml -o stated.toml").exit_code, 0);
+  const std::string ball = data_ + "trunnion_ac_ball.csv";
+  const struct {
+    std::string before, behind;
+  } calls[] = {
+      {"compensate " + data_ + "example.nc --machine " + machine_, " -o o.nc --json j.json"},
+      {"calibrate " + machine_ + ' ' + ball, " -o o.toml --json j.json"},
+      {"diagnose " + ball + " --machine " + machine_, " -o d.toml --json j.json"},
+      {"errors " + machine_, " --json j.json"},
+      {"pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv", ""}};
+  for (const auto& [before, behind] : calls)
+    for (const std::string name : {"own.toml", "stated.toml", "part.toml"}) {
+      const auto done =
+          command(before + " --errors " + name + behind + (behind.empty() ? "" : " --force"));
+      ASSERT_EQ(done.exit_code, 0) << before << done.err;
+      EXPECT_EQ(contains(done.out + done.err, said), name == "own.toml") << before << name;
+      if (behind.empty()) continue;
+      const std::string json = result("j.json").at("remarks").dump();
+      EXPECT_EQ(contains(json, said), name == "own.toml") << before << name << json;
+    }
+}
+
 TEST_F(ErrorsFiles, OfAnotherMachineAreRefused) {
   ASSERT_EQ(
       command("calibrate " + machine_ + ' ' + data_ + "trunnion_ac_ball.csv -o e.toml").exit_code,

@@ -131,6 +131,11 @@ TEST_F(ErrorsCovariance, Refuses) {
   expect_refused(amounts("{name = \"EXX\", degree = 2, cos = 1}", "4"), {"leave out the others"});
   expect_refused(amounts("{name = \"EXX\", order = 2}", "4"), {"order"});
   expect_refused(amounts("{name = \"Y0X\"}", "4"), {"no effect"});
+  // mm² in place of µm².
+  expect_refused(
+      "[covariance]\nlength = \"mm\"\nangle = \"urad\"\namounts = [{name = \"Y0C\"}]\n"
+      "matrix = [36]\n",
+      {"as u makes Y0C 6 mm", "large_errors = true"});
   // Three that are each −0.9 of the others: no numbers are.
   expect_refused(
       amounts("{name = \"Y0C\"}, {name = \"Z0A\"}, {name = \"Y0A\"}", "1, -0.9, 1, -0.9, -0.9, 1"),

@@ -76,7 +76,8 @@ Json read_out_json(const AxisReadOut& one) {
 
 }  // namespace
 
-std::string calibration_json(const Calibration& c, const Machine& machine) {
+std::string calibration_json(const Calibration& c, const Machine& machine,
+                             const std::vector<std::string>& remarks) {
   Json balls = Json::array(), read_outs = Json::array();
   for (const PlacedBall& ball : c.balls) balls.push_back(ball_json(ball, c));
   for (const AxisReadOut& one : c.read_outs) read_outs.push_back(read_out_json(one));
@@ -89,6 +90,7 @@ std::string calibration_json(const Calibration& c, const Machine& machine) {
        {"parameters", calibrated_json(c.parameters)},
        {"not_determined", not_determined_json(c)},
        {"gauge", c.gauge},
+       {"remarks", remarks},
        {"covariance", covariance_json(c)},
        {"component_errors", components_json(c)},
        {"balls", balls},

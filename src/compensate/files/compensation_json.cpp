@@ -53,7 +53,8 @@ Json by_error_json(const std::vector<ErrorAlone>& errors) {
 }  // namespace
 
 std::string compensation_json(const ProgramCompensation& result, const CompensationOptions& options,
-                              const std::vector<CompensationInput>& inputs) {
+                              const std::vector<CompensationInput>& inputs,
+                              const std::vector<std::string>& remarks) {
   Json files = Json::array();
   for (const CompensationInput& input : inputs)
     files.push_back({{"file", input.file}, {"hash", input.hash}});
@@ -81,6 +82,7 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["exact_minus_differential"] = axes_json(result.exact_minus_differential);
   json["rounding"] = tool_json(result.rounding);
   json["by_error"] = by_error_json(result.by_error);
+  json["remarks"] = remarks;
   if (result.u_tip) {
     LargestInProgram expanded = *result.u_tip;
     expanded.value *= 2.0;

@@ -15,6 +15,7 @@ struct CompensationInput {
 
 /// The result as JSON (schema trueaxis.compensation/1): lengths in mm, angles in degrees.
 std::string compensation_json(const ProgramCompensation& result, const CompensationOptions& options,
-                              const std::vector<CompensationInput>& inputs);
+                              const std::vector<CompensationInput>& inputs,
+                              const std::vector<std::string>& remarks);
 
 }  // namespace trueaxis

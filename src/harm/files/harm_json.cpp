@@ -21,11 +21,11 @@ Json harm_object(const ProgramHarm& harm) {
                        {"size", edge_size(one.size, one.unit)},
                        {"tip", at_line(one.tip)}});
   for (const PlanOnProgram& one : harm.plans)
-    plans.push_back({{"plan", one.plan}, {"U", at_line(one.U)}});
+    plans.push_back({{"plan", one.plan}, {"U_without_place_of_part", at_line(one.U)}});
   return {{"file", harm.file},
           {"blocks", harm.blocks},
           {"by_effect", effects},
-          {"U", at_line(harm.U)},
+          {"U_without_place_of_part", at_line(harm.U)},
           {"coverage_factor", number(harm.coverage_factor)},
           {"plans", plans}};
 }

@@ -181,6 +181,8 @@ std::vector<std::string> machine_remarks(const MachineJobResult& result) {
         "is, and directions are those of the errors that were found.");
   const bool no_u = std::ranges::any_of(result.job.known.terms,
                                         [](const ErrorTerm& term) { return !(term.u > 0.0); });
+  const auto& unsaid = result.job.remarks_of_known;
+  all.insert(all.end(), unsaid.begin(), unsaid.end());
   if (no_u) all.emplace_back("Errors known beforehand that state no u are taken as exact.");
   if (result.compensation && !result.compensation->singular.empty())
     all.push_back(fmt::format(

@@ -2,25 +2,26 @@
 #include "machine/files/errors_files.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "machine/files/errors_toml.hpp"
 #include "machine/files/etalon.hpp"
 #include "machine/files/isg_csv.hpp"
+#include "machine/files/machine_identity.hpp"
 #include "machine/uncertainty.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
 
-ErrorModel read_one(const std::string& path, const Machine& machine,
-                    std::optional<ErrorSign> foreign_sign) {
-  if (path.ends_with(".toml")) return read_errors_toml(path, machine);
-  if (!foreign_sign)
+ErrorModel read_one(const std::string& path, const Machine& machine, const ErrorsFiles& said) {
+  if (path.ends_with(".toml")) return read_errors_toml(path, machine, said.large_errors);
+  if (!said.foreign_sign)
     throw InputError(path,
                      "does not say the sign of its component errors: give --sign moving_part or "
                      "--sign tool_minus_workpiece");
-  return path.ends_with(".csv") ? read_isg_csv(path, machine, *foreign_sign)
-                                : read_etalon(path, machine, *foreign_sign);
+  return path.ends_with(".csv") ? read_isg_csv(path, machine, *said.foreign_sign, said.large_errors)
+                                : read_etalon(path, machine, *said.foreign_sign, said.large_errors);
 }
 
 bool has_components(const ErrorModel& errors) {
@@ -30,16 +31,19 @@ bool has_components(const ErrorModel& errors) {
 
 }  // namespace
 
-ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
-                       std::optional<ErrorSign> foreign_sign) {
-  ErrorModel all = machine.parameter_errors;
+ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const MachineFile& machine,
+                                const ErrorsFiles& said) {
+  ErrorsOfFiles out{machine.parameter_errors, {}};
+  ErrorModel& all = out.errors;
   std::vector<Diagnostic> wrong;
   std::string of_components;
   for (const std::string& path : paths) {
     try {
-      const ErrorModel one = read_one(path, machine.machine, foreign_sign);
+      const ErrorModel one = read_one(path, machine.machine, said);
       all.terms.insert(all.terms.end(), one.terms.begin(), one.terms.end());
       add_covariance(all.covariance, one.covariance);
+      if (auto remark = machine_not_said(path, one, machine.machine); !remark.empty())
+        out.remarks.push_back(std::move(remark));
       if (!has_components(one)) continue;
       if (!of_components.empty())
         wrong.push_back({path, 0, 0,
@@ -54,7 +58,12 @@ ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& ma
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
   gather_uncertainty(all);
-  return all;
+  return out;
+}
+
+ErrorModel read_errors(std::span<const std::string> paths, const MachineFile& machine,
+                       const ErrorsFiles& said) {
+  return read_errors_files(paths, machine, said).errors;
 }
 
 }  // namespace trueaxis

@@ -75,8 +75,8 @@ std::string lines(const char* title, const std::vector<ErrorName>& names, const 
 
 }  // namespace
 
-std::string errors_json(const Machine& machine, const ErrorModel& errors,
-                        const AxisPositions& axes) {
+std::string errors_json(const Machine& machine, const ErrorModel& errors, const AxisPositions& axes,
+                        const std::vector<std::string>& remarks) {
   const std::vector<ErrorName> location = locations(machine);
   Json at = Json::object();
   for (const AxisName axis : sorted_axes(machine))
@@ -89,7 +89,8 @@ std::string errors_json(const Machine& machine, const ErrorModel& errors,
       {"at", at},
       {"component", values(components(machine), errors, axes)},
       {"location", values(location, errors, axes)},
-      {"further", values(further(errors, location), errors, axes)}};
+      {"further", values(further(errors, location), errors, axes)},
+      {"remarks", remarks}};
   return json_text(json);
 }
 

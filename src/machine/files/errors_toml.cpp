@@ -2,10 +2,12 @@
 #include "machine/files/errors_toml.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "format/toml_units.hpp"
 #include "machine/files/covariance_toml.hpp"
 #include "machine/files/error_names.hpp"
+#include "machine/files/error_sizes.hpp"
 #include "machine/files/machine_identity.hpp"
 #include "machine/files/toml_parts.hpp"
 
@@ -84,7 +86,22 @@ ErrorFunction read_function(TomlTable& table, Kind kind, const Keys& keys) {
   return ConstantError{table.required_number("value" + keys.value)};
 }
 
-void read_error(TomlTable table, const Machine& machine, ErrorModel& errors) {
+/// The key that holds the values of a kind, in the unit inside.
+std::string values_key(Kind kind, const Keys& keys) {
+  constexpr const char* words[] = {"value", "coefficients", "terms", "values"};
+  return words[static_cast<std::size_t>(kind)] + keys.value;
+}
+
+void check_size(TomlTable& table, const ErrorTerm& term, Kind kind, const Machine& machine) {
+  const Keys keys(term.name);
+  const double size = size_of(term.function, range_of(term.function, term.name, machine));
+  const std::string trouble = size_trouble(term.name, size);
+  if (!trouble.empty()) table.complain(values_key(kind, keys), trouble);
+  const std::string u = size_trouble(term.name, term.u);
+  if (!u.empty()) table.complain("u" + keys.value, u);
+}
+
+void read_error(TomlTable table, const Machine& machine, bool large, ErrorModel& errors) {
   const std::string text = table.required_text("name");
   const auto name = parse_error_name(text);
   const std::string trouble = text.empty() ? "" : error_name_trouble(text, machine);
@@ -99,9 +116,19 @@ void read_error(TomlTable table, const Machine& machine, ErrorModel& errors) {
   const Keys keys(*name);
   ErrorTerm term{*name, read_function(table, kind, keys)};
   term.u = table.number("u" + keys.value, 0.0, Range::non_negative());
+  if (!large) check_size(table, term, kind, machine);
   if (without_effect(*name) && value_at(term.function, 0.0) != 0.0)
     table.complain("value" + keys.value, "must be 0: " + text + " has no effect");
   errors.terms.push_back(std::move(term));
+}
+
+void check_variances(TomlTable& root, const ErrorCovariance& covariance) {
+  const std::size_t n = covariance.amounts.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string trouble =
+        size_trouble(covariance.amounts[i].name, std::sqrt(covariance.matrix[i * (n + 1)]));
+    if (!trouble.empty()) root.maybe_table("covariance")->complain("matrix", "as u " + trouble);
+  }
 }
 
 void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors) {
@@ -124,7 +151,7 @@ void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors)
 
 }  // namespace
 
-ErrorModel read_errors_toml(const std::string& path, const Machine& machine) {
+ErrorModel read_errors_toml(const std::string& path, const Machine& machine, bool large_errors) {
   TomlDocument document(path);
   TomlTable root = document.root();
   ErrorModel errors;
@@ -135,8 +162,10 @@ ErrorModel read_errors_toml(const std::string& path, const Machine& machine) {
       "sign", {{"moving_part", ErrorSign::moving_part},
                {"tool_minus_workpiece", ErrorSign::tool_minus_workpiece}});
   read_reference(root, machine, errors);
-  for (TomlTable table : root.tables("error")) read_error(table, machine, errors);
+  const bool large = root.flag("large_errors", false) || large_errors;
+  for (TomlTable table : root.tables("error")) read_error(table, machine, large, errors);
   read_covariance(root, machine, errors);
+  if (!large) check_variances(root, errors.covariance);
   document.finish();
   return errors;
 }

@@ -9,9 +9,11 @@
 namespace trueaxis {
 
 /// Reads `trueaxis.errors/1` (docs/machine.md) of a machine. Errors that are said to be of another
-/// one are refused.
+/// one are refused, and those of a size that machines have not unless the file or `large_errors`
+/// says that they are so large.
 /// @throws InputError with every diagnostic: file, line, column, what to do.
-ErrorModel read_errors_toml(const std::string& path, const Machine& machine);
+ErrorModel read_errors_toml(const std::string& path, const Machine& machine,
+                            bool large_errors = false);
 
 /// What `read_errors_toml` reads back. `of`: the machine that it will say the errors are of; errors
 /// of a workpiece alone are of none.

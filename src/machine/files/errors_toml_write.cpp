@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "machine/files/covariance_toml.hpp"
+#include "machine/files/error_sizes.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "machine/files/machine_identity.hpp"
 
@@ -79,6 +80,8 @@ std::string errors_toml(const ErrorModel& errors, const Machine* of) {
   std::string text =
       format("# schema: trueaxis.errors/1\nschema = \"trueaxis.errors/1\"\nsign = \"{}\"\n",
              errors.sign == ErrorSign::moving_part ? "moving_part" : "tool_minus_workpiece");
+  if (has_large_errors(errors, of != nullptr ? *of : Machine{}))
+    text += "large_errors = true # one of them is larger than machines have\n";
   for (std::size_t i = 0; i < 3; ++i) {
     const auto& [x, y, z] = errors.reference_mm[i];
     if (x != 0.0 || y != 0.0 || z != 0.0)

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "format/file.hpp"
 #include "machine/files/error_names.hpp"
+#include "machine/files/error_sizes.hpp"
 #include "machine/files/number_table.hpp"
 #include "machine/files/toml_parts.hpp"
 #include "machine/sampled_errors.hpp"
@@ -24,8 +26,9 @@ std::string_view trimmed(std::string_view text) {
 /// Reads line by line; what a block is of is known from its heading.
 class EtalonReader {
  public:
-  EtalonReader(const std::string& path, const Machine& machine, ErrorModel& errors)
-      : path_(path), machine_(machine), errors_(errors) {}
+  EtalonReader(const std::string& path, const Machine& machine, bool large_errors,
+               ErrorModel& errors)
+      : path_(path), machine_(machine), large_errors_(large_errors), errors_(errors) {}
 
   void line(std::string_view text) {
     ++number_;
@@ -62,6 +65,7 @@ class EtalonReader {
     name_ = trouble.empty() ? parse_error_name(name) : std::nullopt;
     heading_line_ = number_;
     block_open_ = true;
+    size_said_ = false;
   }
 
   void entry(std::string_view text) {
@@ -73,6 +77,7 @@ class EtalonReader {
     if (!block_open_ || filled_) {
       complain("stands in no block, or a second time in one: begin one with [NAME]");
     } else if (key == "VALUE" && parse_number(value, constant)) {
+      check_size(constant);
       add(ConstantError{constant});
     } else if (key == "Gridpoints" && value == "{") {
       in_grid_ = true;
@@ -95,6 +100,7 @@ class EtalonReader {
       } else if (name_) {
         at *= edge_unit(static_cast<AxisName>(name_->body % axis_count));
         if (!grid_.at.empty() && at <= grid_.at.back()) complain("arguments must ascend");
+        check_size(value);
         grid_.at.push_back(at);
         grid_.values.push_back(value);
       }
@@ -103,6 +109,12 @@ class EtalonReader {
     in_grid_ = false;
     if (name_ && grid_.at.size() < 2) complain("Gridpoints need two rows or more");
     add(grid_);
+  }
+
+  /// Of a block's numbers the first that is no size of its error.
+  void check_size(double value) {
+    const std::string trouble = name_ && !large_errors_ ? size_trouble(*name_, value) : "";
+    if (!trouble.empty() && !std::exchange(size_said_, true)) complain("(mm and rad) " + trouble);
   }
 
   void add(ErrorFunction function) {
@@ -114,21 +126,23 @@ class EtalonReader {
 
   const std::string& path_;
   const Machine& machine_;
+  bool large_errors_;
   ErrorModel& errors_;
   std::vector<Diagnostic> wrong_;
   std::optional<ErrorName> name_;
   TableError grid_;
   std::size_t number_ = 0, heading_line_ = 0;
-  bool block_open_ = false, filled_ = false, in_grid_ = false;
+  bool block_open_ = false, filled_ = false, in_grid_ = false, size_said_ = false;
 };
 
 }  // namespace
 
-ErrorModel read_etalon(const std::string& path, const Machine& machine, ErrorSign sign) {
+ErrorModel read_etalon(const std::string& path, const Machine& machine, ErrorSign sign,
+                       bool large_errors) {
   const std::string content = read_file(path);
   ErrorModel errors;
   errors.sign = sign;
-  EtalonReader reader(path, machine, errors);
+  EtalonReader reader(path, machine, large_errors, errors);
   for (std::size_t at = 0; at < content.size();) {
     const std::size_t end = std::min(content.find('\n', at), content.size());
     reader.line(std::string_view(content).substr(at, end - at));

@@ -7,6 +7,7 @@
 
 #include "format/file.hpp"
 #include "machine/files/error_names.hpp"
+#include "machine/files/error_sizes.hpp"
 #include "machine/files/number_table.hpp"
 #include "machine/files/toml_parts.hpp"
 #include "machine/sampled_errors.hpp"
@@ -61,7 +62,8 @@ std::vector<Block> blocks_of(const std::string& path, std::vector<Diagnostic>& w
 /// One block into `errors`; what is wrong by `complain(line, message)`.
 class BlockReader {
  public:
-  BlockReader(const Block& block, const Machine& machine) : block_(block), machine_(machine) {}
+  BlockReader(const Block& block, const Machine& machine, bool large_errors)
+      : block_(block), machine_(machine), large_errors_(large_errors) {}
 
   template <class Complain>
   void read(ErrorModel& errors, const Complain& complain) const {
@@ -78,6 +80,8 @@ class BlockReader {
         complain(block_.rows[i].line, "the argument must ascend");
     for (std::size_t i = argument ? 1 : 0; i < block_.header.size(); ++i)
       column(i, argument, errors, [&](const std::string& message) { complain(line, message); });
+    for (std::size_t i = argument ? 1 : 0; !large_errors_ && i < block_.header.size(); ++i)
+      check_size(i, complain);
   }
 
  private:
@@ -114,20 +118,35 @@ class BlockReader {
     errors.terms.push_back({name, std::move(table)});
   }
 
+  /// At the first row whose number is no size of the column's error.
+  template <class Complain>
+  void check_size(std::size_t i, const Complain& complain) const {
+    const auto name = parse_error_name(block_.header[i]);
+    for (std::size_t row = 0; name && row < block_.rows.size(); ++row) {
+      const std::string trouble = size_trouble(*name, block_.rows[row].values[i]);
+      if (trouble.empty()) continue;
+      complain(block_.rows[row].line, "(mm and rad) " + trouble);
+      return;
+    }
+  }
+
   const Block& block_;
   const Machine& machine_;
+  bool large_errors_;
 };
 
 }  // namespace
 
-ErrorModel read_isg_csv(const std::string& path, const Machine& machine, ErrorSign sign) {
+ErrorModel read_isg_csv(const std::string& path, const Machine& machine, ErrorSign sign,
+                        bool large_errors) {
   std::vector<Diagnostic> wrong;
   ErrorModel errors;
   errors.sign = sign;
   for (const Block& block : blocks_of(path, wrong))
-    BlockReader(block, machine).read(errors, [&](std::size_t line, const std::string& message) {
-      wrong.push_back({path, line, 0, message});
-    });
+    BlockReader(block, machine, large_errors)
+        .read(errors, [&](std::size_t line, const std::string& message) {
+          wrong.push_back({path, line, 0, message});
+        });
   if (!wrong.empty()) throw InputError(std::move(wrong));
   return errors;
 }

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include "machine/files/toml_parts.hpp"
@@ -91,6 +93,19 @@ void check_machine_identity(TomlTable& root, const Machine& machine) {
                                 "this machine, or write its name here if it is the same one",
                                 name, machine.name));
   check_kinematics(*table, table->texts("kinematics"), machine);
+}
+
+std::string machine_not_said(const std::string& path, const ErrorModel& errors,
+                             const Machine& machine) {
+  const bool of_machine = std::ranges::any_of(
+      errors.terms, [](const ErrorTerm& term) { return term.name.body != workpiece_body; });
+  if (!of_machine) return "";
+  if (path.ends_with(".toml") && TomlDocument(path).root().has("machine")) return "";
+  return fmt::format(
+      "{} does not say of which machine its errors are: they are taken as those of {}. trueaxis "
+      "errors writes them with the table [machine], which says it",
+      std::filesystem::path(path).filename().string(),
+      machine.name.empty() ? "this one" : machine.name);
 }
 
 }  // namespace trueaxis

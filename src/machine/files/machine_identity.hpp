@@ -20,4 +20,9 @@ std::string machine_identity_toml(const Machine& machine);
 /// Complains where a table [machine] is of another machine; without one nothing is held against it.
 void check_machine_identity(TomlTable& root, const Machine& machine);
 
+/// What is to be said of a file of `errors` without that table (ISG and Etalon files have no place
+/// for it); "" of one that has it, and of errors of a workpiece alone, which hold on any machine.
+std::string machine_not_said(const std::string& path, const ErrorModel& errors,
+                             const Machine& machine);
+
 }  // namespace trueaxis

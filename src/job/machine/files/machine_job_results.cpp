@@ -29,8 +29,8 @@ Json verdict_json(const MachineJobResult& result) {
   json["tip_after"] = at_line(v.after_mm, v.after_line);
   json["between_blocks_after"] = with_unit(v.between_mm, "mm");
   json["not_corrected"] = with_unit(v.not_corrected_mm, "mm");
-  json["U"] = with_unit(v.U_mm, "mm");
-  json["U"]["coverage_factor"] = 2;
+  json["U_without_place_of_part"] = with_unit(v.U_mm, "mm");
+  json["U_without_place_of_part"]["coverage_factor"] = 2;
   json["tip_at_least"] = with_unit(v.lower_mm, "mm");
   json["tip_at_most"] = with_unit(v.upper_mm, "mm");
   json["risk"] = nonconformity_risk;
@@ -97,7 +97,8 @@ std::string job_compensation_json(const MachineJobResult& result) {
   expects(result.compensation.has_value(), "a job with a program");
   std::vector<CompensationInput> inputs;
   for (const JobInput& input : result.job.inputs) inputs.push_back({input.file, input.hash});
-  return compensation_json(*result.compensation, result.job.program->options, inputs);
+  return compensation_json(*result.compensation, result.job.program->options, inputs,
+                           result.job.remarks_of_known);
 }
 
 std::string machine_job_text(const MachineJobResult& result) {

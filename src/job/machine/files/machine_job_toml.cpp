@@ -22,7 +22,7 @@ namespace {
 struct Said {
   std::string machine, program;
   std::vector<std::string> errors, data;
-  std::optional<ErrorSign> sign;
+  ErrorsFiles of_errors;
 };
 
 /// A list of files, relative to the folder of the job.
@@ -43,10 +43,12 @@ void read_machine(TomlTable table, Said& said, const std::string& job) {
   said.machine = table.required_path("file");
   said.errors = paths(table, "errors", job);
   if (table.has("sign"))
-    said.sign = table.choice<ErrorSign>("sign",
-                                        {{"moving_part", ErrorSign::moving_part},
-                                         {"tool_minus_workpiece", ErrorSign::tool_minus_workpiece}},
-                                        ErrorSign::moving_part);
+    said.of_errors.foreign_sign =
+        table.choice<ErrorSign>("sign",
+                                {{"moving_part", ErrorSign::moving_part},
+                                 {"tool_minus_workpiece", ErrorSign::tool_minus_workpiece}},
+                                ErrorSign::moving_part);
+  said.of_errors.large_errors = table.flag("large_errors", false);
 }
 
 void read_measure(TomlTable table, Said& said, MachineJob& job) {
@@ -134,9 +136,10 @@ void read_files(TomlDocument& document, const Said& said, MachineJob& job) {
   if (!file) return;
   job.machine = file->machine;
   job.inputs.push_back({"machine", said.machine, content_hash(read_file(said.machine))});
-  if (const auto known =
-          collected(document, [&] { return read_errors(said.errors, *file, said.sign); })) {
-    job.known = *known;
+  if (const auto known = collected(
+          document, [&] { return read_errors_files(said.errors, *file, said.of_errors); })) {
+    job.known = known->errors;
+    job.remarks_of_known = known->remarks;
     for (const std::string& path : said.errors)
       job.inputs.push_back({"errors known before", path, content_hash(read_file(path))});
   }
