@@ -136,6 +136,10 @@ TEST_F(ErrorsCovariance, Refuses) {
       "[covariance]\nlength = \"mm\"\nangle = \"urad\"\namounts = [{name = \"Y0C\"}]\n"
       "matrix = [36]\n",
       {"as u makes Y0C 6 mm", "large_errors = true"});
+  EXPECT_EQ(refused("[covariance]\nlength = \"mm\"\nangle = \"urad\"\namounts = [{name = "
+                    "\"Y0C\"}]\nmatrix = [36]\n")
+                .find("has no key"),
+            std::string::npos);
   // Three that are each −0.9 of the others: no numbers are.
   expect_refused(
       amounts("{name = \"Y0C\"}, {name = \"Z0A\"}, {name = \"Y0A\"}", "1, -0.9, 1, -0.9, -0.9, 1"),

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "machine/files/error_names.hpp"
+#include "machine/files/error_sizes.hpp"
 #include "machine/uncertainty.hpp"
 
 namespace trueaxis {
@@ -113,6 +114,16 @@ std::string trouble_of(const MatrixXd& matrix, const std::vector<UncertainAmount
   return "";
 }
 
+/// u that no error of a machine has (error_sizes.hpp).
+void check_sizes(TomlTable& table, const ErrorCovariance& covariance) {
+  const std::size_t n = covariance.amounts.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::string trouble =
+        size_trouble(covariance.amounts[i].name, std::sqrt(covariance.matrix[i * (n + 1)]));
+    if (!trouble.empty()) table.complain("matrix", "as u " + trouble);
+  }
+}
+
 /// u of entries of one name, squares added, against that of the matrix.
 void check_u(TomlTable& table, const ErrorCovariance& covariance, const ErrorModel& errors) {
   const std::size_t n = covariance.amounts.size();
@@ -134,7 +145,8 @@ void check_u(TomlTable& table, const ErrorCovariance& covariance, const ErrorMod
 
 }  // namespace
 
-void read_covariance(TomlTable& root, const Machine& machine, ErrorModel& errors) {
+void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
+                     ErrorModel& errors) {
   auto table = root.maybe_table("covariance");
   if (!table) return;
   const double length = table->required_choice<double>(
@@ -166,6 +178,7 @@ void read_covariance(TomlTable& root, const Machine& machine, ErrorModel& errors
   const MatrixXd inside = unit.asDiagonal() * *matrix * unit.asDiagonal();
   covariance.matrix.assign(inside.data(), inside.data() + inside.size());
   check_u(*table, covariance, errors);
+  if (!large_errors) check_sizes(*table, covariance);
   for (ErrorTerm& term : errors.terms)
     if (std::ranges::find(covariance.amounts, UncertainAmount{.name = term.name}) !=
         covariance.amounts.end())

@@ -2,7 +2,6 @@
 #include "machine/files/errors_toml.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "format/toml_units.hpp"
 #include "machine/files/covariance_toml.hpp"
@@ -122,15 +121,6 @@ void read_error(TomlTable table, const Machine& machine, bool large, ErrorModel&
   errors.terms.push_back(std::move(term));
 }
 
-void check_variances(TomlTable& root, const ErrorCovariance& covariance) {
-  const std::size_t n = covariance.amounts.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::string trouble =
-        size_trouble(covariance.amounts[i].name, std::sqrt(covariance.matrix[i * (n + 1)]));
-    if (!trouble.empty()) root.maybe_table("covariance")->complain("matrix", "as u " + trouble);
-  }
-}
-
 void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors) {
   const std::vector<std::string> keys = root.keys();
   for (const KeySpelling& spelling : key_spellings("reference_mm")) {
@@ -164,8 +154,7 @@ ErrorModel read_errors_toml(const std::string& path, const Machine& machine, boo
   read_reference(root, machine, errors);
   const bool large = root.flag("large_errors", false) || large_errors;
   for (TomlTable table : root.tables("error")) read_error(table, machine, large, errors);
-  read_covariance(root, machine, errors);
-  if (!large) check_variances(root, errors.covariance);
+  read_covariance(root, machine, large, errors);
   document.finish();
   return errors;
 }
