@@ -74,8 +74,8 @@ class Hdf5 {
     // The library takes a copy and does not write to what it is given.
     H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size());
     // An image in memory must have the name of no file: nothing stands below one.
-    const std::string name = path_ + "/in memory";
-    const Handle file(H5Fopen(name.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
+    const std::string nowhere = path_ + "/in memory";
+    const Handle file(H5Fopen(nowhere.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
     if (!file.good()) throw InputError(path_, "is no whole HDF5 file: copy it again");
     const auto each = [](hid_t, const char* name, const H5O_info_t* info, void* self) -> herr_t {
       if (info->type == H5O_TYPE_DATASET) static_cast<Hdf5*>(self)->names_.emplace_back(name);

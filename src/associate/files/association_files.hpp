@@ -17,6 +17,9 @@ struct PointText {
   std::vector<double> metres{};      ///< x, y, z in turn as they were read, where that is in metres
 };
 
+/// A coordinate beyond it is a wrong unit or a damaged file, and its square could overflow.
+inline constexpr double largest_coordinate_mm = 1e12;
+
 /// A point a line: x y z between blanks, tabs or commas, comments behind '#'. A first line may name
 /// the columns, `x y z` or `x[um],y[um],z[um]`; `unit` ("mm", "um", "m", "in"; empty: not said)
 /// must then be the same. Without either it is mm.

@@ -155,8 +155,12 @@ PointText points_of_numbers(const std::string& path, const std::string& bytes,
     bool good = true;
     for (std::size_t i = 0; i < 3; ++i) {
       point[i] = axes[i].array->at(row, axes[i].column);
-      if (std::isfinite(point[i])) continue;
-      wrong.add(row + 1, i + 1, std::string(1, "xyz"[i]) + " is no finite number", "number");
+      const bool finite = std::isfinite(point[i]);
+      if (finite && std::abs(point[i]) * factor <= largest_coordinate_mm) continue;
+      wrong.add(row + 1, i + 1,
+                std::string(1, "xyz"[i]) +
+                    (finite ? " is more than 1e12 mm: look at the unit" : " is no finite number"),
+                finite ? "large" : "number");
       good = false;
     }
     if (!good) continue;

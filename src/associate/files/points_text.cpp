@@ -72,7 +72,10 @@ class Reader {
         !text.empty() && csv_number(text.data(), end, value, error) == end && error == std::errc{};
     if (whole && std::isfinite(value)) {
       value *= factor_;
-      return true;
+      if (std::abs(value) <= largest_coordinate_mm) return true;
+      wrong_.add(number, csv_character(line, fields_[i].byte),
+                 csv_quoted(text) + " is more than 1e12 mm: look at the unit", "large");
+      return false;
     }
     wrong_.add(number, csv_character(line, fields_[i].byte),
                csv_quoted(text) + " is no finite number", "number");
