@@ -92,9 +92,10 @@ TEST_F(ReportCommand, WhatIsNotDeterminedHasAPageToo) {
   expect_sound(page("page.html"), "fit_not_determined");
 }
 
-TEST_F(ReportCommand, OfAMachineThereIsNone) {
-  const auto done = command("diagnose ball.csv --machine m.toml --report page.html");
-  EXPECT_EQ(done.exit_code, 2);
+// A machine's residuals have no file; its page is tested beside its diagnosis.
+TEST_F(ReportCommand, OfAMachineThatIsNotReadThereIsNone) {
+  EXPECT_EQ(command("diagnose ball.csv --machine m.toml --report page.html").exit_code, 3);
+  EXPECT_EQ(command("diagnose ball.csv --machine m.toml --residuals r.csv").exit_code, 2);
   EXPECT_FALSE(there("page.html"));
 }
 

@@ -12,13 +12,13 @@ using Consequence = std::pair<std::string_view, std::string_view>;
 
 constexpr Consequence lines[] = {
     {"part.chuck_lobing", "clamp with less force, or re-bore the soft jaws"},
-    {"part.roundness", "nothing to do for the axis"},
+    {"part.roundness", "no harm to the axis"},
     {"part.feed_marks", "the finish of the part: nothing to do for the axis"},
     {"part.bow", "straighten or support the part; its axis holds for the probed length"},
     {"part.slip", "clamp more firmly and probe again"},
-    {"part.barrel", "nothing to do for the axis"},
+    {"part.barrel", "no harm to the axis"},
     {"part.taper", "the part's own form: fit a cone if it is meant to be one"},
-    {"part.waviness", "nothing to do for the axis"},
+    {"part.waviness", "no harm to the axis"},
     {"part.face_saddle", "clamp with less force, or leave the face as it is: the axis is right"},
     {"part.face_lobes", "the face's own form: nothing to do for its direction"},
     {"part.face_cone", "the face's own form: nothing to do for its direction"},
