@@ -82,7 +82,7 @@ TEST_F(FormInAJob, TooFewReadingsForTheFilterAreNotJudged) {
   EXPECT_EQ(form().at("judgements").at(0).at("conformity"), "not_judged");
 }
 
-TEST_F(FormInAJob, WithoutATolerantceTheValuesAreSaidAndNothingElseChanges) {
+TEST_F(FormInAJob, WithoutAToleranceTheValuesAreSaidAndNothingElseChanges) {
   probe_part(three_lobes);
   const CommandStreams done = run("");
   EXPECT_EQ(done.exit_code, 0) << done.out << done.err;
