@@ -51,7 +51,7 @@ TEST_F(FormInAJob, ARoundPartMeetsItsTolerances) {
   EXPECT_TRUE(result("out/result.json").at("forms_met").get<bool>());
   EXPECT_EQ(form().at("judgements").size(), 3u);
   // The axis is √(30² + 20²) µm off: run-out about the spindle axis is twice that.
-  const json& runout = form().at("judgements").at(2).at("at_most");
+  const json runout = form().at("judgements").at(2).at("at_most");
   EXPECT_NEAR(runout.at("value").get<double>(), 2e-3 * std::hypot(30.0, 20.0),
               2.0 * runout.at("u").get<double>() + 1e-3);
 }
@@ -82,7 +82,7 @@ TEST_F(FormInAJob, TooFewReadingsForTheFilterAreNotJudged) {
   EXPECT_EQ(form().at("judgements").at(0).at("conformity"), "not_judged");
 }
 
-TEST_F(FormInAJob, WithoutATolerantceTheValuesAreSaidAndNothingElseChanges) {
+TEST_F(FormInAJob, WithoutAToleranceTheValuesAreSaidAndNothingElseChanges) {
   probe_part(three_lobes);
   const CommandStreams done = run("");
   EXPECT_EQ(done.exit_code, 0) << done.out << done.err;
