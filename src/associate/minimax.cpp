@@ -222,6 +222,14 @@ class Search {
     out.gap = std::max(0.0, out.h - linear.h);
     out.runs_away = runs_away(out.placed);
     out.converged = linear.solved && !out.runs_away && out.gap <= 1e-9 * cloud_.length;
+    // The distance from a curve in space has no gradient on it; but no zone is narrower than none.
+    const double on_it = 1e-12 * cloud_.length + 8.0 * cloud_.rounding;
+    if (!out.converged && !sides_.size_follows && out.h <= on_it) {
+      out.contacts.clear();
+      out.stationarity = 0.0;
+      out.gap = std::max(0.0, out.h);
+      out.converged = true;
+    }
   }
 
   const PointCloud& cloud_;

@@ -280,7 +280,7 @@ ProbeStream read_recording(const std::string& path, const RecordingOptions& opti
   const bool once = is_read_once(path);
   std::string bytes = once ? read_file(path) : "";
   if (may_be_number_file(once ? bytes : head_of_file(path)))
-    return once ? import_text(bytes, path, options) : import_recording(path, options).stream;
+    return (once ? import_text(bytes, path, options) : import_recording(path, options)).stream;
   try {
     return once ? read_stream_csv_text(bytes, path, options.read)
                 : read_stream_csv(path, options.read);

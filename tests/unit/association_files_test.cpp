@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "associate/files/association_files.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "trueaxis/error.hpp"
 
@@ -41,6 +43,23 @@ TEST(AssociationFiles, UnitsOfTheHeaderAndOfTheOption) {
   EXPECT_DOUBLE_EQ(points_in("x[um] y[um] z[um]\n25400 50800 -25400\n", "um").front()[0], 25.4);
   EXPECT_THROW(points_in("x[um] y[um] z[um]\n1 2 3\n", "mm"), InputError);
   EXPECT_THROW(points_in("x y w\n1 2 3\n"), InputError);
+}
+
+TEST(AssociationFiles, ExactPointsOfACurveInSpaceAreTheirOwnProof) {
+  std::string ring, line;
+  for (const char* xy : {"1 0", "0 1", "-1 0", "0 -1", "0.6 0.8", "-0.8 0.6"})
+    ring += std::string(xy) + " 3\n";
+  for (int i = 0; i < 6; ++i) line += fmt::format("{0} {1} {1}\n", i, 2 * i);
+  for (const auto& [element, points] :
+       {std::pair{Element::circle, ring}, std::pair{Element::line, line}}) {
+    const PointText text = read_points(written(points), "");
+    const AssociatedFeature got = associate(text.points_mm, element, Criterion::minimum_zone);
+    EXPECT_EQ(got.status, AssociationStatus::converged) << got.message;
+    EXPECT_LE(got.zone_mm, 1e-14);  // rounding of coordinates of 10 mm: 4e-16 · 10, a few times
+    EXPECT_LE(got.certificate.gap_mm, 1e-14);
+    EXPECT_NE(association_text(got).find("no zone is narrower than none"), std::string::npos);
+    EXPECT_NE(association_certificate(got, text), "");
+  }
 }
 
 TEST(AssociationFiles, LinesOfTheCertificateAreThoseOfTheFile) {

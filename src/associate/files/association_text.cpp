@@ -40,6 +40,9 @@ std::string proof(const AssociatedFeature& of) {
         "{} points touch it and balance the pull of all, to {:.1e} mm; the minimum that the "
         "Gaussian element leads to",
         certificate.contacts.size(), certificate.gap_mm);
+  if (certificate.contacts.empty())
+    return fmt::format("all points lie on it to {:.1e} mm, and no zone is narrower than none",
+                       certificate.gap_mm);
   return fmt::format(
       "{} points hold it, no motion betters it by more than {:.1e} mm to first "
       "order; {}",
