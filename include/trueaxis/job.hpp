@@ -147,7 +147,7 @@ struct JobResult {
   std::vector<std::optional<Diagnosis>> diagnoses;
   /// Every diagnosed reference as the virtual lathe takes it again.
   std::vector<std::optional<Resimulation>> resimulations;
-  std::vector<PartForm> forms;  ///< of every reference that is fitted and no profile of one's own
+  std::vector<PartForm> forms;  ///< one per reference
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;
