@@ -71,6 +71,9 @@ struct Job {
   AxisOfCut axis_of_cut = AxisOfCut::stated;
   std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
   JobHeader header{};
+  /// Roundness and cylindricity of each reference beside its axis; false: a study of many jobs
+  /// needs none, and `forms` stays empty where no tolerance asks for them.
+  bool values_of_form = true;
 };
 
 /// The machine motions that repeat at the tool: only these may be asked into a correction. A form

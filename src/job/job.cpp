@@ -62,7 +62,9 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   }
   result.agreement = hold_together(result);
   diagnose_all(result);
-  assess_forms(result);
+  const bool judged = std::ranges::any_of(result.job.references,
+                                          [](const JobReference& r) { return r.form.judges(); });
+  if (judged || result.job.values_of_form) assess_forms(result);
   conclude(result);
   reserve_forms(result);
   return result;

@@ -59,6 +59,7 @@ TEST(InclusionLaw, ChanceForbidsNoCleanMotion) {
   for (unsigned seed = 1; seed <= 32; ++seed) {
     Drawn drawn = re_indexed(seed);
     const ProbeStream stream = virtual_lathe::simulate(drawn.scenario);
+    drawn.job.values_of_form = false;
     const JobResult result = run_job(drawn.job, {stream});
     for (const Inclusion& inclusion : result.inclusions) {
       for (const char* chance : {"spindle.asynchronous", "environment.vibration"}) {

@@ -263,6 +263,7 @@ Outcome judge(Group group, std::uint64_t seed) {
     streams.back().time_s.clear();
     streams.back().spindle_rpm.reset();
   }
+  drawn.job.values_of_form = false;
   const JobResult result = run_job(drawn.job, std::move(streams));
   Outcome out;
   const auto add = [](std::string& list, std::string_view id) {
