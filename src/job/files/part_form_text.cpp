@@ -93,8 +93,8 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
   if (!form.why_not.empty()) return "form   " + of + "not assessed: " + form.why_not + "\n";
   text = "form   " + of;
   if (form.less_open)
-    text += first_value_text(form.with_open()) + " (" + first_value_text(*form.less_open, false) +
-            " were what was seen not the part's), ";
+    text += first_value_text(form.with_open()) + ", or " +
+            first_value_text(*form.less_open, false) + " if the machine made it: ";
   else if (form.less_motion)
     text += first_value_text(*form.less_motion) + " (as probed " +
             first_value_text(form.probed, false) + "), ";
