@@ -88,7 +88,8 @@ MachineJobResult as_job(const MachineDiagnosed& run, const Read& read,
                         const MachineDiagnosis& found) {
   MachineJob job;
   job.machine = read.file.machine;
-  job.known = read.errors;
+  job.known = read.given.errors;
+  job.remarks_of_known = read.given.remarks;
   job.data = read.data;
   job.false_alarm = run.false_alarm;
   job.name = read.file.machine.name;
