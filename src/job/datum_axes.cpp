@@ -13,7 +13,8 @@ constexpr std::size_t too_many_points = 200'000;
 bool has_table(const JobResult& result, std::size_t i) {
   const ProbeStream& stream = result.streams[i];
   const SurfaceKind surface = result.fits[i].surface;
-  return (surface == SurfaceKind::cylinder || surface == SurfaceKind::cone) &&
+  return i < result.forms.size() &&
+         (surface == SurfaceKind::cylinder || surface == SurfaceKind::cone) &&
          fit_used(result, i).status == FitStatus::converged &&
          stream.indication == Indication::absolute && list_set_ups(stream).size() == 1 &&
          stream.size() <= too_many_points;

@@ -22,7 +22,8 @@ struct DatumAxis {
 /// What the others of the associations would give a reference, over its probed length: orthogonal,
 /// from its readings without what is not of the part (Eq. 293). Extreme associations rest on a few
 /// readings and take their noise in whole: they are stated without U. Empty: a section, a face, a
-/// gauge without a radius, several set-ups, and where the job has no axis.
+/// gauge without a radius, several set-ups, and where the job has no axis
+/// or asks for no values of form.
 std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference);
 
 }  // namespace trueaxis
