@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -48,8 +49,8 @@ std::string datum_axes_text(const std::vector<DatumAxis>& axes, const FitResult&
         "datum       ",
         one.why.empty()
             ? fmt::format("{}{}: its axis would be {} off at Z {:.6g} mm and {} at Z {:.6g} mm",
-                          name, of, layout::um(one.off_mm[0]), used.position_min_mm,
-                          layout::um(one.off_mm[1]), used.position_max_mm)
+                          name, of, layout::um(one.off_mm[0]), hundredths(used.position_min_mm),
+                          layout::um(one.off_mm[1]), hundredths(used.position_max_mm))
             : fmt::format("{}{}: {}", name, of, one.why));
   }
   return text;

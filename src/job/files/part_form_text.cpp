@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/part_form_files.hpp"
 #include "trueaxis/units.hpp"
@@ -80,7 +81,7 @@ std::string judgement_text(const PartForm& form, const FormJudgement& one) {
   if (one.low.estimate.value != one.high.estimate.value)
     value = fmt::format("{} or {}, as what was seen is not or is of the part",
                         value_text(one.low, k), value);
-  const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", *one.z_mm) : "";
+  const std::string place = one.z_mm ? fmt::format(" at Z {:.4g} mm", hundredths(*one.z_mm)) : "";
   return fmt::format("{}{}{}, {} ({})", head, value, place, tolerance, band_words(form));
 }
 
