@@ -104,10 +104,10 @@ function harmSection({harm}) {
   ]);
   const U = `U (k${nbsp}=${nbsp}${harm.coverage_factor}) of the tip`;
   const plans = harm.plans.map(
-      ({plan, U: after}) => `${micrometres(after.value)} after measuring ${planWords(data.diagnosis.plans, plan)}`);
+      ({plan, U_without_place_of_part: after}) => `${micrometres(after.value)} after measuring ${planWords(data.diagnosis.plans, plan)}`);
   return section(
       'program', 'On the program',
-      paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),
+      paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U_without_place_of_part.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),
       rows.length ? table('The tip off by each effect alone', ['Effect', 'Size', 'Tip off by', 'Block'], rows, 2) : null);
 }
 
