@@ -114,6 +114,11 @@ void take_off_slope(const ProbeStream& stream, const std::vector<std::vector<std
   std::size_t count = 0;
   for (const auto& section : sections.list) count += section.size();
   Exchange::Rows rows(static_cast<Eigen::Index>(count), 6);
+  if (rows.rows() <= rows.cols())
+    throw InputError(stream.source,
+                     fmt::format("{} readings in whole turns: a cylinder with a form "
+                                 "takes {} at least",
+                                 count, rows.cols() + 1));
   std::vector<double> y;
   Eigen::Index row = 0;
   for (std::size_t s = 0; s < turns.size(); ++s)

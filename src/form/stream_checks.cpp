@@ -73,8 +73,10 @@ void check_common(const ProbeStream& stream, Troubles& troubles) {
         "the form one sensor X_M");
   if (list_set_ups(stream).size() > 1)
     troubles.add("several set-ups: form is assessed of one, so give a stream for each");
-  if (stream.size() < 4)
-    troubles.add(fmt::format("{} readings: a circle with a form takes 4 at least", stream.size()));
+  const std::size_t least = stream.has_position() ? 7 : 4;  // one more than what they determine
+  if (stream.size() < least)
+    troubles.add(fmt::format("{} readings: a {} with a form takes {} at least", stream.size(),
+                             stream.has_position() ? "cylinder" : "circle", least));
   if (!all_finite(stream.reading_mm) || !all_finite(stream.c_rad) ||
       !all_finite(stream.position_mm))
     troubles.add("a number is not finite");

@@ -20,7 +20,8 @@ constexpr int trials_that_judge = 400, trials_that_show = 50;  // u to 3.5 and t
 constexpr int fewest_trials = 10;                              // where the value alone is asked for
 /// Readings × trials of one assessment, beyond which u is taken of fewer trials: some seconds.
 constexpr double most_work = 2e7;
-constexpr std::size_t too_many = 2'000'000;
+/// Readings: more take longer than all else of a job, and only a tolerance is worth that.
+constexpr std::size_t most_to_show = 20'000, most_to_judge = 2'000'000;
 
 /// All values of a result in their order.
 std::vector<FormValue*> values_of(FormResult& form) {
@@ -154,11 +155,9 @@ PartForm part_form(const DiagnosedStream& part, const FitOptions& fit, const For
                    const DiagnosedStream* datum) {
   PartForm out;
   try {
-    if (part.stream.size() > too_many) {
-      out.why_not = fmt::format(
-          "{} readings are more than are assessed beside a job: use "
-          "`trueaxis form`",
-          part.stream.size());
+    if (part.stream.size() > (task.judges() ? most_to_judge : most_to_show)) {
+      out.why_not = fmt::format("of {} readings it takes its time: `trueaxis form` does it",
+                                part.stream.size());
     } else {
       Question question(part, datum, fit);
       out.left_out = question.part().left_out();
