@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "form/uncertainty.hpp"
 #include "job/form_judgement.hpp"
 #include "job/part_readings.hpp"
 #include "trueaxis/error.hpp"
@@ -16,8 +17,8 @@ namespace {
 
 constexpr std::array<double, 2> asked_by_default{1.0, 50.0};  // where a tolerance is stated
 constexpr double standard_upr[] = {500.0, 150.0, 50.0, 15.0};
-constexpr int trials_that_judge = 400, trials_that_show = 50;  // u to 3.5 and to 10 %
-constexpr int fewest_trials = 10;                              // where the value alone is asked for
+constexpr int trials_that_judge = 400, trials_that_show = 20;  // u to 3.5 and to 16 %
+constexpr int fewest_trials = 10;
 /// Readings × trials of one assessment, beyond which u is taken of fewer trials: some seconds.
 constexpr double most_work = 2e7;
 /// Readings: more take longer than all else of a job, and only a tolerance is worth that.
@@ -78,7 +79,7 @@ class Question {
                     const ProbeStream* datum, bool is_part, const FormResult& at,
                     std::vector<double>& variance) const {
     FormOptions few = options_;
-    few.trials = fewest_trials;
+    few.trials = form::values_alone;
     FormResult middle = at;
     const auto values = values_of(middle);
     for (const MotionColumns& one : of.columns()) {
