@@ -15,8 +15,9 @@
 namespace trueaxis {
 namespace {
 
-constexpr double much_left = 1.5;    // of the noise: 5/9 of the sum of squares are no noise
-constexpr double least_beats = 3.0;  // of a line with the spindle, over a pass
+constexpr double much_left = 1.5;       // of the noise: 5/9 of the sum of squares are no noise
+constexpr double too_little_mm = 1e-4;  // the last digit of a stream makes as much
+constexpr double least_beats = 3.0;     // of a line with the spindle, over a pass
 
 /// Cycles per revolution of a term at the speed and feed of a pass; none: it is no wave.
 std::optional<double> order_in(const TermValue& term, const Pass& pass) {
@@ -98,7 +99,7 @@ std::string left_unnamed(const JobResult& result) {
     const NoiseReport& noise = diagnosis.noise;
     const double left_mm = diagnosis.gain.rms_after_mm;
     const double most_mm = much_left * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
-    if (!(left_mm > most_mm)) continue;
+    if (!(left_mm > std::max(most_mm, too_little_mm))) continue;
     return fmt::format(
         "{}what was found leaves {:.2g} µm where the {} show a noise of {:.2g} µm: the readings "
         "hold "

@@ -37,7 +37,9 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
           " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
-  if (i < result.forms.size())
+  // Beside findings and the axis the screen has no line for what no tolerance asks for.
+  const bool room = ideal || result.fits.size() > 1 || result.correction;
+  if (i < result.forms.size() && (room || !result.forms[i].judgements.empty()))
     text += part_form_screen(result.forms[i], result.fits.size() > 1 ? name : "");
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
   return text;

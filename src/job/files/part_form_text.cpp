@@ -95,13 +95,17 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
   text = "form   " + of;
   if (form.less_open)
     text += first_value_text(form.with_open()) + ", or " +
-            first_value_text(*form.less_open, false) + " if the machine made it: ";
+            first_value_text(*form.less_open, false) + " if the machine made it ";
   else if (form.less_motion)
     text += first_value_text(*form.less_motion) + " (as probed " +
             first_value_text(form.probed, false) + "), ";
   else
     text += values_text(form.probed) + ", ";
-  text += band_words(form);
+  // The filter's name would not fit the line of two values.
+  text += form.less_open && !form.probed.sections.empty()
+              ? fmt::format("({:g}-{:g} UPR)", form.probed.options.low_upr,
+                            form.probed.options.high_upr)
+              : band_words(form);
   return text + "\n";
 }
 
