@@ -152,8 +152,6 @@ function formSection(reference, index) {
   } else {
     parts.push(paragraph('There are no residuals to show: the fit gave no surface that could be compared with the readings.', 'quiet'));
   }
-  if (reference.form) parts.push(partFormBlock(reference.form));
-  if (reference.datums) parts.push(datumsBlock(reference.datums));
   return section(`form-${index + 1}`, `Form: ${reference.name}`, ...parts);
 }
 
@@ -173,6 +171,7 @@ function referenceFold(reference, index) {
     element('div', {}, Object.keys(reference.derived).length ? parameterTable('Derived quantities', reference.derived, k) : null,
       reference.budget.length > 1 && reference.budget.some((line) => Object.values(line.u).some((u) => u.value > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
-  return fold(`reference-${index + 1}`, `The fit in full: ${reference.name}`, statusBlock(reference), ...relative, tables, ...budget,
+  const measured = [reference.form && !reference.roundness ? partFormBlock(reference.form) : null, reference.datums ? datumsBlock(reference.datums) : null].filter(Boolean);
+  return fold(`reference-${index + 1}`, `The fit and the form in full: ${reference.name}`, ...measured, statusBlock(reference), ...relative, tables, ...budget,
     block('Rejected readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
 }
