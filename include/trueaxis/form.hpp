@@ -114,13 +114,21 @@ struct FormResult {
   std::string source, input_hash, datum_source;
 };
 
+/// What was taken off the readings before: by how much these may be off (docs/theory.md, Eq. 291).
+struct TakenOff {
+  std::span<const std::vector<double>> columns_mm;  ///< of one u of each amplitude, every reading's
+  std::span<const double> correlation;              ///< of the amplitudes, row-major
+  bool of_datum = false;                            ///< off the datum's readings, else the part's
+};
+
 /// Form of what a lateral stream (X_M, C, Z: sections, or a helix that is cut into turns) or a face
 /// stream (Z_M, C, X) shows. Values against a datum are about the axis of `datum`, a stream of the
-/// same clamping; without one about the spindle axis.
+/// same clamping; without one about the spindle axis. u holds what `taken_off` is uncertain by.
 /// @throws InputError with what the readings cannot carry: fewer than 7 a wave at the cut-off, less
 ///         than half a turn, several set-ups, angles that look like another unit.
 FormResult assess_form(const ProbeStream& stream, const FormOptions& options = {},
-                       const ProbeStream* datum = nullptr);
+                       const ProbeStream* datum = nullptr,
+                       std::span<const TakenOff> taken_off = {});
 
 /// The highest cut-off (UPR) that every section of a lateral stream carries by 7 readings a wave
 /// (ISO 12181-2), 500 at most; below 2 no filter can be had. @throws InputError as assess_form

@@ -10,6 +10,7 @@
 
 #include "trueaxis/control_table.hpp"
 #include "trueaxis/correction.hpp"
+#include "trueaxis/datum_axis.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/part_form.hpp"
@@ -37,6 +38,9 @@ struct JobReference {
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
   FormTask form{};              ///< tolerances of its form and how it is filtered
+  /// Of the axis that a cut is about, as ISO 5459 associates a datum; none: least squares along the
+  /// probe line.
+  std::optional<Criterion> association{};
 };
 
 /// The axis of a diagnosed reference that a cut is about. Whichever it is, the verdict holds the
@@ -48,6 +52,10 @@ enum class AxisOfCut {
 };
 
 const char* to_string(AxisOfCut axis);
+
+/// The datum system of a target (ISO 5459), primary first. Several references in one are a common
+/// datum (A-B). Empty: the target axis is the weighted compromise of all references.
+using DatumSystem = std::vector<std::vector<std::string>>;
 
 /// What heads the report of a job, as the job says it: label ("Part", "Serial number" …) and text.
 /// Nothing is computed with it.
@@ -69,6 +77,7 @@ struct Job {
   /// Ids of machine motions that the correction is to follow as well; see repeating_effects().
   std::vector<std::string> include;
   AxisOfCut axis_of_cut = AxisOfCut::stated;
+  DatumSystem datums{};
   std::vector<ControlTable> outputs{};  ///< files for controls, beside the table
   JobHeader header{};
   /// Roundness and cylindricity of each reference beside its axis; false: a study of many jobs
@@ -141,6 +150,17 @@ struct Verdict {
 
 const char* to_string(Decision decision);
 
+/// The datum system of a target (Eqs. 304, 305): its axis is linear in those of the references.
+struct TargetDatum {
+  std::string name;  ///< "A-B | C"
+  std::string how;   ///< how it follows from the references, a sentence
+  double z_ref_mm = 0.0;
+  /// Of each reference: (x, y, slope_x, slope_y) of the datum's axis by those of its own at z_ref,
+  /// row-major 4 × 4.
+  std::vector<std::array<double, 16>> shares;
+  std::vector<Remainder> references;  ///< what is left at each reference, which nothing judges
+};
+
 struct JobResult {
   Job job;
   std::vector<ProbeStream> streams;  ///< one per reference
@@ -151,6 +171,11 @@ struct JobResult {
   /// Every diagnosed reference as the virtual lathe takes it again.
   std::vector<std::optional<Resimulation>> resimulations;
   std::vector<PartForm> forms;  ///< one per reference
+  /// Of each reference, what other associations would give; empty where there are none.
+  std::vector<std::vector<DatumAxis>> datum_axes;
+  /// Of each reference whose job says an `association`, how far its axis is off least squares.
+  std::vector<std::optional<AxisEstimate>> associated;
+  std::optional<TargetDatum> datum;  ///< of a job that names `datums`
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;

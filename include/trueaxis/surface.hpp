@@ -16,14 +16,20 @@ enum class SurfaceKind {
   cylinder,  ///< x0, y0, l, m, radius
   plane,     ///< a face: l, m, d
   section,   ///< one circle without Z: x0, y0, radius
+  sphere,    ///< x0, y0, z0, radius
+  torus,     ///< a groove or bead: x0, y0, l, m, z0, radius, minor_radius
   own,
 };
 
-/// The catalogue's id: "cone", "cylinder", "plane", "section"; "own".
+/// The catalogue's id: "cone", "cylinder", "plane", "section", "sphere", "torus"; "own".
 const char* to_string(SurfaceKind kind);
 
 /// @throws InputError naming the ids of the catalogue
 SurfaceKind surface_from_id(std::string_view id);
+
+/// Whether a surface fixes a line along the spindle with a radius about it and is diagnosed and cut
+/// to: cone, cylinder, plane and section. A sphere, a torus and a profile of one's own are fitted.
+bool is_diagnosed(SurfaceKind kind);
 
 /// A line nearly along the spindle: part frame, mm; passes (x, y, z_ref) with slopes dx/dz, dy/dz.
 /// Direction cosines (Constantin et al. Eq. 1): l = slope_x n, m = slope_y n, n = 1/sqrt(1 +

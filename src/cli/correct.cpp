@@ -80,6 +80,9 @@ Identified identified(const Options& options) {
 
 /// The job of the one reference: as `run` would have it, with the stream read again.
 JobResult result_of(const Options& options, Job job, Identified found, Outputs& outputs) {
+  if (!is_diagnosed(found.fit.surface))
+    throw InputError(options.fit, std::string("is of a ") + to_string(found.fit.surface) +
+                                      ", about which nothing is cut: probe a cylinder or cone");
   if (found.fit.surface == SurfaceKind::section)
     throw InputError(options.fit,
                      "is one section, which shows no direction of an axis: probe it along Z as a "

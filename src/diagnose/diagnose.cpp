@@ -24,8 +24,11 @@ namespace {
 Diagnosis not_diagnosable(Diagnosis out) {
   out.named = out.extended = out.baseline;
   out.noise.note =
-      out.baseline.surface == SurfaceKind::own
-          ? "a profile of one's own is not diagnosed: only the catalogue's surfaces are"
+      !is_diagnosed(out.baseline.surface)
+          ? fmt::format("a {} is fitted and not diagnosed: cone, cylinder, plane and section are",
+                        out.baseline.surface == SurfaceKind::own
+                            ? "profile of one's own"
+                            : to_string(out.baseline.surface))
       : out.baseline.points <= out.baseline.parameters.size()
           ? "no more readings than parameters: nothing is left to diagnose"
           : "the surface was not found: nothing can be said beside it";

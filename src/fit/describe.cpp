@@ -181,12 +181,14 @@ void report_derived(const Standing& last, FitResult& result) {
     result.derived.push_back(
         length(name, std::hypot(x, y), u_of_norm({x, y}, at * axis * at.transpose())));
   };
-  if (result.surface == SurfaceKind::section) offset("eccentricity", line.z_ref_mm);
+  const bool no_direction =
+      result.surface == SurfaceKind::section || result.surface == SurfaceKind::sphere;
+  if (no_direction) offset("eccentricity", line.z_ref_mm);
   if (result.surface == SurfaceKind::cone || result.surface == SurfaceKind::cylinder) {
     offset("offset_at_min_z", result.position_min_mm);
     offset("offset_at_max_z", result.position_max_mm);
   }
-  if (result.surface == SurfaceKind::section) return;
+  if (no_direction) return;
   const Eigen::Vector2d slope(line.slope_x, line.slope_y);
   const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
   result.derived.push_back(
@@ -207,7 +209,7 @@ void report_rms(FitResult& result) {
 
 /// A radius that no part has: the ball is larger than the path of its centre.
 void note_radius(FitResult& result) {
-  if (result.surface == SurfaceKind::plane || result.surface == SurfaceKind::own) return;
+  if (result.surface == SurfaceKind::plane || !is_diagnosed(result.surface)) return;
   for (const double z_mm : {result.position_min_mm, result.position_max_mm}) {
     const double radius_mm =
         result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -97,6 +99,16 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
                      "several sensors of one recording: separate_spindle takes them");
   expect_kind(stream, surface_entry(options).info);
   const bool ball = stream.ball_radius_mm.value_or(0.0) > 0.0 || options.ball_radius_mm > 0.0;
+  if (!options.profile && !is_diagnosed(options.surface)) {
+    if (stream.indication == Indication::relative)
+      throw InputError(stream.source,
+                       fmt::format("a {} is fitted to positions, not to a gauge's deviations: "
+                                   "give X_M itself",
+                                   to_string(options.surface)));
+    if (list_set_ups(stream).size() > 1)
+      throw InputError(stream.source, fmt::format("a {} is fitted in one set-up: give each a stream",
+                                                  to_string(options.surface)));
+  }
   if (options.profile && (ball || stream.indication == Indication::relative)) {
     throw InputError(stream.source,
                      "a profile of one's own is fitted to absolute readings of contact points");

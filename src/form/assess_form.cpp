@@ -8,6 +8,7 @@
 #include "form/notes.hpp"
 #include "form/sampling.hpp"
 #include "form/sections.hpp"
+#include "form/taken_off.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
 #include "trueaxis/error.hpp"
@@ -67,23 +68,30 @@ class Assessment {
   Assessment(const std::vector<SectionModel>& part, const std::vector<SectionModel>& datum,
              const FormOptions& options)
       : part_(part), datum_(datum), options_(options) {
-    if (part.size() > 1 && part.front().radius_known()) whole_.emplace(part);
-    if (datum.size() > 1) whole_datum_.emplace(datum);
+    const Criterion of_datum[] = {Criterion::gaussian, options.datum};
+    if (part.size() > 1 && part.front().radius_known()) whole_.emplace(part, form_criteria);
+    if (datum.size() > 1) whole_datum_.emplace(datum, of_datum);
   }
 
-  std::vector<NamedValue> operator()(const Profiles& profiles, bool exactly) const {
+  std::vector<NamedValue> measured(const Profiles& profiles) const {
     std::vector<NamedValue> values;
-    const auto append = [&](const std::vector<NamedValue>& more) {
-      values.insert(values.end(), more.begin(), more.end());
-    };
+    for (const SectionModel& section : part_) append(section.measured(), values);
+    if (whole_) append(whole_->measured(), values);
+    append(against(whole_datum_ ? whole_datum_->axis(options_.datum) : section_axis(profiles),
+                   profiles),
+           values);
+    return values;
+  }
+
+  std::vector<NamedValue> near(const Profiles& profiles) const {
+    std::vector<NamedValue> values;
     for (std::size_t s = 0; s < part_.size(); ++s)
-      append(part_[s].assess(profiles.part_mm[s], exactly));
-    const AxisLine datum = datum_axis(profiles, exactly);
-    if (whole_) append(whole_->assess(profiles.part_mm, exactly));
-    if (whole_)
-      append(whole_->against(datum, profiles.part_mm));
-    else if (part_.size() == 1)
-      append(section_against(datum, part_.front(), profiles.part_mm.front()));
+      append(part_[s].near(profiles.part_mm[s]), values);
+    if (whole_) append(whole_->near(profiles.part_mm), values);
+    append(against(whole_datum_ ? whole_datum_->axis_near(profiles.datum_mm, options_.datum)
+                                : section_axis(profiles),
+                   profiles),
+           values);
     return values;
   }
 
@@ -101,8 +109,16 @@ class Assessment {
   }
 
  private:
-  AxisLine datum_axis(const Profiles& profiles, bool exactly) const {
-    if (whole_datum_) return whole_datum_->axis(profiles.datum_mm, options_.datum, exactly);
+  static void append(const std::vector<NamedValue>& more, std::vector<NamedValue>& values) {
+    values.insert(values.end(), more.begin(), more.end());
+  }
+  std::vector<NamedValue> against(const AxisLine& datum, const Profiles& profiles) const {
+    if (whole_) return whole_->against(datum, profiles.part_mm);
+    if (part_.size() != 1) return {};
+    return section_against(datum, part_.front(), profiles.part_mm.front());
+  }
+  /// Parallel to Z, of a datum that is one section; else the spindle's.
+  AxisLine section_axis(const Profiles& profiles) const {
     if (datum_.empty()) return {};
     const SectionModel& section = datum_.front();
     const AssociatedCircle circle =
@@ -147,7 +163,7 @@ Profiles measured_profiles(const std::vector<SectionModel>& part,
 }  // namespace form
 
 FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
-                       const ProbeStream* datum) {
+                       const ProbeStream* datum, std::span<const TakenOff> taken_off) {
   using namespace form;
   FormResult result;
   FormOptions& options = result.options = given;
@@ -157,7 +173,7 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   if (!(options.ball_radius_mm > 0.0)) options.ball_radius_mm = stream.ball_radius_mm.value_or(0.0);
   if (!options.noise_mm) options.noise_mm = stream.sensor_noise_mm;
   if (stream.kind == StreamKind::face) {
-    assess_face(stream, options, result);
+    assess_face(stream, taken_off, result);
     return result;
   }
   const Sections sections = sections_of(stream, options);
@@ -174,9 +190,21 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   const std::vector<SectionModel> datum_part =
       models_of(of_datum, options, datum ? datum->source : "");
   const Assessment assessment(part, datum_part, options);
-  const auto values = assessment(measured_profiles(part, datum_part), true);
-  const auto spread = spreads(part, datum_part, options, [&](const Profiles& profiles) {
-    return assessment(profiles, false);
+  const Profiles measured = measured_profiles(part, datum_part);
+  const auto values = assessment.measured(measured);
+  const Assess near = [&](const Profiles& profiles) { return assessment.near(profiles); };
+  auto spread = spreads(part, datum_part, options, near);
+  add_taken_off(taken_off, near(measured), spread, [&](const TakenOff& one, std::size_t k) {
+    const bool of_datum = datum && one.of_datum;
+    Profiles moved = measured;
+    ProbeStream readings = of_datum ? *datum : stream;
+    readings.reading_mm = added(readings.reading_mm, one, k);
+    const Sections changed = sections_of(readings, options);
+    const std::vector<SectionModel>& models = of_datum ? datum_part : part;
+    std::vector<std::vector<double>>& profiles = of_datum ? moved.datum_mm : moved.part_mm;
+    for (std::size_t s = 0; s < models.size(); ++s)
+      profiles[s] = models[s].changed(changed.list[s]);
+    return assessment.near(moved);
   });
   for (const SectionModel& one : part) result.sections.push_back(one.form());
   result.radius_known = sections.radius_known;
@@ -186,14 +214,12 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   return result;
 }
 
-int carried_upr(const ProbeStream& stream, const FormOptions& given) {
+int carried_upr(const ProbeStream& stream, const FormOptions& options) {
   using namespace form;
-  FormOptions options = given;
-  options.filter = ProfileFilter::none;
   int carried = 500;
   for (const SectionReadings& one : sections_of(stream, options).list) {
-    const SectionModel model(one, true, options);
-    carried = std::min(carried, model.trouble().empty() ? highest_order(model.raw()) : 0);
+    const SectionTrace section(one, true, options.high_upr);
+    carried = std::min(carried, section.trouble().empty() ? highest_order(section.trace()) : 0);
   }
   return carried;
 }

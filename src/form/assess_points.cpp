@@ -120,7 +120,7 @@ FormResult heights(const std::vector<Eigen::Vector3d>& points, bool plane,
     at.push_back(plane ? std::array{one.x(), one.y()} : std::array{one.z(), 0.0});
     height.push_back(plane ? one.z() : one.x());
   }
-  assess_heights(at, plane, height, {}, result);
+  assess_heights(at, plane, height, {}, {}, result);
   return result;
 }
 

@@ -9,6 +9,7 @@
 
 #include "form/section_model.hpp"
 #include "form/stream_checks.hpp"
+#include "form/taken_off.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis::form {
@@ -64,7 +65,7 @@ double noise_in_order(std::span<const double> off_mm) {
 
 void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
                     std::span<const double> height_mm, const AssessHeights& more,
-                    FormResult& result) {
+                    std::span<const TakenOff> taken_off, FormResult& result) {
   const HeightModel model(at_mm, plane,
                           plane ? HeightModel::Names{"flatness", "FLT", "PL"}
                                 : HeightModel::Names{"straightness", "STR", "LI"});
@@ -77,7 +78,10 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
   const std::vector<double> off = model.off_mm(height_mm);
   const double noise_mm = std::max(noise_in_order(off), result.options.noise_mm.value_or(0.0));
   const auto values = assess(height_mm);
-  const auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
+  auto spread = spreads_of_heights(height_mm, off, noise_mm, result.options, assess);
+  add_taken_off(taken_off, values, spread, [&](const TakenOff& one, std::size_t k) {
+    return assess(added(height_mm, one, k));
+  });
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (result.groups.empty() || result.groups.back().name != values[v].group)
       result.groups.push_back({values[v].group, {}});
@@ -92,7 +96,8 @@ void assess_heights(std::span<const std::array<double, 2>> at_mm, bool plane,
       noise_mm / mm_per_um));
 }
 
-void assess_face(const ProbeStream& stream, const FormOptions&, FormResult& result) {
+void assess_face(const ProbeStream& stream, std::span<const TakenOff> taken_off,
+                 FormResult& result) {
   expect_face(stream);
   std::vector<std::array<double, 2>> at;
   for (std::size_t i = 0; i < stream.size(); ++i)
@@ -101,7 +106,8 @@ void assess_face(const ProbeStream& stream, const FormOptions&, FormResult& resu
   const auto rings = rings_of(stream);
   assess_heights(
       at, true, stream.reading_mm,
-      [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, result);
+      [&](std::span<const double> heights) { return axial_run_out(rings, heights); }, taken_off,
+      result);
 }
 
 }  // namespace trueaxis::form

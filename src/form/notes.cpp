@@ -102,8 +102,7 @@ void expect_options(const FormOptions& options) {
   if (!(options.low_upr >= 1.0 && options.low_upr < options.high_upr))
     add(fmt::format("a pass band of {:g} to {:g} UPR: it begins at 1 or above and ends higher",
                     options.low_upr, options.high_upr));
-  if (options.trials != values_alone && options.trials < 10)
-    add("a Monte Carlo takes 10 trials at least");
+  if (options.trials < 10) add("a Monte Carlo takes 10 trials at least");
   if (!(options.coverage_factor > 0.0)) add("the coverage factor is above 0");
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }

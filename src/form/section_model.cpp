@@ -13,10 +13,6 @@ namespace {
 
 constexpr double least_lobe_mm = 1e-9;  // rounding
 
-/// A section of more readings than this many a wave at the cut-off (and than 8192) is averaged to
-/// it: an average over one of 200 places lets 0.99996 of the wave through.
-constexpr double places_a_wave = 200.0;
-
 double root_mean_square(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value * value;
@@ -28,16 +24,6 @@ double largest_known(std::span<const double> values) {
   for (const double value : values)
     if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
   return largest;
-}
-
-/// Distances and angles about another pole.
-void move_pole(SectionReadings& readings, double x_mm, double y_mm) {
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const double x = readings.distance_mm[i] * std::cos(readings.angle_rad[i]) - x_mm;
-    const double y = readings.distance_mm[i] * std::sin(readings.angle_rad[i]) - y_mm;
-    readings.distance_mm[i] = std::hypot(x, y);
-    readings.angle_rad[i] = std::atan2(y, x);
-  }
 }
 
 }  // namespace
@@ -60,62 +46,42 @@ std::string short_name(Criterion criterion, const char* suffix) {
   return std::string(prefix[static_cast<std::size_t>(criterion)]) + suffix;
 }
 
-SectionModel::SectionModel(const SectionReadings& given, bool radius_known,
+SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
                            const FormOptions& options)
-    : z_mm_(given.z_mm), turns_(given.turns), readings_(given.size()) {
-  SectionReadings readings = given;
-  if (readings.size() < 4) {
-    trouble_ = "fewer than 4 readings";
-    return;
-  }
-  double mean = 0.0;
-  for (const double one : readings.distance_mm) mean += one / static_cast<double>(given.size());
-  plane_radius_mm_ = radius_known ? mean : 0.0;
-  std::vector<double> off = readings.distance_mm;
-  for (double& one : off) one -= plane_radius_mm_;
-  const AssociatedCircle circle =
-      associate_circle(readings.angle_rad, off, plane_radius_mm_, Criterion::gaussian);
-  x_mm_ = circle.x_mm;
-  y_mm_ = circle.y_mm;
-  mean_mm_ = circle.radius_mm;
-  if (radius_known) {
-    move_pole(readings, x_mm_, y_mm_);
-    for (std::size_t i = 0; i < off.size(); ++i) off[i] = readings.distance_mm[i] - mean_mm_;
-    plane_radius_mm_ = mean_mm_;
-  } else {
-    off = circle.off_mm;
-  }
-  const auto most = static_cast<std::size_t>(std::max(8192.0, places_a_wave * options.high_upr));
-  raw_ = sorted_trace(readings.angle_rad, off, two_pi, std::max(1.0, turns_),
-                      readings.size() > most ? most : 0);
-  if (raw_.size() < 4) {
-    trouble_ = "fewer than 4 readings at different angles";
-    return;
-  }
-  trouble_ = sampling_trouble(raw_, options);
+    : trace_(readings, radius_known, options.high_upr),
+      z_mm_(readings.z_mm),
+      turns_(readings.turns),
+      readings_(readings.size()),
+      trouble_(trace_.trouble()) {
+  if (trouble_.empty()) trouble_ = sampling_trouble(raw(), options);
   if (!trouble_.empty()) return;
-  const double averaged = static_cast<double>(raw_.size()) / static_cast<double>(readings_);
-  noise_mm_ = std::max(shown_noise_mm(raw_), options.noise_mm.value_or(0.0) * std::sqrt(averaged));
+  const double averaged = static_cast<double>(raw().size()) / static_cast<double>(readings_);
+  noise_mm_ = std::max(shown_noise_mm(raw()), options.noise_mm.value_or(0.0) * std::sqrt(averaged));
   make_filter(options);
-  profile_mm_ = filtered(raw_.value_mm);
+  profile_mm_ = filtered(raw().value_mm);
   orders_ = harmonics_of(
-      raw_, std::max(1, std::min(highest_order(raw_), static_cast<int>(raw_.size()) / 3)));
+      raw(), std::max(1, std::min(highest_order(raw()), static_cast<int>(raw().size()) / 3)));
   for (const Criterion criterion : form_criteria) {
-    circles_.emplace_back(limacon_rows(raw_.at), criterion);
-    circles_.back()(profile_mm_);
+    circles_.push_back(associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion));
+    near_.emplace_back(limacon_rows(raw().at), criterion);
+    near_.back()(profile_mm_);
   }
+}
+
+std::vector<double> SectionModel::changed(const SectionReadings& readings) const {
+  return filtered(trace_.changed(readings));
 }
 
 void SectionModel::make_filter(const FormOptions& options) {
   cutoff_rad_ = two_pi / options.high_upr;
   low_upr_ = options.low_upr;
   high_upr_ = options.filter == ProfileFilter::none ? 1e9 : options.high_upr;
-  high_ = low_pass(options.filter, raw_, cutoff_rad_);
+  high_ = low_pass(options.filter, raw(), cutoff_rad_);
   if (high_ && options.low_upr > 1.0)
-    low_ = low_pass(options.filter, raw_, two_pi / options.low_upr);
+    low_ = low_pass(options.filter, raw(), two_pi / options.low_upr);
   const double longest =
       options.filter == ProfileFilter::none ? 0.1 * two_pi : longest_step(cutoff_rad_);
-  slope_ = std::make_shared<Derivative>(raw_, longest);
+  slope_ = std::make_shared<Derivative>(raw(), longest);
 }
 
 std::vector<double> SectionModel::filtered(std::span<const double> value_mm) const {
@@ -127,18 +93,27 @@ std::vector<double> SectionModel::filtered(std::span<const double> value_mm) con
   return out;
 }
 
-std::vector<NamedValue> SectionModel::assess(std::span<const double> filtered_mm,
-                                             bool exactly) const {
+std::vector<NamedValue> SectionModel::measured() const {
+  std::vector<std::vector<double>> off_mm;
+  for (const AssociatedCircle& circle : circles_) off_mm.push_back(circle.off_mm);
+  return values_of(off_mm, profile_mm_);
+}
+
+std::vector<NamedValue> SectionModel::near(std::span<const double> filtered_mm) const {
+  std::vector<std::vector<double>> off_mm;
+  for (const Exchange& at_optimum : near_) {
+    Exchange circle = at_optimum;
+    off_mm.push_back(circle.off(filtered_mm, circle(filtered_mm)));
+  }
+  return values_of(off_mm, filtered_mm);
+}
+
+std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<double>>& off_mm,
+                                                std::span<const double> filtered_mm) const {
   std::vector<NamedValue> values;
-  for (const Criterion criterion : form_criteria) {
-    std::vector<double> off;
-    if (exactly) {
-      off = associate_circle(raw_.at, filtered_mm, plane_radius_mm_, criterion).off_mm;
-    } else {
-      const Exchange& at_optimum = circles_[static_cast<std::size_t>(criterion)];
-      Exchange circle = at_optimum;
-      off = circle.off(filtered_mm, circle(filtered_mm));
-    }
+  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+    const Criterion criterion = form_criteria[c];
+    const std::vector<double>& off = off_mm[c];
     const auto [low, high] = range_of(off);
     const std::string about = short_name(criterion, "CI");
     values.push_back({"section", "RONt", about, high - low});
@@ -151,9 +126,9 @@ std::vector<NamedValue> SectionModel::assess(std::span<const double> filtered_mm
 }
 
 AxisOffset SectionModel::centre(std::span<const double> filtered_mm) const {
-  Exchange least = circles_.front();
+  Exchange least = near_.front();
   const Eigen::VectorXd q = least(filtered_mm).q;
-  return {x_mm_ + q[1], y_mm_ + q[2]};
+  return {x_mm() + q[1], y_mm() + q[2]};
 }
 
 SectionForm SectionModel::form() const {
@@ -163,21 +138,20 @@ SectionForm SectionModel::form() const {
   form.turns = turns_;
   form.noise_mm = noise_mm_;
   if (high_) {
-    form.points_per_cycle = points_per_cycle(raw_, cutoff_rad_);
-    for (const Gap& gap : gaps_of(raw_, longest_step(cutoff_rad_))) form.gaps_rad += gap.length;
-    form.transmission = measured_transmission(raw_, *high_, cutoff_rad_);
+    form.points_per_cycle = points_per_cycle(raw(), cutoff_rad_);
+    for (const Gap& gap : gaps_of(raw(), longest_step(cutoff_rad_))) form.gaps_rad += gap.length;
+    form.transmission = measured_transmission(raw(), *high_, cutoff_rad_);
   }
-  for (const Criterion criterion : form_criteria) {
-    const AssociatedCircle circle =
-        associate_circle(raw_.at, profile_mm_, plane_radius_mm_, criterion);
+  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+    const AssociatedCircle& circle = circles_[c];
     FormCircle& out = form.circles.emplace_back();
-    out.criterion = criterion;
-    out.x_mm = x_mm_ + circle.x_mm;
-    out.y_mm = y_mm_ + circle.y_mm;
-    out.radius_mm = circle.radius_mm + (radius_known() ? 0.0 : mean_mm_);
+    out.criterion = form_criteria[c];
+    out.x_mm = x_mm() + circle.x_mm;
+    out.y_mm = y_mm() + circle.y_mm;
+    out.radius_mm = circle.radius_mm + (radius_known() ? 0.0 : radius_mm());
     out.why_not = circle.why;
     for (const Nearest::Touch& touch : circle.touches)
-      out.touches.push_back({raw_.at[touch.reading], touch.multiplier});
+      out.touches.push_back({raw().at[touch.reading], touch.multiplier});
   }
   double squares = 0.0, largest = 0.0;
   for (const Order& one : orders_) {
@@ -195,7 +169,7 @@ SectionForm SectionModel::form() const {
     }
   }
   form.lobes_share = squares > 0.0 ? largest / squares : 0.0;
-  const double n = static_cast<double>(raw_.size());
+  const double n = static_cast<double>(raw().size());
   const FormCircle& least = form.circles.front();
   const double u_centre = form.harmonics.empty() ? 0.0 : form.harmonics.front().u_mm;
   form.values.push_back(
@@ -203,7 +177,7 @@ SectionForm SectionModel::form() const {
   if (radius_known())
     form.values.push_back(
         {"radius", "LSCI", {least.radius_mm, noise_mm_ / std::sqrt(n), "mm", ""}, 0.0});
-  form.profile = {raw_.at, raw_.value_mm, profile_mm_};
+  form.profile = {raw().at, raw().value_mm, profile_mm_};
   return form;
 }
 

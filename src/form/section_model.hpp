@@ -11,7 +11,7 @@
 #include "form/derivative.hpp"
 #include "form/harmonics.hpp"
 #include "form/low_pass.hpp"
-#include "form/sections.hpp"
+#include "form/section_trace.hpp"
 #include "form/values.hpp"
 
 namespace trueaxis::form {
@@ -35,9 +35,14 @@ class SectionModel {
   /// The band of the filter of values at the places of `raw()`. Linear.
   std::vector<double> filtered(std::span<const double> value_mm) const;
 
-  /// RONt, RONp, RONv, RONq about each circle and the slope of a filtered profile. `exactly`:
-  /// circles in the plane; else, for small changes, Eq. 265 about the pole of `raw()`.
-  std::vector<NamedValue> assess(std::span<const double> filtered_mm, bool exactly) const;
+  /// The filtered profile of readings at the same angles, little changed.
+  std::vector<double> changed(const SectionReadings& readings) const;
+
+  /// RONt, RONp, RONv, RONq about each circle in the plane, and the slope, of `profile_mm()`.
+  std::vector<NamedValue> measured() const;
+
+  /// The same of a filtered profile near that one, by Eq. 265 about the pole of `raw()`.
+  std::vector<NamedValue> near(std::span<const double> filtered_mm) const;
 
   /// Centre of the least-squares circle of a filtered profile, in the part frame.
   AxisOffset centre(std::span<const double> filtered_mm) const;
@@ -47,29 +52,32 @@ class SectionModel {
 
   /// Orders of the readings before the filter, as far as these carry.
   const std::vector<Order>& orders() const { return orders_; }
-  const Trace& raw() const { return raw_; }  ///< about the least-squares circle
+  const Trace& raw() const { return trace_.trace(); }  ///< about the least-squares circle
   const std::vector<double>& profile_mm() const { return profile_mm_; }  ///< that, filtered
   double noise_mm() const { return noise_mm_; }  ///< standard deviation at a place of `raw()`
   std::optional<double> z_mm() const { return z_mm_; }
-  double x_mm() const { return x_mm_; }  ///< pole of `raw()` in the part frame
-  double y_mm() const { return y_mm_; }
-  double radius_mm() const { return mean_mm_; }
-  bool radius_known() const { return plane_radius_mm_ > 0.0; }
+  double x_mm() const { return trace_.x_mm(); }  ///< pole of `raw()` in the part frame
+  double y_mm() const { return trace_.y_mm(); }
+  double radius_mm() const { return trace_.mean_mm(); }
+  bool radius_known() const { return trace_.radius_mm() > 0.0; }
 
  private:
   void make_filter(const FormOptions& options);
 
-  Trace raw_;
+  std::vector<NamedValue> values_of(const std::vector<std::vector<double>>& off_mm,
+                                    std::span<const double> filtered_mm) const;
+
+  SectionTrace trace_;
   std::optional<double> z_mm_;
-  double x_mm_ = 0.0, y_mm_ = 0.0, mean_mm_ = 0.0, noise_mm_ = 0.0;
-  double plane_radius_mm_ = 0.0;  ///< 0: not known
+  double noise_mm_ = 0.0;
   double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;
   std::size_t readings_ = 0;
   std::shared_ptr<const LowPass> high_, low_;
   std::shared_ptr<const Derivative> slope_;
   std::vector<double> profile_mm_;
   std::vector<Order> orders_;
-  std::vector<Exchange> circles_;  ///< of form_criteria, at their optimum
+  std::vector<AssociatedCircle> circles_;  ///< of form_criteria, in the plane
+  std::vector<Exchange> near_;             ///< the same of Eq. 265, at their optimum
   std::string trouble_;
 };
 

@@ -181,7 +181,6 @@ std::vector<Spread> spreads(const std::vector<SectionModel>& part,
                             const Assess& assess) {
   const Profiles base{less_noise(part), less_noise(datum)};
   const std::vector<NamedValue> values = assess(base);
-  if (options.trials == values_alone) return std::vector<Spread>(values.size());
   const auto trials = static_cast<std::size_t>(options.trials);
   std::vector<std::vector<double>> drawn(trials);
   for_each_index(trials, options.threads, [&](std::size_t trial) {

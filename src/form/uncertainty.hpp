@@ -8,9 +8,6 @@
 
 namespace trueaxis::form {
 
-/// FormOptions::trials of a call that asks for the values alone: u and bias stay 0.
-constexpr int values_alone = 0;
-
 /// Filtered profiles of all sections of the part, and of those of its datum.
 struct Profiles {
   std::vector<std::vector<double>> part_mm, datum_mm;

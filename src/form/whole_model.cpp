@@ -15,7 +15,7 @@ namespace {
 constexpr int most_realignments = 30;
 constexpr double axis_settled_mm = 1e-12;
 
-std::vector<std::vector<double>> measured(const std::vector<SectionModel>& sections) {
+std::vector<std::vector<double>> profiles_of(const std::vector<SectionModel>& sections) {
   std::vector<std::vector<double>> out;
   for (const SectionModel& section : sections) out.push_back(section.profile_mm());
   return out;
@@ -23,7 +23,9 @@ std::vector<std::vector<double>> measured(const std::vector<SectionModel>& secti
 
 }  // namespace
 
-WholeModel::WholeModel(const std::vector<SectionModel>& sections) : sections_(sections) {
+WholeModel::WholeModel(const std::vector<SectionModel>& sections,
+                       std::span<const Criterion> criteria)
+    : sections_(sections) {
   expects(sections.size() >= 2, "two sections at least");
   double low = 1e300, high = -1e300;
   for (const SectionModel& section : sections) {
@@ -35,15 +37,19 @@ WholeModel::WholeModel(const std::vector<SectionModel>& sections) : sections_(se
   }
   middle_mm_ = 0.5 * (low + high);
   half_mm_ = 0.5 * (high - low);
-  const auto profiles = measured(sections);
+  const auto profiles = profiles_of(sections);
   start_ = least_squares_line(centres(profiles));
-  for (const bool cone : {false, true}) {
-    const Rows now = about(start_, profiles, cone);
+  for (const bool of_cone : {false, true}) {
+    const Rows now = about(start_, profiles, of_cone);
     base_ = now.y;
-    for (const Criterion criterion : form_criteria) {
-      if (cone && (sections.size() < 3 || criterion > Criterion::minimum_zone)) continue;
-      const auto [at, made] = fits_.try_emplace({criterion, cone}, Exchange(now.rows, criterion));
+    for (const Criterion criterion : criteria) {
+      if (of_cone && (sections.size() < 3 || criterion > Criterion::minimum_zone)) continue;
+      const auto [at, made] =
+          near_.try_emplace({criterion, of_cone}, Exchange(now.rows, criterion));
+      if (!made) continue;
       at->second(now.y);
+      measured_[{criterion, of_cone}] =
+          of_cone ? cone(profiles, criterion) : cylinder(profiles, criterion);
     }
   }
 }
@@ -99,23 +105,28 @@ AxisLine WholeModel::moved(const AxisLine& axis, const Eigen::VectorXd& q) const
   return out;
 }
 
-WholeModel::Fitted WholeModel::fitted(const std::vector<std::vector<double>>& filtered_mm,
-                                      Criterion criterion, bool cone, bool exactly) const {
-  if (!exactly) {
-    std::vector<double> y = base_;
-    std::size_t row = 0;
-    for (std::size_t s = 0; s < sections_.size(); ++s)
-      for (std::size_t i = 0; i < filtered_mm[s].size(); ++i)
-        y[row++] += filtered_mm[s][i] - sections_[s].profile_mm()[i];
-    Exchange fit = fits_.at({criterion, cone});
-    const Nearest nearest = fit(y);
-    return {fit.off(y, nearest), nearest.q, moved(start_, nearest.q)};
-  }
-  if (!cone) return associated(filtered_mm, criterion);
+std::vector<double> WholeModel::y_near(const std::vector<std::vector<double>>& filtered_mm) const {
+  std::vector<double> y = base_;
+  std::size_t row = 0;
+  for (std::size_t s = 0; s < sections_.size(); ++s)
+    for (std::size_t i = 0; i < filtered_mm[s].size(); ++i)
+      y[row++] += filtered_mm[s][i] - sections_[s].profile_mm()[i];
+  return y;
+}
+
+WholeModel::Fitted WholeModel::fitted_near(const std::vector<double>& y, Criterion criterion,
+                                           bool cone) const {
+  Exchange fit = near_.at({criterion, cone});
+  const Nearest nearest = fit(y);
+  return {fit.off(y, nearest), nearest.q, moved(start_, nearest.q)};
+}
+
+WholeModel::Fitted WholeModel::cone(const std::vector<std::vector<double>>& filtered_mm,
+                                    Criterion criterion) const {
   Fitted out;
   out.axis = start_;
   for (int round = 0; round < most_realignments; ++round) {
-    Rows now = about(out.axis, filtered_mm, cone);
+    Rows now = about(out.axis, filtered_mm, true);
     Exchange fit(std::move(now.rows), criterion);
     const Nearest nearest = fit(now.y);
     out.q = nearest.q;
@@ -126,9 +137,9 @@ WholeModel::Fitted WholeModel::fitted(const std::vector<std::vector<double>>& fi
   return out;
 }
 
-/// The cylinder in space, by associate().
-WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>& filtered_mm,
-                                          Criterion criterion) const {
+/// In space, by associate().
+WholeModel::Fitted WholeModel::cylinder(const std::vector<std::vector<double>>& filtered_mm,
+                                        Criterion criterion) const {
   std::vector<Point3> points;
   for (std::size_t s = 0; s < sections_.size(); ++s) {
     const SectionModel& section = sections_[s];
@@ -154,9 +165,8 @@ WholeModel::Fitted WholeModel::associated(const std::vector<std::vector<double>>
 
 std::string WholeModel::rocking(Criterion criterion) const {
   if (criterion == Criterion::gaussian) return "";
-  const auto profiles = measured(sections_);
-  const Fitted fit = associated(profiles, criterion);
-  const Fitted least = associated(profiles, Criterion::gaussian);
+  const Fitted& fit = measured_.at({criterion, false});
+  const Fitted& least = measured_.at({Criterion::gaussian, false});
   const char* name = name_of(criterion);
   if (fit.held_mm < 0.5 * half_mm_)
     return fmt::format(
@@ -175,9 +185,9 @@ std::string WholeModel::rocking(Criterion criterion) const {
       name, apart / mm_per_um);
 }
 
-AxisLine WholeModel::axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
-                          bool exactly) const {
-  return fitted(filtered_mm, criterion, false, exactly).axis;
+AxisLine WholeModel::axis_near(const std::vector<std::vector<double>>& filtered_mm,
+                               Criterion criterion) const {
+  return fitted_near(y_near(filtered_mm), criterion, false).axis;
 }
 
 double WholeModel::straightness_of_generatrices(
@@ -219,15 +229,27 @@ double WholeModel::straightness_of_generatrices(
   return largest;
 }
 
-std::vector<NamedValue> WholeModel::assess(const std::vector<std::vector<double>>& filtered_mm,
-                                           bool exactly) const {
+std::vector<NamedValue> WholeModel::measured() const {
+  return values_of(measured_, profiles_of(sections_));
+}
+
+std::vector<NamedValue> WholeModel::near(
+    const std::vector<std::vector<double>>& filtered_mm) const {
+  const std::vector<double> y = y_near(filtered_mm);
+  Fits fits;
+  for (const auto& [which, fit] : near_) fits[which] = fitted_near(y, which.first, which.second);
+  return values_of(fits, filtered_mm);
+}
+
+std::vector<NamedValue> WholeModel::values_of(
+    const Fits& fits, const std::vector<std::vector<double>>& filtered_mm) const {
   std::vector<NamedValue> values;
   const auto add = [&](const char* name, std::string reference, double value,
                        const char* unit = "mm") {
     values.push_back({"cylindricity", name, std::move(reference), value, unit});
   };
   for (const Criterion criterion : form_criteria) {
-    const Fitted fit = fitted(filtered_mm, criterion, false, exactly);
+    const Fitted& fit = fits.at({criterion, false});
     const auto [low, high] = range_of(fit.off_mm);
     double squares = 0.0;
     for (const double off : fit.off_mm) squares += off * off;
@@ -246,12 +268,12 @@ std::vector<NamedValue> WholeModel::assess(const std::vector<std::vector<double>
   if (sections_.size() > 2) {
     add("STRsa", "", smallest_cylinder_mm(centres(filtered_mm)));
     add("STRsg", "MZLI", straightness_of_generatrices(filtered_mm));
-    const Fitted cone = fitted(filtered_mm, Criterion::gaussian, true, exactly);
+    const Fitted& cone = fits.at({Criterion::gaussian, true});
     const double slope = cone.q[5] / half_mm_;
     add("CYLtt", "LSCO", 2.0 * std::abs(cone.q[5]));
     add("CYLat", "LSCO", std::atan(slope), "rad");
     for (const Criterion criterion : {Criterion::gaussian, Criterion::minimum_zone}) {
-      const Fitted about_cone = fitted(filtered_mm, criterion, true, exactly);
+      const Fitted& about_cone = fits.at({criterion, true});
       add("CONt", short_name(criterion, "CO"),
           range_of(about_cone.off_mm).length() * std::cos(std::atan(slope)));
     }

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,22 +17,22 @@ namespace trueaxis::form {
 class WholeModel {
  public:
   /// @param sections of known radius, from two on; they outlive this
-  explicit WholeModel(const std::vector<SectionModel>& sections);
+  /// @param criteria of the cylinders that are asked for
+  WholeModel(const std::vector<SectionModel>& sections, std::span<const Criterion> criteria);
 
-  /// Centres of the sections, least squares.
-  std::vector<CentrePoint> centres(const std::vector<std::vector<double>>& filtered_mm) const;
-
-  /// The axis of the cylinder by a criterion.
-  AxisLine axis(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion,
-                bool exactly) const;
+  /// The axis of the cylinder by a criterion: of the measured profiles, and of some near these.
+  AxisLine axis(Criterion criterion) const { return measured_.at({criterion, false}).axis; }
+  AxisLine axis_near(const std::vector<std::vector<double>>& filtered_mm,
+                     Criterion criterion) const;
 
   /// Why the axis of a criterion may rock: the cylinder rests on less than a quarter of the length
   /// (a tapered shaft touches at one end). Empty: it does not.
   std::string rocking(Criterion criterion) const;
 
-  /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's.
-  std::vector<NamedValue> assess(const std::vector<std::vector<double>>& filtered_mm,
-                                 bool exactly) const;
+  /// CYLt, CYLp, CYLv, CYLq about the four cylinders, and the parts of ISO 12180; the cone's: of
+  /// the measured profiles, and of some near these, by Eq. 273 at the optimum.
+  std::vector<NamedValue> measured() const;
+  std::vector<NamedValue> near(const std::vector<std::vector<double>>& filtered_mm) const;
 
   /// Run-out, coaxiality, concentricity and parallelism (ISO 1101) against an axis.
   std::vector<NamedValue> against(const AxisLine& datum,
@@ -44,9 +45,15 @@ class WholeModel {
     AxisLine axis;
     double held_mm = 0.0;  ///< along the axis, from the first to the last contact
   };
-  Fitted fitted(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion, bool cone,
-                bool exactly) const;
-  Fitted associated(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
+  using Fits = std::map<std::pair<Criterion, bool>, Fitted>;  ///< of a cylinder, of a cone: true
+  Fitted fitted_near(const std::vector<double>& y, Criterion criterion, bool cone) const;
+  Fitted cylinder(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
+  Fitted cone(const std::vector<std::vector<double>>& filtered_mm, Criterion criterion) const;
+  /// What is added to `base_`.
+  std::vector<double> y_near(const std::vector<std::vector<double>>& filtered_mm) const;
+  std::vector<NamedValue> values_of(const Fits& fits,
+                                    const std::vector<std::vector<double>>& filtered_mm) const;
+  std::vector<CentrePoint> centres(const std::vector<std::vector<double>>& filtered_mm) const;
   struct Rows {
     Exchange::Rows rows;
     std::vector<double> y;
@@ -62,7 +69,8 @@ class WholeModel {
   AxisLine start_;
   std::vector<double> base_;  ///< y of `about(start_)` of the measured profiles
   std::vector<Exchange> centre_fits_;
-  std::map<std::pair<Criterion, bool>, Exchange> fits_;  ///< about `start_`, at the optimum
+  Fits measured_;                                        ///< in space
+  std::map<std::pair<Criterion, bool>, Exchange> near_;  ///< about `start_`, at the optimum
 };
 
 }  // namespace trueaxis::form

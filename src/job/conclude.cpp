@@ -4,29 +4,39 @@
 #include <algorithm>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "job/associated_axis.hpp"
 #include "job/cut_checks.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
+#include "job/target_datum.hpp"
 #include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
 
+std::vector<Remainder> limited_remainders(std::span<const Reference> references, const Axis& axis,
+                                          const TargetSurface& target) {
+  std::vector<Remainder> out = remainders_of(references, axis, target.z_start_mm, target.z_end_mm);
+  for (std::size_t i = 0; i < references.size(); ++i)
+    out[i].limit_mm =
+        CoaxialityDistribution({&references[i], 1}, axis, target.z_start_mm, target.z_end_mm)
+            .quantile(1.0 - nonconformity_risk);
+  return out;
+}
+
 void correct(JobResult& result) {
   const TargetSurface& target = *result.job.target;
+  result.datum = target_datum(result);
   const std::vector<Reference> references = references_of(result);
-  result.target_axis = solve_target_axis(references_aimed_at(result), target.z_start_mm,
-                                         target.z_end_mm, target.kind != TargetKind::face);
+  result.target_axis =
+      solve_target_axis(judged(result, references_aimed_at(result)), target.z_start_mm,
+                        target.z_end_mm, target.kind != TargetKind::face);
   TargetAxis& solved = *result.target_axis;
-  solved.remainders =
-      remainders_of(references, solved.axis.axis, target.z_start_mm, target.z_end_mm);
-  for (std::size_t i = 0; i < references.size(); ++i) {
-    solved.remainders[i].limit_mm = CoaxialityDistribution({&references[i], 1}, solved.axis.axis,
-                                                           target.z_start_mm, target.z_end_mm)
-                                        .quantile(1.0 - nonconformity_risk);
-  }
+  solved.remainders = limited_remainders(judged(result, references), solved.axis.axis, target);
+  if (result.datum)
+    result.datum->references = limited_remainders(references, solved.axis.axis, target);
   result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
                                       result.job.actuator, included_motions(result));
 }
@@ -42,9 +52,11 @@ void conclude(JobResult& result) {
     withhold_axes(result);
     if (!result.agreement.disagreements.empty()) result.agreement = {};
   }
-  if (fitted && result.job.target && !slipped && result.agreement.reason.empty()) {
+  if (fitted && !slipped && result.agreement.reason.empty()) {
     try {
-      correct(result);
+      for (std::size_t i = 0; i < result.fits.size(); ++i)
+        result.associated.push_back(associated_difference(result, i));
+      if (result.job.target) correct(result);
     } catch (const Refusal& refusal) {
       result.refused = refusal.what();
     }

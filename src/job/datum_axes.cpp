@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "job/part_readings.hpp"
+#include "job/references.hpp"
 
 namespace trueaxis {
 namespace {
@@ -20,16 +21,26 @@ bool has_table(const JobResult& result, std::size_t i) {
          stream.size() <= too_many_points;
 }
 
-/// Where the ball's centre stood, in the part frame (Eq. 1): the axis of the centres is the part's.
-std::vector<Point3> points_of(const ProbeStream& stream) {
+}  // namespace
+
+std::vector<Point3> datum_points(const JobResult& result, std::size_t reference) {
+  const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
+  const FitOptions& fit = result.job.references[reference].fit;
+  const ProbeStream& stream = result.streams[reference];
+  const double ball_mm =
+      fit.ball_radius_mm > 0.0 ? fit.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
+  const PartReadings readings({stream, diagnosed ? &*result.diagnoses[reference] : nullptr},
+                              ball_mm);
+  const ProbeStream of_part = readings.less(false);
   std::vector<Point3> points;
-  for (std::size_t i = 0; i < stream.size(); ++i)
-    points.push_back({stream.reading_mm[i] * std::cos(stream.c_rad[i]),
-                      stream.reading_mm[i] * std::sin(stream.c_rad[i]), stream.position_mm[i]});
+  for (std::size_t i = 0; i < of_part.size(); ++i)
+    points.push_back({of_part.reading_mm[i] * std::cos(of_part.c_rad[i]),
+                      of_part.reading_mm[i] * std::sin(of_part.c_rad[i]), of_part.position_mm[i]});
   return points;
 }
 
-DatumAxis axis_of(std::span<const Point3> points, Element element, Criterion criterion, bool bore) {
+DatumAxis datum_axis(std::span<const Point3> points, Element element, Criterion criterion,
+                     bool bore) {
   DatumAxis out;
   out.criterion = criterion;
   out.why = association_objection(element, criterion);
@@ -48,21 +59,13 @@ DatumAxis axis_of(std::span<const Point3> points, Element element, Criterion cri
   return out;
 }
 
-}  // namespace
-
 std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference) {
   std::vector<DatumAxis> out;
   if (!has_table(result, reference)) return out;
   const FitResult& used = fit_used(result, reference);
-  const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
-  const FitOptions& fit = result.job.references[reference].fit;
-  const ProbeStream& stream = result.streams[reference];
-  const double ball_mm =
-      fit.ball_radius_mm > 0.0 ? fit.ball_radius_mm : stream.ball_radius_mm.value_or(0.0);
-  const PartReadings readings({stream, diagnosed ? &*result.diagnoses[reference] : nullptr},
-                              ball_mm);
-  const std::vector<Point3> points = points_of(readings.less(false));
+  const std::vector<Point3> points = datum_points(result, reference);
   const Element element = used.surface == SurfaceKind::cone ? Element::cone : Element::cylinder;
+  const Axis of_job = axis_of_reference(result, reference).axis;
   const Criterion of_iso =
       used.bore ? Criterion::maximum_inscribed : Criterion::minimum_circumscribed;
   for (std::size_t c = 0; c < criterion_names.size(); ++c) {
@@ -71,11 +74,11 @@ std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference
     if (element == Element::cylinder &&
         criterion == (used.bore ? Criterion::minimum_circumscribed : Criterion::maximum_inscribed))
       continue;  // of the other side's datum
-    DatumAxis one = axis_of(points, element, criterion, used.bore);
+    DatumAxis one = datum_axis(points, element, criterion, used.bore);
     one.of_iso_5459 = element == Element::cylinder && criterion == of_iso;
     const double ends[] = {used.position_min_mm, used.position_max_mm};
     for (std::size_t e = 0; e < 2 && one.why.empty(); ++e) {
-      const auto [x, y] = used.axis.axis.at(ends[e]);
+      const auto [x, y] = of_job.at(ends[e]);
       const auto [x_other, y_other] = one.axis.at(ends[e]);
       one.off_mm[e] = std::hypot(x_other - x, y_other - y);
     }

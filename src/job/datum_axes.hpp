@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <string>
 #include <vector>
 
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
-
-/// The axis that another association gives the same readings (ISO 5459).
-struct DatumAxis {
-  Criterion criterion = Criterion::gaussian;
-  bool of_iso_5459 = false;  ///< its default of 2011 for this feature
-  Axis axis;
-  std::array<double, 2> off_mm{};  ///< from the axis of the job, at the lower and the upper end
-  double radius_mm = 0.0;          ///< of a cylinder, that of the ball's centre included
-  std::string why{};               ///< why there is none; else empty
-};
 
 /// What the others of the associations would give a reference, over its probed length: orthogonal,
 /// from its readings without what is not of the part (Eq. 293). Extreme associations rest on a few
@@ -25,5 +13,13 @@ struct DatumAxis {
 /// gauge without a radius, several set-ups, and where the job has no axis
 /// or asks for no values of form.
 std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference);
+
+/// Where the ball's centre stood at the readings that count, without what is not of the part, in
+/// the part frame (Eqs. 1, 293): the axis of the centres is the part's.
+std::vector<Point3> datum_points(const JobResult& result, std::size_t reference);
+
+/// The axis of one association; `why` says where there is none.
+DatumAxis datum_axis(std::span<const Point3> points_mm, Element element, Criterion criterion,
+                     bool bore);
 
 }  // namespace trueaxis

@@ -6,6 +6,7 @@
 
 #include "job/agreement.hpp"
 #include "job/conclude.hpp"
+#include "job/datum_axes.hpp"
 #include "job/form_judgement.hpp"
 #include "trueaxis/error.hpp"
 
@@ -67,6 +68,8 @@ JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   if (judged || result.job.values_of_form) assess_forms(result);
   conclude(result);
   reserve_forms(result);
+  for (std::size_t i = 0; i < result.forms.size(); ++i)
+    result.datum_axes.push_back(datum_axes(result, i));
   return result;
 }
 

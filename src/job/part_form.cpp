@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "form/uncertainty.hpp"
 #include "job/form_judgement.hpp"
 #include "job/part_readings.hpp"
 #include "trueaxis/error.hpp"
@@ -23,16 +22,6 @@ constexpr int fewest_trials = 10;
 constexpr double most_work = 2e7;
 /// Readings: more take longer than all else of a job, and only a tolerance is worth that.
 constexpr std::size_t most_to_show = 20'000, most_to_judge = 2'000'000;
-
-/// All values of a result in their order.
-std::vector<FormValue*> values_of(FormResult& form) {
-  std::vector<FormValue*> out;
-  for (SectionForm& section : form.sections)
-    for (FormValue& one : section.values) out.push_back(&one);
-  for (FormGroup& group : form.groups)
-    for (FormValue& one : group.values) out.push_back(&one);
-  return out;
-}
 
 class Question {
  public:
@@ -58,15 +47,10 @@ class Question {
     const ProbeStream of_part = taken_off ? part_.less(open) : part_.stream();
     std::optional<ProbeStream> of_datum;
     if (datum_) of_datum = taken_off ? datum_->less(open) : datum_->stream();
-    FormResult out = assess_form(of_part, options_, of_datum ? &*of_datum : nullptr);
-    if (!taken_off) return out;
-    std::vector<double> variance(values_of(out).size(), 0.0);
-    add_variance(part_, open, of_part, of_datum ? &*of_datum : nullptr, true, out, variance);
-    if (datum_) add_variance(*datum_, open, of_part, &*of_datum, false, out, variance);
-    const auto values = values_of(out);
-    for (std::size_t v = 0; v < values.size(); ++v)
-      values[v]->estimate.u = std::hypot(values[v]->estimate.u, std::sqrt(variance[v]));
-    return out;
+    std::vector<TakenOff> off;
+    if (taken_off) add(part_, open, false, off);
+    if (taken_off && datum_) add(*datum_, open, true, off);
+    return assess_form(of_part, options_, of_datum ? &*of_datum : nullptr, off);
   }
 
  private:
@@ -74,32 +58,10 @@ class Question {
     return fit.ball_radius_mm > 0.0 ? fit.ball_radius_mm : of.stream.ball_radius_mm.value_or(0.0);
   }
 
-  /// What the values change by per u of every amplitude that was taken off (Eq. 291).
-  void add_variance(const PartReadings& of, bool open, const ProbeStream& part,
-                    const ProbeStream* datum, bool is_part, const FormResult& at,
-                    std::vector<double>& variance) const {
-    FormOptions few = options_;
-    few.trials = form::values_alone;
-    FormResult middle = at;
-    const auto values = values_of(middle);
-    for (const MotionColumns& one : of.columns()) {
-      if (!open && is_of(*one.finding) != FindingIsOf::motion) continue;
-      const std::size_t count = one.columns_mm.size();
-      std::vector<std::vector<double>> change(count, std::vector<double>(values.size(), 0.0));
-      for (std::size_t j = 0; j < count; ++j) {
-        ProbeStream moved = is_part ? part : *datum;
-        for (std::size_t i = 0; i < moved.size(); ++i) moved.reading_mm[i] += one.columns_mm[j][i];
-        FormResult off = is_part ? assess_form(moved, few, datum) : assess_form(part, few, &moved);
-        const auto now = values_of(off);
-        for (std::size_t v = 0; v < values.size() && v < now.size(); ++v)
-          change[j][v] = now[v]->estimate.value - values[v]->estimate.value;
-      }
-      for (std::size_t v = 0; v < values.size(); ++v)
-        for (std::size_t j = 0; j < count; ++j)
-          for (std::size_t i = 0; i < count; ++i)
-            variance[v] += one.correlation[j * count + i] * change[i][v] * change[j][v];
-    }
-    for (double& one : variance) one = std::max(one, 0.0);
+  static void add(const PartReadings& of, bool open, bool is_datum, std::vector<TakenOff>& off) {
+    for (const MotionColumns& one : of.columns())
+      if (open || is_of(*one.finding) == FindingIsOf::motion)
+        off.push_back({one.columns_mm, one.correlation, is_datum});
   }
 
   PartReadings part_;

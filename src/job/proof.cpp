@@ -10,6 +10,7 @@
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/references.hpp"
+#include "job/target_datum.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -123,7 +124,7 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
     std::vector<Reference> better = references;
     for (std::size_t i = 0; i < better.size(); ++i)
       better[i].axis.covariance = with_more(references[i].axis, noise[i], times, longer);
-    const CoaxialityDistribution distribution(better, result.target_axis->axis.axis,
+    const CoaxialityDistribution distribution(judged(result, better), result.target_axis->axis.axis,
                                               target.z_start_mm, target.z_end_mm);
     return distribution.quantile(1.0 - nonconformity_risk) <= allowed_mm;
   };

@@ -53,6 +53,18 @@ AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagn
   return out;
 }
 
+/// By the association of the reference instead of least squares (Eq. 303).
+Axis with_association(const JobResult& result, std::size_t i, Axis axis) {
+  if (i >= result.associated.size() || !result.associated[i]) return axis;
+  const Axis& more = result.associated[i]->axis;
+  const auto [x, y] = more.at(axis.z_ref_mm);
+  axis.x_mm += x;
+  axis.y_mm += y;
+  axis.slope_x += more.slope_x;
+  axis.slope_y += more.slope_y;
+  return axis;
+}
+
 }  // namespace
 
 std::string of_reference(const JobResult& result, std::size_t i) {
@@ -69,14 +81,22 @@ const FitResult& fit_used(const JobResult& result, std::size_t reference) {
                                                            : result.fits[reference];
 }
 
+AxisEstimate axis_of_reference(const JobResult& result, std::size_t i) {
+  const FitResult& fit = fit_used(result, i);
+  AxisEstimate out = i < result.diagnoses.size() ? axis_of(fit, result.diagnoses[i]) : fit.axis;
+  if (i >= result.associated.size() || !result.associated[i]) return out;
+  out.axis = with_association(result, i, out.axis);
+  const AxisEstimate& more = *result.associated[i];
+  for (std::size_t k = 0; k < out.covariance.size(); ++k) out.covariance[k] += more.covariance[k];
+  return out;
+}
+
 std::vector<Reference> references_of(const JobResult& result) {
   std::vector<Reference> references;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
     const FitResult& fit = fit_used(result, i);
-    const AxisEstimate axis =
-        i < result.diagnoses.size() ? axis_of(fit, result.diagnoses[i]) : fit.axis;
-    references.push_back({named.name, axis, named.weight,
+    references.push_back({named.name, axis_of_reference(result, i), named.weight,
                           face_radius(named, fit, *result.job.target), freedom_of(fit)});
   }
   return references;
@@ -88,7 +108,8 @@ std::vector<Reference> references_aimed_at(const JobResult& result) {
     if (!result.diagnoses[i] || result.job.axis_of_cut == AxisOfCut::stated) continue;
     const FitResult& asked =
         result.job.axis_of_cut == AxisOfCut::named ? result.diagnoses[i]->named : result.fits[i];
-    if (asked.status == FitStatus::converged) references[i].axis.axis = asked.axis.axis;
+    if (asked.status == FitStatus::converged)
+      references[i].axis.axis = with_association(result, i, asked.axis.axis);
   }
   return references;
 }

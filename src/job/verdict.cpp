@@ -14,6 +14,7 @@
 #include "job/proof.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
+#include "job/target_datum.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -47,7 +48,7 @@ CoaxialityDistribution distribution_of(const JobResult& result,
 Verdict expected_cut(const JobResult& result) {
   Verdict verdict;
   verdict.coverage_factor = result.job.references.front().fit.coverage_factor;
-  const std::vector<Reference> references = references_of(result);
+  const std::vector<Reference> references = judged(result, references_of(result));
   verdict.coaxiality_before_mm = coaxiality_uncorrected(references, *result.job.target);
   const auto worst =
       std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::limit_mm);
@@ -125,7 +126,7 @@ double upper_if_ideal_mm(const JobResult& result, const std::vector<OpenAxis>& o
   std::vector<Reference> references = references_of(result);
   for (const OpenAxis& o : open)
     references[o.reference].axis.axis = result.fits[o.reference].axis.axis;
-  return distribution_of(result, references).quantile(1.0 - nonconformity_risk) +
+  return distribution_of(result, judged(result, references)).quantile(1.0 - nonconformity_risk) +
          left_by_actuator_mm(result);
 }
 

@@ -171,7 +171,7 @@ function referenceFold(reference, index) {
     element('div', {}, Object.keys(reference.derived).length ? parameterTable('Derived quantities', reference.derived, k) : null,
       reference.budget.length > 1 && reference.budget.some((line) => Object.values(line.u).some((u) => u.value > 0)) ? budgetChart(reference) : null));
   const budget = reference.budget.length ? [budgetTable(reference)] : [];
-  const measured = [reference.form && !reference.roundness ? partFormBlock(reference.form) : null, reference.datums ? datumsBlock(reference.datums) : null].filter(Boolean);
+  const measured = [reference.form && !reference.roundness ? partFormBlock(reference.form) : null, reference.datums ? datumsBlock(reference.datums, reference.association) : null].filter(Boolean);
   return fold(`reference-${index + 1}`, `The fit and the form in full: ${reference.name}`, ...measured, statusBlock(reference), ...relative, tables, ...budget,
     block('Rejected readings', rejectedBlock(reference.rejected)), ...(reference.roundness?.orders.length ? [roundnessTable(reference.roundness)] : []), ...chartBlocks(reference));
 }

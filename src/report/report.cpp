@@ -155,8 +155,10 @@ Json reference_data(const JobResult& result, std::size_t i) {
     }
     data["extended"] = &fit_used(result, i) != &result.fits[i] &&
                        result.diagnoses[i]->verdict != DiagnosisVerdict::ideal;
-    if (const auto axes = datum_axes(result, i); !axes.empty())
-      data["datums"] = datum_axes_array(axes, fit_used(result, i));
+    if (i < result.datum_axes.size() && !result.datum_axes[i].empty())
+      data["datums"] = datum_axes_array(result.datum_axes[i], fit_used(result, i));
+    if (const auto& association = result.job.references[i].association)
+      data["association"] = name_of(*association);
     if (i < result.forms.size()) data["form"] = part_form_data(result.forms[i]);
     data["relative"] = result.streams[i].indication == Indication::relative;
   }

@@ -5,6 +5,7 @@
 
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "fit/files/fit_screen.hpp"
+#include "job/datum_axes.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
@@ -67,6 +68,7 @@ std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& 
   if (fitted) {
     result.diagnoses.front() = diagnosis;
     result.forms.push_back(form);
+    result.datum_axes.push_back(datum_axes(result, 0));
     result.resimulations.front() = resimulate(diagnosis, stream, options.ball_radius_mm);
   }
   const char* outcome = !fitted                                          ? "not-determined"

@@ -34,7 +34,7 @@ function axisRow(name, axis, k, face) {
 
 function axesTable(target, references, k) {
   const rows = target.references.filter((r) => r.axis).map((r) => axisRow(references[r.index].name, r.axis, k, r.face));
-  if (target.axis) rows.push(axisRow('target axis', target.axis, k, false));
+  if (target.axis) rows.push(axisRow(target.datum ? `target axis, that of the datum ${target.datum.name}` : 'target axis', target.axis, k, false));
   return table(`Offsets from the spindle axis and tilt against it, ± U (k = ${tick(k)}); directions counted like C from +x`,
     ['Axis', `at Z = ${millimetres(target.z_start_mm, 2)}`, `at Z = ${millimetres(target.z_end_mm, 2)}`, 'Tilt'], rows, 1, true);
 }
@@ -63,7 +63,7 @@ function axesSection(all) {
       table(`Offset from the spindle axis, ± U (k = ${tick(k)}); directions counted like C from +x`, ['Section', 'Offset'],
         target.references.filter((r) => r.axis).map((r) => axisRow(references[r.index].name, r.axis, k, false).slice(0, 2))));
   }
-  const words = target.axis ? 'The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least.' : null;
+  const words = target.datum ? `The target axis is that of the datum ${target.datum.name} (ISO 5459): ${target.datum.how}.` : target.axis ? 'The target axis is the one axis about which the part is cut so that the weighted squared distance from the reference axes is least.' : null;
   const one = Math.abs(target.z_end_mm - target.z_start_mm) < 1e-9;
   const insets = lines.length ? [endChart(lines, 'start', k, millimetres(target.z_start_mm, 2)), one ? null : endChart(lines, 'end', k, millimetres(target.z_end_mm, 2))].filter(Boolean) : [];
   return section('axes', 'Axes', words ? paragraph(words) : null, seatsChart(all),
@@ -76,7 +76,7 @@ function axesFold(all) {
   const parts = [];
   if (target.references.some((r) => r.after)) {
     parts.push(element('div', {class: 'wide'}, remaindersTable(target, references, k)),
-      paragraph('Offsets and tilt of the remainder are what the weights leave; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.', 'quiet'));
+      paragraph(`Offsets and tilt of the remainder are what the ${target.datum ? `datum leaves at each reference, which no tolerance is held against' : 'weights leave'}; they follow from the two estimated axes, and their uncertainty is in that of the coaxiality.', 'quiet'));
   }
   if (lines.length && target.z_end_mm !== target.z_start_mm) parts.push(element('div', {class: 'pair'}, alongChart(lines, 'x'), alongChart(lines, 'y')));
   for (const reference of references) {

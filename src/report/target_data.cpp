@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "job/references.hpp"
 #include "job/slip.hpp"
 #include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
@@ -93,6 +94,9 @@ Json target_data(const JobResult& result) {
             {"z_end_mm", length.second},
             {"of_cut", result.job.target.has_value()},
             {"references", Json::array()}};
+  const std::vector<Remainder> left = result.datum         ? result.datum->references
+                                      : result.target_axis ? result.target_axis->remainders
+                                                           : std::vector<Remainder>{};
   const bool unsure = !slip_objection(result).empty();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
@@ -104,16 +108,20 @@ Json target_data(const JobResult& result) {
     Json reference{{"index", i}, {"face", radius > 0.0}, {"face_radius_mm", radius}};
     if (i < result.job.references.size()) reference["weight"] = result.job.references[i].weight;
     if (solved) {
-      reference["axis"] = axis_data(fit.axis, length.first, length.second);
-      reference["before"] = before(fit.axis, radius, length);
+      const bool associated = i < result.associated.size() && result.associated[i];
+      const AxisEstimate axis = associated ? axis_of_reference(result, i) : fit.axis;
+      reference["axis"] = axis_data(axis, length.first, length.second);
+      reference["before"] = before(axis, radius, length);
     }
-    if (result.target_axis && i < result.target_axis->remainders.size()) {
-      reference["after"] = remainder_data(result.target_axis->remainders[i]);
-    }
+    if (i < left.size()) reference["after"] = remainder_data(left[i]);
     data["references"].push_back(reference);
   }
   if (result.target_axis) {
     data["axis"] = axis_data(result.target_axis->axis, length.first, length.second);
+    if (result.datum)
+      data["datum"] = {{"name", result.datum->name},
+                       {"how", result.datum->how},
+                       {"after", remainder_data(result.target_axis->remainders.front())}};
   }
   return data;
 }

@@ -11,9 +11,9 @@ namespace trueaxis {
 namespace {
 
 // A list that is read, not objects that register themselves: a static library drops those.
-const std::array<CatalogueEntry, 4>& entries() {
-  static const std::array<CatalogueEntry, 4> list{cone_entry(), cylinder_entry(), plane_entry(),
-                                                  section_entry()};
+const std::array<CatalogueEntry, 6>& entries() {
+  static const std::array<CatalogueEntry, 6> list{cone_entry(),    cylinder_entry(), plane_entry(),
+                                                  section_entry(), sphere_entry(),   torus_entry()};
   return list;
 }
 
@@ -66,6 +66,10 @@ std::vector<double> reported_jacobian(SurfaceKind kind, const Revolved& shape, d
 
 std::unique_ptr<Surface> make_surface(SurfaceKind kind, const SurfaceFrame& frame) {
   return catalogue_entry(kind).make(frame);
+}
+
+bool is_diagnosed(SurfaceKind kind) {
+  return kind != SurfaceKind::sphere && kind != SurfaceKind::torus && kind != SurfaceKind::own;
 }
 
 const char* to_string(SurfaceKind kind) {

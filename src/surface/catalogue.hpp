@@ -26,6 +26,8 @@ CatalogueEntry cone_entry();
 CatalogueEntry cylinder_entry();
 CatalogueEntry section_entry();
 CatalogueEntry plane_entry();
+CatalogueEntry sphere_entry();
+CatalogueEntry torus_entry();
 
 /// The line of a kind other than `own`.
 const CatalogueEntry& catalogue_entry(SurfaceKind kind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "associate/stream/stream_points.hpp"
 
+#include <Eigen/Dense>
 #include <cmath>
 #include <utility>
 
@@ -8,6 +9,19 @@
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
+
+namespace {
+
+/// Whether the points stand on the side of the tube that faces the axis.
+bool towards_the_axis(const Feature& torus, const StreamPoints& points) {
+  const Eigen::Vector3d middle(torus.point_mm.data()), along(torus.direction.data());
+  double sum = 0.0;
+  for (const Point3& point : points.points_mm)
+    sum += (Eigen::Vector3d(point.data()) - middle).cross(along).norm();
+  return sum < torus.radius_mm * static_cast<double>(points.points_mm.size());
+}
+
+}  // namespace
 
 Element element_of(SurfaceKind surface) {
   switch (surface) {
@@ -19,6 +33,10 @@ Element element_of(SurfaceKind surface) {
       return Element::plane;
     case SurfaceKind::section:
       return Element::circle;
+    case SurfaceKind::sphere:
+      return Element::sphere;
+    case SurfaceKind::torus:
+      return Element::torus;
     case SurfaceKind::own:
       break;
   }
@@ -82,6 +100,9 @@ Feature surface_below(const AssociatedFeature& of_centres, const StreamPoints& p
         feature.point_mm[i] -= up * points.ball_radius_mm * feature.direction[i];
       break;
     }
+    case Element::torus:  // towards the axis is the groove of a shaft and the bead of a bore
+      feature.minor_radius_mm += towards_the_axis(of_centres.feature, points) ? ball : -ball;
+      break;
     default:
       feature.radius_mm -= ball;
   }
@@ -96,6 +117,8 @@ std::vector<SurfaceNumber> surface_numbers(SurfaceKind surface, const Feature& f
     return {{"l", l, "1"}, {"m", m, "1"}, {"d", l * p[0] + m * p[1] + n * p[2]}};
   if (surface == SurfaceKind::section)
     return {{"x0", p[0]}, {"y0", p[1]}, {"radius", feature.radius_mm}};
+  if (surface == SurfaceKind::sphere)
+    return {{"x0", p[0]}, {"y0", p[1]}, {"z0", p[2]}, {"radius", feature.radius_mm}};
   const double s = p[2] / n;  // from where the axis crosses Z = 0 to the point
   std::vector<SurfaceNumber> numbers{
       {"x0", p[0] - s * l}, {"y0", p[1] - s * m}, {"l", l, "1"}, {"m", m, "1"}};
@@ -104,7 +127,9 @@ std::vector<SurfaceNumber> surface_numbers(SurfaceKind surface, const Feature& f
     numbers.push_back({"k", s - up * apex});
     numbers.push_back({"half_angle", feature.half_angle_rad / rad_per_deg, "deg"});
   } else {
+    if (surface == SurfaceKind::torus) numbers.push_back({"z0", s});
     numbers.push_back({"radius", feature.radius_mm});
+    if (surface == SurfaceKind::torus) numbers.push_back({"minor_radius", feature.minor_radius_mm});
   }
   return numbers;
 }

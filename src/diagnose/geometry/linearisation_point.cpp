@@ -218,9 +218,7 @@ void LinearisationPoint::fill_base(const PointPart& at, std::span<double* const>
 }
 
 bool is_diagnosable(const FitResult& fit) {
-  const bool has_terms = fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder ||
-                         fit.surface == SurfaceKind::section || fit.surface == SurfaceKind::plane;
-  return has_terms && !fit.set_ups.empty() && fit.points > fit.parameters.size() &&
+  return is_diagnosed(fit.surface) && !fit.set_ups.empty() && fit.points > fit.parameters.size() &&
          (fit.status == FitStatus::converged || fit.status == FitStatus::rank_deficient) &&
          std::ranges::all_of(fit.residual_mm, [](double r) { return std::isfinite(r); });
 }

@@ -66,6 +66,9 @@ std::string tap_text(const FitResult& fit) {
 std::string axis_screen(const FitResult& fit) {
   if (fit.status != FitStatus::converged) return "";
   if (fit.surface == SurfaceKind::plane) return parameter_line(fit, "tilt", "tilt");
+  if (fit.surface == SurfaceKind::sphere)
+    return parameter_line(fit, "x0", "x0") + parameter_line(fit, "y0", "y0") +
+           parameter_line(fit, "z0", "z0") + parameter_line(fit, "eccentricity", "off");
   std::string text;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const auto at = fit.axis.axis.at(z);
@@ -100,6 +103,8 @@ std::string fit_screen(const FitResult& result) {
   } else {
     text += parameter_line(result, "radius", "radius");
   }
+  if (result.surface == SurfaceKind::torus)
+    text += parameter_line(result, "minor_radius", "tube") + parameter_line(result, "z0", "z0");
   if (result.surface != SurfaceKind::plane) text += parameter_line(result, "tilt", "tilt");
   for (const std::string& note : result.input_notes) text += "input  " + note + "\n";
   for (const std::string& note : result.notes) text += "note   " + note + "\n";

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "format/json.hpp"
-#include "job/datum_axes.hpp"
+#include "trueaxis/job.hpp"
 
 namespace trueaxis {
 

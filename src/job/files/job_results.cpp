@@ -39,9 +39,9 @@ Json verdict_object(const Verdict& v) {
       {"coverage_factor", v.coverage_factor}};
 }
 
-Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
+Json remainders_array(const std::vector<Remainder>& list) {
   Json remainders = Json::array();
-  for (const Remainder& r : target.remainders) {
+  for (const Remainder& r : list) {
     remainders.push_back(
         {{"reference", r.name},
          {"offset_start", with_unit(r.offset_start_mm, "mm")},
@@ -50,6 +50,10 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
          {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})},
          {"coaxiality_at_most", with_unit(r.limit_mm, "mm")}});
   }
+  return remainders;
+}
+
+Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
   const auto [x, y] = target.axis.axis.at(surface.z_start_mm);
   return {{"x_at_start", with_unit(x, "mm")},
           {"y_at_start", with_unit(y, "mm")},
@@ -57,7 +61,13 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
           {"u_at_end", with_unit(target.axis.u_at(surface.z_end_mm), "mm")},
           {"slope_x", with_unit(target.axis.axis.slope_x, "1")},
           {"slope_y", with_unit(target.axis.axis.slope_y, "1")},
-          {"remainders", remainders}};
+          {"remainders", remainders_array(target.remainders)}};
+}
+
+/// The datum system of the target, and what its axis leaves at the references.
+Json datum_object(const TargetDatum& datum) {
+  return {
+      {"name", datum.name}, {"how", datum.how}, {"remainders", remainders_array(datum.references)}};
 }
 
 /// The references held against each other: what is apart beyond its U, and why nothing may be cut.
@@ -194,9 +204,11 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
     if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
     if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
     if (i < result.forms.size()) reference["form"] = part_form_object(result.forms[i]);
-    if (const auto axes = datum_axes(result, i); !axes.empty()) {
-      reference["association"] = "least squares along the probe line";
-      reference["other_associations"] = datum_axes_array(axes, fit_used(result, i));
+    if (i < result.datum_axes.size() && !result.datum_axes[i].empty()) {
+      const auto& association = result.job.references[i].association;
+      reference["association"] =
+          association ? name_of(*association) : "least squares along the probe line";
+      reference["other_associations"] = datum_axes_array(result.datum_axes[i], fit_used(result, i));
     }
     references.push_back(reference);
   }
@@ -206,6 +218,7 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
     json["agreement"] = agreement_object(result);
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
+  if (result.datum) json["datum"] = datum_object(*result.datum);
   if (result.correction) json["correction"] = correction_object(*result.correction);
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
   json["files"] = Json::array();
@@ -306,9 +319,13 @@ std::string inclusion_text(const Inclusion& i) {
 std::string job_text(const JobResult& result) {
   std::string text = result.verdict.line + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
-    text += fit_text(result.fits[i]) + diagnosis_text_of(result, i) +
-            (i < result.forms.size() ? part_form_text(result.forms[i]) : "") +
-            datum_axes_text(datum_axes(result, i), fit_used(result, i)) + "\n";
+    text +=
+        fit_text(result.fits[i]) + diagnosis_text_of(result, i) +
+        (i < result.forms.size() ? part_form_text(result.forms[i]) : "") +
+        (i < result.datum_axes.size() ? datum_axes_text(result.datum_axes[i], fit_used(result, i))
+                                      : "") +
+        "\n";
+  if (result.datum) text += "datum       " + result.datum->name + ": " + result.datum->how + "\n";
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions)

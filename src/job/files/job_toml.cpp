@@ -11,6 +11,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
+#include "job/files/datums_toml.hpp"
 #include "job/files/form_toml.hpp"
 #include "job/files/output_toml.hpp"
 #include "surface/surface.hpp"
@@ -73,6 +74,7 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.form = read_form_task(table, reference.fit.surface);
+  reference.association = read_association(table, reference.fit.surface, reference.fit.bore);
   reference.fit.ball_radius_mm = sensor.ball_radius_mm;
   reference.fit.noise_mm = sensor.noise_mm;
   reference.fit.influences = sensor.influences;
@@ -244,6 +246,7 @@ void read_cut(TomlTable root, Job& job, bool required) {
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
   if (target) {
     job.target = read_target(*target, job);
+    if (!required) job.datums = read_datums(*target, job);
     const TomlTable cut = root.required_table("cut");
     job.tool = read_tool(cut);
     check_rows(cut, *job.target, job.tool);
@@ -288,6 +291,11 @@ Job read_job_toml(std::string_view content, const std::string& path) {
   check_runout_datums(root, job);
   read_cut(root, job, false);
   for (const JobReference& reference : job.references) {
+    if (!is_diagnosed(reference.fit.surface))
+      root.complain("reference", "reference '" + reference.name + "' is a " +
+                                     to_string(reference.fit.surface) +
+                                     ", which `trueaxis fit` associates and a job does not take: a "
+                                     "job's references are cones, cylinders, faces and sections");
     if (job.target && reference.fit.surface == SurfaceKind::section) {
       root.complain("target", "reference '" + reference.name +
                                   "' is one section, which shows no direction of an axis: probe it "

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/datums_toml.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+namespace trueaxis {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool names_a_face(const Job& job, const std::string& name) {
+  const auto found = std::ranges::find(job.references, name, &JobReference::name);
+  return found != job.references.end() && found->fit.surface == SurfaceKind::plane;
+}
+
+bool all_known(TomlTable target, const char* key, const Names& names, const Job& job) {
+  Names known;
+  for (const JobReference& reference : job.references) known.push_back(reference.name);
+  bool all = true;
+  for (const std::string& name : names) {
+    const auto times = std::ranges::count(known, name);
+    if (times == 1) continue;
+    all = false;
+    target.complain(key, times == 0
+                             ? fmt::format("names '{}', which is no reference of this job: those "
+                                           "are {}",
+                                           name, fmt::join(known, ", "))
+                             : fmt::format("names '{}', as several references are called: give "
+                                           "each a `name` of its own",
+                                           name));
+  }
+  return all;
+}
+
+/// One datum: cylinders and cones that share an axis, or one face.
+bool makes_a_datum(TomlTable target, const char* key, const Names& names, const Job& job) {
+  if (!all_known(target, key, names, job)) return false;
+  const auto faces =
+      std::ranges::count_if(names, [&](const auto& n) { return names_a_face(job, n); });
+  if (std::set<std::string>(names.begin(), names.end()).size() < names.size()) {
+    target.complain(key, "names a reference twice: name each once");
+    return false;
+  }
+  if (faces > 0 && names.size() > 1) {
+    target.complain(key,
+                    "mixes a face with others: a common datum is of cylinders and cones; name the "
+                    "face in the other one of `datum` and `secondary_datum`");
+    return false;
+  }
+  for (const JobReference& reference : job.references)
+    if (names.size() > 1 && reference.association &&
+        *reference.association != Criterion::gaussian &&
+        std::ranges::count(names, reference.name) > 0) {
+      target.complain(key, fmt::format("is a common datum, whose axis is by least squares: leave "
+                                       "the `association` of '{}' out",
+                                       reference.name));
+      return false;
+    }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Criterion> read_association(TomlTable reference, SurfaceKind surface, bool bore) {
+  if (!reference.has("association")) return {};
+  const auto criterion =
+      reference.choice<Criterion>("association",
+                                  {{"gaussian", Criterion::gaussian},
+                                   {"minimum_zone", Criterion::minimum_zone},
+                                   {"minimum_circumscribed", Criterion::minimum_circumscribed},
+                                   {"maximum_inscribed", Criterion::maximum_inscribed}},
+                                  Criterion::gaussian);
+  if (surface != SurfaceKind::cylinder && surface != SurfaceKind::cone) {
+    reference.complain("association", "is of a cylinder or cone: remove it");
+    return {};
+  }
+  const std::string objection = association_objection(
+      surface == SurfaceKind::cone ? Element::cone : Element::cylinder, criterion);
+  const Criterion of_other_side =
+      bore ? Criterion::minimum_circumscribed : Criterion::maximum_inscribed;
+  if (!objection.empty())
+    reference.complain("association", objection);
+  else if (criterion == of_other_side)
+    reference.complain("association",
+                       bore
+                           ? "is of a shaft: the datum of a bore is the maximum_inscribed cylinder"
+                           : "is of a bore: the datum of a shaft is the minimum_circumscribed one");
+  return criterion;
+}
+
+DatumSystem read_datums(TomlTable target, const Job& job) {
+  const Names first = target.texts("datum"), second = target.texts("secondary_datum");
+  if (first.empty() && !second.empty())
+    target.complain("secondary_datum", "needs a primary one: say `datum` as well");
+  if (first.empty() || !makes_a_datum(target, "datum", first, job)) return {};
+  if (!second.empty() && !makes_a_datum(target, "secondary_datum", second, job)) return {};
+  const bool face = names_a_face(job, first.front());
+  const bool needs_place = !job.target || job.target->kind != TargetKind::face;
+  if (second.empty() && face && needs_place) {
+    target.complain("datum",
+                    "is a face, which fixes the direction and no place: name the cylinder "
+                    "or cone that does as `secondary_datum`");
+    return {};
+  }
+  if (second.empty()) return {first};
+  if (names_a_face(job, second.front()) == face) {
+    target.complain("secondary_datum",
+                    face
+                        ? "is a face as the primary one is: name a cylinder or cone"
+                        : "is an axis beside the primary one, which fixes it already: name both in "
+                          "`datum` for the axis that they share, or a face here");
+    return {};
+  }
+  return {first, second};
+}
+
+}  // namespace trueaxis

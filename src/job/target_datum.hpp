@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// The datum system that the job names (ISO 5459). One cylinder or cone is its own axis. Several in
+/// one datum share one axis with radii of their own, by least squares of all readings (Eq. 304). A
+/// face that is named first gives the direction, and the second the place, held to it (Eq. 305).
+/// Nothing where the job names none. @throws Refusal where the readings leave the axis open
+std::optional<TargetDatum> target_datum(const JobResult& result);
+
+/// What the target axis is solved for and a tolerance is held against: the datum where the job
+/// names one, else the references themselves.
+std::vector<Reference> judged(const JobResult& result, const std::vector<Reference>& references);
+
+}  // namespace trueaxis

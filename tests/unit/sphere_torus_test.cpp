@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sphere and a torus on a lathe. Readings are made from points of the surface by its own angles,
+// turned into X_M, C and Z by Eq. 1: no line is intersected.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "associate/files/stream_association.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/fit.hpp"
+
+namespace trueaxis {
+namespace {
+
+using Eigen::Vector3d;
+constexpr double turn = 2.0 * std::numbers::pi;
+// Some operations on lengths of 50 mm, 50 × 2.2e-16 each, and the fit's condition of about 10.
+constexpr double rounding_mm = 1e-11;
+
+void probe(const Vector3d& point, ProbeStream& stream) {
+  stream.reading_mm.push_back(std::hypot(point.x(), point.y()));
+  stream.c_rad.push_back(std::atan2(point.y(), point.x()));
+  stream.position_mm.push_back(point.z());
+}
+
+const Vector3d centre(0.12, -0.08, 31.5);
+
+/// A band of 50° to either side of the equator.
+ProbeStream sphere(double path_radius_mm) {
+  ProbeStream stream;
+  for (int band = -5; band <= 5; ++band)
+    for (int i = 0; i < 40; ++i) {
+      const double up = 10.0 * band * std::numbers::pi / 180.0, t = turn * i / 40.0;
+      probe(centre + path_radius_mm * Vector3d(std::cos(up) * std::cos(t),
+                                               std::cos(up) * std::sin(t), std::sin(up)),
+            stream);
+    }
+  return stream;
+}
+
+/// A tube about a circle at right angles to a tilted axis. @param inner towards the axis
+ProbeStream torus(double radius_mm, double tube_mm, bool inner) {
+  const Vector3d d = Vector3d(8e-4, -5e-4, 1.0).normalized();
+  const Vector3d e = Vector3d(1.0, 0.0, -d.x() / d.z()).normalized(), f = d.cross(e);
+  ProbeStream stream;
+  for (int i = 0; i < 60; ++i)
+    for (int k = -4; k <= 4; ++k) {
+      const double t = turn * i / 60.0, along = 12.0 * k * std::numbers::pi / 180.0;
+      const double r = radius_mm + (inner ? -1.0 : 1.0) * tube_mm * std::cos(along);
+      probe(centre + r * (std::cos(t) * e + std::sin(t) * f) + tube_mm * std::sin(along) * d,
+            stream);
+    }
+  return stream;
+}
+
+TEST(Sphere, IsFoundUnderTheBallOfAProbe) {
+  for (const bool bore : {false, true}) {
+    const double radius = 25.0, ball = 1.5;
+    FitOptions options;
+    options.surface = SurfaceKind::sphere;
+    options.bore = bore;
+    options.ball_radius_mm = ball;
+    const ProbeStream stream = sphere(radius + (bore ? -ball : ball));
+    const FitResult found = fit(stream, options);
+    ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+    EXPECT_NEAR(found.parameter("x0").value, centre.x(), rounding_mm);
+    EXPECT_NEAR(found.parameter("y0").value, centre.y(), rounding_mm);
+    EXPECT_NEAR(found.parameter("z0").value, centre.z(), rounding_mm);
+    EXPECT_NEAR(found.parameter("radius").value, radius, rounding_mm);
+    const StreamAssociation zone =
+        associate_stream(stream, SurfaceKind::sphere, Criterion::minimum_zone,
+                         {.bore = bore, .ball_radius_mm = ball});
+    for (const SurfaceNumber& number : surface_numbers(zone.surface, zone.of_surface.feature))
+      EXPECT_NEAR(number.value, found.parameter(number.name).value, rounding_mm) << number.name;
+  }
+}
+
+TEST(Torus, GrooveAndBeadOfShaftAndBore) {
+  for (const bool bore : {false, true})
+    for (const bool inner : {false, true}) {
+      const double radius = 30.0, tube = 6.0, ball = 1.0;
+      // The ball is in the tube where the material is outside of it: a shaft's groove faces the
+      // axis, a bore's does not.
+      const double path = inner != bore ? tube - ball : tube + ball;
+      FitOptions options;
+      options.surface = SurfaceKind::torus;
+      options.bore = bore;
+      options.ball_radius_mm = ball;
+      const ProbeStream stream = torus(radius, path, inner);
+      const FitResult found = fit(stream, options);
+      ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+      const double n = 1.0 / std::sqrt(1.0 + 8e-4 * 8e-4 + 5e-4 * 5e-4);
+      const double along = centre.z() / n;  // from where the axis crosses Z = 0
+      EXPECT_NEAR(found.parameter("l").value, 8e-4 * n, rounding_mm);
+      EXPECT_NEAR(found.parameter("m").value, -5e-4 * n, rounding_mm);
+      EXPECT_NEAR(found.parameter("x0").value, centre.x() - 8e-4 * centre.z(), 10 * rounding_mm);
+      EXPECT_NEAR(found.parameter("y0").value, centre.y() + 5e-4 * centre.z(), 10 * rounding_mm);
+      EXPECT_NEAR(found.parameter("z0").value, along, 10 * rounding_mm);
+      EXPECT_NEAR(found.parameter("radius").value, radius, 10 * rounding_mm);
+      EXPECT_NEAR(found.parameter("minor_radius").value, tube, 10 * rounding_mm);
+      const StreamAssociation orthogonal = associate_stream(
+          stream, SurfaceKind::torus, Criterion::gaussian, {.bore = bore, .ball_radius_mm = ball});
+      for (const SurfaceNumber& number :
+           surface_numbers(orthogonal.surface, orthogonal.of_surface.feature))
+        EXPECT_NEAR(number.value, found.parameter(number.name).value, 10 * rounding_mm)
+            << number.name;
+    }
+}
+
+/// Errors over u of 200 streams: their squares are χ² of 200 degrees of freedom, 1 in 10⁴ to
+/// either side of [133, 285]. Readings are along the probe, as the model has their noise.
+TEST(SphereTorus, UncertaintiesAreThoseOfTheNoise) {
+  constexpr int streams = 200;
+  constexpr double sigma_mm = 1e-3, low = 133.0, high = 285.0;
+  std::mt19937_64 engine(1827);
+  std::normal_distribution<double> normal(0.0, sigma_mm);
+  for (const SurfaceKind surface : {SurfaceKind::sphere, SurfaceKind::torus}) {
+    const bool is_sphere = surface == SurfaceKind::sphere;
+    const ProbeStream exact = is_sphere ? sphere(25.0) : torus(30.0, 6.0, true);
+    FitOptions options;
+    options.surface = surface;
+    options.noise_mm = sigma_mm;
+    const FitResult truth = fit(exact, options);
+    std::vector<double> squares(truth.parameters.size(), 0.0);
+    for (int k = 0; k < streams; ++k) {
+      ProbeStream noisy = exact;
+      for (double& one : noisy.reading_mm) one += normal(engine);
+      const FitResult found = fit(noisy, options);
+      ASSERT_EQ(found.status, FitStatus::converged) << found.message;
+      for (std::size_t p = 0; p < squares.size(); ++p) {
+        const Estimate& e = found.parameters[p].estimate;
+        squares[p] += std::pow((e.value - truth.parameters[p].estimate.value) / e.u, 2);
+      }
+    }
+    for (std::size_t p = 0; p < squares.size(); ++p) {
+      EXPECT_GT(squares[p], low) << truth.parameters[p].name;
+      EXPECT_LT(squares[p], high) << truth.parameters[p].name;
+    }
+  }
+}
+
+TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
+  ProbeStream stream = sphere(25.0);
+  DiagnoseOptions options;
+  options.fit.surface = SurfaceKind::sphere;
+  const Diagnosis diagnosis = diagnose(stream, options);
+  EXPECT_TRUE(diagnosis.findings.empty());
+  EXPECT_NE(diagnosis.noise.note.find("a sphere is fitted and not diagnosed"), std::string::npos);
+  stream.indication = Indication::relative;
+  stream.nominal_radius_mm = 25.0;
+  EXPECT_THROW(fit(stream, options.fit), InputError);
+}
+
+/// One section of a sphere: neither its height nor its radius can be told.
+TEST(Sphere, OneSectionIsNotEnough) {
+  ProbeStream stream;
+  for (int i = 0; i < 40; ++i) {
+    const double t = turn * i / 40.0;
+    probe(centre + 20.0 * Vector3d(std::cos(t), std::sin(t), 0.0), stream);
+  }
+  FitOptions options;
+  options.surface = SurfaceKind::sphere;
+  EXPECT_NE(fit(stream, options).status, FitStatus::converged);
+}
+
+}  // namespace
+}  // namespace trueaxis
