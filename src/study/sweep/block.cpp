@@ -14,6 +14,7 @@
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/sweep/cut.hpp"
+#include "study/sweep/form.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -67,6 +68,7 @@ struct Prepared {
   Scenario scenario;
   CleanStream clean;
   std::vector<double> truth;
+  std::optional<TurnForm> form;               ///< the true one, where it is compared
   std::optional<RepeatedFit> fit;             ///< none for a diagnosis
   std::vector<virtual_lathe::Effect> hidden;  ///< of a diagnosis
 
@@ -74,6 +76,7 @@ struct Prepared {
       : scenario(scenario_of(sweep, cell, repeat)),
         clean(virtual_lathe::simulate_clean(scenario)),
         truth(true_values(scenario, probed_length(clean.stream), fitted_surface(sweep))) {
+    if (sweep.form_upr) form = true_form_of_middle_turn(scenario, *sweep.form_upr);
     if (method == Method::diagnosis) {
       hidden = effects_hidden_in(scenario, clean);
     } else {
@@ -134,6 +137,9 @@ CellFacts facts_of(const Sweep& sweep, std::size_t cell) {
     facts.readings = clean.value_mm.size();
     facts.truth = true_values(scenario, probed_length(clean.stream), fitted_surface(sweep));
     facts.truth.resize(count + left, 0.0);
+    if (sweep.form_upr)
+      std::ranges::copy(true_form_of_middle_turn(scenario, *sweep.form_upr).value_mm,
+                        facts.truth.end() - static_cast<std::ptrdiff_t>(form_quantities().size()));
     if (cell_at(sweep, cell).method == Method::diagnosis) {
       const Scenario first = scenario_of(sweep, cell, 0);
       facts.hidden = effects_hidden_in(first, virtual_lathe::simulate_clean(first)).size();
@@ -164,6 +170,7 @@ struct CellRunner {
                                  seed_of(sweep, cell, repeat), reading_mm);
     if (prepared.fit) {
       note((*prepared.fit)(reading_mm), prepared, out);
+      note_form(prepared, out);
       return;
     }
     ProbeStream stream = prepared.clean.stream;
@@ -174,6 +181,21 @@ struct CellRunner {
     const Diagnosis diagnosis = diagnose(stream, options);
     out.found.back() = found_by(diagnosis, prepared.hidden);
     note(diagnosis.extended, prepared, out);
+    note_form(prepared, out);
+  }
+
+  /// Of the readings as they are, whatever the method; the last quantities of the row.
+  void note_form(const Prepared& prepared, BlockResult& out) const {
+    if (!sweep.form_upr) return;
+    ProbeStream stream = prepared.clean.stream;
+    stream.reading_mm = reading_mm;
+    const TurnForm found =
+        form_of_middle_turn(stream, *sweep.form_upr, prepared.scenario.part.bore);
+    const std::size_t count = found.value_mm.size(), first = out.error.size() - count;
+    for (std::size_t c = 0; c < count; ++c) {
+      out.error[first + c] = found.value_mm[c] - prepared.form->value_mm[c];
+      out.u[first + c] = found.u_mm[c];
+    }
   }
 
   void note(const FitResult& fit, const Prepared& prepared, BlockResult& out) const {

@@ -6,6 +6,7 @@
 #include "simulate/variates.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/sweep/cut.hpp"
+#include "study/sweep/form.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::study {
@@ -115,8 +116,10 @@ SurfaceKind fitted_surface(const Sweep& sweep) {
 
 std::vector<Quantity> compared_quantities(const Sweep& sweep) {
   std::vector<Quantity> out = quantities(fitted_surface(sweep));
-  if (!sweep.base.cut) return out;
-  for (Quantity& left : cut_quantities()) out.push_back(std::move(left));
+  if (sweep.base.cut)
+    for (Quantity& left : cut_quantities()) out.push_back(std::move(left));
+  if (sweep.form_upr)
+    for (Quantity& form : form_quantities()) out.push_back(std::move(form));
   return out;
 }
 

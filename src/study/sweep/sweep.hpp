@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -57,6 +58,9 @@ struct Sweep {
   std::vector<Setting> settings;  ///< of all cells, before the numbers of the axes
   std::vector<GridAxis> axes;     ///< a grid: every point of one with every point of the others
   std::vector<Drawn> drawn;       ///< beside the grid
+  /// Pass band of the roundness that is compared as well, undulations per revolution; none: none
+  /// is.
+  std::optional<std::array<double, 2>> form_upr{};
   std::vector<Method> methods{Method::fit};  ///< each on the same readings
   std::size_t repeats = 2000;
   std::uint64_t seed = 1;
@@ -67,7 +71,8 @@ struct Sweep {
 /// Surface that the sweep fits.
 SurfaceKind fitted_surface(const Sweep& sweep);
 
-/// What a sweep compares: the quantities of its surface and, of a scenario that cuts, what is left.
+/// What a sweep compares: the quantities of its surface, of a scenario that cuts what is left, and
+/// with a pass band the roundness.
 std::vector<Quantity> compared_quantities(const Sweep& sweep);
 
 /// A cell is a point of the grid and a method; the method changes fastest, then the last axis.

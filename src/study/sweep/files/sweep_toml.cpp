@@ -44,6 +44,21 @@ std::string read_surface(TomlTable root, const virtual_lathe::Scenario& base) {
   return section ? "section" : "";
 }
 
+/// The pass band of the roundness that is compared as well.
+std::optional<std::array<double, 2>> read_form_band(TomlTable root,
+                                                    const virtual_lathe::Scenario& base) {
+  if (!root.has("form_upr")) return {};
+  const std::vector<double> band = root.numbers("form_upr");
+  if (base.part.kind == virtual_lathe::PartKind::face)
+    root.complain("form_upr", "is of a cone or cylinder: a face has no roundness");
+  if (band.size() == 2 && band[0] >= 1.0 && band[1] > band[0] && band[1] <= 500.0)
+    return std::array{band[0], band[1]};
+  root.complain("form_upr",
+                "is the pass band in undulations per revolution: [1, 15], [1, 50], [1, 150], "
+                "[1, 500] or another");
+  return {};
+}
+
 /// The scenario of the file or of the sweep's own tables, and its bytes for the hash.
 std::string read_base(TomlDocument& document, TomlTable root, study::Sweep& sweep) {
   if (!root.has("scenario")) {
@@ -96,6 +111,7 @@ study::Sweep parse_sweep_toml(std::string_view content, const std::string& path,
       static_cast<std::uint64_t>(root.integer("seed", 1, 0, std::numeric_limits<long long>::max()));
   sweep.repeats = static_cast<std::size_t>(root.integer("repeats", 2000, 1, most_repeats));
   sweep.methods = read_methods(root);
+  sweep.form_upr = read_form_band(root, sweep.base);
   sweep.surface = read_surface(root, sweep.base);
   sweep.input_hash = content_hash(std::string(content) + '\0' + scenario);
   if (sweep.base.cut) check_cut(document, path, sweep);

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// Datum systems of ISO 5459: the target axis against least squares of the points themselves, and
+// against geometry.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numbers>
+
+#include "job/files/job_toml.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/job.hpp"
+#include "trueaxis/virtual_lathe.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double noise_mm = 1e-5;
+
+struct Stands {
+  double x0_mm, y0_mm, l, m;
+};
+
+ProbeStream seat(double radius_mm, double z_mm, const Stands& at, std::uint64_t seed) {
+  virtual_lathe::Scenario scenario;
+  scenario.seed = seed;
+  scenario.part.kind = virtual_lathe::PartKind::cylinder;
+  scenario.part.radius_mm = radius_mm;
+  scenario.part.x0_mm = at.x0_mm, scenario.part.y0_mm = at.y0_mm;
+  scenario.part.l = at.l, scenario.part.m = at.m;
+  scenario.noise.sigma_mm = noise_mm;
+  virtual_lathe::PlannedPass pass;
+  pass.start_mm = z_mm, pass.end_mm = z_mm + 12.0;
+  pass.feed_mm_per_rev = 1.0, pass.readings_per_revolution = 36.0;
+  scenario.plan.passes = {pass};
+  return virtual_lathe::simulate(scenario);
+}
+
+ProbeStream shoulder(double l, double m) {
+  virtual_lathe::Scenario scenario;
+  scenario.seed = 3;
+  scenario.part.kind = virtual_lathe::PartKind::face;
+  scenario.part.d_mm = -1.0, scenario.part.l = l, scenario.part.m = m;
+  scenario.noise.sigma_mm = noise_mm;
+  virtual_lathe::PlannedPass pass;
+  pass.start_mm = 10.0, pass.end_mm = 40.0;
+  pass.feed_mm_per_rev = 1.0, pass.readings_per_revolution = 36.0;
+  scenario.plan.passes = {pass};
+  return virtual_lathe::simulate(scenario);
+}
+
+Job job_of(const std::vector<std::pair<std::string, SurfaceKind>>& references) {
+  Job job;
+  job.path = "job.toml";
+  for (const auto& [name, surface] : references) {
+    JobReference& one = job.references.emplace_back();
+    one.name = name;
+    one.fit.surface = surface;
+  }
+  job.target = TargetSurface{TargetKind::cylinder, false, 60.0, 40.0, 19.0, 0.0, 0.0, 0.0, 0.0};
+  job.tool.nose_radius_mm = 0.4;
+  job.coaxiality_tolerance_mm = 0.05;
+  job.values_of_form = false;
+  return job;
+}
+
+/// Distances of the readings from a line (x, y at Z = 0, slopes) less a radius each stream, whose
+/// squares are summed, each stream as one. Newton's method with differences: no formula of ours.
+Eigen::Vector4d least_squares_of(const std::vector<ProbeStream>& streams) {
+  const auto streams_n = static_cast<Eigen::Index>(streams.size());
+  Eigen::VectorXd p = Eigen::VectorXd::Zero(4 + streams_n);
+  for (Eigen::Index s = 0; s < streams_n; ++s) p[4 + s] = 20.0;
+  const auto residuals = [&](const Eigen::VectorXd& q) {
+    std::vector<double> out;
+    for (std::size_t s = 0; s < streams.size(); ++s)
+      for (std::size_t i = 0; i < streams[s].size(); ++i) {
+        const double x = streams[s].reading_mm[i], c = streams[s].c_rad[i];
+        const Eigen::Vector3d point(x * std::cos(c), x * std::sin(c), streams[s].position_mm[i]);
+        const Eigen::Vector3d along = Eigen::Vector3d(q[2], q[3], 1.0).normalized();
+        const double off = (point - Eigen::Vector3d(q[0], q[1], 0.0)).cross(along).norm();
+        out.push_back((off - q[4 + static_cast<Eigen::Index>(s)]) /
+                      std::sqrt(static_cast<double>(streams[s].size())));
+      }
+    return Eigen::VectorXd(
+        Eigen::Map<Eigen::VectorXd>(out.data(), static_cast<Eigen::Index>(out.size())));
+  };
+  for (int step = 0; step < 20; ++step) {
+    const Eigen::VectorXd now = residuals(p);
+    Eigen::MatrixXd slope(now.size(), p.size());
+    for (Eigen::Index k = 0; k < p.size(); ++k) {
+      const double by = k == 2 || k == 3 ? 1e-6 : 1e-4;
+      Eigen::VectorXd more = p, less = p;
+      more[k] += by;
+      less[k] -= by;
+      slope.col(k) = (residuals(more) - residuals(less)) / (2.0 * by);
+    }
+    p -= slope.colPivHouseholderQr().solve(now);
+  }
+  return p.head<4>();
+}
+
+/// Two seats that are not quite coaxial. Of each alone the tilt, over the 100 mm between them, is
+/// far off; the weighted compromise takes both. The common axis is that of the points. Readings
+/// along the probe line and distances differ by (e/R)² of the residuals, 4e-6 of 10 µm.
+TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
+  const std::vector<ProbeStream> streams{seat(20.0, 0.0, {0.02, -0.01, 2e-4, 1e-4}, 1),
+                                         seat(24.0, 100.0, {0.06, 0.01, -3e-4, 2e-4}, 2)};
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}});
+  job.datums = {{"A", "B"}};
+  const JobResult result = run_job(job, streams);
+  ASSERT_TRUE(result.target_axis) << result.verdict.line;
+  const Eigen::Vector4d own = least_squares_of(streams);
+  for (const double z : {0.0, 50.0, 112.0}) {
+    const auto [x, y] = result.target_axis->axis.axis.at(z);
+    EXPECT_NEAR(x, own[0] + own[2] * z, 2e-6) << z;
+    EXPECT_NEAR(y, own[1] + own[3] * z, 2e-6) << z;
+  }
+  ASSERT_EQ(result.target_axis->remainders.size(), 1U);
+  EXPECT_EQ(result.target_axis->remainders[0].name, "A-B");
+  EXPECT_LT(result.target_axis->remainders[0].coaxiality_mm, 1e-12);
+  EXPECT_EQ(result.datum->references.size(), 2U);
+  EXPECT_GT(result.datum->references[0].coaxiality_mm, 1e-3) << "what the seat itself is off";
+  EXPECT_EQ(result.verdict.decision, Decision::go) << result.verdict.line;
+}
+
+/// The same seat counts the same however densely it was probed.
+TEST(TargetDatum, ASeatCountsByItsWeightNotByItsReadings) {
+  ProbeStream dense = seat(20.0, 0.0, {0.02, -0.01, 2e-4, 1e-4}, 1);
+  const ProbeStream sparse = seat(24.0, 100.0, {0.06, 0.01, -3e-4, 2e-4}, 2);
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}});
+  job.datums = {{"A", "B"}};
+  const Axis once = run_job(job, {dense, sparse}).target_axis->axis.axis;
+  job.references[0].weight = job.references[1].weight = 3.0;
+  const Axis weighed = run_job(job, {dense, sparse}).target_axis->axis.axis;
+  EXPECT_NEAR(weighed.x_mm, once.x_mm, 1e-14);
+  for (auto* column : {&dense.reading_mm, &dense.c_rad, &dense.position_mm, &dense.time_s}) {
+    const std::vector<double> twice = *column;
+    column->insert(column->end(), twice.begin(), twice.end());
+  }
+  if (!dense.pass.empty()) {
+    const auto twice = dense.pass;
+    dense.pass.insert(dense.pass.end(), twice.begin(), twice.end());
+  }
+  const Axis twice = run_job(job, {dense, sparse}).target_axis->axis.axis;
+  EXPECT_NEAR(twice.x_mm, once.x_mm, 1e-8);
+  EXPECT_NEAR(twice.slope_x, once.slope_x, 1e-9);
+}
+
+/// Direction of the shoulder; at the middle of the seat, where a tilt shifts nothing, its place.
+TEST(TargetDatum, AFaceFirstGivesTheDirection) {
+  const Stands stands{0.03, -0.02, 4e-4, -2e-4};
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"C", SurfaceKind::plane}});
+  job.datums = {{"C"}, {"A"}};
+  const JobResult result = run_job(job, {seat(20.0, 0.0, stands, 5), shoulder(-1e-4, 3e-4)});
+  ASSERT_TRUE(result.target_axis) << result.verdict.line;
+  const Axis& axis = result.target_axis->axis.axis;
+  const double u_slope = std::sqrt(result.target_axis->axis.covariance[10]);
+  EXPECT_NEAR(axis.slope_x, -1e-4, 5.0 * u_slope);
+  EXPECT_NEAR(axis.slope_y, 3e-4, 5.0 * u_slope);
+  const double z = 6.0, u = result.target_axis->axis.u_at(z);
+  EXPECT_LT(u, 1e-5);
+  const auto [x, y] = axis.at(z);
+  EXPECT_NEAR(x, stands.x0_mm + stands.l * z, 5.0 * u);
+  EXPECT_NEAR(y, stands.y0_mm + stands.m * z, 5.0 * u);
+  EXPECT_EQ(result.datum->name, "C | A");
+}
+
+/// A ridge draws the circumscribed axis by half of it, that of least squares by 2/n.
+TEST(TargetDatum, TheAssociationOfAReferenceMovesTheCut) {
+  constexpr double ridge_mm = 4e-3;
+  ProbeStream stream = seat(20.0, 0.0, {0.0, 0.0, 0.0, 0.0}, 9);
+  double at_ridge = 0.0;
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    if (std::abs(std::remainder(stream.c_rad[i], 2.0 * std::numbers::pi)) < 0.05) {
+      stream.reading_mm[i] += ridge_mm;
+      ++at_ridge;
+    }
+  ASSERT_GE(at_ridge, 11.0);
+  Job job = job_of({{"A", SurfaceKind::cylinder}});
+  const JobResult plain = run_job(job, {stream});
+  job.references[0].association = Criterion::minimum_circumscribed;
+  const JobResult result = run_job(job, {stream});
+  ASSERT_TRUE(result.target_axis && plain.target_axis) << result.verdict.line;
+  const double share = 2.0 * at_ridge / static_cast<double>(stream.size());
+  for (const double z : {1.0, 11.0}) {
+    const double by =
+        result.target_axis->axis.axis.at(z)[0] - plain.target_axis->axis.axis.at(z)[0];
+    // Noise of 0.01 µm in what touches, and h²/R.
+    EXPECT_NEAR(by, (0.5 - share) * ridge_mm, 1e-4) << z;
+    EXPECT_GT(result.target_axis->axis.u_at(z), plain.target_axis->axis.u_at(z));
+  }
+}
+
+std::string refusal_of(const std::string& reference, const std::string& target) {
+  try {
+    read_job_toml("[[reference]]\nname = \"A\"\nstream = \"a.csv\"\nsurface = \"cylinder\"\n" +
+                      reference +
+                      "\n[[reference]]\nname = \"C\"\nstream = \"c.csv\"\nsurface = \"plane\"\n"
+                      "[target]\nsurface = \"cylinder\"\nz_start_mm = 60\nz_end_mm = 40\n"
+                      "radius_mm = 19\n" +
+                      target + "\n[cut]\nspeed_rpm = 600\nsense = \"+c\"\nfeed_mm_per_rev = 0.1\n",
+                  "job.toml");
+  } catch (const InputError& error) {
+    return error.diagnostics().front().message;
+  }
+  return "";
+}
+
+TEST(TargetDatum, WhatMakesNoDatumIsRefusedWithWhatToDo) {
+  const auto expect = [](const std::string& reference, const std::string& target,
+                         const std::string& part) {
+    const std::string said = refusal_of(reference, target);
+    EXPECT_NE(said.find(part), std::string::npos) << target << ": " << said;
+  };
+  EXPECT_EQ(refusal_of("", "datum = [\"A\"]\nsecondary_datum = [\"C\"]"), "");
+  EXPECT_EQ(refusal_of("association = \"minimum_circumscribed\"", "datum = [\"A\"]"), "");
+  expect("", "datum = [\"B\"]", "names 'B', which is no reference of this job: those are A, C");
+  expect("", "datum = [\"C\"]", "name the cylinder or cone that does as `secondary_datum`");
+  expect("", "datum = [\"A\", \"C\"]", "mixes a face with others");
+  expect("", "datum = [\"A\"]\nsecondary_datum = [\"A\"]", "is an axis beside the primary one");
+  expect("", "secondary_datum = [\"C\"]", "needs a primary one");
+  expect("association = \"maximum_inscribed\"", "", "is of a bore");
+  expect("association = \"circumscribed\"", "", "minimum_circumscribed");
+}
+
+}  // namespace
+}  // namespace trueaxis
