@@ -104,5 +104,15 @@ TEST_F(FixtureCompensate, TheBladeWithinItsTolerance) {
   EXPECT_GT(value(json.at("between_blocks").at("before")), 0.2);
 }
 
+// A file of errors says what it is in its first line: its name may be any.
+TEST_F(FixtureCompensate, ErrorsNeedNoSuffix) {
+  const CommandStreams datum = command("datum " + of_data("holes.toml") + " -o errors_of_the_part");
+  ASSERT_EQ(datum.exit_code, 0) << datum.err;
+  const CommandStreams done =
+      command("compensate " + of_data("holes.nc") + " --machine " + of_data("zxacy.toml") +
+              " --errors errors_of_the_part -o cut.nc");
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+}
+
 }  // namespace
 }  // namespace trueaxis::testing

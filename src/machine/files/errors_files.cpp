@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "format/outputs.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "machine/files/etalon.hpp"
 #include "machine/files/isg_csv.hpp"
@@ -15,7 +16,7 @@ namespace trueaxis {
 namespace {
 
 ErrorModel read_one(const std::string& path, const Machine& machine, const ErrorsFiles& said) {
-  if (path.ends_with(".toml")) return read_errors_toml(path, machine, said.large_errors);
+  if (is_errors_toml(path)) return read_errors_toml(path, machine, said.large_errors);
   if (!said.foreign_sign)
     throw InputError(path,
                      "does not say the sign of its component errors: give --sign moving_part or "
@@ -30,6 +31,10 @@ bool has_components(const ErrorModel& errors) {
 }
 
 }  // namespace
+
+bool is_errors_toml(const std::string& path) {
+  return path.ends_with(".toml") || schema_of_file(path) == "trueaxis.errors";
+}
 
 ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const MachineFile& machine,
                                 const ErrorsFiles& said) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "machine/files/errors_files.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
@@ -100,7 +101,7 @@ std::string machine_not_said(const std::string& path, const ErrorModel& errors,
   const bool of_machine = std::ranges::any_of(
       errors.terms, [](const ErrorTerm& term) { return term.name.body != workpiece_body; });
   if (!of_machine) return "";
-  if (path.ends_with(".toml") && TomlDocument(path).root().has("machine")) return "";
+  if (is_errors_toml(path) && TomlDocument(path).root().has("machine")) return "";
   return fmt::format(
       "{} does not say of which machine its errors are: they are taken as those of {}. trueaxis "
       "errors writes them with the table [machine], which says it",
