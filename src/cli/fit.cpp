@@ -53,9 +53,11 @@ int execute(const Options& options) {
   outputs.commit();
   if (!options.result.printed() && options.verbose) std::cout << fit_text(result);
   if (!options.result.printed() && !options.verbose)
-    print_screen(fit_screen(result) + "next   trueaxis diagnose " + options.stream.path +
-                 " --surface " + options.association.surface +
-                 ": what the surface does not explain\n");
+    print_screen(fit_screen(result) +
+                 (is_diagnosed(chosen.surface)
+                      ? "next   trueaxis diagnose " + options.stream.path + " --surface " +
+                            options.association.surface + ": what the surface does not explain\n"
+                      : std::string()));
   if (result.status != FitStatus::converged) {
     std::cerr << stream.source << ": " << to_string(result.status) << ": " << result.message
               << '\n';
@@ -70,7 +72,7 @@ void add_fit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("fit", "associate a surface with a probe stream");
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command);
-  options->association.add_to(*command)->required();
+  options->association.add_to(*command, true)->required();
   options->criterion.add_to(*command);
   options->result.add_to(*command, "its residual here (CSV)");
   add_verbose(*command, options->verbose);

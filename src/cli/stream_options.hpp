@@ -78,9 +78,11 @@ struct AssociationOptions {
   std::string surface = "cone", loss = "plain";
   double noise_um = -1.0;
 
-  CLI::Option* add_to(CLI::App& command) {
+  /// @param fit_only the command takes surfaces that are not diagnosed as well
+  CLI::Option* add_to(CLI::App& command, bool fit_only = false) {
     std::vector<std::string> surfaces;
-    for (const SurfaceInfo& info : surface_catalogue()) surfaces.emplace_back(info.id);
+    for (const SurfaceInfo& info : surface_catalogue())
+      if (fit_only || is_diagnosed(info.kind)) surfaces.emplace_back(info.id);
     CLI::Option* option = command.add_option("--surface", surface, "reference surface")
                               ->check(CLI::IsMember(surfaces));
     command

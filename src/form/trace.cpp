@@ -12,6 +12,21 @@ namespace {
 
 constexpr double one_place = 0.1;  // of the step of one turn: angles that jitter or are rounded
 
+/// One place that rounding set down before the end of the turn and behind its beginning.
+void join_ends(const std::vector<std::size_t>& counts, Trace& trace) {
+  const auto first = static_cast<double>(counts.front()), last = static_cast<double>(counts.back());
+  const double share = last / (first + last);
+  const double place = trace.at.front() - share * trace.step(trace.size() - 1);
+  trace.value_mm.front() = (1.0 - share) * trace.value_mm.front() + share * trace.value_mm.back();
+  trace.at.pop_back();
+  trace.value_mm.pop_back();
+  trace.at.front() = place;
+  if (place >= 0.0) return;
+  std::ranges::rotate(trace.at, trace.at.begin() + 1);
+  std::ranges::rotate(trace.value_mm, trace.value_mm.begin() + 1);
+  trace.at.back() += trace.period;
+}
+
 }  // namespace
 
 double Trace::step(std::size_t i) const {
@@ -59,6 +74,7 @@ Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm,
       std::max(one_place * step, most > 0 ? extent / static_cast<double>(most) : 0.0);
   Trace trace;
   trace.period = period;
+  std::vector<std::size_t> counts;
   for (std::size_t k = 0; k < order.size();) {
     double at_sum = 0.0, sum = 0.0;
     std::size_t count = 0;
@@ -69,7 +85,10 @@ Trace sorted_trace(std::span<const double> at, std::span<const double> value_mm,
     }
     trace.at.push_back(place + at_sum / static_cast<double>(count));
     trace.value_mm.push_back(sum / static_cast<double>(count));
+    counts.push_back(count);
   }
+  if (trace.closed() && trace.size() > 1 && trace.step(trace.size() - 1) <= together)
+    join_ends(counts, trace);
   return trace;
 }
 

@@ -7,15 +7,13 @@
 #include <cmath>
 
 #include "fit/describe.hpp"
+#include "job/beyond_probed.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-// Far from the probed length u of an axis grows as √12 distances over lengths: 2.9 and 8.7 of them.
-constexpr double reserved_u_factor = 10.0, refused_u_factor = 30.0;
 
 double ball_of(const JobResult& result, std::size_t i) {
   const double said_mm = result.job.references[i].fit.ball_radius_mm;
@@ -83,16 +81,6 @@ std::string stock_objection(const JobResult& result, std::size_t i) {
   return "";
 }
 
-std::string extrapolation(const JobResult& result, std::size_t i) {
-  const FitResult& fit = result.fits[i];
-  const TargetSurface& target = *result.job.target;
-  return fmt::format(
-      "the cut from Z = {:.6g} to {:.6g} mm lies so far from the probed length of {}, Z = {:.6g} "
-      "to {:.6g} mm, that U is extrapolated: {:.3g} times that within it",
-      target.z_start_mm, target.z_end_mm, result.job.references[i].name, fit.position_min_mm,
-      fit.position_max_mm, u_beyond_probed(result, i));
-}
-
 }  // namespace
 
 void require_stock(const JobResult& result) {
@@ -110,26 +98,6 @@ void require_stock(const JobResult& result) {
   }
 }
 
-double u_beyond_probed(const JobResult& result, std::size_t i) {
-  // What causes that the data cannot tell would add is no line's.
-  const bool named = i < result.diagnoses.size() && result.diagnoses[i] &&
-                     result.diagnoses[i]->named.status == FitStatus::converged;
-  const FitResult& fit = named ? result.diagnoses[i]->named : fit_used(result, i);
-  if (!result.job.target || result.job.target->kind == TargetKind::face ||
-      fit.surface == SurfaceKind::plane)
-    return 1.0;
-  constexpr int places = 32;
-  double least = fit.axis.u_at(fit.position_min_mm);
-  for (int k = 1; k <= places; ++k) {
-    const double share = static_cast<double>(k) / places;
-    least = std::min(least, fit.axis.u_at(fit.position_min_mm +
-                                          share * (fit.position_max_mm - fit.position_min_mm)));
-  }
-  const double worst = std::max(fit.axis.u_at(result.job.target->z_start_mm),
-                                fit.axis.u_at(result.job.target->z_end_mm));
-  return least > 0.0 && std::isfinite(worst) ? worst / least : 1.0;
-}
-
 std::string cut_objection(const JobResult& result) {
   const auto first_of = [&](auto check) {
     std::string why;
@@ -140,24 +108,20 @@ std::string cut_objection(const JobResult& result) {
   if (!result.correction) return "";
   if (std::string why = first_of(hollow_objection); !why.empty()) return why;
   if (std::string why = first_of(stock_objection); !why.empty()) return why;
-  return first_of([](const JobResult& all, std::size_t i) {
-    return u_beyond_probed(all, i) > refused_u_factor
-               ? extrapolation(all, i) + ": probe nearer to it, or a greater length"
-               : std::string();
-  });
+  const std::string far = extrapolation(result, refused_u_factor);
+  return far.empty() ? "" : far + ": probe nearer to it, or a greater length";
 }
 
 std::vector<std::string> cut_reservations(const JobResult& result) {
   std::vector<std::string> sentences;
   if (!result.correction) return sentences;
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    if (u_beyond_probed(result, i) > reserved_u_factor)
-      sentences.push_back(extrapolation(result, i));
+  if (std::string far = extrapolation(result, reserved_u_factor); !far.empty())
+    sentences.push_back(std::move(far));
+  for (std::size_t i = 0; i < result.fits.size(); ++i)
     if (result.streams[i].indication == Indication::relative)
       sentences.push_back(result.job.references[i].name +
                           " was read with a relative gauge, which shows no radius: whether the "
                           "target cuts air there is not known");
-  }
   return sentences;
 }
 

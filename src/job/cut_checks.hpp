@@ -13,10 +13,6 @@ namespace trueaxis {
 /// @throws InputError that says so, when the job does not state it.
 void require_stock(const JobResult& result);
 
-/// By how much u of the axis at the worse end of the cut is above the least within the probed
-/// length of a reference (Eq. 119a); 1 for a plane, and where there is no u.
-double u_beyond_probed(const JobResult& result, std::size_t reference);
-
 /// Why the table of this job must not be run, seen from the geometry alone: the probed surface, the
 /// ball, the target and the stock that was stated. Empty: nothing speaks against it.
 std::string cut_objection(const JobResult& result);

@@ -104,6 +104,12 @@ std::string most_open(const Diagnosis& diagnosis, const Covariance& noise) {
 
 std::string what_would_prove(const JobResult& result, double allowed_mm) {
   const std::vector<Reference> references = references_of(result);
+  for (std::size_t i = 0; i < result.associated.size(); ++i)
+    if (result.associated[i])
+      return fmt::format(
+          "{}the axis by {} rests on few readings and takes their noise in whole: a quieter probe "
+          "or least squares (without `association`) would prove it",
+          of_reference(result, i), name_of(*result.job.references[i].association));
   std::vector<Covariance> noise;
   double readings = 0.0, length_mm = 0.0;
   for (std::size_t i = 0; i < references.size(); ++i) {

@@ -34,7 +34,7 @@ function keyNumbers(verdict) {
   if (!isNumber(verdict.coaxiality_after_mm)) {
     return facts([['Coaxiality', 'not determined: there is no target axis'], ['Tolerance (coaxiality, a diameter)', tolerance]], 'numbers');
   }
-  const worst = data.target.references.map((r) => r.before).filter(Boolean)
+  const worst = (data.target.datum ? [data.target.datum] : data.target.references).map((r) => r.before).filter(Boolean)
     .reduce((most, b) => !most || b.coaxiality_mm > most.coaxiality_mm ? b : most, null);
   const sameAsWorst = worst && Math.abs(worst.coaxiality_mm - verdict.coaxiality_before_mm) <= 1e-6 + 1e-3 * worst.coaxiality_mm;
   return facts([

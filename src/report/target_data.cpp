@@ -5,6 +5,7 @@
 
 #include "job/references.hpp"
 #include "job/slip.hpp"
+#include "job/target_datum.hpp"
 #include "report/page_data.hpp"
 #include "trueaxis/units.hpp"
 
@@ -86,6 +87,12 @@ Json remainder_data(const Remainder& left) {
           {"u_coaxiality_mm", left.u_coaxiality_mm}, {"at_most_mm", left.limit_mm}};
 }
 
+/// Of the datum, were the part cut about the spindle axis.
+Json before_datum(const JobResult& result, const std::pair<double, double>& length) {
+  const Reference datum = judged(result, references_of(result)).front();
+  return before(datum.axis, datum.face_radius_mm, length);
+}
+
 }  // namespace
 
 Json target_data(const JobResult& result) {
@@ -121,6 +128,7 @@ Json target_data(const JobResult& result) {
     if (result.datum)
       data["datum"] = {{"name", result.datum->name},
                        {"how", result.datum->how},
+                       {"before", before_datum(result, length)},
                        {"after", remainder_data(result.target_axis->remainders.front())}};
   }
   return data;

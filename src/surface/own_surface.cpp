@@ -17,18 +17,19 @@ double secant(std::span<const double> w) { return std::sqrt(1.0 + w[2] * w[2] + 
 }  // namespace
 
 ProfileSurface::ProfileSurface(std::shared_ptr<const RevolvedProfile> profile,
+                               std::shared_ptr<const Parameters> parameters,
                                const SurfaceFrame& frame)
     : profile_(std::move(profile)),
-      parameters_(profile_->parameters()),
+      parameters_(std::move(parameters)),
       frame_(frame),
       cone_(make_surface(SurfaceKind::cone, frame)) {
-  for (const auto& parameter : parameters_) names_.emplace_back(parameter.name);
+  for (const auto& parameter : *parameters_) names_.emplace_back(parameter.name);
 }
 
 std::vector<double> ProfileSurface::working_scale_mm(std::span<const double> working) const {
   const double radius = std::max(shape(working).radius_mm, 1e-6);
   std::vector<double> scale{1.0, 1.0, radius, radius};
-  for (const auto& parameter : parameters_) scale.push_back(parameter.length_mm);
+  for (const auto& parameter : *parameters_) scale.push_back(parameter.length_mm);
   return scale;
 }
 
@@ -53,7 +54,7 @@ std::vector<double> ProfileSurface::profile_start(const Axis& /*axis*/,
                                                   const ReadingBlock& /*readings*/,
                                                   std::size_t /*count*/) const {
   std::vector<double> out;
-  for (const auto& parameter : parameters_) out.push_back(parameter.start);
+  for (const auto& parameter : *parameters_) out.push_back(parameter.start);
   return out;
 }
 
@@ -174,8 +175,7 @@ ProfileSurface::Contact ProfileSurface::meet(std::span<const double> w, double c
 }
 
 CatalogueEntry own_entry(std::shared_ptr<const RevolvedProfile> profile) {
-  const auto parameters = std::make_shared<const std::vector<RevolvedProfile::Parameter>>(
-      profile->parameters());  // behind the names of the line
+  const auto parameters = std::make_shared<const ProfileSurface::Parameters>(profile->parameters());
   expects(parameters->size() <= RevolvedProfile::most, "at most four parameters of a profile");
   SurfaceInfo info{SurfaceKind::own,      "own", "a profile of the user's",
                    StreamKind::lateral,   true,  {"x0", "y0", "l", "m"},
@@ -186,7 +186,7 @@ CatalogueEntry own_entry(std::shared_ptr<const RevolvedProfile> profile) {
   }
   return {std::move(info),
           [profile, parameters](const SurfaceFrame& frame) -> std::unique_ptr<Surface> {
-            return std::make_unique<ProfileSurface>(profile, frame);
+            return std::make_unique<ProfileSurface>(profile, parameters, frame);
           }};
 }
 

@@ -14,7 +14,11 @@ namespace trueaxis {
 /// x, y (mm, at z_ref), slope_x, slope_y, then the profile's.
 class ProfileSurface : public Surface {
  public:
-  ProfileSurface(std::shared_ptr<const RevolvedProfile> profile, const SurfaceFrame& frame);
+  using Parameters = std::vector<RevolvedProfile::Parameter>;
+
+  /// @param parameters of the profile; names of a catalogue line may point into them
+  ProfileSurface(std::shared_ptr<const RevolvedProfile> profile,
+                 std::shared_ptr<const Parameters> parameters, const SurfaceFrame& frame);
 
   std::size_t column_count() const override { return names_.size(); }
   std::span<const std::string_view> working_names() const override { return names_; }
@@ -54,7 +58,7 @@ class ProfileSurface : public Surface {
                                    std::size_t count) const;
 
   std::shared_ptr<const RevolvedProfile> profile_;
-  std::vector<RevolvedProfile::Parameter> parameters_;
+  std::shared_ptr<const Parameters> parameters_;
   std::vector<std::string_view> names_{"x", "y", "slope_x", "slope_y"};
   SurfaceFrame frame_;
   std::unique_ptr<Surface> cone_;  ///< finds the axis to start from

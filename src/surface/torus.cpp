@@ -31,7 +31,8 @@ class Tube final : public RevolvedProfile {
 class Torus final : public ProfileSurface {
  public:
   explicit Torus(const SurfaceFrame& frame)
-      : ProfileSurface(std::make_shared<const Tube>(), frame) {}
+      : ProfileSurface(std::make_shared<const Tube>(),
+                       std::make_shared<const Parameters>(Tube().parameters()), frame) {}
 
   Reported report(std::span<const double> working) const override {
     Reported all = ProfileSurface::report(working);

@@ -49,7 +49,7 @@ TEST_F(ExitCode, TwoForUsage) {
                                 "bogus",
                                 "fit",
                                 "fit part.csv",
-                                "fit part.csv --surface sphere",
+                                "fit part.csv --surface ball",
                                 "fit part.csv part.csv --surface cone",
                                 "fit part.csv --surface cone --loss cauchy",
                                 "fit part.csv --surface cone --noise -1",

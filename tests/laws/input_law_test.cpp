@@ -76,7 +76,7 @@ TEST(InputLaw, ABallThatTheStreamAndTheJobDisagreeOn) {
 
 TEST(InputLaw, UnknownSurface) {
   try {
-    surface_from_id("sphere");
+    surface_from_id("ball");
     ADD_FAILURE() << "no surface is called so";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("cone, cylinder"), std::string::npos) << error.what();

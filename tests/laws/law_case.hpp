@@ -62,7 +62,7 @@ std::vector<double> rounding_of_parameters(const LawCase& c, const FitResult& re
 /// those along Z as they show in X, over the cosine of the worst incidence.
 double rounding_size_mm(const LawCase& c);
 
-/// Every surface of the catalogue, for INSTANTIATE_TEST_SUITE_P.
+/// Every surface of the catalogue that the virtual lathe makes, for INSTANTIATE_TEST_SUITE_P.
 std::vector<std::string> catalogue_ids();
 /// Those with a spindle axis inside: all but faces.
 std::vector<std::string> lateral_ids();

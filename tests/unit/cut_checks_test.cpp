@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "job/beyond_probed.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"

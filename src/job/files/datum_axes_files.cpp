@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
@@ -45,9 +47,12 @@ std::string datum_axes_text(const std::vector<DatumAxis>& axes, const FitResult&
   for (const DatumAxis& one : axes) {
     const std::string name = name_of(one.criterion);
     const std::string of = one.of_iso_5459 ? " (ISO 5459:2011)" : "";
+    constexpr double nothing_mm = 1e-6;
+    const bool of_job = one.why.empty() && std::ranges::max(one.off_mm) < nothing_mm;
     text += layout::wrapped(
         "datum       ",
-        one.why.empty()
+        of_job ? fmt::format("{}{}: the axis of this job", name, of)
+        : one.why.empty()
             ? fmt::format("{}{}: its axis would be {} off at Z {:.6g} mm and {} at Z {:.6g} mm",
                           name, of, layout::um(one.off_mm[0]), hundredths(used.position_min_mm),
                           layout::um(one.off_mm[1]), hundredths(used.position_max_mm))

@@ -12,7 +12,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "job/agreement.hpp"
-#include "job/cut_checks.hpp"
+#include "job/beyond_probed.hpp"
 #include "job/files/datum_axes_files.hpp"
 #include "job/files/part_form_files.hpp"
 #include "recording/import.hpp"

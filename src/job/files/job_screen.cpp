@@ -12,6 +12,7 @@
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
+#include "job/references.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -55,6 +56,17 @@ std::string tool_screen(const ActuatorMargin& margin) {
                          : "the actuator cannot follow: " + margin.breaks);
 }
 
+/// What the cut is about where the job says more than the references.
+std::string datum_screen(const JobResult& result) {
+  std::string text;
+  for (std::size_t i = 0; i < result.associated.size(); ++i)
+    if (result.associated[i])
+      text += fmt::format("datum  {}{} association\n", of_reference(result, i),
+                          name_of(*result.job.references[i].association));
+  if (result.datum) text += "datum  " + result.datum->name + ": " + result.datum->how + "\n";
+  return text;
+}
+
 /// The measurement that the diagnoses ask for, the most telling of them.
 std::string next_screen(const JobResult& result) {
   if (!result.verdict.what_would_prove.empty())
@@ -82,6 +94,7 @@ std::string job_screen(const JobResult& result) {
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
   for (const Disagreement& apart : result.agreement.disagreements)
     text += "apart  " + how_apart(result, apart) + "\n";
+  text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
   if (result.correction) text += tool_screen(result.correction->margin);

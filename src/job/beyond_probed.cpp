@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/beyond_probed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "job/references.hpp"
+#include "job/target_datum.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// A line and the length that it was probed over.
+struct ProbedLine {
+  std::string name;
+  AxisEstimate axis;
+  double low_mm, high_mm;
+};
+
+/// What causes that the data cannot tell would add is no line's.
+const FitResult& of_the_line(const JobResult& result, std::size_t i) {
+  const bool named = i < result.diagnoses.size() && result.diagnoses[i] &&
+                     result.diagnoses[i]->named.status == FitStatus::converged;
+  return named ? result.diagnoses[i]->named : fit_used(result, i);
+}
+
+bool counts(const std::array<double, 16>& share) {
+  return std::ranges::any_of(share, [](double one) { return one != 0.0; });
+}
+
+/// The axis of the datum, over the length of all that it rests on.
+ProbedLine line_of_datum(const JobResult& result) {
+  std::vector<Reference> references = references_of(result);
+  constexpr double far = std::numeric_limits<double>::infinity();
+  ProbedLine out{"the datum " + result.datum->name, {}, far, -far};
+  for (std::size_t i = 0; i < references.size(); ++i) {
+    const FitResult& fit = of_the_line(result, i);
+    references[i].axis = fit.axis;
+    if (fit.surface == SurfaceKind::plane || !counts(result.datum->shares[i])) continue;
+    out.low_mm = std::min(out.low_mm, fit.position_min_mm);
+    out.high_mm = std::max(out.high_mm, fit.position_max_mm);
+  }
+  out.axis = judged(result, references).front().axis;
+  return out;
+}
+
+ProbedLine line_of(const JobResult& result, std::size_t i) {
+  if (result.datum) return line_of_datum(result);
+  const FitResult& fit = of_the_line(result, i);
+  return {result.job.references[i].name, fit.axis, fit.position_min_mm, fit.position_max_mm};
+}
+
+double u_beyond(const ProbedLine& line, const TargetSurface& target) {
+  constexpr int places = 32;
+  double least = line.axis.u_at(line.low_mm);
+  for (int k = 1; k <= places; ++k)
+    least =
+        std::min(least, line.axis.u_at(line.low_mm + (line.high_mm - line.low_mm) * k / places));
+  const double worst = std::max(line.axis.u_at(target.z_start_mm), line.axis.u_at(target.z_end_mm));
+  return least > 0.0 && std::isfinite(worst) ? worst / least : 1.0;
+}
+
+}  // namespace
+
+double u_beyond_probed(const JobResult& result, std::size_t i) {
+  if (!result.job.target || result.job.target->kind == TargetKind::face ||
+      of_the_line(result, i).surface == SurfaceKind::plane)
+    return 1.0;
+  if (result.datum && !counts(result.datum->shares[i])) return 1.0;
+  return u_beyond(line_of(result, i), *result.job.target);
+}
+
+std::string extrapolation(const JobResult& result, double factor) {
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const double times = u_beyond_probed(result, i);
+    if (!(times > factor)) continue;
+    const ProbedLine line = line_of(result, i);
+    const TargetSurface& target = *result.job.target;
+    return fmt::format(
+        "the cut from Z = {:.6g} to {:.6g} mm lies so far from the probed length of {}, Z = {:.6g} "
+        "to {:.6g} mm, that U is extrapolated: {:.3g} times that within it",
+        target.z_start_mm, target.z_end_mm, line.name, line.low_mm, line.high_mm, times);
+  }
+  return "";
+}
+
+}  // namespace trueaxis
