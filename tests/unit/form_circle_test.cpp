@@ -37,6 +37,27 @@ TEST(FormCircle, EllipseExactly) {
   EXPECT_NEAR(result.sections[0].circles[3].radius_mm, b, (a - b) * step * step);
 }
 
+// Turns at the same angles are one turn. Rounding sets the readings at 0 just before the end of
+// some turns: taken as two places they would draw the least-squares circle by 2/91 of a lobe.
+TEST(FormCircle, TheReadingsWhereATurnClosesAreOnePlace) {
+  const double a = 2e-3;
+  const auto lobes = [&](double t) { return 25.0 + a * std::cos(3.0 * t); };
+  ProbeStream stream;
+  for (const double off : {0.0, -1e-15, 1e-15})
+    for (int i = 0; i < 90; ++i) {
+      const double angle = two_pi * i / 90.0;
+      stream.c_rad.push_back(angle + off + (i == 0 && off < 0.0 ? two_pi : 0.0));
+      stream.reading_mm.push_back(lobes(angle));
+    }
+  const FormResult result = assess_form(stream, quick());
+  EXPECT_EQ(result.sections[0].profile.angle_rad.size(), 90U);
+  EXPECT_NEAR(result.sections[0].circles[0].x_mm, 0.0, rounding_mm);
+  for (const char* circle : circles)
+    EXPECT_NEAR(value_of(result.sections[0].values, "RONt", circle).estimate.value, 2.0 * a,
+                rounding_mm)
+        << circle;
+}
+
 // n lobes of amplitude a: every circle has RONt = 2a, RONp = RONv = a, RONq = a/√2 about LSCI.
 TEST(FormCircle, LobesExactly) {
   for (const int n : {2, 3, 5, 8}) {
