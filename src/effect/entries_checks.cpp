@@ -9,13 +9,14 @@ std::vector<Effect> checks() {
        .title = "keyway, hole or groove",
        .slot = Slot::part,
        .frame = Frame::part,
-       .formula = "a depth step over a sector of theta",
+       .formula = "a step of that depth over a sector of theta",
        .parameters = {{"angle", "rad", 0, 0, "its middle"},
                       {"width", "rad", 0.01, 1, "its width"},
                       {"depth", "mm", 0.01, 10, "its depth"}},
        .signature = "fixed to the part, all harmonics",
-       .absorbed_by = "missing sectors leak ovality into the eccentricity (60 deg: 50 %) unless 2 "
-                      "and 3 undulations are fitted with the axis",
+       .absorbed_by =
+           "missing sectors turn part of an ovality into eccentricity (60 deg: 50 %) unless 2 "
+           "and 3 undulations are fitted with the axis",
        .source = "inspection of measured data",
        .check = Check::interruption},
       {.id = "probe.saturation",
@@ -60,8 +61,8 @@ std::vector<Effect> checks() {
        .frame = Frame::probe,
        .formula = "sigma stated over sigma shown, beyond 3 or below 1/3",
        .parameters = {{"ratio", "1", 0, 0, "stated over shown"}},
-       .signature = "too large a statement widens every u of the ideal surface; too small a one "
-                    "says that more than the sensor's noise is in the readings",
+       .signature = "too large a stated value widens every u of the ideal surface; too small a one "
+                    "means that more than the sensor's noise is in the readings",
        .source = "JCGM 100 (GUM) 4.3.7",
        .check = Check::stated_noise},
       {.id = "probe.outliers",

@@ -6,7 +6,7 @@ const glossary = [
   ['Association', 'Fitting the ideal surface (cone, cylinder, plane) to the readings. The result is the associated surface; its axis is the datum axis.'],
   ['Residual', 'Measured minus model, along the probe. What is left when the ideal surface is taken away: form deviation, spindle motion, noise.'],
   ['Coaxiality', 'A diameter (ISO 1101): twice the largest distance between the axis of the cut surface and the datum axis over the toleranced length.'],
-  ['Standard uncertainty u, expanded uncertainty U', 'u is one standard deviation of what the value may be off (GUM). U = k u; with k = 2 about 95 % of cases lie within ± U.'],
+  ['Standard uncertainty u, expanded uncertainty U', 'u is the standard deviation of the value\'s possible error (GUM). U = k u; with k = 2 about 95 % of cases lie within ± U.'],
   ['Type A, type B', 'A comes from the scatter of the readings, B from other knowledge: a datasheet, a calibration, a setting.'],
   ['Not determined', 'The readings leave this number open, so none is given. More readings, another section or a longer arc would fix it.'],
   ['Remainder', 'With several references one axis cannot suit all. The remainder is what is left at each one.'],
@@ -16,9 +16,9 @@ const glossary = [
   ['Following error', 'The largest distance between where the tool is and where it is wanted, predicted from the actuator\'s response.'],
   ['Go, no-go', 'Decided with the uncertainty on the side of caution (ISO 14253-1): what the coaxiality is at most, in 95 of 100, must lie within the tolerance. Not proven: neither that nor the contrary is shown, and the line says what would show it. With reservations: within the tolerance whichever model is right, but the data leave the model open. No go either after a slip in the chuck, or where what was found does not reproduce the readings.'],
   ['Roundness', 'Peak to valley of the trace about its least-squares circle (ISO 12181: RONt, LSCI). Undulations per turn: 2 is an oval, 3 the lobes of a three-jaw chuck.'],
-  ['Finding, class', 'A cause that the readings show beyond chance. Where other causes explain them as well, all are listed as its class with their chances: no name is better than the data.'],
+  ['Finding, class', 'A cause that the readings show beyond chance. Where other causes explain them as well, all are listed as its class with their probabilities: the data do not support one name more firmly than that.'],
   ['Held-out RMS', 'What a model leaves in blocks of readings that it was not fitted to. Only a model that is right predicts what it has not seen.'],
-  ['Cosmetic', 'A finding that explains readings but does not move the axis: the part gets no truer by it.'],
+  ['Cosmetic', 'A finding that explains readings but does not move the axis: correcting for it does not make the part truer.'],
 ];
 
 const glossaryFold = () => fold('terms', 'Terms and conventions', facts(glossary, 'terms'));

@@ -167,7 +167,7 @@ const machineGlossary = [
   ],
   [
     'Class',
-    'Where other effects explain the readings as well, all are listed with their chances: no name is better than the data.'
+    'Where other effects explain the readings as well, all are listed with their probabilities: the data do not support one name more firmly than that.'
   ],
   ['Held-out RMS', 'What the model leaves in blocks of positions that it was not fitted to.']
 ];

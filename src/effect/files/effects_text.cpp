@@ -86,15 +86,17 @@ constexpr std::string_view head = R"(# The catalogue of effects
 Written by `trueaxis effects --markdown`; a test holds this page against the catalogue. The equations are in
 [theory.md](theory.md).
 
-What real probing of a turned part shows and the ideal surface misses. An effect is a term in one slot of the measuring chain,
+What the readings of a real turned part contain and the ideal surface does not. An effect is a term in one slot of the measuring chain,
 
     (C, Z, t) → A arguments C', Z' → B probe line → C part's surface → D machine X → E sensor's response → X_M, with noise ε
 
 and is fixed to a frame: part, chuck, spindle, machine, probe or time. The frame decides what becomes of it when the part is
 clamped again, the spindle reversed, the speed changed or the probe sent back, and so which measurement tells two effects apart.
-Typical sizes are what machines show; they are no limits. u is Z (of the part: s, along its axis) from −1 to 1 over the probed length,
-θ the polar angle about the part's own axis. A face is read along Z at (C, X): X_M is then its Z, u runs over the X probed, and s is the
-distance from the axis.
+Typical sizes are what machines show; they are no limits. rho is the form of the part along the normal of its surface, theta the polar
+angle about the part's own axis, s the place along it, and u is Z (for effects of the part: s) scaled to −1 … 1 over the probed length.
+P_l is Legendre's polynomial of degree l, alpha the half angle of a cone, omega the speed of the spindle, v_z that of Z, r (and R at the
+end) the distance from the axis of a face, i the angle of the normal to the probe line. A face is read along Z at (C, X): X_M is then its
+Z, u runs over the X probed, and s is the distance from the axis.
 
 )";
 
@@ -138,7 +140,7 @@ std::string_view seen_on(const Effect& effect) {
 
 void section(std::string& out, const Effect& e) {
   out += fmt::format("\n## {}\n\n{}{}.\n\n| | |\n|---|---|\n", e.id, e.title,
-                     e.check ? "; a check of the data, never a name for a form" : "");
+                     e.check ? "; a check of the data, never named as the cause of a form" : "");
   row(out, "term", e.formula.empty() ? "" : fmt::format("`{}`", cell(e.formula)));
   row(out, "slot, frame",
       fmt::format("{}; fixed to the {}", to_string(e.slot), to_string(e.frame)));
@@ -184,7 +186,8 @@ std::string possible_size(const EffectParameter& parameter) {
 
 std::string effects_list_text() {
   return "Effects that the ideal surface misses ('trueaxis effects ID' explains one)\n" +
-         list(false) + "\nChecks of the data: handled and reported, never a name for a form\n\n" +
+         list(false) +
+         "\nChecks of the data: handled and reported, never named as the cause of a form\n\n" +
          list(true);
 }
 
