@@ -26,9 +26,8 @@ Diagnosis not_diagnosable(Diagnosis out) {
   out.noise.note =
       !is_diagnosed(out.baseline.surface)
           ? fmt::format("a {} is fitted and not diagnosed: cone, cylinder, plane and section are",
-                        out.baseline.surface == SurfaceKind::own
-                            ? "profile of one's own"
-                            : to_string(out.baseline.surface))
+                        out.baseline.surface == SurfaceKind::own ? "profile of one's own"
+                                                                 : to_string(out.baseline.surface))
       : out.baseline.points <= out.baseline.parameters.size()
           ? "no more readings than parameters: nothing is left to diagnose"
           : "the surface was not found: nothing can be said beside it";

@@ -106,8 +106,9 @@ void expect_fittable(const ProbeStream& stream, const FitOptions& options) {
                                    "give X_M itself",
                                    to_string(options.surface)));
     if (list_set_ups(stream).size() > 1)
-      throw InputError(stream.source, fmt::format("a {} is fitted in one set-up: give each a stream",
-                                                  to_string(options.surface)));
+      throw InputError(stream.source,
+                       fmt::format("a {} is fitted in one set-up: give each a stream",
+                                   to_string(options.surface)));
   }
   if (options.profile && (ball || stream.indication == Indication::relative)) {
     throw InputError(stream.source,
