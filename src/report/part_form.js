@@ -17,7 +17,8 @@ function formCases({motion, open}) {
   return heads;
 }
 
-function formCasesWords({motion, open}) {
+function formCasesWords({motion, open}, diagnosed) {
+  if (!diagnosed) return 'The readings as they are: no diagnosis was made, so that a motion of the spindle is in the values.';
   if (!motion.length && !open.length) return 'Nothing was found that is not of the part. A motion of the spindle too small to be found, or one that looks like form, is in the values.';
   const words = [];
   if (motion.length) words.push(`Not of the part, and taken off the readings: ${motion.join(', ')}.`);
@@ -51,8 +52,9 @@ function formPolar(form) {
 function formHarmonics({worst, high_upr: high}) {
   const {orders} = worst, most = orders.length ? orders[orders.length - 1].order : 0;
   if (orders.length < 2) return null;
+  const step = (width) => Math.min(most, high) > 100 ? 50 : width < 480 ? 10 : 5;
   const build = (width) => ({grid: grid(), xAxis: axis('undulations per revolution', {type: 'category', data: orders.map((o) => String(o.order)), splitLine: {show: false},
-    axisLabel: {color: colours.ink, interval: (i) => most < 16 || orders[i].order % (width < 480 ? 10 : 5) === 0 || orders[i].order === 2}}),
+    axisLabel: {color: colours.ink, interval: (i) => most < 16 || orders[i].order % step(width) === 0 || orders[i].order === 2}}),
     yAxis: uprightAxis('amplitude in µm', {min: 0}),
     series: [{name: 'amplitude', type: 'bar', barWidth: '70%', emphasis: {disabled: true}, itemStyle: {color: colours.series[0]}, data: orders.map((o) => o.amplitude_um)}]});
   const highest = [...orders].sort((a, b) => b.amplitude_um - a.amplitude_um).slice(0, 3).map((o) => `${o.order} (${micrometres(o.amplitude_um / 1000)})`).join(', ');
@@ -60,12 +62,12 @@ function formHarmonics({worst, high_upr: high}) {
 }
 
 /** Form of the part: tolerances, values, the worst section, a row a section. */
-function partFormBlock(form) {
+function partFormBlock(form, diagnosed = true) {
   const judged = form.judgements.map(({conformity, text}) => element('li', {}, pill(conformityWords[conformity], conformity === 'met'), ` ${joined(sentence(text))}`));
   const parts = judged.length ? [element('ul', {class: 'judged'}, judged)] : [];
   if (form.why_not) return block('Form of the part', ...parts, paragraph(`Not assessed: ${form.why_not}.`, 'quiet'));
   const heads = formCases(form), {k} = form;
-  parts.push(paragraph(formCasesWords(form)));
+  parts.push(paragraph(formCasesWords(form, diagnosed)));
   parts.push(table(`Values ± U (k = ${tick(k)}), ${form.filter}`, ['Value', 'About', ...heads],
     form.values.map((row) => [formNames[row.name] ?? row.name, formReferences[row.reference] ?? '–', ...row.cases.map((one) => formCell(one, k))]), 2, true));
   if (!form.worst) return block('Form of the part', ...parts);

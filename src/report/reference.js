@@ -144,7 +144,7 @@ function formSection(reference, index) {
   const solved = reference.status === 'converged' || reference.status === 'max_iterations';
   const parts = [paragraph(`${diagnosis ? `${diagnosisWords[diagnosis.verdict] ?? diagnosis.verdict} ` : ''}${fitWords(reference)}`)];
   if (diagnosis) parts.push(seenList(diagnosis, readings?.face));
-  if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...(reference.form ? [partFormBlock(reference.form)] : []), ...roundnessBlock(reference));
+  if (roundness) return section(`form-${index + 1}`, `Roundness: ${reference.name}`, ...parts, ...(reference.form ? [partFormBlock(reference.form, Boolean(reference.diagnosis))] : []), ...roundnessBlock(reference));
   const polars = solved && readings ? residualPolars(readings) : [];
   if (polars.length) {
     parts.push(paragraph(`What is left when the associated surface is taken away, so that all is centred on the dashed circle; outside is ${readings.face ? 'towards +Z' : 'away from the axis'}.` +

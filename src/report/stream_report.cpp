@@ -52,11 +52,15 @@ std::string page(JobResult result, const char* outcome, const std::string& line,
 std::string render_fit_report(const ProbeStream& stream, const FitResult& fit,
                               const FitOptions& options) {
   const bool fitted = fit.status == FitStatus::converged;
-  return page(
-      job_of(stream, fit, options), fitted ? "fitted" : "not-determined",
-      first_line(fit_screen(fit)),
-      fitted ? Json::array({"See what the surface does not explain: " + command("diagnose", fit)})
-             : Json::array());
+  JobResult result = job_of(stream, fit, options);
+  // Of one section its roundness is what is looked for.
+  if (fitted && fit.surface == SurfaceKind::section)
+    result.forms.push_back(part_form({stream}, options, {}));
+  Json steps = Json::array();
+  if (fitted && is_diagnosed(fit.surface))
+    steps.push_back("See what the surface does not explain: " + command("diagnose", fit));
+  return page(std::move(result), fitted ? "fitted" : "not-determined", first_line(fit_screen(fit)),
+              std::move(steps));
 }
 
 std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& diagnosis,
