@@ -18,6 +18,7 @@ namespace trueaxis {
 namespace form {
 namespace {
 
+constexpr const char* eccentricity = "eccentricity";
 constexpr std::size_t listed = 3;  // sections with the same trouble
 
 std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
@@ -194,19 +195,34 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   const auto values = assessment.measured(measured);
   const Assess near = [&](const Profiles& profiles) { return assessment.near(profiles); };
   auto spread = spreads(part, datum_part, options, near);
-  add_taken_off(taken_off, near(measured), spread, [&](const TakenOff& one, std::size_t k) {
-    const bool of_datum = datum && one.of_datum;
-    Profiles moved = measured;
-    ProbeStream readings = of_datum ? *datum : stream;
-    readings.reading_mm = added(readings.reading_mm, one, k);
-    const Sections changed = sections_of(readings, options);
-    const std::vector<SectionModel>& models = of_datum ? datum_part : part;
-    std::vector<std::vector<double>>& profiles = of_datum ? moved.datum_mm : moved.part_mm;
-    for (std::size_t s = 0; s < models.size(); ++s)
-      profiles[s] = models[s].changed(changed.list[s]);
-    return assessment.near(moved);
-  });
-  for (const SectionModel& one : part) result.sections.push_back(one.form());
+  const auto near_with_centres = [&](const Profiles& profiles) {
+    std::vector<NamedValue> all = assessment.near(profiles);
+    for (std::size_t s = 0; s < part.size(); ++s) {
+      const AxisOffset centre = part[s].centre(profiles.part_mm[s]);
+      all.push_back({"section", eccentricity, "LSCI", std::hypot(centre.x_mm, centre.y_mm)});
+    }
+    return all;
+  };
+  spread.resize(values.size() + part.size());
+  add_taken_off(
+      taken_off, near_with_centres(measured), spread, [&](const TakenOff& one, std::size_t k) {
+        const bool of_datum = datum && one.of_datum;
+        Profiles moved = measured;
+        ProbeStream readings = of_datum ? *datum : stream;
+        readings.reading_mm = added(readings.reading_mm, one, k);
+        const Sections changed = sections_of(readings, options);
+        const std::vector<SectionModel>& models = of_datum ? datum_part : part;
+        std::vector<std::vector<double>>& profiles = of_datum ? moved.datum_mm : moved.part_mm;
+        for (std::size_t s = 0; s < models.size(); ++s)
+          profiles[s] = models[s].changed(changed.list[s]);
+        return near_with_centres(moved);
+      });
+  for (std::size_t s = 0; s < part.size(); ++s) {
+    result.sections.push_back(part[s].form());
+    for (FormValue& one : result.sections.back().values)
+      if (one.name == eccentricity)
+        one.estimate.u = std::hypot(one.estimate.u, spread[values.size() + s].u);
+  }
   result.radius_known = sections.radius_known;
   hand_out(result, values, spread);
   add_notes(stream, sections, result);
