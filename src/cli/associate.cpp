@@ -17,7 +17,7 @@ namespace {
 
 struct AssociateCommand {
   std::string path, element, criterion = "gaussian", material, unit, array;
-  std::string json, certificate, distances, x3p;
+  std::string json, certificate, distances, qif, x3p;
   int threads = 0;
   bool force = false;
 };
@@ -36,6 +36,7 @@ int execute(const AssociateCommand& options) {
   outputs.may_write(options.json, "trueaxis.association");
   outputs.may_write(options.certificate, "trueaxis.certificate");
   outputs.may_write(options.distances, "trueaxis.distances");
+  outputs.may_write(options.qif, "trueaxis.qif");
   outputs.may_write(options.x3p, "trueaxis.cloud");
   outputs.check();
   const PointText points = read_points(options.path, options.unit, options.array);
@@ -51,6 +52,8 @@ int execute(const AssociateCommand& options) {
     outputs.write(options.certificate, association_certificate(result, points));
   if (converged && !options.distances.empty())
     outputs.write(options.distances, association_distances(result, points));
+  if (converged && !options.qif.empty())
+    outputs.write(options.qif, association_qif(result, points));
   if (!options.x3p.empty())
     outputs.write(options.x3p, x3p_of_points(metres_of(points), TRUEAXIS_VERSION));
   outputs.commit();
@@ -58,21 +61,13 @@ int execute(const AssociateCommand& options) {
     std::cerr << options.path << ": " << result.why << ".\n";
     return numerical;
   }
-  if (options.json == "-" || options.certificate == "-" || options.distances == "-") return done;
+  for (const std::string& place :
+       {options.json, options.certificate, options.distances, options.qif})
+    if (place == "-") return done;
   std::cout << association_text(result);
   for (const std::string& note : points.notes)
     std::cout << layout::wrapped("  note           ", note);
   return done;
-}
-
-/// Each file goes to a place of its own.
-void expect_apart(const std::vector<std::pair<std::string, std::string>>& places) {
-  for (std::size_t i = 1; i < places.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (!places[i].second.empty() && places[i].second == places[k].second)
-        throw CLI::ValidationError(places[i].first, "cannot go where " + places[k].first + " goes");
-  if (places.back().second == "-")
-    throw CLI::ValidationError("--x3p", "is a binary file: give it a name");
 }
 
 }  // namespace
@@ -121,6 +116,10 @@ void add_associate(CLI::App& app, int& exit_code) {
       ->add_option("--distances", options->distances,
                    "write every point with its distance here (CSV), '-' prints them")
       ->check(a_place());
+  command
+      ->add_option("--qif", options->qif,
+                   "write the element as a measured feature here (QIF 3.0, XML), '-' prints it")
+      ->check(a_place());
   command->add_option("--x3p", options->x3p, "write the points here as X3P (ISO 25178-72)")
       ->check(a_place());
   command->add_option("--threads", options->threads, "threads (0: as many as there are)")
@@ -138,7 +137,10 @@ void add_associate(CLI::App& app, int& exit_code) {
     expect_apart({{"--json", options->json},
                   {"--certificate", options->certificate},
                   {"--distances", options->distances},
+                  {"--qif", options->qif},
                   {"--x3p", options->x3p}});
+    if (options->x3p == "-")
+      throw CLI::ValidationError("--x3p", "is a binary file: give it a name");
     exit_code = execute(*options);
   });
 }

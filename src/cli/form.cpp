@@ -13,6 +13,7 @@
 #include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
 #include "form/files/form_json.hpp"
+#include "form/files/form_qif.hpp"
 #include "form/files/form_text.hpp"
 #include "form/files/spindle_motion.hpp"
 #include "format/outputs.hpp"
@@ -23,7 +24,8 @@ namespace {
 struct Options {
   StreamOptions stream;
   FormOptions form;
-  std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile;
+  std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile,
+              qif;
   std::string tolerances, element, unit, array;
   double noise_um = -1.0, spindle_range_um = 0.0;
   bool verbose = false, force = false;
@@ -97,13 +99,16 @@ int execute(const Options& options) {
   if (!options.datum.empty()) outputs.reads(options.datum);
   outputs.may_write(options.json, "trueaxis.form");
   outputs.may_write(options.profile, "trueaxis.form_profile");
+  outputs.may_write(options.qif, "trueaxis.qif");
   outputs.check();
   const FormResult result = assessed(options, form);
   const FormVerdict verdict = judge_form(result, tolerances);
   if (!options.json.empty()) outputs.write(options.json, form_json(result));
   if (!options.profile.empty()) outputs.write(options.profile, form_profile_csv(result));
+  if (!options.qif.empty())
+    outputs.write(options.qif, form_qif(result, tolerances, options.element.empty()));
   outputs.commit();
-  if (options.json != "-" && options.profile != "-")
+  if (options.json != "-" && options.profile != "-" && options.qif != "-")
     std::cout << verdict.text << form_text(result, options.verbose);
   return verdict.met ? done : refused;
 }
@@ -158,6 +163,11 @@ void add_rest(CLI::App& command, Options& options) {
       .add_option("--profile", options.profile,
                   "write the profiles here (CSV), before and behind the filter; '-' prints them")
       ->check(a_place());
+  command
+      .add_option("--qif", options.qif,
+                  "write a QIF 3.0 results document here (XML): features with their form, and what "
+                  "has a tolerance as a characteristic; '-' prints it")
+      ->check(a_place());
   add_force(command, options.force);
   add_verbose(command, options.verbose);
 }
@@ -183,8 +193,8 @@ void add_form(CLI::App& app, int& exit_code) {
   add_filter(*command, *options);
   add_rest(*command, *options);
   command->callback([options, &exit_code] {
-    if (!options->json.empty() && options->json == options->profile)
-      throw CLI::ValidationError("--profile", "cannot go where --json goes");
+    expect_apart(
+        {{"--json", options->json}, {"--profile", options->profile}, {"--qif", options->qif}});
     if (!options->element.empty() && (options->stream.says_anything() || !options->datum.empty()))
       throw CLI::ValidationError("--element",
                                  "points have no X_M and no datum: leave out what says of these");

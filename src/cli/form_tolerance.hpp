@@ -4,14 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "form/files/form_qif.hpp"
 #include "trueaxis/form.hpp"
 
 namespace trueaxis::cli {
-
-struct FormTolerance {
-  std::string name;
-  double limit_mm;
-};
 
 /// "RONt=2,CYLt=5" in µm. @throws CLI::ValidationError
 std::vector<FormTolerance> parse_form_tolerances(const std::string& text);

@@ -4,6 +4,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 /// What several commands check and are told alike.
 namespace trueaxis::cli {
@@ -62,6 +64,14 @@ inline CLI::Option* add_force(CLI::App& command, bool& force) {
   return command.add_flag("--force", force,
                           "replace files that are there and are not earlier results of this kind; "
                           "never one that is read");
+}
+
+/// Each file goes to a place of its own: an option and its place each. @throws CLI::ValidationError
+inline void expect_apart(const std::vector<std::pair<std::string, std::string>>& places) {
+  for (std::size_t i = 1; i < places.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (!places[i].second.empty() && places[i].second == places[k].second)
+        throw CLI::ValidationError(places[i].first, "cannot go where " + places[k].first + " goes");
 }
 
 /// `--json`, `--residuals`, `--report` and `--force` of a command that fits a stream.

@@ -81,6 +81,23 @@ TEST_F(FormCommand, ACylinderAndItsTolerances) {
   EXPECT_EQ(command("form c.csv --upr 1-15 --tolerance-um RONt=3um").exit_code, 2);
 }
 
+// Printed or written, again and by any number of threads, a QIF document is the same bytes.
+TEST_F(FormCommand, AQifDocumentIsPrintedAsItIsWritten) {
+  probe("q.csv", [](double t, double) { return 15.0 + 1e-3 * std::cos(3.0 * t); }, 360,
+        {0.0, 10.0});
+  const std::string of = "form q.csv --upr 1-15 --tolerance-um RONt=3,runout_total=1";
+  const CommandStreams printed = command(of + " --qif -");
+  EXPECT_EQ(printed.exit_code, 1) << printed.err;  // the run-out is 2 µm
+  EXPECT_TRUE(printed.out.starts_with("<?xml version=\"1.0\"")) << printed.out;
+  for (const char* word : {"CircularityCharacteristicMeasurement", "combinedUncertainty",
+                           "TotalRunoutCharacteristicMeasurement", ">PASS<", ">FAIL<"})
+    EXPECT_TRUE(contains(printed.out, word)) << word;
+  for (const char* again : {"", " --threads 1"}) {  // over its own earlier document
+    EXPECT_EQ(command(of + " --qif q.qif" + again).exit_code, 1);
+    EXPECT_EQ(read_text(folder_ / "q.qif"), printed.out);
+  }
+}
+
 TEST_F(FormCommand, AgainstADatumOfItsOwn) {
   const auto part = [](double t, double) { return 15.0 + 0.02 * std::cos(t); };
   probe("p.csv", part, 360, {0.0, 10.0});

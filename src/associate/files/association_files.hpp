@@ -43,6 +43,9 @@ std::string association_json(const AssociatedFeature& associated, const PointTex
 /// Every point in mm with its distance from the element, in the order of the file (CSV).
 std::string association_distances(const AssociatedFeature& associated, const PointText& points);
 
+/// The element as a measured feature of a QIF results document (`trueaxis.qif/1`).
+std::string association_qif(const AssociatedFeature& associated, const PointText& points);
+
 /// The optimum as an auditor checks it by hand (Eq. 253).
 std::string association_certificate(const AssociatedFeature& associated, const PointText& points);
 
