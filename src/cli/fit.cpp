@@ -79,6 +79,11 @@ void add_fit(CLI::App& app, int& exit_code) {
   add_check(*command, options->check);
   command->callback([options, command, &exit_code] {
     options->result.expect_apart();
+    if (!options->result.report.empty() &&
+        !is_diagnosed(surface_from_id(options->association.surface)))
+      throw CLI::ValidationError("--report",
+                                 "is of a cone, cylinder, plane or section: leave it "
+                                 "out, --json has the numbers");
     options->criterion.expect_fitting(options->association, options->result, *command);
     exit_code =
         options->criterion.along_probe()

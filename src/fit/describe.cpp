@@ -209,7 +209,17 @@ void report_rms(FitResult& result) {
 
 /// A radius that no part has: the ball is larger than the path of its centre.
 void note_radius(FitResult& result) {
-  if (result.surface == SurfaceKind::plane || !is_diagnosed(result.surface)) return;
+  if (result.surface == SurfaceKind::plane || result.surface == SurfaceKind::own) return;
+  if (!is_diagnosed(result.surface)) {
+    for (const char* name : {"radius", "minor_radius"})
+      for (const FitParameter& p : result.parameters)
+        if (p.name == name && !(p.estimate.value > p.estimate.expanded(result.coverage_factor)))
+          result.notes.push_back(fmt::format(
+              "no part has a {} of {:.6g} mm: give the radius of the probe's ball, or "
+              "none where the readings are of the contact",
+              p.name == std::string("radius") ? "radius" : "tube radius", p.estimate.value));
+    return;
+  }
   for (const double z_mm : {result.position_min_mm, result.position_max_mm}) {
     const double radius_mm =
         result.shape.radius_mm + result.shape.tan_half_angle * (z_mm - result.shape.axis.z_ref_mm);

@@ -157,6 +157,11 @@ Sections sections_of(const ProbeStream& stream, const FormOptions& options) {
   auto groups = by_position(stream);
   const bool helix = groups.empty();
   if (helix) groups = by_turns(stream);
+  if (helix && groups.size() < 2)
+    throw InputError(
+        stream.source,
+        "one whole turn of a helix: Z and C run together, and two lobes cannot be told "
+        "from a tilt; probe the turn at one Z, or two turns at least");
   for (const auto& group : groups) sections.list.push_back(readings_of(stream, options, group));
   if (helix) take_off_slope(stream, groups, sections);
   return sections;

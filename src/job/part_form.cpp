@@ -94,16 +94,19 @@ void assess(Question& question, const FormTask& task, PartForm& out) {
   if (!task.judges()) options.trials = std::min(options.trials, trials_that_show);
   if (stream.kind == StreamKind::lateral) {
     out.carried_upr = carried_upr(stream, options);
+    if (out.carried_upr < 2 && task.filter != ProfileFilter::none) {
+      out.why_not =
+          "the readings of a turn are too few for any filter, which takes 7 a wave, or a "
+          "part of the turn is missing";
+      return;
+    }
     const auto [low, high] = band_of(task, out.carried_upr);
     options.low_upr = low;
     options.high_upr = high;
     if (high > out.carried_upr && task.filter != ProfileFilter::none) {
-      out.why_not = out.carried_upr < 2
-                        ? "the readings of a turn are too few for any filter, which takes 7 a wave"
-                        : fmt::format(
-                              "{:g} UPR takes {:.0f} readings a turn, 7 a wave, and these "
-                              "carry up to {} UPR",
-                              high, 7.0 * high, out.carried_upr);
+      out.why_not = fmt::format(
+          "{:g} UPR takes {:.0f} readings a turn, 7 a wave, and these carry up to {} UPR", high,
+          7.0 * high, out.carried_upr);
       return;
     }
   }

@@ -8,6 +8,7 @@
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/cut_checks.hpp"
+#include "job/datum_doubts.hpp"
 #include "job/doubts.hpp"
 #include "job/ends_of_stream.hpp"
 #include "job/exchanged.hpp"
@@ -170,13 +171,15 @@ Verdict decide(const JobResult& result) {
     return verdict;
   }
   for (const auto& forbids :
-       {left_out_at_an_end, far_off_at_the_end, left_unnamed, moves_with_axis}) {
+       {datum_objection, left_out_at_an_end, far_off_at_the_end, left_unnamed, moves_with_axis}) {
     if (const std::string why = forbids(result); !why.empty())
       return not_proven(std::move(verdict), why);
   }
   const std::vector<OpenAxis> open = open_axes(result);
   for (const OpenAxis& o : open) verdict.reservations.push_back(o.why);
   for (std::string& why : model_reservations(result))
+    verdict.reservations.push_back(std::move(why));
+  for (std::string& why : datum_reservations(result))
     verdict.reservations.push_back(std::move(why));
   for (std::string& why : cut_reservations(result)) verdict.reservations.push_back(std::move(why));
   if (std::string why = axis_reservation(result); !why.empty())

@@ -117,6 +117,18 @@ TEST(FormWhole, AHelixIsCutIntoTurns) {
   EXPECT_NE(result.notes.front().find("helix"), std::string::npos);
 }
 
+// Over one turn Z is C: a tilt takes two lobes in, and a roundness would come out too small.
+TEST(FormWhole, OneTurnOfAHelixIsRefused) {
+  ProbeStream stream;
+  for (int i = 0; i < 400; ++i) {
+    const double c = two_pi * i / 360.0;
+    stream.c_rad.push_back(c);
+    stream.position_mm.push_back(0.5 * i / 360.0);
+    stream.reading_mm.push_back(20.0 + 1e-3 * std::cos(2.0 * c));
+  }
+  EXPECT_THROW(assess_form(stream, quick()), InputError);
+}
+
 // A ring that goes up and down twice: flatness 2a; a tilted one is flat, and runs out 2 l X.
 TEST(FormWhole, Faces) {
   const auto face = [](const std::function<double(double)>& height) {

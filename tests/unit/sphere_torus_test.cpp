@@ -9,6 +9,7 @@
 #include <random>
 
 #include "associate/files/stream_association.hpp"
+#include "job/evidence.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -153,6 +154,25 @@ TEST(SphereTorus, AreFittedAndNotDiagnosedAndTakeNoGauge) {
   stream.indication = Indication::relative;
   stream.nominal_radius_mm = 25.0;
   EXPECT_THROW(fit(stream, options.fit), InputError);
+}
+
+/// A ball larger than what it touches is said, as of a cylinder.
+TEST(Sphere, ABallThatIsTooLargeIsSaid) {
+  FitOptions options;
+  options.surface = SurfaceKind::sphere;
+  options.ball_radius_mm = 30.0;
+  const FitResult found = fit(sphere(25.0), options);
+  ASSERT_FALSE(found.notes.empty());
+  EXPECT_NE(found.notes.front().find("no part has a radius of -5"), std::string::npos);
+}
+
+TEST(Sphere, AJobThatChoosesItsSurfaceSaysThatItIsASphere) {
+  try {
+    surface_by_evidence(sphere(25.0));
+    ADD_FAILURE() << "a sphere was taken for something else";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("sphere of radius 25 mm"), std::string::npos);
+  }
 }
 
 /// One section of a sphere: neither its height nor its radius can be told.

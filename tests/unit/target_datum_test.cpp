@@ -108,6 +108,7 @@ TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
                                          seat(24.0, 100.0, {0.06, 0.01, -3e-4, 2e-4}, 2)};
   Job job = job_of({{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}});
   job.datums = {{"A", "B"}};
+  job.coaxiality_tolerance_mm = 0.2;  // what the seats themselves are off it, over the cut, is 0.1
   const JobResult result = run_job(job, streams);
   ASSERT_TRUE(result.target_axis) << result.verdict.line;
   const Eigen::Vector4d own = least_squares_of(streams);
@@ -190,6 +191,48 @@ TEST(TargetDatum, TheAssociationOfAReferenceMovesTheCut) {
   }
 }
 
+bool says(const JobResult& result, const std::string& part) {
+  return result.verdict.line.find(part) != std::string::npos;
+}
+
+/// A seat that was probed in another clamping stands elsewhere: nothing shows it but the other
+/// seat.
+TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
+  const Stands at{0.02, -0.01, 2e-4, 1e-4}, elsewhere{0.12, 0.08, -6e-4, 2e-4};
+  const std::vector<ProbeStream> streams{seat(20.0, 0.0, at, 1), seat(24.0, 100.0, elsewhere, 2)};
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}});
+  job.datums = {{"A", "B"}};
+  const JobResult common = run_job(job, streams);
+  EXPECT_EQ(common.verdict.decision, Decision::not_proven);
+  EXPECT_TRUE(says(common, "share no axis")) << common.verdict.line;
+  job.datums = {{"A"}};
+  const JobResult alone = run_job(job, streams);
+  EXPECT_EQ(alone.verdict.decision, Decision::go_with_reservations);
+  EXPECT_TRUE(says(alone, "off the datum A")) << alone.verdict.line;
+}
+
+/// A slip while B is probed leaves A where the part stood before.
+TEST(TargetDatum, ASlipLeavesTheOtherReferencesBehind) {
+  const Stands at{0.02, -0.01, 0.0, 0.0};
+  virtual_lathe::Scenario scenario;
+  scenario.seed = 4;
+  scenario.part.kind = virtual_lathe::PartKind::cylinder;
+  scenario.part.radius_mm = 24.0, scenario.part.x0_mm = at.x0_mm, scenario.part.y0_mm = at.y0_mm;
+  scenario.noise.sigma_mm = 5e-4;
+  virtual_lathe::PlannedPass pass;
+  pass.start_mm = 100.0, pass.end_mm = 130.0;
+  pass.feed_mm_per_rev = 1.0, pass.readings_per_revolution = 36.3;
+  scenario.plan.passes = {pass};
+  const ProbeStream still = virtual_lathe::simulate(scenario);
+  scenario.effects = {{"part.slip", {{"dx_mm", 0.02}, {"time_s", 0.5 * still.time_s.back()}}}};
+  Job job = job_of({{"A", SurfaceKind::cylinder}, {"B", SurfaceKind::cylinder}});
+  job.datums = {{"A"}};
+  const JobResult result =
+      run_job(job, {seat(20.0, 0.0, at, 1), virtual_lathe::simulate(scenario)});
+  EXPECT_FALSE(result.verdict.go()) << result.verdict.line;
+  EXPECT_TRUE(says(result, "slipped")) << result.verdict.line;
+}
+
 std::string refusal_of(const std::string& reference, const std::string& target) {
   try {
     read_job_toml("[[reference]]\nname = \"A\"\nstream = \"a.csv\"\nsurface = \"cylinder\"\n" +
@@ -215,7 +258,7 @@ TEST(TargetDatum, WhatMakesNoDatumIsRefusedWithWhatToDo) {
   EXPECT_EQ(refusal_of("association = \"minimum_circumscribed\"", "datum = [\"A\"]"), "");
   expect("", "datum = [\"B\"]", "names 'B', which is no reference of this job: those are A, C");
   expect("", "datum = [\"C\"]", "name the cylinder or cone that does as `secondary_datum`");
-  expect("", "datum = [\"A\", \"C\"]", "mixes a face with others");
+  expect("", "datum = [\"A\", \"C\"]", "names a face beside another reference");
   expect("", "datum = [\"A\"]\nsecondary_datum = [\"A\"]", "is an axis beside the primary one");
   expect("", "secondary_datum = [\"C\"]", "needs a primary one");
   expect("association = \"maximum_inscribed\"", "", "is of a bore");

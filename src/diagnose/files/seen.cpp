@@ -48,7 +48,15 @@ std::string short_title(const Effect& effect) {
   return std::string(effect.title.substr(0, effect.title.find(':')));
 }
 
-std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const std::string& size) {
+/// Whether what may grow along Z does, by more than its U.
+bool grows(const Finding& finding, double k) {
+  return std::ranges::any_of(finding.parameters, [&](const FitParameter& p) {
+    return p.name == "growth" && std::abs(p.estimate.value) > p.estimate.expanded(k);
+  });
+}
+
+std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const std::string& size,
+                        bool growing) {
   const double order = harmonic.fixed_order > 0.0 ? harmonic.fixed_order : shape.order;
   const bool whole = std::abs(order - std::round(order)) < 1e-6;
   const std::string count =
@@ -60,7 +68,7 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
           harmonic.port == Port::z ? "along Z with the slope of the surface" : "the same along Z";
       break;
     case Harmonic::Envelope::growing:
-      along = "changing along Z";
+      along = growing ? "changing along Z" : "the same along Z";
       break;
     case Harmonic::Envelope::lever:
       along = "growing with the distance from a point of the axis";
@@ -96,7 +104,9 @@ std::string seen_text(const Finding& finding, double k) {
   const std::string title = short_title(*finding.term.effect);
   return std::visit(
       Overloaded{
-          [&](const Harmonic& harmonic) { return of_harmonic(harmonic, shape, size); },
+          [&](const Harmonic& harmonic) {
+            return of_harmonic(harmonic, shape, size, grows(finding, k));
+          },
           [&](const PeriodicInZ& periodic) {
             return periodic.turns == 0.0
                        ? "a wave along Z, " +

@@ -46,9 +46,10 @@ bool makes_a_datum(TomlTable target, const char* key, const Names& names, const 
     return false;
   }
   if (faces > 0 && names.size() > 1) {
-    target.complain(key,
-                    "mixes a face with others: a common datum is of cylinders and cones; name the "
-                    "face in the other one of `datum` and `secondary_datum`");
+    target.complain(
+        key,
+        "names a face beside another reference: a common datum is of cylinders and cones; name the "
+        "face in the other one of `datum` and `secondary_datum`");
     return false;
   }
   for (const JobReference& reference : job.references)
@@ -94,6 +95,9 @@ std::optional<Criterion> read_association(TomlTable reference, SurfaceKind surfa
 
 DatumSystem read_datums(TomlTable target, const Job& job) {
   const Names first = target.texts("datum"), second = target.texts("secondary_datum");
+  for (const char* key : {"datum", "secondary_datum"})
+    if (target.has(key) && (key == std::string("datum") ? first : second).empty())
+      target.complain(key, "names no reference: leave it out for the compromise of all");
   if (first.empty() && !second.empty())
     target.complain("secondary_datum", "needs a primary one: say `datum` as well");
   if (first.empty() || !makes_a_datum(target, "datum", first, job)) return {};
