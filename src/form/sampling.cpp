@@ -71,6 +71,11 @@ std::string sampling_trouble(const Trace& trace, const FormOptions& options) {
         "circle is else not held",
         widest / rad_per_deg);
   if (options.filter == ProfileFilter::none) return "";
+  if (widest > (1.0 - kept_by) * two_pi && usual_step(trace) >= widest)
+    return fmt::format(
+        "{:.0f}° without a reading: of more than a quarter of a turn no filter knows the form; "
+        "'--filter none' gives the range of the readings as they stand",
+        widest / rad_per_deg);
   if (turn_rounding * points_per_cycle(trace, two_pi / options.high_upr) < least_points_per_cycle)
     return more_points(options.high_upr, usual_step(trace));
   return "";

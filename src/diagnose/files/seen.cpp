@@ -37,7 +37,10 @@ const FitParameter* size_of(const Finding& finding) {
 
 std::string size_text(const Finding& finding, double k) {
   const FitParameter* size = size_of(finding);
-  if (size == nullptr) return um(finding.rms_mm) + " RMS";
+  // A size below its U says nothing of what was seen: another one carries it, such as where a
+  // tilting motion seems to turn.
+  if (size == nullptr || size->estimate.expanded(k) > std::abs(size->estimate.value))
+    return um(finding.rms_mm) + " RMS";
   const Estimate& e = size->estimate;
   const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
   return plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
