@@ -14,6 +14,7 @@
 #include "job/exchanged.hpp"
 #include "job/proof.hpp"
 #include "job/references.hpp"
+#include "job/sensor_doubts.hpp"
 #include "job/slip.hpp"
 #include "job/target_datum.hpp"
 #include "trueaxis/units.hpp"
@@ -188,7 +189,8 @@ Verdict decide(const JobResult& result) {
     verdict = by_tolerance(std::move(verdict), result, *tolerance_mm);
     verdict.line += moved;
     if (verdict.decision == Decision::go) {
-      const std::string why = improbable_and_far(result, *tolerance_mm);
+      std::string why = improbable_and_far(result, *tolerance_mm);
+      if (why.empty()) why = sensor_or_eccentricity(result, *tolerance_mm - verdict.upper_mm);
       if (!why.empty()) return not_proven(std::move(verdict), why);
     }
     if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
