@@ -8,6 +8,7 @@
 
 #include "blind/detection.hpp"
 #include "blind/tally.hpp"
+#include "support/places.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ struct Arguments {
   std::uint64_t seed = 20260101;
   std::vector<std::string> kinds, plans, surfaces;
   int jobs = 2;
-  std::string csv, json, command = TRUEAXIS_COMMAND, scratch = TRUEAXIS_SCRATCH, only;
+  std::string csv, json, command = places::command(), scratch = places::scratch(), only;
   bool keep = false, follow_advice = false, quiet = false;
 };
 

@@ -10,6 +10,7 @@
 
 #include "blind/detection.hpp"
 #include "blind/tally.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::blind {
 namespace {
@@ -29,8 +30,8 @@ constexpr KindShare shares[] = {{Kind::null, 120}, {Kind::one, 96},     {Kind::t
 
 StudyOptions options_of(const std::string& folder) {
   StudyOptions options;
-  options.command = TRUEAXIS_COMMAND;
-  options.scratch = std::filesystem::path(TRUEAXIS_SCRATCH) / "blind" / folder;
+  options.command = places::command();
+  options.scratch = std::filesystem::path(places::scratch()) / "blind" / folder;
   options.jobs = 1;  // ctest runs the tests side by side
   options.progress = [](std::size_t, const Result& result) {
     if (result.score.outcome != Outcome::correct) std::cout << line_of(result) << '\n';

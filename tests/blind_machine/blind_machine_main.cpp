@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "blind_machine/study.hpp"
+#include "support/places.hpp"
 
 namespace {
 
@@ -14,7 +15,7 @@ struct Arguments {
   std::size_t cases = 420;
   std::uint64_t seed = 20261123;
   std::vector<std::string> kinds;
-  std::string command = TRUEAXIS_COMMAND, scratch = TRUEAXIS_SCRATCH, json, only;
+  std::string command = places::command(), scratch = places::scratch(), json, only;
   int jobs = 2;
   bool keep = false, quiet = false, elsewhere = false;
 };

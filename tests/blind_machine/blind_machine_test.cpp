@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "blind_machine/study.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::blind_machine {
 namespace {
@@ -23,8 +24,8 @@ std::size_t least_right(std::size_t cases, double goal_share) {
 
 StudyOptions options_of(const std::string& folder) {
   StudyOptions options;
-  options.command = TRUEAXIS_COMMAND;
-  options.scratch = std::filesystem::path(TRUEAXIS_SCRATCH) / "blind_machine" / folder;
+  options.command = places::command();
+  options.scratch = std::filesystem::path(places::scratch()) / "blind_machine" / folder;
   options.jobs = 1;
   options.progress = [](std::size_t, const Result& result) {
     if (result.outcome != Outcome::correct) std::cout << result.line() << '\n';

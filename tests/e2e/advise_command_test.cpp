@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `advise` says where no further measurement of the lathe is what is wanted.
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 class AdviseCommand : public CommandTest {};
 
-const std::string data = std::string(TRUEAXIS_SOURCE) + "/data";
+const std::string data = places::source() + "/data";
 
 TEST_F(AdviseCommand, AConeThatIsACylinderIsAdvisedToBeOne) {
   const std::string stream = data + "/streams/shaft_cylinder_seat.csv";

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -87,7 +88,7 @@ TEST_F(AxisOfCut, CorrectTakesTheSameKey) {
 // Of the shaft with three lobes U is three times that of the named model, because of what its one
 // pass does not show; without its line the widening had no reason on page or terminal.
 TEST_F(AxisOfCut, RunAndReportSayTheThreeAxesAndWhy) {
-  const std::string job = std::string(TRUEAXIS_SOURCE) + "/data/jobs/shaft_three_lobes.toml";
+  const std::string job = places::source() + "/data/jobs/shaft_three_lobes.toml";
   const CommandStreams done = command("run " + job + " -o out --verbose");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   for (const char* part : {"axis (x, y); ± U (k = 2)", "\n  stated   (", "\n  named    (",
@@ -120,7 +121,7 @@ TEST_F(AxisOfCut, RunAndReportSayTheThreeAxesAndWhy) {
 // 1.8e-06 % is nothing, and a probe tilted by 1650 degrees no size.
 TEST_F(AxisOfCut, WhatCannotBeSeenIsSaidInNumbersThatMeanSomething) {
   const CommandStreams done =
-      command("diagnose " + std::string(TRUEAXIS_SOURCE) +
+      command("diagnose " + places::source() +
               "/data/streams/shaft_three_lobes.csv --surface cone --verbose");
   EXPECT_EQ(done.exit_code, 0) << done.err;
   for (const char* never : {"e-0", "e+0", "Z -0"})

@@ -2,13 +2,14 @@
 // Bad streams, jobs and fits: exit code 3, every diagnostic with its place on standard error, and
 // no file written.
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bad_streams = fs::path(TRUEAXIS_SOURCE) / "tests/golden/bad_streams";
+const fs::path bad_streams = fs::path(places::source()) / "tests/golden/bad_streams";
 
 std::vector<std::string> bad_cases() {
   std::vector<std::string> cases;

@@ -2,6 +2,7 @@
 #include <random>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -9,7 +10,7 @@ namespace {
 class CalibrateCommand : public CommandTest {
  protected:
   static std::string data(const std::string& name) {
-    return TRUEAXIS_SOURCE "/data/five_axis/" + name;
+    return places::source() + "/data/five_axis/" + name;
   }
   /// Words with blanks between them.
   static std::string line(std::initializer_list<std::string_view> words) {

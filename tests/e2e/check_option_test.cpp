@@ -3,11 +3,12 @@
 #include <regex>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
-const std::string data = TRUEAXIS_SOURCE "/data/";
+const std::string data = places::source() + "/data/";
 
 class CheckOption : public CommandTest {
  protected:

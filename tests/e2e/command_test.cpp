@@ -3,6 +3,7 @@
 #include <cstdlib>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -151,7 +152,7 @@ TEST_F(ExitCode, AFolderIsMadeAndBlanksAndLinksAreKept) {
   EXPECT_EQ(result("kept.json").at("schema"), "trueaxis.fit/1");
   // A pipe is written to, not replaced by a file.
   EXPECT_EQ(shell("cd " + shell_word(folder_) + " && mkfifo pipe && (cat pipe > read.json & ) && " +
-                  shell_word(TRUEAXIS_COMMAND) + " fit part.csv --surface cylinder --json pipe")
+                  shell_word(places::command()) + " fit part.csv --surface cylinder --json pipe")
                 .exit_code,
             0);
   EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));

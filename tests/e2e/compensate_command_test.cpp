@@ -8,6 +8,7 @@
 
 #include "support/command_fixture.hpp"
 #include "support/nc_programs.hpp"
+#include "support/places.hpp"
 #include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
@@ -187,12 +188,12 @@ TEST_F(CompensateCommand, StatesUOfTheTipWhereTheErrorsHaveU) {
 }
 
 TEST_F(CompensateCommand, PrintsWhatTheDocumentationShows) {
-  const std::string page = read_text(fs::path(TRUEAXIS_SOURCE) / "docs/nc.md");
+  const std::string page = read_text(fs::path(places::source()) / "docs/nc.md");
   const std::string start = "```console\n$ trueaxis ";
   const std::size_t begin = page.find(start), end = page.find("```", begin + start.size());
   ASSERT_NE(begin, std::string::npos);
   const std::string block = page.substr(begin + start.size(), end - begin - start.size());
-  fs::create_directory_symlink(fs::path(TRUEAXIS_SOURCE) / "data", folder_ / "data");
+  fs::create_directory_symlink(fs::path(places::source()) / "data", folder_ / "data");
   fs::create_directory(folder_ / "build");
   const CommandStreams done = command(first_line(block));
   ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -279,7 +280,7 @@ TEST_F(CompensateCommand, LinuxCncReadsTheNumbersThatAreWritten) {
   ASSERT_EQ(compensate("p.nc", source, of_trunnion + "-o out.nc --decimals 12 --angle-decimals 12")
                 .exit_code,
             0);
-  const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + TRUEAXIS_SOURCE +
+  const auto done = shell("cd " + shell_word(folder_) + " && /usr/bin/python3 " + places::source() +
                           "/tests/e2e/linuxcnc_moves.py out.nc x.var moves.txt");
   ASSERT_EQ(done.exit_code, 0) << done.output;
   std::istringstream moves(read_text(folder_ / "moves.txt")), lines(read_text(folder_ / "out.nc"));

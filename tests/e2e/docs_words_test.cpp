@@ -5,11 +5,12 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
-const std::filesystem::path root = TRUEAXIS_SOURCE;
+const std::filesystem::path root = places::source();
 
 std::string page(const std::string& name) { return read_text(root / "docs" / name); }
 
@@ -86,7 +87,7 @@ class GlossaryOfScreens : public CommandTest {};
 
 // The word that a line of a screen begins with.
 TEST_F(GlossaryOfScreens, HasTheWordOfEveryLine) {
-  const std::string data = TRUEAXIS_SOURCE "/data/", of = data + "five_axis/";
+  const std::string data = places::source() + "/data/", of = data + "five_axis/";
   const std::string words = section_of(page("glossary.md"), "## Verdicts and lines of a screen");
   std::set<std::string> heads;
   for (const std::string& one :
@@ -154,7 +155,7 @@ TEST(DocsWords, NoRiddles) {
 }
 
 TEST_F(GlossaryOfScreens, TheShippedCutIsTrueToTheSeats) {
-  const std::string data = TRUEAXIS_SOURCE "/data/";
+  const std::string data = places::source() + "/data/";
   ASSERT_EQ(command("run " + data + "jobs/shaft.toml -o shaft").exit_code, 0);
   ASSERT_EQ(
       command("simulate " + data + "scenarios/shaft_cut.toml --table shaft/table.csv -o a.csv")

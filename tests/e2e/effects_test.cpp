@@ -6,6 +6,7 @@
 
 #include "simulate/files/scenario_toml.hpp"
 #include "support/command.hpp"
+#include "support/places.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -83,7 +84,7 @@ TEST(EffectsCommand, JsonIsInTheUnitsOfTheContract) {
 TEST(EffectsCommand, DocsEffectsIsTheCatalogueOfToday) {
   const CommandResult page = trueaxis_command("effects --markdown");
   ASSERT_EQ(page.exit_code, 0);
-  EXPECT_EQ(page.output, read_text(std::filesystem::path(TRUEAXIS_SOURCE) / "docs/effects.md"))
+  EXPECT_EQ(page.output, read_text(std::filesystem::path(places::source()) / "docs/effects.md"))
       << "write it anew: trueaxis effects --markdown > docs/effects.md";
   for (const Effect& effect : effect_catalogue())
     EXPECT_NE(page.output.find("\n## " + std::string(effect.id) + "\n"), std::string::npos);

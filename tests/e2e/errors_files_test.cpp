@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -29,7 +30,7 @@ class ErrorsFiles : public CommandTest {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(row[i], wanted[i], 1e-11);
   }
 
-  std::string data_ = TRUEAXIS_SOURCE "/data/five_axis/";
+  std::string data_ = places::source() + "/data/five_axis/";
   std::string machine_ = data_ + "trunnion_ac.toml";
 };
 

@@ -11,6 +11,7 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis::testing {
@@ -52,7 +53,7 @@ class FirstHour : public CommandTest {
     EXPECT_EQ(found.at("points").get<std::size_t>(), expected_.points);
   }
 
-  const std::string seat_ = std::string(TRUEAXIS_SOURCE) + "/data/streams/shaft_cylinder_seat.csv";
+  const std::string seat_ = places::source() + "/data/streams/shaft_cylinder_seat.csv";
   FitResult expected_;
 };
 
@@ -100,7 +101,7 @@ TEST_F(FirstHour, FromStandardInput) {
   for (const std::string& from :
        {fit_dash + " --diameter < export.csv", fit_dash + " --diameter < <(cat export.csv)",
         std::string("fit <(cat export.csv) --surface cylinder --json f.json --force --diameter")}) {
-    file("ask.sh", std::string(TRUEAXIS_COMMAND " ") + from + "\n");
+    file("ask.sh", std::string(places::command() + " ") + from + "\n");
     const CommandResult done = shell("cd " + shell_word(folder_) + " && bash ask.sh 2>&1");
     ASSERT_EQ(done.exit_code, 0) << from << '\n' << done.output;
     expect_axis(result("f.json"));

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -90,7 +91,7 @@ TEST_F(FitCommand, FileAndStandardInputGiveTheSame) {
   json from_input = fitted("- --surface cone < cone.csv");
   json from_pipe =
       json::parse(shell("cat " + shell_word(folder_ / "cone.csv") + " | " +
-                        shell_word(TRUEAXIS_COMMAND) + " fit - --surface cone --json -")
+                        shell_word(places::command()) + " fit - --surface cone --json -")
                       .output);
   EXPECT_EQ(from_file.at("input").at("file"), "cone.csv");
   EXPECT_EQ(from_input.at("input").at("file"), "-");

@@ -4,6 +4,7 @@
 
 #include "support/chain_matrices.hpp"
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/twelve_holes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -13,7 +14,7 @@ namespace {
 class FixtureCommand : public CommandTest {
  protected:
   static std::string of_data(const std::string& name) {
-    return std::string(TRUEAXIS_SOURCE "/data/five_axis/").append(name);
+    return std::string(places::source() + "/data/five_axis/").append(name);
   }
   static std::vector<std::string> lines_of(const nlohmann::json& json, const std::string& format) {
     for (const nlohmann::json& frame : json.at("frames"))
@@ -149,7 +150,7 @@ TEST_F(FixtureCommand, TheDisplacedProgramDrillsTheHoles) {
 // Table 2 of the paper as docs/fixtures.md has it: every rate from the sizes, the printed ones
 // rounded but for the two that are cut off.
 TEST(FixtureDocs, RatesOfTableTwo) {
-  std::istringstream page(read_text(TRUEAXIS_SOURCE "/docs/fixtures.md"));
+  std::istringstream page(read_text(places::source() + "/docs/fixtures.md"));
   int rows = 0, cut_off = 0;
   for (std::string line; std::getline(page, line);) {
     if (line.compare(0, 7, "| hole,") != 0 && line.compare(0, 7, "| step,") != 0) continue;

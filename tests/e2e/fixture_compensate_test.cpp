@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/twelve_holes.hpp"
 
 namespace trueaxis::testing {
@@ -12,7 +13,7 @@ namespace {
 class FixtureCompensate : public CommandTest {
  protected:
   static std::string of_data(const std::string& name) {
-    return std::string(TRUEAXIS_SOURCE "/data/five_axis/").append(name);
+    return std::string(places::source() + "/data/five_axis/").append(name);
   }
   nlohmann::json compensate(const std::string& part, const std::string& options) {
     const CommandStreams datum =
@@ -65,7 +66,7 @@ TEST_F(FixtureCompensate, TwelveHoles) {
 /// The datum errors of holes.toml times `factor`.
 std::string datums_times(double factor) {
   std::string out;
-  std::istringstream in(read_text(TRUEAXIS_SOURCE "/data/five_axis/holes.toml"));
+  std::istringstream in(read_text(places::source() + "/data/five_axis/holes.toml"));
   for (std::string line; std::getline(in, line);) {
     const std::size_t equals = line.find(" = ");
     if (line[0] == 'E' && equals != std::string::npos)

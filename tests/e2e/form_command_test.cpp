@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::testing {
@@ -123,7 +124,8 @@ TEST_F(FormCommand, ATaperedDatumRocks) {
 // Truth of the virtual lathe, whose formulas are its own: 0.8 cos(2θ − 40°) + 0.5 cos 3θ µm through
 // 1-15 UPR has a range of 2.4150 µm; the spindle's 0.4 cos 2C added makes it 3.0647.
 TEST_F(FormCommand, TheSpindlesMotionIsTakenOff) {
-  ASSERT_EQ(command("simulate " TRUEAXIS_SOURCE "/data/scenarios/spindle_three_sensors.toml -o "
+  ASSERT_EQ(command("simulate " + places::source() +
+                    "/data/scenarios/spindle_three_sensors.toml -o "
                     "three.csv")
                 .exit_code,
             0);

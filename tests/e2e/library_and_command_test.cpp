@@ -5,6 +5,7 @@
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "trueaxis/job.hpp"
 
 namespace trueaxis::testing {
@@ -31,7 +32,7 @@ class LibraryAndCommand : public CommandTest {
 };
 
 TEST_F(LibraryAndCommand, DecideTheShippedJobsAlike) {
-  const std::filesystem::path jobs = std::filesystem::path(TRUEAXIS_SOURCE) / "data/jobs";
+  const std::filesystem::path jobs = std::filesystem::path(places::source()) / "data/jobs";
   std::size_t count = 0;
   for (const std::string& name : files_in(jobs)) {
     if (!name.ends_with(".toml") || contains(read_text(jobs / name), "\n[machine]")) continue;

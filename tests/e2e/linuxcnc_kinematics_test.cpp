@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
@@ -16,7 +17,7 @@ namespace {
 
 using Joints = std::array<double, 5>;  // X Y Z, first and second rotary axis; mm, degrees
 const std::string module_folder = "/usr/lib/linuxcnc/modules/";
-const std::string source_folder = TRUEAXIS_SOURCE "/tests/e2e/";
+const std::string source_folder = places::source() + "/tests/e2e/";
 
 class LinuxCncKinematics : public CommandTest {
  protected:

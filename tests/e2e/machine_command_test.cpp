@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
-const std::string data = TRUEAXIS_SOURCE "/data/five_axis/";
+const std::string data = places::source() + "/data/five_axis/";
 const std::string machine = data + "trunnion_ac.toml ";
 const std::string errors = " --errors " + data + "trunnion_ac_errors.toml";
 

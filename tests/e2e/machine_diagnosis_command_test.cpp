@@ -7,13 +7,14 @@
 
 #include "support/command.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 using nlohmann::json;
 
-const std::string data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
+const std::string data = places::source() + "/data/five_axis/";
 const std::string machine = data + "trunnion_ac.toml", ball = data + "trunnion_ac_ball.csv";
 
 json diagnosed(const std::string& more = "") {

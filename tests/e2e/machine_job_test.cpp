@@ -8,6 +8,7 @@
 #include "machine/files/machine_toml.hpp"
 #include "support/command_fixture.hpp"
 #include "support/part_alignment.hpp"
+#include "support/places.hpp"
 #include "support/twelve_holes.hpp"
 
 namespace trueaxis::testing {
@@ -16,7 +17,7 @@ namespace {
 class MachineJobCommand : public CommandTest {
  protected:
   static std::string of_data(const std::string& name) {
-    return std::string(TRUEAXIS_SOURCE "/data/five_axis/").append(name);
+    return std::string(places::source() + "/data/five_axis/").append(name);
   }
   /// The job of data/jobs/blade.toml with other tables for [program] and [part].
   void job(const std::string& program_keys, const std::string& part = "") {
@@ -31,7 +32,7 @@ class MachineJobCommand : public CommandTest {
 
 /// Largest tip error of a program by the hidden machine, the part's displacement taken off, µm.
 double by_truth_um(const std::vector<FiveAxes>& ends, const std::vector<FiveAxes>& wanted) {
-  const std::string folder = TRUEAXIS_SOURCE "/data/five_axis/";
+  const std::string folder = places::source() + "/data/five_axis/";
   const Machine machine = read_machine_toml(folder + "zxacy.toml").machine;
   const ErrorModel truth = read_errors_toml(folder + "zxacy_errors.toml", machine), none;
   const Setting setting = first_setting(machine);
@@ -180,7 +181,7 @@ TEST_F(MachineJobCommand, TheShippedMeasurementIsThatOfItsScenario) {
 }
 
 TEST_F(MachineJobCommand, TheDemonstrationIsAGoJudgedByTheHiddenMachine) {
-  const std::string source = TRUEAXIS_SOURCE;
+  const std::string source = places::source();
   const CommandStreams done = command("run " + source + "/data/jobs/blade.toml -o out");
   ASSERT_EQ(done.exit_code, 0) << done.out << done.err;
   EXPECT_EQ(done.out.rfind("GO: ", 0), 0U) << done.out;

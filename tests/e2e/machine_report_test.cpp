@@ -10,6 +10,7 @@
 #include "job/machine/files/machine_job_results.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -19,7 +20,7 @@ using example::open_page;
 using example::Opinion;
 
 MachineJob blade_job() {
-  const std::string path = TRUEAXIS_SOURCE "/data/jobs/blade.toml";
+  const std::string path = places::source() + "/data/jobs/blade.toml";
   return read_machine_job_toml(read_file(path), path);
 }
 
@@ -27,8 +28,8 @@ void expect_sound_page(const MachineJobResult& result, const std::string& name) 
   const Opinion opinion = open_page(render_machine_report(result), name);
   EXPECT_TRUE(opinion.sound) << opinion.log;
   for (const char* screen : {"wide.png", "phone.png"})
-    EXPECT_GT(std::filesystem::file_size(std::filesystem::path(TRUEAXIS_SCRATCH) / "report" / name /
-                                         screen),
+    EXPECT_GT(std::filesystem::file_size(std::filesystem::path(places::scratch()) / "report" /
+                                         name / screen),
               10000U);
 }
 
@@ -48,7 +49,7 @@ TEST_F(MachineReportPage, TheBlade) {
 }
 
 TEST(MachineReportHeader, IsThatOfTheJob) {
-  const std::string path = TRUEAXIS_SOURCE "/data/jobs/blade.toml";
+  const std::string path = places::source() + "/data/jobs/blade.toml";
   const MachineJob job = read_machine_job_toml(
       read_file(path) + "\n[header]\nserial = \"0815\"\ndate = 2026-03-14\n", path);
   EXPECT_EQ(job.header, (JobHeader{{"Serial number", "0815"}, {"Date", "2026-03-14"}}));

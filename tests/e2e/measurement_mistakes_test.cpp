@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -80,7 +81,7 @@ class MeasurementMistakes : public CommandTest {
     }
   }
 
-  std::string data_ = TRUEAXIS_SOURCE "/data/five_axis/";
+  std::string data_ = places::source() + "/data/five_axis/";
   std::string machine_ = data_ + "trunnion_ac.toml";
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 /// The paper's tables as a user runs them. The expected figures are those of
 /// tests/reference/paper_tables.py, which shares no code with the engine.
@@ -12,7 +13,7 @@ class PaperTables : public CommandTest {
  protected:
   nlohmann::json published(const std::string& table) {
     const CommandStreams done =
-        command("sweep '" TRUEAXIS_SOURCE "/data/sweeps/" + table + ".toml' -o out");
+        command("sweep '" + places::source() + "/data/sweeps/" + table + ".toml' -o out");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     printed_ = done.out;
     return result("out/published.json");
@@ -82,7 +83,7 @@ TEST_F(PaperTables, TheDamagedLevelOfTable2HasAnInterval) {
 }
 
 TEST_F(PaperTables, AreTheSameBytesOnAnyNumberOfThreads) {
-  std::string sweep = read_text(TRUEAXIS_SOURCE "/data/sweeps/table1.toml");
+  std::string sweep = read_text(places::source() + "/data/sweeps/table1.toml");
   const std::string repeats = "repeats = 2000";
   ASSERT_NE(sweep.find(repeats), std::string::npos);
   file("sweep.toml", sweep.replace(sweep.find(repeats), repeats.size(), "repeats = 300"));
@@ -95,7 +96,7 @@ TEST_F(PaperTables, AreTheSameBytesOnAnyNumberOfThreads) {
 TEST_F(PaperTables, CylinderAndPlaneReachTheBound) {
   for (const char* table : {"table1_cylinder", "table1_plane"}) {
     const CommandStreams done =
-        command(std::string("sweep '" TRUEAXIS_SOURCE "/data/sweeps/") + table + ".toml'");
+        command(std::string("sweep '" + places::source() + "/data/sweeps/") + table + ".toml'");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     const bool cylinder = std::string(table) == "table1_cylinder";
     EXPECT_TRUE(contains(done.out, cylinder ? "45 of 45 ratios" : "15 of 15 ratios")) << done.out;

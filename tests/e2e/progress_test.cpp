@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What computes longer than two seconds says on a terminal what it is at, and nowhere else.
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/terminal.hpp"
 
 namespace trueaxis::testing {
@@ -46,8 +47,8 @@ TEST_F(ProgressLine, IsNotInAPipe) {
 
 TEST_F(ProgressLine, IsNotThereForWhatIsQuick) {
   const TerminalRun run =
-      on_terminal(folder_, "trueaxis fit '" TRUEAXIS_SOURCE
-                           "/data/streams/shaft_cylinder_seat.csv' --surface cylinder");
+      on_terminal(folder_, "trueaxis fit '" + places::source() +
+                               "/data/streams/shaft_cylinder_seat.csv' --surface cylinder");
   EXPECT_EQ(run.exit_code, 0) << run.shown;
   EXPECT_EQ(run.shown.find("fit of "), std::string::npos) << run.shown;
 }

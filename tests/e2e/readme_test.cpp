@@ -7,14 +7,15 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "support/command.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
-const std::string source = TRUEAXIS_SOURCE;
+const std::string source = places::source();
 
 CommandResult in_source(const std::string& arguments) {
-  return shell("cd '" + source + "' && " + TRUEAXIS_COMMAND + " " + arguments);
+  return shell("cd '" + source + "' && " + places::command() + " " + arguments);
 }
 
 TEST(Readme, ConsoleBlockIsTheOutput) {

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/refusal_case.hpp"
 
 namespace trueaxis::testing {
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path refusals = fs::path(TRUEAXIS_SOURCE) / "tests/refusals";
+const fs::path refusals = fs::path(places::source()) / "tests/refusals";
 
 std::vector<std::string> refusal_files() {
   std::vector<std::string> names = files_in(refusals);

@@ -11,6 +11,7 @@
 #include "report/report.hpp"
 #include "support/command_fixture.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 #include "support/report_example.hpp"
 
 namespace trueaxis {
@@ -50,7 +51,7 @@ void expect_sound(const std::string& page, const std::string& name) {
 TEST_P(ReportOnAPhone, HasAtMostTwelveScreensAndNoCode) {
   if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
   const std::string job = GetParam();
-  const auto done = command("run '" TRUEAXIS_SOURCE "/data/jobs/" + job + ".toml' -o out");
+  const auto done = command("run '" + places::source() + "/data/jobs/" + job + ".toml' -o out");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const Opinion opinion = open_page(page("out/report.html"), "phone_" + job);
   EXPECT_TRUE(opinion.sound) << opinion.log;
@@ -61,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(ShippedJobs, ReportOnAPhone,
                          ::testing::Values("shaft", "bushing", "shaft_three_lobes", "blade"));
 
 TEST_F(ReportCommand, FitAndDiagnoseWriteThePageOfAJob) {
-  const std::string stream = "'" TRUEAXIS_SOURCE "/data/streams/shaft_three_lobes.csv'";
+  const std::string stream = "'" + places::source() + "/data/streams/shaft_three_lobes.csv'";
   auto done = command("fit " + stream + " --surface cone --report fit.html");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   done = command("diagnose " + stream + " --surface cone --report diagnosis.html");

@@ -7,6 +7,7 @@
 
 #include "support/diagnosis_example.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis {
 namespace {
@@ -21,7 +22,7 @@ void expect_sound(const JobResult& result, const std::string& name) {
   const Opinion opinion = open_page(render_report(result), name);
   EXPECT_TRUE(opinion.sound) << opinion.log;
   for (const char* screen : {"wide.png", "phone.png"}) {
-    const fs::path picture = fs::path(TRUEAXIS_SCRATCH) / "report" / name / screen;
+    const fs::path picture = fs::path(places::scratch()) / "report" / name / screen;
     EXPECT_GT(fs::file_size(picture), 10000u) << "a screenshot of a page is not that small";
   }
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -101,7 +102,7 @@ TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
 }
 
 TEST_F(RunCommand, TheSameBytesEveryTime) {
-  const auto job = "'" TRUEAXIS_SOURCE "/data/jobs/shaft.toml'";
+  const auto job = "'" + places::source() + "/data/jobs/shaft.toml'";
   for (const char* folder : {"first", "second"})
     ASSERT_EQ(command(std::string("run ") + job + " -o " + folder).exit_code, 0);
   ASSERT_EQ(command(std::string("run ") + job + " -o second").exit_code,
@@ -119,7 +120,7 @@ TEST_F(RunCommand, TheSameBytesEveryTime) {
 
 TEST_F(RunCommand, TwoAtOnceIntoOneFolder) {
   file("job.toml", simple_job(cylinder_reference));
-  const std::string run = shell_word(TRUEAXIS_COMMAND) + " run job.toml -o ";
+  const std::string run = shell_word(places::command()) + " run job.toml -o ";
   const auto both = shell("cd " + shell_word(folder_) + " && " + run + "alone >alone.txt && (" +
                           run + "out >1.txt & " + run + "out >2.txt & wait)");
   ASSERT_EQ(both.exit_code, 0) << both.output;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/terminal.hpp"
 
 namespace trueaxis::testing {
@@ -25,7 +26,7 @@ class Screens : public CommandTest {
  protected:
   void SetUp() override {
     CommandTest::SetUp();
-    std::filesystem::create_directory_symlink(TRUEAXIS_SOURCE "/data", folder_ / "data");
+    std::filesystem::create_directory_symlink(places::source() + "/data", folder_ / "data");
   }
   /// On a terminal of 80 columns, where lines wrap.
   void expect_a_screen(const std::string& one) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/command.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -17,7 +18,7 @@ class InstallScript : public ::testing::Test {
     folder_ = fresh_folder("install_" + test);
     fs::create_directories(folder_ / "scripts");
     for (const char* file : {"setup", "packages.txt"})
-      fs::copy_file(fs::path(TRUEAXIS_SOURCE) / "scripts" / file, folder_ / "scripts" / file);
+      fs::copy_file(fs::path(places::source()) / "scripts" / file, folder_ / "scripts" / file);
     fs::create_directories(folder_ / "bin");
     stand_in("dpkg-query", "echo install ok installed");
     stand_in("apt-get", "exit 0");

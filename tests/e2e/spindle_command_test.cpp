@@ -5,6 +5,7 @@
 
 #include "support/command_fixture.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -17,7 +18,7 @@ class SpindleCommand : public CommandTest {
     ASSERT_EQ(done.exit_code, 0) << done.err;
   }
   static std::string of_data(const std::string& name) {
-    return std::string(TRUEAXIS_SOURCE "/data/scenarios/").append(name);
+    return std::string(places::source() + "/data/scenarios/").append(name);
   }
   static void expect_within(const nlohmann::json& estimate, double truth_mm, const char* what) {
     const double value = estimate.at("value"), u = estimate.at("u");
@@ -86,7 +87,7 @@ TEST_F(SpindleCommand, ThePageIsDarkWhereTheReaderAsksForIt) {
   if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
   const std::string page = (folder_ / "s.html").string(), shots = (folder_ / "shots").string();
   const CommandResult looked =
-      shell("node " + shell_word(TRUEAXIS_SOURCE "/tests/e2e/plain_page.mjs") + " " +
+      shell("node " + shell_word(places::source() + "/tests/e2e/plain_page.mjs") + " " +
             shell_word(page) + " " + shell_word(shots) + " 2>&1");
   EXPECT_EQ(looked.exit_code, 0) << looked.output;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 /// Sweeps whose scenario cuts: what is left on the part, against plain geometry.
 namespace trueaxis::testing {
@@ -87,7 +88,8 @@ TEST_F(SweepCut, ANumberOfTheCutIsAnAxis) {
 }
 
 TEST_F(SweepCut, TheShippedExampleRuns) {
-  const CommandStreams done = command("sweep '" TRUEAXIS_SOURCE "/data/sweeps/cut.toml' -o out");
+  const CommandStreams done =
+      command("sweep '" + places::source() + "/data/sweeps/cut.toml' -o out");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_EQ(result("out/sweep.json")["cells"].size(), 8U);
   EXPECT_TRUE(contains(read_text(folder_ / "out/sweep.csv"), ",coaxiality,mm,0,"));

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 /// `data/sweeps/plans.toml`: cases that replace the passes and the effects of a scenario.
 namespace trueaxis::testing {
@@ -13,7 +14,7 @@ class SweepPlans : public CommandTest {
   void SetUp() override {
     CommandTest::SetUp();
     const CommandStreams done =
-        command("sweep '" TRUEAXIS_SOURCE "/data/sweeps/plans.toml' -o out");
+        command("sweep '" + places::source() + "/data/sweeps/plans.toml' -o out");
     ASSERT_EQ(done.exit_code, 0) << done.err;
     json_ = result("out/sweep.json");
   }

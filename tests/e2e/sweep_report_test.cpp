@@ -7,6 +7,7 @@
 #include "studies/published/published_toml.hpp"
 #include "study/bound/quantities.hpp"
 #include "support/open_page.hpp"
+#include "support/places.hpp"
 #include "support/sweep_examples.hpp"
 
 namespace trueaxis {
@@ -26,7 +27,7 @@ std::string page_of(const study::PublishedSweep& file) {
 
 study::PublishedSweep shipped(const std::string& name, std::size_t repeats) {
   study::PublishedSweep file =
-      read_published_sweep(TRUEAXIS_SOURCE "/data/sweeps/" + name + ".toml");
+      read_published_sweep(places::source() + "/data/sweeps/" + name + ".toml");
   file.sweep.repeats = repeats;
   return file;
 }

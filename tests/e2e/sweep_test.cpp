@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 /// `trueaxis sweep` as a process: the same bytes whatever happens to it.
 namespace trueaxis::testing {
@@ -50,7 +51,7 @@ class SweepCommand : public CommandTest {
       fs::current_path(folder_);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDOUT_FILENO);
-      ::execl(TRUEAXIS_COMMAND, TRUEAXIS_COMMAND, "sweep", sweep.c_str(), "-o", out.c_str(),
+      ::execl(places::command(), places::command(), "sweep", sweep.c_str(), "-o", out.c_str(),
               static_cast<char*>(nullptr));
       ::_exit(127);
     }
@@ -149,7 +150,7 @@ TEST_F(SweepCommand, RefusesAFolderInUse) {
   const std::string locked = "sweep sweep.toml -o out";
   const int status =
       std::system(("cd " + shell_word(folder_) + " && flock out/journal.bin " +
-                   shell_word(TRUEAXIS_COMMAND) + " " + locked + " > /dev/null 2> locked.txt")
+                   shell_word(places::command()) + " " + locked + " > /dev/null 2> locked.txt")
                       .c_str());
   EXPECT_EQ(WEXITSTATUS(status), 3);
   EXPECT_TRUE(contains(text("locked.txt"), "another process is running this sweep"));

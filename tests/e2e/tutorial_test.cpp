@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 class Tutorial : public CommandTest {};
 
 TEST_F(Tutorial, RunsAsPrinted) {
-  std::istringstream page(read_text(std::string(TRUEAXIS_SOURCE) + "/docs/tutorial.md"));
+  std::istringstream page(read_text(places::source() + "/docs/tutorial.md"));
   std::size_t commands = 0;
   std::istringstream printed;
   bool console = false;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "support/trunnion.hpp"
 
 namespace trueaxis::testing {
@@ -15,12 +16,12 @@ const std::string to_compensate = "compensate " + five_axis_data + "example.nc "
 class VirtualCutCommand : public CommandTest {};
 
 TEST_F(VirtualCutCommand, PrintsWhatTheDocumentationShows) {
-  const std::string page = read_text(fs::path(TRUEAXIS_SOURCE) / "docs/virtual_machine.md");
+  const std::string page = read_text(fs::path(places::source()) / "docs/virtual_machine.md");
   const std::string start = "```console\n$ trueaxis ";
   const std::size_t begin = page.find(start), end = page.find("```", begin + start.size());
   ASSERT_NE(begin, std::string::npos);
   const std::string block = page.substr(begin + start.size(), end - begin - start.size());
-  fs::create_directory_symlink(fs::path(TRUEAXIS_SOURCE) / "data", folder_ / "data");
+  fs::create_directory_symlink(fs::path(places::source()) / "data", folder_ / "data");
   fs::create_directory(folder_ / "build");
   const CommandStreams done = command(first_line(block));
   ASSERT_EQ(done.exit_code, 0) << done.err;

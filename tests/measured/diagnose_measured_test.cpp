@@ -13,13 +13,14 @@
 #include "diagnose/files/diagnosis_text.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "support/diagnose_lathe.hpp"
+#include "support/places.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::string measured(const char* name) {
-  return (std::filesystem::path(TRUEAXIS_MEASURED_DATA) / name).string();
+  return (std::filesystem::path(places::measured_data()) / name).string();
 }
 
 void print(const Diagnosis& d) {

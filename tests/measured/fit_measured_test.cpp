@@ -11,13 +11,14 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "support/command_fixture.hpp"
+#include "support/places.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 std::string measured(const char* name) {
-  return (std::filesystem::path(TRUEAXIS_MEASURED_DATA) / name).string();
+  return (std::filesystem::path(places::measured_data()) / name).string();
 }
 
 double derived(const FitResult& fit, const std::string& name) {

@@ -7,13 +7,14 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "support/form_profiles.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
 
 TEST(MeasuredForm, ATraceOfARoundnessInstrument) {
   const std::filesystem::path path =
-      std::filesystem::path(TRUEAXIS_MEASURED_DATA) / "talyrond_trace.csv";
+      std::filesystem::path(places::measured_data()) / "talyrond_trace.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   StreamReadOptions read;
   read.indication = Indication::relative;

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "calibrate/read_out.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis {
 namespace {
@@ -34,7 +35,7 @@ MachineMeasurement screw_axis(const std::filesystem::path& path) {
 // Order 4 of 1 mm 20.57 µm, 8 1.49, 12 1.09, 16 0.60; RMS 14.6 µm before, 0.285 after. With 4300
 // readings of that RMS an amplitude has u = 0.285 √(2/4300) = 6 nm; the file rounds to 10 nm.
 TEST(ReadOutMeasured, ScrewIsPeriodicInOneMillimetre) {
-  const auto path = std::filesystem::path(TRUEAXIS_MEASURED_DATA) / "screw_axis.csv";
+  const auto path = std::filesystem::path(places::measured_data()) / "screw_axis.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   const AxisReadOut found = calibrate_detail::read_out_of(screw_axis(path), 24);
   std::cout << "period " << found.period << " mm, RMS " << 1e3 * found.rms_before << " -> "

@@ -6,13 +6,14 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "measure/passes.hpp"
+#include "support/places.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::string measured(const char* name) {
-  return (std::filesystem::path(TRUEAXIS_MEASURED_DATA) / name).string();
+  return (std::filesystem::path(places::measured_data()) / name).string();
 }
 
 TEST(MeasuredStream, TubeHasFiveSectionsOfTwelveAngles) {

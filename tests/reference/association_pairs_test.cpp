@@ -10,13 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "support/places.hpp"
 #include "trueaxis/association.hpp"
 
 namespace trueaxis {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path folder = fs::path(TRUEAXIS_SOURCE) / "tests/reference/association";
+const fs::path folder = fs::path(places::source()) / "tests/reference/association";
 
 std::vector<double> numbers_of(const fs::path& path) {
   std::ifstream file(path);

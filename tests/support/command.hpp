@@ -11,6 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/places.hpp"
+
 /// Runs the trueaxis command as a user does: a process of its own, files in a folder of the test.
 namespace trueaxis::testing {
 
@@ -32,12 +34,12 @@ inline CommandResult shell(const std::string& command) {
 }
 
 inline CommandResult trueaxis_command(const std::string& arguments) {
-  return shell(std::string(TRUEAXIS_COMMAND) + " " + arguments);
+  return shell(places::command() + " " + arguments);
 }
 
 /// An empty folder under the build tree, made anew.
 inline std::filesystem::path fresh_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(TRUEAXIS_SCRATCH) / name;
+  const std::filesystem::path folder = std::filesystem::path(places::scratch()) / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

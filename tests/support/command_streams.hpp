@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/command.hpp"
+#include "support/places.hpp"
 
 /// The command with its two output streams apart, and what it left in a folder.
 namespace trueaxis::testing {
@@ -30,7 +31,7 @@ inline CommandStreams run_in(const std::filesystem::path& folder, const std::str
   const std::string captured = folder.string() + ".captured";
   const std::string out = captured + ".out", err = captured + ".err";
   const int status =
-      std::system(("( cd " + shell_word(folder) + " && " + shell_word(TRUEAXIS_COMMAND) + " " +
+      std::system(("( cd " + shell_word(folder) + " && " + shell_word(places::command()) + " " +
                    arguments + " ) < /dev/null > " + shell_word(out) + " 2> " + shell_word(err))
                       .c_str());
   const int exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

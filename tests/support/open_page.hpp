@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "support/places.hpp"
+
 /// A page of a report opened in headless Chromium, wide and on a phone.
 namespace trueaxis::example {
 
@@ -29,11 +31,11 @@ struct Opinion {
 };
 
 inline Opinion open_page(const std::string& html, const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "report" / name;
+  const std::filesystem::path folder = std::filesystem::path(places::scratch()) / "report" / name;
   std::filesystem::create_directories(folder);
   const std::filesystem::path page = folder / "report.html", log = folder / "log.txt";
   std::ofstream(page, std::ios::binary) << html;
-  const std::string command = "node '" TRUEAXIS_SOURCE "/tests/e2e/report_page.mjs' '" +
+  const std::string command = "node '" + places::source() + "/tests/e2e/report_page.mjs' '" +
                               page.string() + "' '" + folder.string() + "' >'" + log.string() +
                               "' 2>&1";
   const bool sound = std::system(command.c_str()) == 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "format/toml_reader.hpp"
+#include "support/places.hpp"
 
 /// One file of tests/refusals: a wrong job, stream or layout of files as a user meets it, and what
 /// the command must say and keep.
@@ -37,7 +38,7 @@ struct RefusalCase {
 
 /// `text` with the repository's data folder for every `{data}`.
 inline std::string with_data_folder(std::string text) {
-  static const std::string key = "{data}", data = std::string(TRUEAXIS_SOURCE) + "/data";
+  static const std::string key = "{data}", data = places::source() + "/data";
   for (std::size_t at = 0; (at = text.find(key, at)) != std::string::npos; at += data.size())
     text.replace(at, key.size(), data);
   return text;

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <string>
 
+#include "support/places.hpp"
+
 /// The command on a terminal, as a person sees it.
 namespace trueaxis::testing {
 
@@ -25,9 +27,8 @@ inline TerminalRun on_terminal(const std::filesystem::path& folder, const std::s
   int master = -1;
   const pid_t child = forkpty(&master, nullptr, nullptr, &size);
   if (child == 0) {
-    const std::string line = "cd '" + folder.string() +
-                             "' && T='" TRUEAXIS_COMMAND "' && trueaxis() { \"$T\" \"$@\"; } && " +
-                             command;
+    const std::string line = "cd '" + folder.string() + "' && T='" + places::command() +
+                             "' && trueaxis() { \"$T\" \"$@\"; } && " + command;
     execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }

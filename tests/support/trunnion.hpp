@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "support/places.hpp"
+
 /// The shipped machine of five axes with a tilting table, and its errors, as commands are told.
 namespace trueaxis::testing {
 
-inline const std::string five_axis_data = std::string(TRUEAXIS_SOURCE) + "/data/five_axis/";
+inline const std::string five_axis_data = places::source() + "/data/five_axis/";
 inline const std::string of_trunnion = "--machine " + five_axis_data +
                                        "trunnion_ac.toml --errors " + five_axis_data +
                                        "trunnion_ac_errors.toml ";

@@ -9,13 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
 
 std::string written(const std::string& text) {
-  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "association_files" /
+  const auto folder = std::filesystem::path(places::scratch()) / "association_files" /
                       ::testing::UnitTest::GetInstance()->current_test_info()->name();
   std::filesystem::create_directories(folder);
   const std::string path = folder / "points.txt";

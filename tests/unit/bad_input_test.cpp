@@ -11,6 +11,7 @@
 
 #include "format/file.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path bad_streams = fs::path(TRUEAXIS_SOURCE) / "tests/golden/bad_streams";
+const fs::path bad_streams = fs::path(places::source()) / "tests/golden/bad_streams";
 
 /// What reading `path` complains of; empty when it does not.
 std::vector<Diagnostic> diagnostics_of(const std::string& path,
@@ -62,7 +63,7 @@ class BadInputFile : public testing::Test {
  protected:
   void SetUp() override {
     folder_ =
-        fs::path(TRUEAXIS_SCRATCH) /
+        fs::path(places::scratch()) /
         ("bad_input_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);

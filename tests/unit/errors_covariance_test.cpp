@@ -8,6 +8,7 @@
 #include "machine/files/errors_files.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "machine/uncertainty.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -16,11 +17,11 @@ namespace {
 class ErrorsCovariance : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::path(TRUEAXIS_SCRATCH) / "errors_covariance" /
+    folder_ = std::filesystem::path(places::scratch()) / "errors_covariance" /
               ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
     machine_.machine =
-        read_machine_toml(TRUEAXIS_SOURCE "/data/five_axis/trunnion_ac.toml").machine;
+        read_machine_toml(places::source() + "/data/five_axis/trunnion_ac.toml").machine;
   }
   std::string written(const std::string& name, const std::string& text) const {
     const std::string path = (folder_ / name).string();

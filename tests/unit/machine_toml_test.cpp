@@ -9,6 +9,7 @@
 
 #include "machine/files/errors_toml.hpp"
 #include "support/command.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -104,7 +105,7 @@ TEST_F(MachineToml, WhatIsWrittenIsReadBack) {
 }
 
 TEST_F(MachineToml, ErrorsThatAreWrittenAreReadBack) {
-  const std::string data = TRUEAXIS_SOURCE "/data/five_axis/";
+  const std::string data = places::source() + "/data/five_axis/";
   const Machine machine = read_machine_toml(data + "trunnion_ac.toml").machine;
   ErrorModel errors = read_errors_toml(data + "trunnion_ac_errors.toml", machine);
   errors.terms.front().u = 2e-3;

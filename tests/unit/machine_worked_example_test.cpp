@@ -3,11 +3,12 @@
 
 #include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
+#include "support/places.hpp"
 
 namespace trueaxis {
 namespace {
 
-const std::string data = TRUEAXIS_SOURCE "/data/five_axis/";
+const std::string data = places::source() + "/data/five_axis/";
 constexpr double half_digit = 0.5e-12;  ///< of twelve decimals
 
 // The numbers of docs/machine.md, computed once with numpy by multiplying 4×4 matrices out and

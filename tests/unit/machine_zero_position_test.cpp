@@ -4,6 +4,7 @@
 #include "machine/files/machine_toml.hpp"
 #include "machine/zero_position.hpp"
 #include "support/chain_matrices.hpp"
+#include "support/places.hpp"
 #include "support/random_machine.hpp"
 
 namespace trueaxis::testing {
@@ -86,7 +87,7 @@ TEST(ZeroPositionLaw, OfAChainWithErrors) {
 // with the y row as it must be.
 TEST(ZeroPosition, OfTheExampleByItsEquation) {
   const Machine machine =
-      read_machine_toml(TRUEAXIS_SOURCE "/data/five_axis/vmc50_dh.toml").machine;
+      read_machine_toml(places::source() + "/data/five_axis/vmc50_dh.toml").machine;
   const double dm = 35, am = 20, d1 = -15, a1 = 40, d2 = 60, a2 = 25, a3 = 80, a4 = 30, a5 = 45,
                L = 110;
   const Vector3 t{12, -8, 20};

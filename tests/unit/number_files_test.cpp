@@ -13,6 +13,7 @@
 #include "format/outputs.hpp"
 #include "interchange/number_file.hpp"
 #include "recording/import.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -25,7 +26,7 @@ constexpr std::size_t count = 24;
 constexpr double rounding_mm = 20.0 * 4.0 * 2.3e-16;
 
 std::string made(const std::string& name) {
-  return (fs::path(TRUEAXIS_SOURCE) / "tests/data/numbers" / name).string();
+  return (fs::path(places::source()) / "tests/data/numbers" / name).string();
 }
 
 double turn(std::size_t i) {
@@ -97,7 +98,7 @@ TEST(NumberFiles, AnX3pSurfaceHasSteppedAxesARotationAnOffsetAndInvalidPoints) {
 
 TEST(NumberFiles, AnX3pThatIsWrittenAgainHoldsTheSameBytesOfNumbers) {
   const PointText first = read_points(made("points.x3p"), "");
-  const fs::path folder = fs::path(TRUEAXIS_SCRATCH) / "number_files";
+  const fs::path folder = fs::path(places::scratch()) / "number_files";
   fs::create_directories(folder);
   const std::string written = x3p_of_points(metres_of(first), "0");
   std::ofstream(folder / "again.x3p", std::ios::binary) << written;

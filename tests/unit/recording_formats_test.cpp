@@ -15,6 +15,7 @@
 #include <numbers>
 
 #include "recording/import.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
 
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr double deg_per_rad = 180.0 / std::numbers::pi;
 
 ProbeStream seat() {
-  return read_stream_csv(std::string(TRUEAXIS_SOURCE) + "/data/streams/shaft_cylinder_seat.csv");
+  return read_stream_csv(places::source() + "/data/streams/shaft_cylinder_seat.csv");
 }
 
 FitResult fitted(const ProbeStream& stream) {
@@ -150,7 +151,7 @@ class RecordingFormats : public ::testing::TestWithParam<Producer> {
  protected:
   void SetUp() override {
     const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = fs::path(TRUEAXIS_SCRATCH) / "recording" / fs::path(test).filename();
+    folder_ = fs::path(places::scratch()) / "recording" / fs::path(test).filename();
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }

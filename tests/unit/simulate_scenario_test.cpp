@@ -5,6 +5,7 @@
 
 #include "simulate/files/scenario_toml.hpp"
 #include "simulate/files/truth_json.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 using namespace virtual_lathe;
 
-const std::string folder = std::string(TRUEAXIS_SOURCE) + "/data/scenarios/";
+const std::string folder = places::source() + "/data/scenarios/";
 
 TEST(SimulateScenario, TheConeOfThePaperIsReadAndProbed) {
   const Scenario scenario = read_scenario_toml(folder + "cone_shaft.toml");

@@ -14,6 +14,7 @@
 #include "format/file.hpp"
 #include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_write.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 class StreamCsv : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(TRUEAXIS_SCRATCH) /
+    folder_ = fs::path(places::scratch()) /
               ("stream_csv_" +
                std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);

@@ -15,6 +15,7 @@
 #include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "measure/passes.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -159,7 +160,7 @@ TEST(StreamFuzz, MutatedStreamsAreReadOrRefused) {
   const std::size_t seed = setting("TRUEAXIS_FUZZ_SEED", 2025);
   const std::size_t count = setting("TRUEAXIS_FUZZ_COUNT", 20000);
   std::printf("seed %zu, %zu mutations\n", seed, count);
-  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "stream_fuzz";
+  const auto folder = std::filesystem::path(places::scratch()) / "stream_fuzz";
   std::filesystem::create_directories(folder);
   const std::string path = (folder / "in.csv").string(), again = (folder / "again.csv").string();
   Mutator mutator(seed);

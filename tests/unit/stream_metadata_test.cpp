@@ -9,6 +9,7 @@
 
 #include "fit/uncertainty.hpp"
 #include "measure/files/stream_csv.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/units.hpp"
@@ -17,7 +18,7 @@ namespace trueaxis {
 namespace {
 
 ProbeStream read(const std::string& text, const StreamReadOptions& options = {}) {
-  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "stream_metadata";
+  const auto folder = std::filesystem::path(places::scratch()) / "stream_metadata";
   std::filesystem::create_directories(folder);
   const std::string path =
       (folder / testing::UnitTest::GetInstance()->current_test_info()->name()).string();

@@ -9,6 +9,7 @@
 
 #include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_write.hpp"
+#include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -23,7 +24,7 @@ StreamReadOptions several() {
 }
 
 std::string place(const std::string& text) {
-  const auto folder = std::filesystem::path(TRUEAXIS_SCRATCH) / "stream_sensors";
+  const auto folder = std::filesystem::path(places::scratch()) / "stream_sensors";
   std::filesystem::create_directories(folder);
   std::string path =
       (folder / testing::UnitTest::GetInstance()->current_test_info()->name()).string();
