@@ -22,7 +22,13 @@ enum class Loss {
   tukey,  ///< c = 4.685 σ: 95 % efficient, readings beyond c have no weight at all
 };
 
-enum class FitStatus { converged, max_iterations, rank_deficient, too_few };
+enum class FitStatus {
+  converged,
+  max_iterations,
+  rank_deficient,
+  too_few,
+  implausible,  ///< cannot be the readings of a probe on this surface; the message says why
+};
 
 /// An influence quantity (GUM) that the readings cannot show: it enters the budget as type B.
 struct Influence {
@@ -126,6 +132,9 @@ struct FitResult {
   /// The estimate of this name among `parameters` and `derived`: parameter("half_angle").
   /// @throws ContractViolation if there is none
   const Estimate& parameter(std::string_view name) const;
+
+  /// Whether the axis may be used: the fit converged, and nothing withholds a parameter of it.
+  bool axis_known() const;
 };
 
 /// Associates a surface with a stream, over all set-ups at once: starting values from the data
@@ -148,7 +157,7 @@ class RepeatedFit {
   RepeatedFit(RepeatedFit&&) noexcept;
   RepeatedFit& operator=(RepeatedFit&&) noexcept;
 
-  /// The same bits as fit() of the stream with these readings.
+  /// The same bits as fit() of the stream with these readings, without its check of plausibility.
   FitResult operator()(std::span<const double> reading_mm);
 
  private:

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/threads.hpp"
@@ -30,6 +31,8 @@ Diagnosis not_diagnosable(Diagnosis out) {
                                                                  : to_string(out.baseline.surface))
       : out.baseline.points <= out.baseline.parameters.size()
           ? "no more readings than parameters: nothing is left to diagnose"
+      : out.baseline.status == FitStatus::implausible
+          ? out.baseline.message
           : "the surface was not found: nothing can be said beside it";
   out.next.why_not = out.noise.note;
   return out;
@@ -65,6 +68,34 @@ std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
     out.push_back(std::move(remark));
   for (std::string& remark : alias_remark(problem.resolution)) out.push_back(std::move(remark));
   return out;
+}
+
+/// Whether something was found that may make the axis better known than the ideal fit had it.
+bool earned(const Diagnosis& d) {
+  return !d.findings.empty() || !d.unexplained.empty() || !d.noise.masked.empty() ||
+         !d.noise.interruptions.empty();
+}
+
+/// u of the axis at Z; of a plane that of its tilt.
+double u_of_axis(const FitResult& fit, double z_mm) {
+  const auto& covariance = fit.axis.covariance;
+  return fit.surface == SurfaceKind::plane ? std::sqrt(covariance[10] + covariance[15])
+                                           : fit.axis.u_at(z_mm);
+}
+
+/// Whether the axis has a smaller u than that of the ideal fit, at an end of the data.
+bool is_sharper(const FitResult& fit, const FitResult& ideal) {
+  if (fit.status != FitStatus::converged || ideal.status != FitStatus::converged) return false;
+  return std::ranges::any_of(
+      std::array{ideal.position_min_mm, ideal.position_max_mm},
+      [&](double z_mm) { return u_of_axis(fit, z_mm) < u_of_axis(ideal, z_mm); });
+}
+
+/// The averaged fit; if nothing was found and that is surer of the axis, the ideal fit.
+FitResult final_fit(const RelinearisedFit& refit, const AveragedAxis& average,
+                    const FitResult& ideal, bool may_be_sharper) {
+  FitResult averaged = refit.shifted(average.shift, average.within, average.between);
+  return is_sharper(averaged, ideal) && !may_be_sharper ? ideal : averaged;
 }
 
 /// How sure all of it is: noise, checks of the data, gain, tests made.
@@ -124,9 +155,11 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
                                             out.baseline, search.model.others);
   out.shares = average.shares;
   out.shares.insert(out.shares.end(), explanation.improbable.begin(), explanation.improbable.end());
+  out.noise.masked = ideal.masked;
+  const bool may_be_sharper = earned(out);
   for_each_index(2, threads, [&](std::size_t k) {
     if (k == 0) {
-      out.extended = refit->shifted(average.shift, average.within, average.between);
+      out.extended = final_fit(*refit, average, out.baseline, may_be_sharper);
       out.named = refit->take_named();
     }
     if (k == 1) {
@@ -136,6 +169,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
       add_evidence(ideal, *refit, search.model, average, threads, out);
     }
   });
+  expects(may_be_sharper || !is_sharper(out.extended, out.baseline),
+          "U of the final axis is at least that of the ideal fit if nothing was found");
   const LinearisationPoint& point = refit->problem().point;
   out.z_mid_mm = point.z_mid_mm, out.z_half_mm = point.z_half_mm;
   add_advice(ideal, *refit, search.model, explanation.ambiguous, hidden, out);

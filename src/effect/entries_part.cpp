@@ -108,10 +108,17 @@ std::vector<Effect> part_roundness() {
        .slot = Slot::part,
        .frame = Frame::time,
        .term = PartStep{},
-       .formula = "from t0 on: axis point + (dx, dy), or theta - turn",
+       .formula = "from t0 on: axis point + (dx, dy), axis tilted by (tilt_x, tilt_y) about the "
+                  "middle of the probed length, theta - turn, X + dr + taper (Z - Z_mid)",
        .parameters = {{"dx", "mm", 0.01, 0.2, "step along x of the spindle frame"},
                       {"dy", "mm", 0.01, 0.2, "step along y"},
                       {"turn", "rad", 1e-3, 0.1, "turn in the sense of C", {}, 0.0, -0.5, 0.5},
+                      {"tilt_x", "rad", 1e-5, 1e-3, "tilt of the axis towards x"},
+                      {"tilt_y", "rad", 1e-5, 1e-3, "towards y"},
+                      {"dr", "mm", 1e-3, 0.05,
+                       "change of X: a cone moved along Z by dr / tan alpha, another zero of the "
+                       "probe, another clamping force"},
+                      {"taper", "rad", 1e-5, 1e-3, "change of the taper as probed"},
                       {"onset", "s", 0, 0, "t0; the number of the reading where there are no times",
                        "onset_s"}},
        .signature = "amplitude and phase of 1 undulation per revolution step at an instant",
@@ -124,7 +131,12 @@ std::vector<Effect> part_roundness() {
                  "rotational slip",
        .needs = {.stream = StreamKind::lateral},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
-       .search = {.when = When::scanned, .forms = {{{0, 1}}, {{2}}}, .tests = 64},
+       .search = {.when = When::scanned,
+                  .forms = {{{0, 1}},
+                            {{2}},
+                            {.free = {0, 1, 3, 4}, .degrees = 1},
+                            {.free = {0, 1, 3, 4, 5, 6}, .degrees = 1}},
+                  .tests = 64},
        .refinement = Refinement{&TermShape::onset_s, By::duration}},
   };
 }

@@ -58,7 +58,7 @@ Parameters parameters(const PartStep& term, const TermShape& shape);
 std::size_t count(const ArgumentShift& term, const TermShape& shape);
 inline std::size_t count(const ProbeLine&, const TermShape&) { return 1; }
 std::size_t count(const Response& term, const TermShape& shape);
-inline std::size_t count(const PartStep&, const TermShape&) { return 3; }
+inline std::size_t count(const PartStep& term, const TermShape&) { return term.seat ? 3 : 7; }
 void fill(const ArgumentShift& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const ProbeLine& term, const TermContext& at, const TermShape& shape, Columns out);
 void fill(const Response& term, const TermContext& at, const TermShape& shape, Columns out);

@@ -182,22 +182,38 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
 
 Parameters parameters(const PartStep& term, const TermShape&) {
   if (term.seat) return {{{"dz", "mm"}, {"tilt_x", "rad"}, {"tilt_y", "rad"}}, {"onset_s"}};
-  return {{{"dx", "mm"}, {"dy", "mm"}, {"turn", "rad"}}, {"onset_s"}};
+  return {{{"dx", "mm"},
+           {"dy", "mm"},
+           {"turn", "rad"},
+           {"tilt_x", "rad"},
+           {"tilt_y", "rad"},
+           {"dr", "mm"},
+           {"taper", "rad"}},
+          {"onset_s"}};
 }
 
 // A part that moved along x and y of the spindle frame is met at X = f(Y − b, Z) + a with a, b the
-// motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. The
-// surface is where the part stands after it: before the step, all of that is missing.
+// motion along machine X and Y; one that slipped by `turn` in the sense of C, at C − turn. A tilt
+// about the middle of what was probed moves it by its lever there, and along Z by −X times the tilt
+// towards the probe. The surface is where the part stands after it: before the step, all of that is
+// missing. Eq. 46.
 void fill(const PartStep& term, const TermContext& at, const TermShape& shape, Columns out) {
   Chunk sine, cosine, slope;
   contact::sin_cos(at, at.c_rad.data(), sine.data(), cosine.data());
   if (term.seat) return fill_seat(at, shape, sine, cosine, out);
   contact::dx_dy(at, slope.data());
   for (std::size_t i = 0; i < at.size(); ++i) {
-    const bool before = at.time_s[i] < shape.onset_s;
-    out[0][i] = before ? -cosine[i] - sine[i] * slope[i] : 0.0;
-    out[1][i] = before ? -sine[i] + cosine[i] * slope[i] : 0.0;
-    out[2][i] = before ? at.dx_dc[i] : 0.0;
+    const double missing = at.time_s[i] < shape.onset_s ? -1.0 : 0.0;
+    const double along_x = cosine[i] + sine[i] * slope[i];
+    const double along_y = sine[i] - cosine[i] * slope[i];
+    const double lever = at.z_mm[i] - at.z_mid_mm, along_z = at.dx_dz[i] * at.x_mm[i];
+    out[0][i] = missing * along_x;
+    out[1][i] = missing * along_y;
+    out[2][i] = -missing * at.dx_dc[i];
+    out[3][i] = missing * (lever * along_x + along_z * cosine[i]);
+    out[4][i] = missing * (lever * along_y + along_z * sine[i]);
+    out[5][i] = missing;
+    out[6][i] = missing * lever;
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "fit/associate.hpp"
 #include "fit/describe.hpp"
+#include "fit/plausible.hpp"
 #include "fit/uncertainty.hpp"
 #include "surface/own_surface.hpp"
 #include "trueaxis/error.hpp"
@@ -147,13 +148,28 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
   return result;
 }
 
-}  // namespace
-
-FitResult fit(const ProbeStream& stream, const FitOptions& options) {
+FitResult fit_as_read(const ProbeStream& stream, const FitOptions& options) {
   expect_fittable(stream, options);
   const std::vector<PlacedSetUp> set_ups = place_set_ups(stream);
   const JointModel model(stream, set_ups, surface_entry(options), frame_of(stream, options));
   return fit_model(stream, set_ups, model, options);
+}
+
+}  // namespace
+
+FitResult fit(const ProbeStream& stream, const FitOptions& options) {
+  FitResult result = fit_as_read(stream, options);
+  const Refit refit = [&](const ProbeStream& other, SurfaceKind surface) {
+    FitOptions as_other = options;
+    as_other.surface = surface;
+    try {
+      return fit_as_read(other, as_other);
+    } catch (const InputError&) {  // read so, it is no stream of this surface at all
+      return FitResult{};
+    }
+  };
+  if (const std::string why = implausible(stream, result, refit); !why.empty()) refuse(result, why);
+  return result;
 }
 
 struct RepeatedFit::Impl {
@@ -199,9 +215,18 @@ const Estimate& FitResult::parameter(std::string_view name) const {
   return find_parameter(is_derived ? derived : parameters, name);
 }
 
+bool FitResult::axis_known() const {
+  return status == FitStatus::converged &&
+         std::ranges::none_of(parameters, [](const FitParameter& one) {
+           const bool of_axis =
+               one.name == "x0" || one.name == "y0" || one.name == "l" || one.name == "m";
+           return of_axis && !one.estimate.determined();
+         });
+}
+
 const char* to_string(FitStatus status) {
   static constexpr const char* words[] = {"converged", "max_iterations", "rank_deficient",
-                                          "too_few"};
+                                          "too_few", "implausible"};
   return words[static_cast<std::size_t>(status)];
 }
 

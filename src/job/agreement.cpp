@@ -218,9 +218,7 @@ std::string how_apart(const JobResult& result, const Disagreement& d) {
 
 Agreement hold_together(const JobResult& result) {
   Agreement out;
-  for (std::size_t i = 0; i < result.streams.size() && out.reason.empty(); ++i)
-    out.reason = wrong_unit_of_c(result, i);
-  if (out.reason.empty()) out.reason = exchanged_streams(result);
+  out.reason = exchanged_streams(result);
   if (out.reason.empty()) hold_axes(result, out);
   return out;
 }

@@ -52,6 +52,7 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
   options.surface = SurfaceKind::cone;
   const FitResult cone = fit(stream, options);
   refuse_a_sphere(stream, cone);
+  if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, "taken for a cone"};
   if (cone.status != FitStatus::converged)
     return {SurfaceKind::cylinder,
             "taken for a cylinder: no taper is seen; say --surface cone if it is one"};

@@ -18,7 +18,6 @@ namespace {
 
 constexpr double far_better = 1.0 / 3.0;  // of the RMS
 constexpr double as_good = 1.2;
-constexpr double most_feed_mm = 5.0;  // a turn: nobody probes coarser
 
 /// What a fit leaves; of one that has no surface at all the scatter of the readings.
 double left_mm(const ProbeStream& stream, const FitResult& fit) {
@@ -30,29 +29,6 @@ double left_mm(const ProbeStream& stream, const FitResult& fit) {
   return std::sqrt(squares / n);
 }
 
-double median_step_rad(const ProbeStream& stream) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < stream.size(); ++i)
-    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
-  return steps.empty() ? 0.0 : median(std::move(steps));
-}
-
-double travel_mm(const ProbeStream& stream) {
-  return stream.has_position() ? range_of(stream.position_mm).length() : 0.0;
-}
-
-/// Whether C turns as a spindle's: about a turn or more, several readings each.
-bool turns_around(const ProbeStream& stream) {
-  return range_of(stream.c_rad).length() >= 0.9 * two_pi &&
-         median_step_rad(stream) <= 0.25 * two_pi;
-}
-
-/// And with turns as close together along Z as is probed.
-bool like_a_spindle(const ProbeStream& stream) {
-  return turns_around(stream) &&
-         travel_mm(stream) <= most_feed_mm * range_of(stream.c_rad).length() / two_pi;
-}
-
 std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
 
 }  // namespace
@@ -61,35 +37,6 @@ std::string reference_and_file(const JobResult& result, std::size_t i) {
   const JobReference& reference = result.job.references[i];
   const std::string file = std::filesystem::path(reference.stream).filename().string();
   return reference.name + (file.empty() ? "" : " (" + file + ")");
-}
-
-std::string turns_of(const ProbeStream& stream) {
-  const Extent c = range_of(stream.c_rad);
-  const double turns = c.length() / two_pi, travel = travel_mm(stream);
-  std::string text = fmt::format("C runs from {:.4g}° to {:.4g}° ({:.3g} turns",
-                                 c.low / rad_per_deg, c.high / rad_per_deg, turns);
-  if (travel > 0.0) text += fmt::format(", {:.3g} per mm", turns / travel);
-  return text + ")";
-}
-
-std::string wrong_unit_of_c(const JobResult& result, std::size_t i) {
-  const ProbeStream& stream = result.streams[i];
-  const FitResult& as_read = result.fits[i];
-  if (as_read.status == FitStatus::too_few || like_a_spindle(stream)) return "";
-  const double before_mm = left_mm(stream, as_read);
-  for (const Mistake& mistake : mistakes_of_unit()) {
-    const ProbeStream right = mended(stream, mistake);
-    if (!turns_around(right)) continue;
-    const FitResult again = fit(right, result.job.references[i].fit);
-    if (again.status != FitStatus::converged || again.rms_mm > far_better * before_mm ||
-        again.points < 2 * again.parameters.size() + 10)
-      continue;
-    return fmt::format("{}: {}; as written {} are left and {}, else {} and {}",
-                       fmt::format(fmt::runtime(mistake.what), reference_and_file(result, i)),
-                       mistake.mend, um_text(before_mm), turns_of(stream), um_text(again.rms_mm),
-                       turns_of(right));
-  }
-  return "";
 }
 
 std::string exchanged_streams(const JobResult& result) {

@@ -57,18 +57,6 @@ std::span<const Mistake> mistakes() {
   return list;
 }
 
-std::span<const Mistake> mistakes_of_unit() {
-  constexpr double per_rad = 1.0 / rad_per_deg;
-  static const Mistake list[] = {
-      {.what = "C of {} is in radians", .mend = "C[rad]", .c = per_rad},
-      {.what = "C of {} is in radians", .mend = "C[rad]", .c = 1.0 / two_pi},
-      {.what = "C of {} is in degrees", .mend = "C[deg]", .c = rad_per_deg},
-      {.what = "C of {} is in degrees", .mend = "C[deg]", .c = 1.0 / 360.0},
-      {.what = "C of {} is in turns", .mend = "C[rev]", .c = 360.0},
-      {.what = "C of {} is in turns", .mend = "C[rev]", .c = two_pi}};
-  return list;
-}
-
 ProbeStream mended(ProbeStream stream, const Mistake& mistake, double number) {
   const bool face = stream.kind == StreamKind::face;
   multiply(stream.reading_mm, face ? mistake.z : mistake.x);

@@ -23,9 +23,6 @@ struct Mistake {
 /// All that are tried on a disagreement of axes.
 std::span<const Mistake> mistakes();
 
-/// A C in the other unit of angle: no axis comes of it at all.
-std::span<const Mistake> mistakes_of_unit();
-
 /// The stream as it should have been read.
 /// @param number that a mistake leaves open: rad or mm that are added
 ProbeStream mended(ProbeStream stream, const Mistake& mistake, double number = 0.0);

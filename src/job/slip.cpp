@@ -53,6 +53,8 @@ std::string how_far(const Finding& finding, double k) {
   add(of("dz"), mm_per_um, " µm", " along Z");
   add(length_of(of("tilt_x"), of("tilt_y")), 1.0, "°", " of tilt");
   add(of("turn"), 1.0, "°", "");
+  add(of("dr"), mm_per_um, " µm", " of radius");
+  add(of("taper"), 1.0, "°", " of taper");
   return text;
 }
 
@@ -120,16 +122,22 @@ std::string moved_part(const JobResult& result) {
 }
 
 void withhold_axes(JobResult& result) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !result.diagnoses[i]->slip() || is_sure(*result.diagnoses[i]))
-      continue;
-    for (auto* parameters : {&result.fits[i].parameters, &result.fits[i].derived}) {
+  const auto withhold = [](FitResult& fit) {
+    for (auto* parameters : {&fit.parameters, &fit.derived}) {
       for (auto& [name, estimate] : *parameters) {
         if (name == "half_angle" || name.starts_with("radius")) continue;
         estimate = {.unit = estimate.unit,
-                    .why_not = "the part slipped, and where it stands now is not sure"};
+                    .why_not = "the part slipped, and where it is now is not known"};
       }
     }
+  };
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    Diagnosis& diagnosis = *result.diagnoses[i];
+    if (!diagnosis.slip() || is_sure(diagnosis)) continue;
+    for (FitResult* fit :
+         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
+      withhold(*fit);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "fit/plausible.hpp"
 #include "job/cut_checks.hpp"
 #include "job/datum_doubts.hpp"
 #include "job/doubts.hpp"
@@ -100,9 +101,12 @@ std::string refutation(const JobResult& result) {
 std::string objection(const JobResult& result, const Verdict& numbers) {
   if (!result.agreement.reason.empty()) return result.agreement.reason;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    if (result.fits[i].status != FitStatus::converged)
-      return result.job.references[i].name + ": " + result.fits[i].message + "; " +
-             turns_of(result.streams[i]);
+    const FitResult& fit = result.fits[i];
+    if (fit.status == FitStatus::implausible)
+      return reference_and_file(result, i) + ": " + fit.message;
+    if (fit.status != FitStatus::converged)
+      return result.job.references[i].name + ": " + fit.message + "; " +
+             turns_text(result.streams[i]);
   }
   if (std::string slip = slip_objection(result); !slip.empty()) return slip;
   if (!result.refused.empty()) return result.refused;

@@ -36,7 +36,7 @@ using Enters = void (*)(const Values&, Chain&);
 
 struct EffectEntry {
   std::string_view id, what;
-  LatheParameter parameters[6];  ///< those behind the last have no name
+  LatheParameter parameters[10];  ///< those behind the last have no name
   Enters enter;
 };
 

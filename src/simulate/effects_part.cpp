@@ -69,12 +69,36 @@ constexpr EffectEntry part_table[] = {
        return Vec3{away * std::cos(direction), away * std::sin(direction), 0.0};
      })},
     {"part.slip",
-     "step of the part in the chuck at a time; 'ends' 1: the part is described as it stands after",
-     {{"time_s", {}}, {"dx_mm", 0.0}, {"dy_mm", 0.0}, {"turn_rad", 0.0}, {"ends", 0.0}},
-     in<&Chain::step>([](double t, double when, double dx, double dy, double turn, double ends) {
-       if (ends > 0.5) return t < when ? PartStep{-dx, -dy, -turn} : PartStep{};
-       return t < when ? PartStep{} : PartStep{dx, dy, turn};
-     })},
+     "step of the part in the chuck at a time, tilt about Z = middle; 'ends' 1: the part is "
+     "described as it stands after",
+     {{"time_s", {}},
+      {"dx_mm", 0.0},
+      {"dy_mm", 0.0},
+      {"turn_rad", 0.0},
+      {"tilt_x_rad", 0.0},
+      {"tilt_y_rad", 0.0},
+      {"dr_mm", 0.0},
+      {"taper_rad", 0.0},
+      {"middle_mm", 0.0},
+      {"ends", 0.0}},
+     [](const Values& of, Chain& chain) {
+       in<&Chain::step>([](double t, double when, double dx, double dy, double turn, double tilt_x,
+                           double tilt_y, double, double, double middle, double ends) {
+         const double share = t < when ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
+         return PartStep{share * (dx - middle * tilt_x),
+                         share * (dy - middle * tilt_y),
+                         share * turn,
+                         0.0,
+                         share * tilt_x,
+                         share * tilt_y};
+       })(of, chain);
+       in<&Chain::machine>([](TrueState& state, double when, double, double, double, double, double,
+                      double dr, double taper, double middle, double ends) {
+         const bool before = state.at.t_s < when;
+         const double share = before ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
+         state.part_x_mm += share * (dr + taper * (state.at.position_mm - middle));
+       })(of, chain);
+     }},
     // Material is missing over a sector: a keyway, a hole, a groove.
     {"part.interruption",
      "material missing over a sector",

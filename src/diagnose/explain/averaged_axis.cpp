@@ -18,6 +18,7 @@ namespace {
 // square.
 constexpr double discrepancy = 0.1;
 constexpr double present = 0.2;         // how often a stream has an effect, before it is looked at
+constexpr double moved_in_all = 0.9;    // how often a part that moved did so in all ways
 constexpr double told = 1e-3;           // probability below which a model is not listed
 constexpr double nothing = 1e-2;        // of u: a shift below is none
 constexpr std::size_t most_forms = 48;  // shapes of a local form that are averaged over
@@ -29,6 +30,23 @@ struct Alternative {
   Eigen::VectorXd off;         ///< its base less that of the named model
   Eigen::MatrixXd covariance;  ///< what its term's own uncertainty adds to the base
 };
+
+/// A step that was found in some of its parameters had the others too: what of them the readings do
+/// not show enters U.
+void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& terms,
+                       std::vector<Hypothesis>& list) {
+  for (const Hypothesis& step : terms) {
+    if (!step.effect || step.free.empty() || !is_step(step.effect->term)) continue;
+    for (const Form& form : step.effect->search.forms) {
+      if (problem.resolution.degrees < form.degrees) continue;
+      Hypothesis rest = step;
+      rest.free.clear();
+      for (const std::size_t j : form.free)
+        if (std::ranges::find(step.free, j) == step.free.end()) rest.free.push_back(j);
+      if (!rest.free.empty()) list.push_back(std::move(rest));
+    }
+  }
+}
 
 /// Effects that might be there and were not found, seen or not, but for those whose uncertainty is
 /// stated and those that the cut meets as the probe did. Harmonics of free order are left out: they
@@ -48,6 +66,7 @@ std::vector<Hypothesis> not_found(const Problem& problem, const std::vector<Hypo
                                         [&](const Candidate& c) { return is_it(c.hypothesis); });
            });
   });
+  add_rest_of_steps(problem, terms, list);
   return list;
 }
 
@@ -160,9 +179,9 @@ class Averaging {
   }
 
   /// −2 ln of the odds of a term against none.
-  double odds_of(std::size_t place, const Weighed& weighed) const {
+  double odds_of(std::size_t place, const Weighed& weighed, double often = present) const {
     return weighed.criterion + choice_of(wide_.terms[place], weighed.mean) -
-           2.0 * std::log(present / (1.0 - present));
+           2.0 * std::log(often / (1.0 - often));
   }
 
   Alternative with(std::size_t place, const Solution& without, const Weighed& weighed) const {
@@ -247,6 +266,7 @@ class Averaging {
   Missed missed_from(std::size_t& k, std::size_t next, const Projection& beside) const {
     Missed out;
     const Effect* effect = beside_[k].effect;
+    const double often = is_step(effect->term) ? moved_in_all : present;
     out.id = beside_[k].id();
     double sum = 0.0;
     std::size_t shapes = 0;
@@ -255,7 +275,7 @@ class Averaging {
       const Weighed weighed = weigh_term(next, beside);
       out.shapes.push_back(with(next, named_, weighed));
       out.shapes.back().probability =
-          std::exp(-0.5 * std::clamp(odds_of(next, weighed), -1400.0, 1400.0));
+          std::exp(-0.5 * std::clamp(odds_of(next, weighed, often), -1400.0, 1400.0));
       sum += out.shapes.back().probability, ++shapes;
     }
     for (Alternative& a : out.shapes) a.probability /= sum;

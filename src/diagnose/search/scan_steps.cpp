@@ -16,7 +16,9 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Index = Eigen::Index;
-using Three = Eigen::Matrix3d;
+constexpr int most_columns = 7;  // of a step
+using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_columns, most_columns>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
@@ -64,9 +66,9 @@ ByRows orthonormal(const Matrix& columns) {
 /// A step before a reading: what base and terms leave of its columns.
 struct Date {
   std::size_t reading;
-  Three gram;
-  Eigen::Vector3d right, whole;  ///< products with what is left; squares of the columns themselves
-  Eigen::Vector3d without;       ///< products without the two largest readings of a short side
+  Square gram;
+  Vector right, whole;  ///< products with what is left; squares of the columns themselves
+  Vector without;       ///< products without the two largest readings of a short side
 };
 
 /// The two readings that are farthest off on the shorter side of a step before the k-th.
@@ -83,24 +85,25 @@ std::array<Index, 2> two_largest(const Eigen::VectorXd& left, Index k) {
 
 /// Steps between any two readings that have enough on both sides.
 std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& phi, const Rows& rows,
-                           const ByRows& taken, const Eigen::VectorXd& left) {
+                           const ByRows& taken, const Eigen::VectorXd& left, Index columns) {
   const std::span<const double> time = problem.point.time;
-  const Matrix step_raw = rows.raw.rightCols(3), step = rows.white.rightCols(3);
+  const Matrix step_raw = rows.raw.rightCols(columns), step = rows.white.rightCols(columns);
   const auto least = static_cast<Index>(least_beside_step);
   const Index size = rows.raw.rows(), lags = static_cast<Index>(phi.size());
   struct Sums {
-    Three gram = Three::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    Square gram;
+    Vector right;
     Matrix cross;
   };
-  const auto add = [&](Index row, const Eigen::Vector3d& own, Sums& to) {
+  const auto add = [&](Index row, const Vector& own, Sums& to) {
     to.gram += own * own.transpose();
     to.cross.noalias() += own * taken.row(row);
     to.right += own * left(row);
   };
   std::vector<Date> out;
-  Sums before, with_after;
-  before.cross = Matrix::Zero(3, taken.cols());
+  Sums before{Square::Zero(columns, columns), Vector::Zero(columns),
+              Matrix::Zero(columns, taken.cols())};
+  Sums with_after;
   for (Index k = 1; k + least <= size; ++k) {
     const auto reading = static_cast<std::size_t>(k);
     add(k - 1, step.row(k - 1), before);
@@ -109,7 +112,7 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     // Readings just after the step are predicted from those before it.
     for (Index row = k; row < std::min(size, k + lags); ++row) {
       if (!counts(problem.mask, static_cast<std::size_t>(row), phi.size())) continue;
-      Eigen::Vector3d own = Eigen::Vector3d::Zero();
+      Vector own = Vector::Zero(columns);
       for (Index lag = row - k + 1; lag <= lags; ++lag)
         own -= phi[static_cast<std::size_t>(lag - 1)] * step_raw.row(row - lag).transpose();
       add(row, own, with_after);
@@ -126,13 +129,13 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
 }
 
 /// What the columns of a form take off the sum of squares.
-double gain_of(const std::vector<Index>& form, const Date& date, Eigen::Vector3d along) {
+double gain_of(const std::vector<Index>& form, const Date& date, Vector along) {
   double gain = 0.0;
-  Three rest = date.gram;
+  Square rest = date.gram;
   for (const Index j : form) {  // a Cholesky step each
     if (!(rest(j, j) > absorbed * date.whole(j))) continue;
     gain += along(j) * along(j) / rest(j, j);
-    const Eigen::Vector3d share = rest.col(j) / rest(j, j);
+    const Vector share = rest.col(j) / rest(j, j);
     along -= share * along(j);
     rest -= share * rest.row(j).eval();
   }
@@ -175,17 +178,19 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
   std::vector<Hypothesis> all(terms);
   all.push_back(of_effect(effect, shape));
   const Rows rows = rows_of(problem, phi, all);
-  const ByRows taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 4));
+  const auto columns = static_cast<Index>(all.back().columns());
+  const ByRows taken = orthonormal(rows.white.middleCols(1, rows.white.cols() - 1 - columns));
   const Eigen::VectorXd left = rows.white.col(0) - taken * (taken.transpose() * rows.white.col(0));
-  const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left);
+  const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left, columns);
   std::vector<Hypothesis> out;
   for (const Form& form : effect.search.forms) {
+    if (problem.resolution.degrees < form.degrees) continue;
     Hypothesis h = of_effect(effect, shape, form.free, effect.search.tests);
-    std::vector<Index> columns;
+    std::vector<Index> free;
     for (std::size_t j = 0; j < h.columns(); ++j)
-      columns.push_back(static_cast<Index>(form.free.empty() ? j : form.free[j]));
+      free.push_back(static_cast<Index>(form.free.empty() ? j : form.free[j]));
     const Date* date =
-        most_likely(columns, size_prior(h), dates, left.squaredNorm(),
+        most_likely(free, size_prior(h), dates, left.squaredNorm(),
                     std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
     if (date == nullptr) continue;
     h.shape.onset_s = 0.5 * (time[date->reading - 1] + time[date->reading]);

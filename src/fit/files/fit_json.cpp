@@ -95,7 +95,7 @@ AxisEstimate determined_axis(const FitResult& result) {
 }
 
 Json shape_object(const FitResult& result) {
-  const bool open = result.status == FitStatus::rank_deficient;
+  const bool open = result.status != FitStatus::converged;
   const bool taper_open = open && withdrawn(result, "half_angle");
   const bool radius_open = open && (withdrawn(result, "radius") || withdrawn(result, "x0"));
   return {{"radius", with_unit(radius_open ? none : result.shape.radius_mm, "mm")},
@@ -128,8 +128,9 @@ Json input_object(const FitResult& result) {
 double value(const Json& object, const char* key) { return object.at(key).at("value"); }
 
 FitStatus status_from(const std::string& text) {
-  for (const FitStatus status : {FitStatus::converged, FitStatus::max_iterations,
-                                 FitStatus::rank_deficient, FitStatus::too_few}) {
+  for (const FitStatus status :
+       {FitStatus::converged, FitStatus::max_iterations, FitStatus::rank_deficient,
+        FitStatus::too_few, FitStatus::implausible}) {
     if (text == to_string(status)) return status;
   }
   throw InputError("fit", "no fit ends `" + text + "`");

@@ -42,10 +42,16 @@ std::string rejected_text(const FitResult& result) {
                      fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
 }
 
+std::string why_unknown(const FitResult& fit) {
+  for (const FitParameter& one : fit.parameters)
+    if (!one.estimate.determined() && !one.estimate.why_not.empty()) return one.estimate.why_not;
+  return "the readings do not determine it";
+}
+
 }  // namespace
 
 std::string tap_text(const FitResult& fit) {
-  if (fit.status != FitStatus::converged || fit.surface == SurfaceKind::plane) return "";
+  if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return "";
   double farthest_mm = 0.0, at_z_mm = 0.0, towards_rad = 0.0;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const auto at = fit.axis.axis.at(z);
@@ -65,6 +71,7 @@ std::string tap_text(const FitResult& fit) {
 
 std::string axis_screen(const FitResult& fit) {
   if (fit.status != FitStatus::converged) return "";
+  if (!fit.axis_known()) return "axis   not known: " + why_unknown(fit) + "\n";
   if (fit.surface == SurfaceKind::plane) return parameter_line(fit, "tilt", "tilt");
   if (fit.surface == SurfaceKind::sphere)
     return parameter_line(fit, "x0", "x0") + parameter_line(fit, "y0", "y0") +

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+// The largest form in the catalogue is 0.2 mm in amplitude, 0.14 mm RMS; large parts more. Eq. 308.
+constexpr double most_left_mm = 0.5, most_left_per_radius = 1e-3;
+constexpr double most_scatter_mm = 0.1;   // of single readings; dirty probes show 0.02
+constexpr double more_than_stated = 3.0;  // a noise that is stated may be exceeded by as much
+constexpr double other_is_far_better = 1.0 / 3.0;  // of the RMS
+constexpr double mostly_scatter = 0.7;    // of the residuals' RMS
+constexpr double dense_step_rad = two_pi / 36.0;  // neighbours meet the same form
+constexpr double shown_angle_rad = two_pi / 6.0;
+constexpr std::size_t shown_run = 8;
+constexpr double by_chance = 1e-3;
+
+double largest_radius_mm(const ProbeStream& stream) {
+  if (stream.kind == StreamKind::face)
+    return stream.position_mm.empty() ? 0.0 : std::abs(range_of(stream.position_mm).high);
+  if (stream.indication == Indication::relative) return stream.nominal_radius_mm.value_or(0.0);
+  const auto [low, high] = range_of(stream.reading_mm);
+  return std::max(std::abs(low), std::abs(high));
+}
+
+/// Standard deviation of single readings from second differences of the residuals, where C moves by
+/// less than 10° from one to the next; 0: too few such readings.
+double scatter_mm(const ProbeStream& stream, const std::vector<double>& residual_mm) {
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 2; i < residual_mm.size(); ++i) {
+    if (std::abs(stream.c_rad[i] - stream.c_rad[i - 1]) > dense_step_rad ||
+        std::abs(stream.c_rad[i - 1] - stream.c_rad[i - 2]) > dense_step_rad)
+      continue;
+    const double d = residual_mm[i] - 2.0 * residual_mm[i - 1] + residual_mm[i - 2];
+    squares += d * d;
+    ++count;
+  }
+  constexpr std::size_t enough = 20;
+  return count < enough ? 0.0 : std::sqrt(squares / (6.0 * static_cast<double>(count)));
+}
+
+/// "; a cone leaves 2.1 µm: --surface cone"
+std::string other_surface(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
+  if (fit.surface != SurfaceKind::cylinder) return "";
+  const FitResult cone = refit(stream, SurfaceKind::cone);
+  if (cone.status != FitStatus::converged || !(cone.rms_mm < other_is_far_better * fit.rms_mm)) return "";
+  return fmt::format(". A cone leaves {:.3g} µm: use --surface cone (surface = \"cone\" in a job)",
+                     cone.rms_mm / mm_per_um);
+}
+
+std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
+  const double stated_mm = more_than_stated * stream.sensor_noise_mm.value_or(0.0);
+  const double limit_mm =
+      std::max(most_left_mm + most_left_per_radius * largest_radius_mm(stream), stated_mm);
+  const std::string remedy =
+      "Check that columns, units and surface are right. If the sensor really scatters like that, "
+      "state it: '# sensor_noise: 1 mm'";
+  if (fit.rms_mm > limit_mm) {
+    const std::string other = other_surface(stream, fit, refit);
+    return fmt::format(
+        "the residuals are {:.3g} mm RMS. No turned part and no probe leave more than {:.2g} mm, "
+        "so these readings are not those of a probe on a {}{}",
+        fit.rms_mm, limit_mm, to_string(fit.surface), other.empty() ? ". " + remedy : other);
+  }
+  if (fit.rms_mm < most_scatter_mm) return "";
+  const double scatter = scatter_mm(stream, fit.residual_mm);
+  if (scatter > std::max(most_scatter_mm, stated_mm) && scatter > mostly_scatter * fit.rms_mm) {
+    return fmt::format(
+        "single readings scatter by {:.2g} mm, and a working probe by less than {:.2g} mm: the "
+        "readings are probably not those of a probe. {}",
+        scatter, most_scatter_mm, remedy);
+  }
+  return "";
+}
+
+/// Readings in a row that show the same value.
+struct Run {
+  std::size_t begin = 0, end = 0;
+  double turned_rad = 0.0;
+  std::size_t size() const { return end - begin; }
+};
+
+/// Calls `use` for every run of a stream, single readings too.
+template <class Use>
+void for_each_run(const ProbeStream& stream, const Use& use) {
+  Run run{0, 1, 0.0};
+  for (std::size_t i = 1; i < stream.size(); ++i) {
+    if (stream.reading_mm[i] == stream.reading_mm[i - 1]) {
+      run.turned_rad += std::abs(std::remainder(stream.c_rad[i] - stream.c_rad[i - 1], two_pi));
+    } else {
+      use(run);
+      run = {i, i, 0.0};
+    }
+    run.end = i + 1;
+  }
+  use(run);
+}
+
+/// Whether the value is met by several long runs: a sensor at its limit, once a revolution.
+bool saturates(const ProbeStream& stream, const Run& longest) {
+  std::size_t count = 0;
+  for_each_run(stream, [&](const Run& one) {
+    count += stream.reading_mm[one.begin] == stream.reading_mm[longest.begin] &&
+             4 * one.size() >= longest.size();
+  });
+  return count > 1;
+}
+
+}  // namespace
+
+std::string stuck_probe(const ProbeStream& stream) {
+  if (stream.size() < shown_run) return "";
+  Run longest;
+  std::size_t runs = 0;
+  for_each_run(stream, [&](const Run& one) {
+    ++runs;
+    if (one.turned_rad > longest.turned_rad) longest = one;
+  });
+  // A stream that a program fills may be of a perfect part.
+  if (runs == 1 && !stream.x_convention) return "";
+  if (longest.size() < shown_run || longest.turned_rad < shown_angle_rad) return "";
+  const double others = static_cast<double>(stream.size() - longest.size());
+  const double repeated = others - static_cast<double>(runs - 1);
+  const double share = std::max(repeated, 1.0) / std::max(others, 2.0);
+  const double expected =
+      static_cast<double>(stream.size()) * std::pow(share, static_cast<double>(longest.size() - 1));
+  if (expected > by_chance || saturates(stream, longest)) return "";
+  return fmt::format(
+      "{} shows {:.9g} mm in {} readings without a break (data rows {} to {}) while C turns by "
+      "{:.3g} revolutions: the probe was stuck, off the part or not connected. Leave these rows "
+      "out, or probe again",
+      stream.kind == StreamKind::face ? "Z_M" : "X_M", stream.reading_mm[longest.begin],
+      longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
+}
+
+std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
+  if (fit.status == FitStatus::too_few) return "";
+  if (std::string why = stuck_probe(stream); !why.empty()) return why;
+  if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
+  return fit.status == FitStatus::converged ? out_of_proportion(stream, fit, refit) : "";
+}
+
+void refuse(FitResult& fit, const std::string& why) {
+  fit.status = FitStatus::implausible;
+  fit.message = why;
+  const auto withhold = [&](std::vector<FitParameter>& parameters) {
+    for (FitParameter& one : parameters)
+      one.estimate = {.unit = one.estimate.unit, .why_not = "the readings are implausible"};
+  };
+  withhold(fit.parameters);
+  withhold(fit.derived);
+  for (SetUpFit& one : fit.set_ups) withhold(one.parameters);
+}
+
+}  // namespace trueaxis
