@@ -63,6 +63,12 @@ struct FormValue {
   double bias_mm = 0.0;   ///< by how much noise makes it larger on average; in u, not taken off
 };
 
+/// Ends of the interval value ± k u, or of the bounds that stand in the place of a value.
+double least_of(const FormValue& value, double k);
+double most_of(const FormValue& value, double k);
+/// The value, or the upper bound in its place: by it sections are ranked.
+double size_of(const FormValue& value);
+
 /// One order of a section's profile before the filter, amplitude · cos(nθ − phase), θ in the part.
 struct FormHarmonic {
   int order = 0;
@@ -105,9 +111,18 @@ struct FormGroup {
   std::vector<FormValue> values;
 };
 
+/// Lobes that were found and that the cut-off takes part of.
+struct SwallowedLobes {
+  int order = 0;
+  double amplitude_mm = 0.0, u_mm = 0.0;  ///< largest along Z
+  double passed = 1.0;                    ///< share of the amplitude that the filter lets through
+};
+
 struct FormResult {
   std::vector<SectionForm> sections;
   std::vector<FormGroup> groups;
+  /// Not empty: RONt, CYLt and what else rests on them are bounds (Estimate::interval), no values.
+  std::vector<SwallowedLobes> swallowed{};
   FormOptions options;
   bool radius_known = true;  ///< false: the circles are limaçons, their radius is that of a gauge
   std::vector<std::string> notes;  ///< what a user should know of the numbers, in sentences

@@ -59,9 +59,7 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
       if (one->estimate.unit != "mm" || one->name == "radius") continue;
       names.insert(one->name);
       if (!counts(*one, tolerance.name)) continue;
-      if (!worst ||
-          one->estimate.value + k * one->estimate.u > worst->estimate.value + k * worst->estimate.u)
-        worst = one;
+      if (!worst || most_of(*one, k) > most_of(*worst, k)) worst = one;
     }
     if (!worst) {
       std::string known;
@@ -69,13 +67,12 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
       throw InputError("--tolerance-um", "there is no value " + tolerance.name +
                                              " here to hold against a tolerance, but " + known);
     }
-    const double value = worst->estimate.value, U = k * worst->estimate.u;
-    const bool met = value + U <= tolerance.limit_mm;
+    const bool met = most_of(*worst, k) <= tolerance.limit_mm;
     verdict.met = verdict.met && met;
     verdict.text += fmt::format("{}: {} {}{} µm, tolerance {:g} µm (ISO 14253-1)\n",
-                                met                              ? "MET"
-                                : value - U > tolerance.limit_mm ? "NOT MET"
-                                                                 : "NOT PROVEN",
+                                met                                        ? "MET"
+                                : least_of(*worst, k) > tolerance.limit_mm ? "NOT MET"
+                                                                           : "NOT PROVEN",
                                 worst->name, worst->reference.empty() ? "" : worst->reference + " ",
                                 layout::plus_minus(worst->estimate, k, 1e3, ""),
                                 tolerance.limit_mm / mm_per_um);

@@ -15,10 +15,12 @@ namespace {
 constexpr double far_better = 1.0 / 3.0;  // of the RMS: nine in likelihood a reading
 constexpr double least_mm = 1e-6;         // what a stream's digits leave
 constexpr double most_feed_mm = 5.0;      // per revolution: nobody probes coarser
-constexpr double restless = 1.2;          // of the travel over its range, Z against X
+constexpr double nearly_a_turn = 0.9 * two_pi;
+constexpr double restless = 1.2;  // of the travel over its range, Z against X
 
 /// What the columns of a stream look like.
 struct Suspicion {
+  bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };
@@ -41,7 +43,7 @@ bool turns_around(const ProbeStream& stream) {
   std::size_t short_steps = 0;
   for (std::size_t i = 1; i < stream.size(); ++i)
     short_steps += std::abs(stream.c_rad[i] - stream.c_rad[i - 1]) <= 0.25 * two_pi;
-  return 2 * short_steps >= stream.size() && range_of(stream.c_rad).length() >= 0.9 * two_pi;
+  return 2 * short_steps >= stream.size() && range_of(stream.c_rad).length() >= nearly_a_turn;
 }
 
 /// C does not turn as a spindle's, or its turns are farther apart along Z than is probed.
@@ -83,9 +85,9 @@ constexpr bool Suspicion::*spindle = &Suspicion::unlike_spindle;
 constexpr Misreading misreadings[] = {
     {"X_M and Z are exchanged", exchange, &Suspicion::z_to_and_fro, true,
      [](ProbeStream& s) { std::swap(s.reading_mm, s.position_mm); }},
-    {"C and Z are exchanged", exchange, spindle, true,
+    {"C and Z are exchanged", exchange, &Suspicion::c_stands, true,
      [](ProbeStream& s) { exchange_with_c(s.position_mm, s.c_rad); }},
-    {"C and X_M are exchanged", exchange, spindle, false,
+    {"C and X_M are exchanged", exchange, &Suspicion::c_stands, false,
      [](ProbeStream& s) { exchange_with_c(s.reading_mm, s.c_rad); }},
     {"C is in radians", "C[rad]", spindle, false, scale_c<1.0 / rad_per_deg>},
     {"C is in radians", "C[rad]", spindle, false, scale_c<1.0 / two_pi>},
@@ -119,7 +121,8 @@ std::string turns_text(const ProbeStream& stream) {
 std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   const double before_mm = left_mm(stream, fit);
   if (!(before_mm > least_mm)) return "";
-  const Suspicion suspicion{unlike_a_spindle(stream), z_goes_to_and_fro(stream)};
+  const Suspicion suspicion{range_of(stream.c_rad).length() < nearly_a_turn,
+                            unlike_a_spindle(stream), z_goes_to_and_fro(stream)};
   for (const Misreading& one : misreadings) {
     if (!(suspicion.*one.looks) || (one.needs_position && !stream.has_position())) continue;
     ProbeStream right = stream;

@@ -17,8 +17,8 @@ constexpr double most_left_mm = 0.5, most_left_per_radius = 1e-3;
 constexpr double most_scatter_mm = 0.1;   // of single readings; dirty probes show 0.02
 constexpr double more_than_stated = 3.0;  // a noise that is stated may be exceeded by as much
 constexpr double other_is_far_better = 1.0 / 3.0;  // of the RMS
-constexpr double mostly_scatter = 0.7;    // of the residuals' RMS
-constexpr double dense_step_rad = two_pi / 36.0;  // neighbours meet the same form
+constexpr double mostly_scatter = 0.7;             // of the residuals' RMS
+constexpr double dense_step_rad = two_pi / 36.0;   // neighbours meet the same form
 constexpr double shown_angle_rad = two_pi / 6.0;
 constexpr std::size_t shown_run = 8;
 constexpr double by_chance = 1e-3;
@@ -52,7 +52,8 @@ double scatter_mm(const ProbeStream& stream, const std::vector<double>& residual
 std::string other_surface(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   if (fit.surface != SurfaceKind::cylinder) return "";
   const FitResult cone = refit(stream, SurfaceKind::cone);
-  if (cone.status != FitStatus::converged || !(cone.rms_mm < other_is_far_better * fit.rms_mm)) return "";
+  if (cone.status != FitStatus::converged || !(cone.rms_mm < other_is_far_better * fit.rms_mm))
+    return "";
   return fmt::format(". A cone leaves {:.3g} µm: use --surface cone (surface = \"cone\" in a job)",
                      cone.rms_mm / mm_per_um);
 }
@@ -146,7 +147,10 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
   if (fit.status == FitStatus::too_few) return "";
   if (std::string why = stuck_probe(stream); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
-  return fit.status == FitStatus::converged ? out_of_proportion(stream, fit, refit) : "";
+  // Who fills a stream in a program knows its units: a model may have any scale.
+  return stream.x_convention && fit.status == FitStatus::converged
+             ? out_of_proportion(stream, fit, refit)
+             : "";
 }
 
 void refuse(FitResult& fit, const std::string& why) {

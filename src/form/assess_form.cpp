@@ -8,6 +8,7 @@
 #include "form/notes.hpp"
 #include "form/sampling.hpp"
 #include "form/sections.hpp"
+#include "form/swallowed.hpp"
 #include "form/taken_off.hpp"
 #include "form/uncertainty.hpp"
 #include "form/whole_model.hpp"
@@ -20,6 +21,20 @@ namespace {
 
 constexpr const char* eccentricity = "eccentricity";
 constexpr std::size_t listed = 3;  // sections with the same trouble
+
+/// One noise for all sections: a section of few readings shows its own badly. Eq. 270.
+void share_noise(std::vector<SectionModel>& models, const FormOptions& options) {
+  double squares = 0.0, count = 0.0;
+  for (const SectionModel& one : models) {
+    const auto readings = static_cast<double>(one.readings());
+    const double shown_mm = one.shown_noise_of_reading_mm();
+    squares += readings * shown_mm * shown_mm;
+    count += readings;
+  }
+  const double shown_mm = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+  for (SectionModel& one : models)
+    one.set_noise_of_reading(std::max(shown_mm, options.noise_mm.value_or(0.0)));
+}
 
 std::vector<SectionModel> models_of(const Sections& sections, const FormOptions& options,
                                     const std::string& source) {
@@ -41,6 +56,7 @@ std::vector<SectionModel> models_of(const Sections& sections, const FormOptions&
          fmt::format("{} more sections likewise; all of them carry up to {} UPR", more, carried)});
   }
   if (!wrong.empty()) throw InputError(std::move(wrong));
+  share_noise(models, options);
   return models;
 }
 
@@ -225,6 +241,8 @@ FormResult assess_form(const ProbeStream& stream, const FormOptions& given,
   }
   result.radius_known = sections.radius_known;
   hand_out(result, values, spread);
+  result.swallowed = swallowed_lobes(part, options);
+  withhold_swallowed(result);
   add_notes(stream, sections, result);
   for (std::string& note : assessment.notes()) result.notes.push_back(std::move(note));
   return result;

@@ -55,8 +55,8 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
       trouble_(trace_.trouble()) {
   if (trouble_.empty()) trouble_ = sampling_trouble(raw(), options);
   if (!trouble_.empty()) return;
-  const double averaged = static_cast<double>(raw().size()) / static_cast<double>(readings_);
-  noise_mm_ = std::max(shown_noise_mm(raw()), options.noise_mm.value_or(0.0) * std::sqrt(averaged));
+  averaged_ = static_cast<double>(raw().size()) / static_cast<double>(readings_);
+  noise_mm_ = shown_mm_ = shown_noise_mm(raw());
   make_filter(options);
   profile_mm_ = filtered(raw().value_mm);
   orders_ = harmonics_of(

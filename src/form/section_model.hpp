@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -29,6 +30,12 @@ inline constexpr double shown_over_noise = 6.0;
 class SectionModel {
  public:
   SectionModel(const SectionReadings& readings, bool radius_known, const FormOptions& options);
+
+  /// Standard deviation of single readings that this section alone shows. Eq. 270.
+  double shown_noise_of_reading_mm() const { return shown_mm_ / std::sqrt(averaged_); }
+  /// The noise of the stream: that which its sections show together, or the stated one if larger.
+  void set_noise_of_reading(double noise_mm) { noise_mm_ = noise_mm * std::sqrt(averaged_); }
+  std::size_t readings() const { return readings_; }
 
   const std::string& trouble() const { return trouble_; }  ///< why there is no section
 
@@ -69,7 +76,7 @@ class SectionModel {
 
   SectionTrace trace_;
   std::optional<double> z_mm_;
-  double noise_mm_ = 0.0;
+  double noise_mm_ = 0.0, shown_mm_ = 0.0, averaged_ = 1.0;
   double cutoff_rad_ = 0.0, low_upr_ = 1.0, high_upr_ = 0.0, turns_ = 1.0;
   std::size_t readings_ = 0;
   std::shared_ptr<const LowPass> high_, low_;

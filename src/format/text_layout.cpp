@@ -55,6 +55,13 @@ std::string um(double length_mm) {
 std::string plus_minus(const Estimate& estimate, double coverage_factor, double scale,
                        const std::string& unit) {
   const std::string behind = unit.empty() || unit == "1" ? "" : " " + unit;
+  if (!estimate.determined() && estimate.interval) {
+    const double most = scale * estimate.interval->back();
+    const int decimals = decimals_of(most, 0);
+    const double unit_of_last = std::pow(10.0, -decimals);
+    return fmt::format("at most {:.{}f}{}", std::ceil(most / unit_of_last) * unit_of_last, decimals,
+                       behind);
+  }
   if (!estimate.determined())
     return estimate.why_not.empty() ? "not determined" : "not determined: " + estimate.why_not;
   const double U = scale * coverage_factor * estimate.u;

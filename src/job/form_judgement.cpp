@@ -17,20 +17,19 @@ FormJudgement judged(const char* what, const char* parameter, const char* refere
   const SectionForm* section = nullptr;
   const FormValue* with = worst_value(form.with_open(), parameter, reference, &section);
   const FormValue* without = worst_value(form.without_open(), parameter, reference);
-  if (!with || !without || !with->estimate.determined() || !without->estimate.determined()) {
+  const double k = form.probed.options.coverage_factor;
+  if (!with || !without || !std::isfinite(most_of(*with, k)) ||
+      !std::isfinite(most_of(*without, k))) {
     out.why = std::string("the readings give no ") + parameter;
     if (!form.probed.radius_known) out.why += ": a gauge without nominal_radius shows no radius";
     return out;
   }
-  const double k = form.probed.options.coverage_factor;
-  const bool ordered = with->estimate.value >= without->estimate.value;
+  const bool ordered = most_of(*with, k) >= most_of(*without, k);
   out.high = ordered ? *with : *without;
   out.low = ordered ? *without : *with;
   if (section) out.z_mm = section->z_mm;
-  const auto most = [&](const FormValue& v) { return v.estimate.value + k * v.estimate.u; };
-  const auto least = [&](const FormValue& v) { return v.estimate.value - k * v.estimate.u; };
-  out.conformity = std::max(most(*with), most(*without)) <= tolerance_mm ? Conformity::met
-                   : std::min(least(*with), least(*without)) > tolerance_mm
+  out.conformity = most_of(out.high, k) <= tolerance_mm ? Conformity::met
+                   : std::min(least_of(*with, k), least_of(*without, k)) > tolerance_mm
                        ? Conformity::not_met
                        : Conformity::not_proven;
   return out;
@@ -76,14 +75,11 @@ bool PartForm::met() const {
 
 const FormValue* worst_value(const FormResult& form, const std::string& name,
                              const std::string& reference, const SectionForm** section) {
-  const double k = form.options.coverage_factor;
   const FormValue* worst = nullptr;
   const auto look = [&](const std::vector<FormValue>& values, const SectionForm* of) {
     for (const FormValue& one : values) {
       if (one.name != name || (!reference.empty() && one.reference != reference)) continue;
-      if (worst && !(one.estimate.value + k * one.estimate.u >
-                     worst->estimate.value + k * worst->estimate.u))
-        continue;
+      if (worst && !(size_of(one) > size_of(*worst))) continue;
       worst = &one;
       if (section) *section = of;
     }

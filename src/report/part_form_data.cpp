@@ -36,6 +36,7 @@ bool of_cylinders(const std::string& note) {
 
 Json estimate_data(const FormValue* one) {
   if (!one) return nullptr;
+  if (one->estimate.interval) return {{"at_most_mm", one->estimate.interval->back()}};
   return {{"mm", one->estimate.value}, {"u_mm", one->estimate.u}};
 }
 
@@ -58,8 +59,7 @@ std::vector<std::size_t> worst_sections(const FormResult& form) {
   std::vector<std::pair<double, std::size_t>> all;
   for (std::size_t i = 0; i < form.sections.size(); ++i)
     if (const FormValue* round = of(form.sections[i], "RONt", "MZCI"))
-      all.emplace_back(-round->estimate.value - form.options.coverage_factor * round->estimate.u,
-                       i);
+      all.emplace_back(-size_of(*round), i);
   std::ranges::stable_sort(all);
   if (all.size() > rows_shown) all.resize(rows_shown);
   std::vector<std::size_t> out;
@@ -124,7 +124,8 @@ Json worst_data(const FormResult& form) {
   for (const FormCircle& circle : section.circles) {
     const FormValue* peak = of(section, "RONp", "MZCI");
     const FormValue* valley = of(section, "RONv", "MZCI");
-    if (circle.criterion != Criterion::minimum_zone || !circle.why_not.empty() || !peak || !valley)
+    if (circle.criterion != Criterion::minimum_zone || !circle.why_not.empty() || !peak ||
+        !valley || !peak->estimate.determined() || !valley->estimate.determined())
       continue;
     data["outer_um"] = circle_data(section, circle, peak->estimate.value, step);
     data["inner_um"] = circle_data(section, circle, -valley->estimate.value, step);

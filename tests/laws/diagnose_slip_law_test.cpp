@@ -44,9 +44,10 @@ TEST_P(DiagnosedSlip, IsNoNoiseHoweverLarge) {
   const Diagnosis diagnosis = diagnosed(simulate(scenario));
   const auto slip = std::ranges::find(diagnosis.findings, "part.slip", &Finding::effect);
   ASSERT_NE(slip, diagnosis.findings.end());
-  // u of a step between halves of some 240 readings is σ √(2/240 + 2/240); and (dx² + dy²)/R of the
-  // second order.
-  const double u = scenario.noise.sigma_mm * std::sqrt(4.0 / 240.0);
+  // u of a step between halves of some 240 readings is σ √(2/240 + 2/240), and twice that if the
+  // tilt may step too: a line is known half as well at its end. And (dx² + dy²)/R of the second
+  // order.
+  const double u = 2.0 * scenario.noise.sigma_mm * std::sqrt(4.0 / 240.0);
   const double tolerance = 4.0 * u + (dx * dx + dy * dy) / scenario.part.radius_mm;
   for (const auto& [name, expected] : {std::pair{"dx", dx}, {"dy", dy}}) {
     const auto at = std::ranges::find(slip->parameters, name, &FitParameter::name);

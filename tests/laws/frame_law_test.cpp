@@ -166,6 +166,11 @@ TEST_P(FrameLaw, EveryReadingTwice) {
       const std::vector<double> once = *column;
       column->insert(column->end(), once.begin(), once.end());
     }
+    twice.time_s.clear();
+    for (auto* column : {&twice.pass, &twice.setup}) {
+      const auto once = *column;
+      column->insert(column->end(), once.begin(), once.end());
+    }
     const FitResult result = fit(twice, options_of(e.c));
     expect(e, result, values(e.base));
     // σ² = S/(N − p) and (JᵀJ)⁻¹ halves.

@@ -23,8 +23,9 @@ using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_columns, 1>;
 constexpr double absorbed = 1e-6;  // share of a column's square below which base and terms hold it
 constexpr double undetermined = 1e-11;
 constexpr double seen = 24.0;  // σ² of the sum of squares: less is no step among so many tests
-constexpr Index few = 32;      // readings: of a side of so few two are left out
-constexpr double kept = 0.25;  // share of the gain that is there without them: of eight (6/8)²
+constexpr std::size_t per_column = least_beside_step / 2;  // readings beside a step of two sizes
+constexpr std::size_t few = 16;  // readings a column: of a side of so few two are left out
+constexpr double kept = 0.25;    // share of the gain that is there without them: of eight (6/8)²
 constexpr double as_likely = 12.0;  // σ² of the sum of squares: dates among which sizes decide
 
 /// Whether a row is one of the noise model's: it and those that predict it are there.
@@ -120,7 +121,7 @@ std::vector<Date> dates_of(const Problem& problem, const std::vector<double>& ph
     const Sums& sums = lags > 0 ? with_after : before;
     out.push_back({reading, sums.gram - sums.cross * sums.cross.transpose(), sums.right,
                    sums.gram.diagonal(), sums.right});
-    if (std::min(k, size - k) > few) continue;
+    if (std::min(k, size - k) > static_cast<Index>(few) * columns) continue;
     for (const Index row : two_largest(left, k))
       out.back().without -= left(row) * ((row < k ? 1.0 : 0.0) * step.row(row).transpose() -
                                          sums.cross * taken.row(row).transpose());
@@ -145,12 +146,17 @@ double gain_of(const std::vector<Index>& form, const Date& date, Vector along) {
 /// The most likely date of a form: of those that take off as much but for noise, by their plausible
 /// sizes (a step at a standing spindle is seen along the probe alone).
 const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
-                        const std::vector<Date>& dates, double rss, double freedom) {
+                        const std::vector<Date>& dates, std::size_t size, double rss,
+                        double freedom) {
   std::vector<double> gains;
+  const std::size_t fewest = per_column * form.size();
   for (const Date& date : dates) {
     const double gain = gain_of(form, date, date.right);
-    const bool of_outliers = gain_of(form, date, date.without) < kept * gain;
-    gains.push_back(of_outliers ? 0.0 : gain);
+    const std::size_t side = std::min(date.reading, size - date.reading);
+    const bool of_outliers =
+        side <= few * form.size() && gain_of(form, date, date.without) < kept * gain;
+    const bool of_few = side < fewest;
+    gains.push_back(of_outliers || of_few ? 0.0 : gain);
   }
   if (gains.empty()) return nullptr;
   const auto top = std::ranges::max_element(gains);
@@ -190,7 +196,7 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
     for (std::size_t j = 0; j < h.columns(); ++j)
       free.push_back(static_cast<Index>(form.free.empty() ? j : form.free[j]));
     const Date* date =
-        most_likely(free, size_prior(h), dates, left.squaredNorm(),
+        most_likely(free, size_prior(h), dates, time.size(), left.squaredNorm(),
                     std::max(1.0, static_cast<double>(rows.white.rows() - taken.cols())));
     if (date == nullptr) continue;
     h.shape.onset_s = 0.5 * (time[date->reading - 1] + time[date->reading]);

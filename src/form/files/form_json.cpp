@@ -18,6 +18,10 @@ Json value_json(const FormValue& one) {
   json["u"] = number(factor * one.estimate.u);
   json["unit"] = angle ? "deg" : one.estimate.unit;
   json["bias_by_noise"] = number(factor * one.bias_mm);
+  if (one.estimate.interval) {
+    json["why"] = one.estimate.why_not;
+    json["at_most"] = number(factor * one.estimate.interval->back());
+  }
   return json;
 }
 
@@ -80,6 +84,15 @@ Json options_json(const FormOptions& options) {
 
 }  // namespace
 
+Json swallowed_json(const FormResult& result) {
+  Json list = Json::array();
+  for (const SwallowedLobes& one : result.swallowed)
+    list.push_back({{"order", one.order},
+                    {"amplitude", to_json(Estimate{one.amplitude_mm, one.u_mm, "mm", ""})},
+                    {"passed", number(one.passed)}});
+  return list;
+}
+
 std::string form_json(const FormResult& result) {
   Json json{{"schema", "trueaxis.form/1"}, {"version", TRUEAXIS_VERSION}};
   json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
@@ -96,6 +109,7 @@ std::string form_json(const FormResult& result) {
   json["sections"] = Json::array();
   for (const SectionForm& section : result.sections)
     json["sections"].push_back(section_json(section, !result.radius_known));
+  json["swallowed"] = swallowed_json(result);
   json["notes"] = result.notes;
   return json_text(json);
 }

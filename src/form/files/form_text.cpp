@@ -122,7 +122,7 @@ std::string section_rows(const FormResult& result, bool all) {
   std::vector<const SectionForm*> shown;
   for (const SectionForm& section : result.sections) shown.push_back(&section);
   const auto worst = [](const SectionForm* section) {
-    return find(section->values, "RONt", "MZCI")->estimate.value;
+    return size_of(*find(section->values, "RONt", "MZCI"));
   };
   if (!all && shown.size() > sections_shown) {
     std::ranges::stable_sort(shown, std::ranges::greater{}, worst);
@@ -187,11 +187,25 @@ std::string harmonics_table(const FormResult& result) {
 
 }  // namespace
 
+std::string swallowed_words(const FormResult& result) {
+  std::string text;
+  for (const SwallowedLobes& one : result.swallowed) {
+    const Estimate size{one.amplitude_mm, one.u_mm, "mm", ""};
+    text += fmt::format(
+        "{}{} lobes of {} ({:.0f} % pass {:g} UPR)", text.empty() ? "" : ", ", one.order,
+        layout::plus_minus(size, result.options.coverage_factor, 1.0 / mm_per_um, "µm"),
+        100.0 * one.passed, result.options.high_upr);
+  }
+  return text;
+}
+
 std::string form_text(const FormResult& result, bool verbose) {
   const double k = result.options.coverage_factor;
   std::string text = heading(result);
   if (result.sections.size() == 1) text += one_section(result.sections.front(), k);
   if (result.sections.size() > 1) text += section_rows(result, verbose);
+  if (!result.swallowed.empty())
+    text += layout::wrapped("lobes ", swallowed_words(result) + ": no RONt at this cut-off");
   for (const FormGroup& group : result.groups) text += group_text(group, k);
   for (const std::string& note : result.notes) text += layout::wrapped("note: ", note);
   return verbose ? text + harmonics_table(result) : text;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "diagnose/files/diagnosis_json.hpp"
+#include "form/files/form_json.hpp"
 #include "job/files/part_form_files.hpp"
 #include "trueaxis/units.hpp"
 
@@ -20,6 +21,10 @@ Json value_object(const FormValue& one) {
             {"unit", angle ? "deg" : one.estimate.unit},
             {"bias_by_noise", number(factor * one.bias_mm)}};
   if (!one.reference.empty()) json["reference"] = one.reference;
+  if (one.estimate.interval) {
+    json["why"] = one.estimate.why_not;
+    json["at_most"] = number(factor * one.estimate.interval->back());
+  }
   return json;
 }
 
@@ -91,6 +96,7 @@ Json part_form_object(const PartForm& form) {
     }
     json["coverage_factor"] = options.coverage_factor;
     json["datum"] = form.probed.datum_source.empty() ? spindle_axis : form.probed.datum_source;
+    json["swallowed"] = swallowed_json(form.probed);
     json["left_out"] = form.left_out;
     json["as_probed"] = case_object(form.probed);
     json["motion"] = form.motion;

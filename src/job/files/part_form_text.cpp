@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/hundredths.hpp"
+#include "form/files/form_text.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/part_form_files.hpp"
 #include "trueaxis/units.hpp"
@@ -93,6 +94,8 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
   if (!form.judgements.empty()) return text;
   if (!form.why_not.empty()) return "form   " + of + "not assessed: " + form.why_not + "\n";
   text = "form   " + of;
+  if (const FormResult& all = form.with_open(); !all.swallowed.empty())
+    return text + swallowed_words(all) + "; " + values_text(all) + "\n";
   if (form.less_open)
     text += first_value_text(form.with_open()) + ", or " +
             first_value_text(*form.less_open, false) + " if the machine made it ";

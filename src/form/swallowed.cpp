@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "form/swallowed.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "form/low_pass.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis::form {
+namespace {
+
+constexpr double least_standard_upr = 15.0;
+constexpr double taken = 0.05;      // share of an amplitude
+constexpr double by_chance = 1e-4;  // of an order that is not there
+constexpr std::array<std::string_view, 8> resting_on_lobes{
+    "RONt", "RONp", "RONv", "RONq", "CYLt", "CONt", "runout_circular", "runout_total"};
+
+double transmission(const FormOptions& options, int order, double step_rad) {
+  const double cutoff = two_pi / options.high_upr, wave = two_pi / order;
+  switch (options.filter) {
+    case ProfileFilter::gaussian:
+      return gaussian_transmission(cutoff, wave);
+    case ProfileFilter::robust_gaussian:
+      return robust_transmission(cutoff, wave);
+    case ProfileFilter::spline:
+      return spline_transmission(cutoff, wave, step_rad);
+    case ProfileFilter::none:
+      break;
+  }
+  return 1.0;
+}
+
+/// An order of every section: a line along Z of its coefficients, by weighted least squares.
+class OrderAlongZ {
+ public:
+  OrderAlongZ(const std::vector<SectionModel>& sections, int order) {
+    double low = 1e300, high = -1e300;
+    for (const SectionModel& one : sections) {
+      low = std::min(low, one.z_mm().value_or(0.0));
+      high = std::max(high, one.z_mm().value_or(0.0));
+    }
+    const bool grows = sections.size() > 2 && high > low;
+    const Eigen::Index count = grows ? 2 : 1;
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, 2);
+    for (const SectionModel& one : sections) {
+      const auto found = std::ranges::find(one.orders(), order, &Order::order);
+      if (found == one.orders().end()) return;
+      const double u = std::max(one.noise_mm() * found->u_per_sigma, 1e-12);
+      Eigen::VectorXd row = Eigen::VectorXd::Ones(count);
+      if (grows) row(1) = (2.0 * one.z_mm().value_or(0.0) - low - high) / (high - low);
+      normal += row * row.transpose() / (u * u);
+      right += row * Eigen::RowVector2d(found->cos_mm, found->sin_mm) / (u * u);
+    }
+    const Eigen::MatrixXd inverse = normal.inverse();
+    const Eigen::MatrixXd found = inverse * right;
+    for (Eigen::Index j = 0; j < count; ++j) {
+      amplitude_mm += found.row(j).norm();
+      u_mm = std::hypot(u_mm, std::sqrt(inverse(j, j)));
+    }
+    // Squares over the variance of `count` pairs: a chi-squared sum of 2 count.
+    chi_squared = (found.transpose() * normal * found).trace();
+    degrees = 2 * static_cast<int>(count);
+  }
+
+  double amplitude_mm = 0.0, u_mm = 0.0;
+
+  /// By chance less often than 1 in 10^4: the tail of chi-squared with 2 or 4 degrees.
+  bool is_there() const {
+    const double half = 0.5 * chi_squared;
+    return degrees > 0 &&
+           (degrees == 2 ? std::exp(-half) : (1.0 + half) * std::exp(-half)) < by_chance;
+  }
+
+ private:
+  double chi_squared = 0.0;
+  int degrees = 0;
+};
+
+}  // namespace
+
+std::vector<SwallowedLobes> swallowed_lobes(const std::vector<SectionModel>& sections,
+                                            const FormOptions& options) {
+  std::vector<SwallowedLobes> out;
+  if (sections.empty() || options.filter == ProfileFilter::none ||
+      options.high_upr >= least_standard_upr)
+    return out;
+  const double step_rad = two_pi / static_cast<double>(sections.front().raw().size());
+  for (const Order& one : sections.front().orders()) {
+    if (one.order < 2) continue;
+    const double passed = transmission(options, one.order, step_rad);
+    if (1.0 - passed <= taken) continue;
+    const OrderAlongZ order(sections, one.order);
+    if (order.is_there()) out.push_back({one.order, order.amplitude_mm, order.u_mm, passed});
+  }
+  return out;
+}
+
+void withhold_swallowed(FormResult& result) {
+  if (result.swallowed.empty()) return;
+  const double k = result.options.coverage_factor;
+  double lost_mm = 0.0;
+  for (const SwallowedLobes& one : result.swallowed)
+    lost_mm += 2.0 * (1.0 - one.passed) * (one.amplitude_mm + k * one.u_mm);
+  const std::string why =
+      fmt::format("{:g} UPR takes part of the lobes that were found", result.options.high_upr);
+  const auto withhold = [&](std::vector<FormValue>& values) {
+    for (FormValue& one : values) {
+      if (std::ranges::find(resting_on_lobes, one.name) == resting_on_lobes.end()) continue;
+      Estimate& e = one.estimate;
+      const double U_mm = k * e.u + lost_mm;
+      e = {.unit = e.unit,
+           .why_not = why,
+           .interval = std::array{std::max(0.0, e.value - U_mm), e.value + U_mm}};
+    }
+  };
+  for (SectionForm& section : result.sections) withhold(section.values);
+  for (FormGroup& group : result.groups) withhold(group.values);
+}
+
+}  // namespace trueaxis::form

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "form/section_model.hpp"
+
+namespace trueaxis::form {
+
+/// Lobes that the sections show together, constant along Z or growing, and of which a makeshift
+/// cut-off (below the 15 UPR where those of ISO 12181-2 begin) takes more than 5 %. Eq. 309.
+std::vector<SwallowedLobes> swallowed_lobes(const std::vector<SectionModel>& sections,
+                                            const FormOptions& options);
+
+/// Takes the values out that rest on what was swallowed, and leaves their bounds.
+void withhold_swallowed(FormResult& result);
+
+}  // namespace trueaxis::form
