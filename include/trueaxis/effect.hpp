@@ -104,9 +104,8 @@ struct PeriodicInTime {};
 /// t and 1 − exp(−t/τ), in X (Eq. 45).
 struct GrowthInTime {};
 
-/// At an instant the part moved by x, y of the spindle frame, turned, tilted about the middle of
-/// what was probed, and its radius and taper as probed changed (Eq. 46); `seat`: moved along Z, and
-/// its axis tilted (Eq. 136). The surface is where it stands afterwards.
+/// At an instant the part moved, turned, tilted, and changed its radius and taper (Eq. 46); `seat`:
+/// moved along Z and tilted (Eq. 136). The surface is where it is afterwards.
 struct PartStep {
   bool seat = false;
 };

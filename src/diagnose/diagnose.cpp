@@ -12,7 +12,9 @@
 #include "diagnose/explain/form_class.hpp"
 #include "diagnose/explain/gain.hpp"
 #include "diagnose/explain/observable.hpp"
+#include "diagnose/explain/plausible_sizes.hpp"
 #include "diagnose/explain/quality.hpp"
+#include "fit/plausible.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 
@@ -177,6 +179,8 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });
+  if (const std::string why = implausible_size(out.findings); !why.empty())
+    for (FitResult* fit : {&out.baseline, &out.named, &out.extended}) refuse(*fit, why);
   if (out.slip())
     out.remarks.push_back("the part slipped: the axis is that of the part as it now stands");
   return out;

@@ -19,9 +19,6 @@ constexpr double more_than_stated = 3.0;  // a noise that is stated may be excee
 constexpr double other_is_far_better = 1.0 / 3.0;  // of the RMS
 constexpr double mostly_scatter = 0.7;             // of the residuals' RMS
 constexpr double dense_step_rad = two_pi / 36.0;   // neighbours meet the same form
-constexpr double shown_angle_rad = two_pi / 6.0;
-constexpr std::size_t shown_run = 8;
-constexpr double by_chance = 1e-3;
 
 double largest_radius_mm(const ProbeStream& stream) {
   if (stream.kind == StreamKind::face)
@@ -83,69 +80,14 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   return "";
 }
 
-/// Readings in a row that show the same value.
-struct Run {
-  std::size_t begin = 0, end = 0;
-  double turned_rad = 0.0;
-  std::size_t size() const { return end - begin; }
-};
-
-/// Calls `use` for every run of a stream, single readings too.
-template <class Use>
-void for_each_run(const ProbeStream& stream, const Use& use) {
-  Run run{0, 1, 0.0};
-  for (std::size_t i = 1; i < stream.size(); ++i) {
-    if (stream.reading_mm[i] == stream.reading_mm[i - 1]) {
-      run.turned_rad += std::abs(std::remainder(stream.c_rad[i] - stream.c_rad[i - 1], two_pi));
-    } else {
-      use(run);
-      run = {i, i, 0.0};
-    }
-    run.end = i + 1;
-  }
-  use(run);
-}
-
-/// Whether the value is met by several long runs: a sensor at its limit, once a revolution.
-bool saturates(const ProbeStream& stream, const Run& longest) {
-  std::size_t count = 0;
-  for_each_run(stream, [&](const Run& one) {
-    count += stream.reading_mm[one.begin] == stream.reading_mm[longest.begin] &&
-             4 * one.size() >= longest.size();
-  });
-  return count > 1;
-}
-
 }  // namespace
-
-std::string stuck_probe(const ProbeStream& stream) {
-  if (stream.size() < shown_run) return "";
-  Run longest;
-  std::size_t runs = 0;
-  for_each_run(stream, [&](const Run& one) {
-    ++runs;
-    if (one.turned_rad > longest.turned_rad) longest = one;
-  });
-  // A stream that a program fills may be of a perfect part.
-  if (runs == 1 && !stream.x_convention) return "";
-  if (longest.size() < shown_run || longest.turned_rad < shown_angle_rad) return "";
-  const double others = static_cast<double>(stream.size() - longest.size());
-  const double repeated = others - static_cast<double>(runs - 1);
-  const double share = std::max(repeated, 1.0) / std::max(others, 2.0);
-  const double expected =
-      static_cast<double>(stream.size()) * std::pow(share, static_cast<double>(longest.size() - 1));
-  if (expected > by_chance || saturates(stream, longest)) return "";
-  return fmt::format(
-      "{} shows {:.9g} mm in {} readings without a break (data rows {} to {}) while C turns by "
-      "{:.3g} revolutions: the probe was stuck, off the part or not connected. Leave these rows "
-      "out, or probe again",
-      stream.kind == StreamKind::face ? "Z_M" : "X_M", stream.reading_mm[longest.begin],
-      longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
-}
 
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   if (fit.status == FitStatus::too_few) return "";
   if (std::string why = stuck_probe(stream); !why.empty()) return why;
+  if (stream.x_convention)
+    if (std::string why = lost_decimal_point(stream); !why.empty()) return why;
+  if (std::string why = alternate_rows(stream, fit); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
   // Who fills a stream in a program knows its units: a model may have any scale.
   return stream.x_convention && fit.status == FitStatus::converged

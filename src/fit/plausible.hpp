@@ -21,6 +21,12 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
 /// A limit of the sensor that is met again and again is saturation, which the diagnosis handles.
 std::string stuck_probe(const ProbeStream& stream);
 
+/// Two values and more of a column that are a power of ten off both neighbours; empty: none are.
+std::string lost_decimal_point(const ProbeStream& stream);
+
+/// Residuals that alternate from row to row, by more than all else that is left; empty: none do.
+std::string alternate_rows(const ProbeStream& stream, const FitResult& fit);
+
 /// Columns exchanged, or C in another unit, where that leaves less than a third of the residuals;
 /// empty: no such reading of the stream does.
 std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, const Refit& refit);

@@ -21,6 +21,10 @@ void diagnose_all(JobResult& result) {
     DiagnoseOptions options;
     options.fit = result.job.references[i].fit;
     result.diagnoses[i] = diagnose(result.streams[i], options);
+    if (result.diagnoses[i]->baseline.status == FitStatus::implausible) {
+      result.fits[i] = result.diagnoses[i]->baseline;
+      continue;
+    }
     result.resimulations[i] =
         resimulate(*result.diagnoses[i], result.streams[i], options.fit.ball_radius_mm);
   }

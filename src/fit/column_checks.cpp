@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "fit/plausible.hpp"
+#include "math/statistics.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+constexpr double shown_angle_rad = two_pi / 6.0;
+constexpr std::size_t shown_run = 8;
+constexpr double rows_by_chance = 1e-3;
+constexpr double near_steps = 3.0;  // median steps within which a value is where it belongs
+constexpr double alternate_least_mm = 5e-3;
+constexpr double alternate_share = 0.5;  // of the residuals' square
+
+/// Readings in a row that show the same value.
+struct Run {
+  std::size_t begin = 0, end = 0;
+  double turned_rad = 0.0;
+  std::size_t size() const { return end - begin; }
+};
+
+/// Calls `use` for every run of a stream, single readings too.
+template <class Use>
+void for_each_run(const ProbeStream& stream, const Use& use) {
+  Run run{0, 1, 0.0};
+  for (std::size_t i = 1; i < stream.size(); ++i) {
+    if (stream.reading_mm[i] == stream.reading_mm[i - 1]) {
+      run.turned_rad += std::abs(std::remainder(stream.c_rad[i] - stream.c_rad[i - 1], two_pi));
+    } else {
+      use(run);
+      run = {i, i, 0.0};
+    }
+    run.end = i + 1;
+  }
+  use(run);
+}
+
+/// Whether the value is met by several long runs: a sensor at its limit, once a revolution.
+bool saturates(const ProbeStream& stream, const Run& longest) {
+  std::size_t count = 0;
+  for_each_run(stream, [&](const Run& one) {
+    count += stream.reading_mm[one.begin] == stream.reading_mm[longest.begin] &&
+             4 * one.size() >= longest.size();
+  });
+  return count > 1;
+}
+
+/// Whether a value is a tenth, ten times, … of what its neighbours say.
+bool lost_its_point(double value, double expected, double step) {
+  for (const double factor : {10.0, 0.1, 100.0, 0.01, 1000.0, 0.001, 1e4, 1e-4, 1e5, 1e-5})
+    if (std::abs(value * factor - expected) <= near_steps * step * std::max(1.0, factor))
+      return std::abs(value - expected) > 10.0 * near_steps * step;
+  return false;
+}
+
+/// Data rows (from 1) whose value lies a power of ten off both neighbours, which agree.
+std::vector<std::size_t> rows_off_by_tens(const std::vector<double>& column) {
+  std::vector<std::size_t> rows;
+  if (column.size() < shown_run) return rows;
+  std::vector<double> steps;
+  const std::size_t stride = 1 + column.size() / 2000;
+  for (std::size_t i = 1; i < column.size(); i += stride)
+    steps.push_back(std::abs(column[i] - column[i - 1]));
+  const double step = median(std::move(steps));
+  if (!(step > 0.0)) return rows;
+  for (std::size_t i = 1; i + 1 < column.size(); ++i) {
+    const double expected = 0.5 * (column[i - 1] + column[i + 1]);
+    if (std::abs(column[i] - expected) <= 10.0 * near_steps * step ||
+        std::abs(column[i + 1] - column[i - 1]) > near_steps * step)
+      continue;
+    if (lost_its_point(column[i], expected, step)) rows.push_back(i + 1);
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string stuck_probe(const ProbeStream& stream) {
+  if (stream.size() < shown_run) return "";
+  Run longest;
+  std::size_t runs = 0;
+  for_each_run(stream, [&](const Run& one) {
+    ++runs;
+    if (one.turned_rad > longest.turned_rad) longest = one;
+  });
+  // A stream that a program fills may be of a perfect part.
+  if (runs == 1 && !stream.x_convention) return "";
+  if (longest.size() < shown_run || longest.turned_rad < shown_angle_rad) return "";
+  const double others = static_cast<double>(stream.size() - longest.size());
+  const double repeated = others - static_cast<double>(runs - 1);
+  const double share = std::max(repeated, 1.0) / std::max(others, 2.0);
+  const double expected =
+      static_cast<double>(stream.size()) * std::pow(share, static_cast<double>(longest.size() - 1));
+  if (expected > rows_by_chance || saturates(stream, longest)) return "";
+  return fmt::format(
+      "{} shows {:.9g} mm in {} readings without a break (data rows {} to {}) while C turns by "
+      "{:.3g} revolutions: the probe was stuck, off the part or not connected. Leave these rows "
+      "out, or probe again",
+      stream.kind == StreamKind::face ? "Z_M" : "X_M", stream.reading_mm[longest.begin],
+      longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
+}
+
+std::string lost_decimal_point(const ProbeStream& stream) {
+  const bool face = stream.kind == StreamKind::face;
+  const struct {
+    const char* name;
+    const std::vector<double>& values;
+  } columns[] = {{face ? "Z_M" : "X_M", stream.reading_mm},
+                 {"C", stream.c_rad},
+                 {face ? "X" : "Z", stream.position_mm}};
+  for (const auto& [name, values] : columns) {
+    const std::vector<std::size_t> rows = rows_off_by_tens(values);
+    if (rows.size() < 2) continue;  // one such value is an outlier
+    return fmt::format(
+        "{} values of {} are a power of ten off their neighbours (the first in data row {}): a "
+        "decimal point was lost. Correct them, or leave these rows out",
+        rows.size(), name, rows.front());
+  }
+  return "";
+}
+
+std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
+  if (fit.residual_mm.size() < 4 * shown_run || fit.rms_mm < alternate_least_mm) return "";
+  double sum = 0.0, squares = 0.0, sign = 1.0;
+  for (const double r : fit.residual_mm) {
+    sum += sign * r;
+    squares += r * r;
+    sign = -sign;
+  }
+  const auto n = static_cast<double>(fit.residual_mm.size());
+  const double half_mm = std::abs(sum) / n;
+  if (n * half_mm * half_mm < alternate_share * squares) return "";
+  return fmt::format(
+      "odd and even rows of {} differ by {:.3g} µm all through: two recordings are interleaved, or "
+      "two sensors are in one column. Give each a file",
+      stream.source, 2.0 * half_mm / mm_per_um);
+}
+
+}  // namespace trueaxis
