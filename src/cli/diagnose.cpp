@@ -15,6 +15,7 @@
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
+#include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
 #include "report/stream_report.hpp"
@@ -57,7 +58,10 @@ int execute(const Options& options) {
   DiagnoseOptions diagnose_options;
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
-  const Diagnosis diagnosis = diagnose(stream, diagnose_options);
+  Diagnosis diagnosis = diagnose(stream, diagnose_options);
+  if (const std::string why = why_axis_unknown(stream, diagnosis); !why.empty())
+    for (FitResult* fit : {&diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
+      withhold_axis(*fit, why);
   const PartForm form = part_form({stream, &diagnosis}, diagnose_options.fit, {});
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);

@@ -16,6 +16,9 @@ constexpr double shown_angle_rad = two_pi / 6.0;
 constexpr std::size_t shown_run = 8;
 constexpr double rows_by_chance = 1e-3;
 constexpr double near_steps = 3.0;  // median steps within which a value is where it belongs
+constexpr double often = 0.3;       // share of the rows
+constexpr double many_steps = 10.0;
+constexpr double largest_machine_mm = 20e3;
 constexpr double alternate_least_mm = 5e-3;
 constexpr double alternate_share = 0.5;  // of the residuals' square
 
@@ -80,6 +83,13 @@ std::vector<std::size_t> rows_off_by_tens(const std::vector<double>& column) {
   return rows;
 }
 
+/// The same numbers in a row and the row before.
+bool repeats_row(const ProbeStream& stream, std::size_t i) {
+  return stream.reading_mm[i] == stream.reading_mm[i - 1] &&
+         stream.c_rad[i] == stream.c_rad[i - 1] &&
+         (!stream.has_position() || stream.position_mm[i] == stream.position_mm[i - 1]);
+}
+
 }  // namespace
 
 std::string stuck_probe(const ProbeStream& stream) {
@@ -105,6 +115,65 @@ std::string stuck_probe(const ProbeStream& stream) {
       "out, or probe again",
       stream.kind == StreamKind::face ? "Z_M" : "X_M", stream.reading_mm[longest.begin],
       longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
+}
+
+std::string repeated_rows(const ProbeStream& stream) {
+  std::size_t repeated = 0, held = 0;
+  std::vector<double> changes;
+  for (std::size_t i = 1; i < stream.size(); ++i) {
+    const double change = std::abs(stream.reading_mm[i] - stream.reading_mm[i - 1]);
+    repeated += repeats_row(stream, i);
+    held += change == 0.0 && stream.c_rad[i] != stream.c_rad[i - 1];
+    if (change > 0.0 && changes.size() < 2000) changes.push_back(change);
+  }
+  if (static_cast<double>(repeated) > often * static_cast<double>(stream.size()))
+    return fmt::format(
+        "{} of {} rows repeat the row before: as readings of their own they would make every U too "
+        "small. Leave the copies out",
+        repeated, stream.size());
+  if (static_cast<double>(held) <= often * static_cast<double>(stream.size()) ||
+      changes.size() < shown_run)
+    return "";
+  // A coarse sensor moves by its step; one that is read too often by far more than its least.
+  const double usual = median(changes), least = *std::ranges::min_element(changes);
+  if (usual < many_steps * least) return "";
+  return fmt::format(
+      "X_M stays the same in {:.0f} % of the rows while C turns, and then changes by {:.2g} µm: "
+      "the "
+      "probe is read more slowly than C. Leave out the rows in which it was not read anew",
+      100.0 * static_cast<double>(held) / static_cast<double>(stream.size()), usual / mm_per_um);
+}
+
+std::string counts_rows(const ProbeStream& stream) {
+  if (stream.size() < 4 * shown_run) return "";
+  const double step = stream.reading_mm[1] - stream.reading_mm[0];
+  const double rounding = 1e-9 * std::max(std::abs(stream.reading_mm.back()), 1.0);
+  if (std::abs(step) <= rounding) return "";
+  for (std::size_t i = 1; i < stream.size(); ++i)
+    if (std::abs(stream.reading_mm[i] - stream.reading_mm[i - 1] - step) > rounding) return "";
+  return "X_M grows by the same amount from row to row: it counts the rows. Name the probe's "
+         "column";
+}
+
+std::string no_such_size(const ProbeStream& stream) {
+  const bool face = stream.kind == StreamKind::face;
+  const auto largest = [](const std::vector<double>& column) {
+    if (column.empty()) return 0.0;
+    const auto [low, high] = range_of(column);
+    return std::max(std::abs(low), std::abs(high));
+  };
+  const struct {
+    const char* name;
+    double mm;
+  } sizes[] = {{face ? "Z_M" : "X_M", largest(stream.reading_mm)},
+               {face ? "X" : "Z", largest(stream.position_mm)}};
+  for (const auto& [name, mm] : sizes)
+    if (mm > largest_machine_mm)
+      return fmt::format(
+          "{} reaches {:.4g} m, and no lathe is larger than {:.0f} m: check its unit and its "
+          "decimal point",
+          name, mm / mm_per_m, largest_machine_mm / mm_per_m);
+  return "";
 }
 
 std::string lost_decimal_point(const ProbeStream& stream) {

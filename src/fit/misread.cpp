@@ -13,8 +13,10 @@ namespace trueaxis {
 namespace {
 
 constexpr double far_better = 1.0 / 3.0;  // of the RMS: nine in likelihood a reading
-constexpr double least_mm = 1e-6;         // what a stream's digits leave
-constexpr double most_feed_mm = 5.0;      // per revolution: nobody probes coarser
+constexpr double by_far_better = 0.1;
+constexpr double much_mm = 0.01;      // few lobes of a seat are larger
+constexpr double least_mm = 1e-6;     // what a stream's digits leave
+constexpr double most_feed_mm = 5.0;  // per revolution: nobody probes coarser
 constexpr double nearly_a_turn = 0.9 * two_pi;
 constexpr double restless = 1.2;  // of the travel over its range, Z against X
 
@@ -22,6 +24,7 @@ constexpr double restless = 1.2;  // of the travel over its range, Z against X
 struct Suspicion {
   bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
+  bool leaves_much = false;     ///< residuals of more than lobes usually are
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };
 
@@ -32,6 +35,7 @@ struct Misreading {
   bool Suspicion::*looks;
   bool needs_position;
   void (*mend)(ProbeStream&);
+  double better = far_better;  ///< RMS over that before
 };
 
 double travel_mm(const ProbeStream& stream) {
@@ -69,6 +73,19 @@ void scale_c(ProbeStream& stream) {
   for (double& c : stream.c_rad) c *= Factor;
 }
 
+/// An angle that begins anew after `Period` degrees, made continuous.
+template <int Period>
+void unwrap_c(ProbeStream& stream) {
+  double added = 0.0, before = stream.c_rad.front();
+  const double period = Period * rad_per_deg;
+  for (double& c : stream.c_rad) {
+    const double step = c - before;
+    before = c;
+    added -= period * std::round(step / period);
+    c += added;
+  }
+}
+
 /// A column of lengths that holds degrees, and the other way round.
 void exchange_with_c(std::vector<double>& length_mm, std::vector<double>& c_rad) {
   for (std::size_t i = 0; i < c_rad.size(); ++i) {
@@ -78,6 +95,7 @@ void exchange_with_c(std::vector<double>& length_mm, std::vector<double>& c_rad)
   }
 }
 
+constexpr const char* wrapped = "record the angle over all revolutions";
 constexpr const char* exchange = "exchange their names in the header";
 
 constexpr bool Suspicion::*spindle = &Suspicion::unlike_spindle;
@@ -94,7 +112,20 @@ constexpr Misreading misreadings[] = {
     {"C is in degrees", "C[deg]", spindle, false, scale_c<rad_per_deg>},
     {"C is in degrees", "C[deg]", spindle, false, scale_c<1.0 / 360.0>},
     {"C is in turns", "C[rev]", spindle, false, scale_c<360.0>},
-    {"C is in turns", "C[rev]", spindle, false, scale_c<two_pi>}};
+    {"C is in turns", "C[rev]", spindle, false, scale_c<two_pi>},
+    {"C has 400 gon in a revolution", "multiply it by 0.9", &Suspicion::leaves_much, false,
+     scale_c<0.9>},
+    {"C runs at twice the angle", "halve it", &Suspicion::leaves_much, false, scale_c<0.5>},
+    {"C begins anew every 180°", wrapped, &Suspicion::leaves_much, false, unwrap_c<180>},
+    {"C begins anew every 90°", wrapped, &Suspicion::leaves_much, false, unwrap_c<90>},
+    // An oval part whose centre runs true would be one that runs out at half the angle.
+    {"C runs at half the angle (or the part is oval and runs true)", "double it",
+     &Suspicion::leaves_much, false, scale_c<2.0>, by_far_better},
+    {"C runs at half the angle and begins anew every revolution", wrapped, &Suspicion::leaves_much,
+     false, [](ProbeStream& s) {
+       unwrap_c<180>(s);
+       scale_c<2.0>(s);
+     }}};
 
 /// RMS of what a fit leaves; if there is no surface at all, of the readings about their mean.
 double left_mm(const ProbeStream& stream, const FitResult& fit) {
@@ -122,14 +153,15 @@ std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, c
   const double before_mm = left_mm(stream, fit);
   if (!(before_mm > least_mm)) return "";
   const Suspicion suspicion{range_of(stream.c_rad).length() < nearly_a_turn,
-                            unlike_a_spindle(stream), z_goes_to_and_fro(stream)};
+                            unlike_a_spindle(stream), before_mm > much_mm,
+                            z_goes_to_and_fro(stream)};
   for (const Misreading& one : misreadings) {
     if (!(suspicion.*one.looks) || (one.needs_position && !stream.has_position())) continue;
     ProbeStream right = stream;
     one.mend(right);
     if (!turns_around(right) || z_goes_to_and_fro(right)) continue;
     const FitResult again = refit(right, fit.surface);
-    if (again.status != FitStatus::converged || !(again.rms_mm < far_better * before_mm) ||
+    if (again.status != FitStatus::converged || !(again.rms_mm < one.better * before_mm) ||
         again.points < 2 * again.parameters.size() + 10)
       continue;
     return fmt::format("{}: {}. As written the residuals are {} RMS ({}), otherwise {} ({})",

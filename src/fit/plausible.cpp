@@ -85,8 +85,9 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   if (fit.status == FitStatus::too_few) return "";
   if (std::string why = stuck_probe(stream); !why.empty()) return why;
-  if (stream.x_convention)
-    if (std::string why = lost_decimal_point(stream); !why.empty()) return why;
+  if (stream.x_convention)  // of a file: who fills a stream in a program may model anything
+    for (const auto& check : {no_such_size, repeated_rows, counts_rows, lost_decimal_point})
+      if (std::string why = check(stream); !why.empty()) return why;
   if (std::string why = alternate_rows(stream, fit); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
   // Who fills a stream in a program knows its units: a model may have any scale.

@@ -6,6 +6,7 @@
 #include "correct/coaxiality_distribution.hpp"
 #include "job/associated_axis.hpp"
 #include "job/cut_checks.hpp"
+#include "job/doubts.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
@@ -24,6 +25,19 @@ std::vector<Remainder> limited_remainders(std::span<const Reference> references,
         CoaxialityDistribution({&references[i], 1}, axis, target.z_start_mm, target.z_end_mm)
             .quantile(1.0 - nonconformity_risk);
   return out;
+}
+
+/// What says where the part is, of every reference of which that is not known.
+void withhold_axes(JobResult& result) {
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    Diagnosis& diagnosis = *result.diagnoses[i];
+    const std::string why = why_axis_unknown(result.streams[i], diagnosis);
+    if (why.empty()) continue;
+    for (FitResult* fit :
+         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
+      withhold_axis(*fit, why);
+  }
 }
 
 void correct(JobResult& result) {
@@ -48,10 +62,7 @@ void conclude(JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   const bool slipped = !slip_objection(result).empty();
-  if (slipped) {
-    withhold_axes(result);
-    if (!result.agreement.disagreements.empty()) result.agreement = {};
-  }
+  if (slipped && !result.agreement.disagreements.empty()) result.agreement = {};
   if (fitted && !slipped && result.agreement.reason.empty()) {
     try {
       for (std::size_t i = 0; i < result.fits.size(); ++i)
@@ -62,6 +73,7 @@ void conclude(JobResult& result) {
     }
   }
   result.verdict = decide(result);
+  if (!result.correction) withhold_axes(result);
 }
 
 }  // namespace trueaxis

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "job/references.hpp"
+#include "job/slip.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -92,22 +93,17 @@ bool is_bow(const Finding& finding) {
 
 }  // namespace
 
-std::string left_unnamed(const JobResult& result) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    const Diagnosis& diagnosis = *result.diagnoses[i];
-    const NoiseReport& noise = diagnosis.noise;
-    const double left_mm = diagnosis.gain.rms_after_mm;
-    const double most_mm = much_left * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
-    if (!(left_mm > std::max(most_mm, too_little_mm))) continue;
-    return fmt::format(
-        "{}what was found leaves {:.2g} µm where the {} show a noise of {:.2g} µm: the readings "
-        "hold "
-        "something that no cause and no pattern explains, and the axis may go with it. See whether "
-        "the part slipped, clamp it again and probe again",
-        of_reference(result, i), left_mm / mm_per_um, noise.source, noise.sigma_mm / mm_per_um);
-  }
-  return "";
+std::string left_unnamed(const Diagnosis& diagnosis) {
+  const NoiseReport& noise = diagnosis.noise;
+  const double left_mm = diagnosis.gain.rms_after_mm;
+  const double most_mm = much_left * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
+  if (!(left_mm > std::max(most_mm, too_little_mm))) return "";
+  return fmt::format(
+      "what was found leaves {:.2g} µm where the {} show a noise of {:.2g} µm: the readings "
+      "hold "
+      "something that no cause and no pattern explains, and the axis may go with it. See whether "
+      "the part slipped, clamp it again and probe again",
+      left_mm / mm_per_um, noise.source, noise.sigma_mm / mm_per_um);
 }
 
 std::vector<std::string> model_reservations(const JobResult& result) {
@@ -198,31 +194,61 @@ std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
   return "";
 }
 
-std::string moves_with_axis(const JobResult& result) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    const Diagnosis& diagnosis = *result.diagnoses[i];
-    const std::vector<Pass> passes =
-        result.streams.at(i).size() > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
-    const std::string next = diagnosis.next.what.empty()
-                                 ? "probe again at another speed and another feed"
-                                 : diagnosis.next.what;
-    for (const Unexplained& u : diagnosis.unexplained) {
-      if (!goes_with_axis(u.term, passes)) continue;
-      return fmt::format(
-          "{}a pattern of {:.2g} µm near one undulation per revolution has no known cause, and the "
-          "axis goes with it: {}",
-          of_reference(result, i), u.amplitude.value / mm_per_um, next);
-    }
-    for (const Finding& f : diagnosis.findings) {
-      if (!goes_with_axis(f.term, passes)) continue;
-      return fmt::format(
-          "{}{} is so near to once a revolution that over the stream it gains at most {:.2g} turns "
-          "on the part or its eccentricity, and cannot be told from a shift of the axis: {}",
-          of_reference(result, i), f.effect(), least_beats, next);
-    }
+std::string moves_with_axis(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  const std::vector<Pass> passes = stream.size() > 0 ? find_passes(stream) : std::vector<Pass>{};
+  const std::string next = diagnosis.next.what.empty()
+                               ? "probe again at another speed and another feed"
+                               : diagnosis.next.what;
+  for (const Unexplained& u : diagnosis.unexplained) {
+    if (!goes_with_axis(u.term, passes)) continue;
+    return fmt::format(
+        "a pattern of {:.2g} µm near one undulation per revolution has no known cause, and the "
+        "axis goes with it: {}",
+        u.amplitude.value / mm_per_um, next);
+  }
+  for (const Finding& f : diagnosis.findings) {
+    if (!goes_with_axis(f.term, passes)) continue;
+    return fmt::format(
+        "{} is so near to once a revolution that over the stream it gains at most {:.2g} turns "
+        "on the part or its eccentricity, and cannot be told from a shift of the axis: {}",
+        f.effect(), least_beats, next);
   }
   return "";
+}
+
+std::string few_angles(const ProbeStream& stream) {
+  constexpr std::size_t most = 5;
+  constexpr double apart_rad = rad_per_deg;
+  if (stream.kind == StreamKind::face) return "";
+  std::vector<double> angles;
+  for (const double c : stream.c_rad) {
+    const bool known = std::ranges::any_of(angles, [&](double angle) {
+      return std::abs(std::remainder(c - angle, two_pi)) < apart_rad;
+    });
+    if (!known) angles.push_back(c);
+    if (angles.size() > most) return "";
+  }
+  return fmt::format(
+      "{0} angles, the same in every revolution, cannot tell {1} lobes from an eccentricity: probe "
+      "at "
+      "7 angles or more",
+      angles.size(), angles.size() - 1);
+}
+
+std::string why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  if (diagnosis.slip() && !is_sure_slip(diagnosis))
+    return "the part slipped, and where it is now is not known";
+  std::string why = moves_with_axis(stream, diagnosis);
+  return why.empty() ? left_unnamed(diagnosis) : why;
+}
+
+void withhold_axis(FitResult& fit, const std::string& why) {
+  for (auto* parameters : {&fit.parameters, &fit.derived}) {
+    for (auto& [name, estimate] : *parameters) {
+      if (name == "half_angle" || name.starts_with("radius")) continue;
+      estimate = {.unit = estimate.unit, .why_not = why};
+    }
+  }
 }
 
 }  // namespace trueaxis

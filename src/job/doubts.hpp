@@ -18,11 +18,19 @@ struct OpenAxis {
 /// while a cause of it has rivals or a pattern has no cause.
 std::vector<OpenAxis> open_axes(const JobResult& result);
 
-/// Of the first reference with a pattern of no known cause at one undulation per revolution, or
+/// Why the axis of a diagnosed stream is not known, although its fit has one: a slip that is not
+/// sure, what goes with the eccentricity, or what is left unnamed. Empty: nothing speaks against
+/// it.
+std::string why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis);
+
+/// Takes the numbers of the axis out of a fit, and leaves those of its shape.
+void withhold_axis(FitResult& fit, const std::string& why);
+
+/// A pattern of no known cause at one undulation per revolution, or
 /// with anything found so near to it that it hardly beats with the eccentricity over the stream:
 /// the axis takes its amplitude in, whatever its u says; or with a line of at most three
 /// cycles. Empty: there is none.
-std::string moves_with_axis(const JobResult& result);
+std::string moves_with_axis(const ProbeStream& stream, const Diagnosis& diagnosis);
 
 /// Of the first reference where a cause that is improbable by its size alone explains a finding as
 /// well as the named one and would put the axis elsewhere by so much that the cut were far out of
@@ -30,9 +38,13 @@ std::string moves_with_axis(const JobResult& result);
 /// two apart. Empty: there is none.
 std::string improbable_and_far(const JobResult& result, double tolerance_mm);
 
-/// Of the first reference where all that was found leaves half as much again as the noise that
+/// All that was found leaves half as much again as the noise that
 /// repeats, revolutions or a standing spindle show of it. Empty: there is none.
-std::string left_unnamed(const JobResult& result);
+std::string left_unnamed(const Diagnosis& diagnosis);
+
+/// That a lateral stream has at most five angles, the same in every revolution: lobes one more or
+/// one less than that are no different from an eccentricity. Empty: it has more.
+std::string few_angles(const ProbeStream& stream);
 
 /// What the models of the references leave open and a reader of a go must know, a sentence each.
 std::vector<std::string> model_reservations(const JobResult& result);

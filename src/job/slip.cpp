@@ -80,9 +80,9 @@ std::string possible(const Finding& finding) {
   return "";
 }
 
-/// One slip, its sizes shown by what was read after it, no rival of it, no finding that may be
-/// another, and nothing unexplained.
-bool is_sure(const Diagnosis& diagnosis) {
+}  // namespace
+
+bool is_sure_slip(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();
   if (!slip || !slip->rivals.empty() || !diagnosis.unexplained.empty()) return false;
   if (std::ranges::any_of(slip->parameters,
@@ -93,12 +93,10 @@ bool is_sure(const Diagnosis& diagnosis) {
   });
 }
 
-}  // namespace
-
 std::string slip_objection(const JobResult& result) {
   std::string perhaps;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || is_sure(*result.diagnoses[i])) continue;
+    if (!result.diagnoses[i] || is_sure_slip(*result.diagnoses[i])) continue;
     const Diagnosis& diagnosis = *result.diagnoses[i];
     if (const Finding* slip = diagnosis.slip())
       return of_reference(result, i) + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
@@ -113,32 +111,12 @@ std::string slip_objection(const JobResult& result) {
 std::string moved_part(const JobResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !is_sure(*result.diagnoses[i])) continue;
+    if (!result.diagnoses[i] || !is_sure_slip(*result.diagnoses[i])) continue;
     text += (text.empty() ? "" : "; ") + of_reference(result, i) +
             named(*result.diagnoses[i]->slip(), result.fits[i].coverage_factor) +
             ": the axis is that of the part as it now stands";
   }
   return text;
-}
-
-void withhold_axes(JobResult& result) {
-  const auto withhold = [](FitResult& fit) {
-    for (auto* parameters : {&fit.parameters, &fit.derived}) {
-      for (auto& [name, estimate] : *parameters) {
-        if (name == "half_angle" || name.starts_with("radius")) continue;
-        estimate = {.unit = estimate.unit,
-                    .why_not = "the part slipped, and where it is now is not known"};
-      }
-    }
-  };
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    Diagnosis& diagnosis = *result.diagnoses[i];
-    if (!diagnosis.slip() || is_sure(diagnosis)) continue;
-    for (FitResult* fit :
-         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      withhold(*fit);
-  }
 }
 
 }  // namespace trueaxis

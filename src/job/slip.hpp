@@ -16,8 +16,8 @@ std::string slip_objection(const JobResult& result);
 /// it now stands. Empty: it did not.
 std::string moved_part(const JobResult& result);
 
-/// Takes the numbers of the axis out of the fit of every reference whose slip is not sure: none is
-/// where the part stands now. Those of its shape stay.
-void withhold_axes(JobResult& result);
+/// One slip, its sizes shown by what was read after it, no rival of it, no finding that may be
+/// another, and nothing unexplained.
+bool is_sure_slip(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis

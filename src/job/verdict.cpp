@@ -142,6 +142,25 @@ Verdict not_proven(Verdict verdict, const std::string& why) {
   return verdict;
 }
 
+/// Why an axis is not proven whatever its U says, with a cut or without; empty: nothing is in
+/// doubt.
+std::string axis_objection(const JobResult& result) {
+  for (const auto& forbids : {datum_objection, left_out_at_an_end, far_off_at_the_end}) {
+    const bool of_cut = forbids == datum_objection;
+    if (of_cut && !result.correction) continue;
+    if (std::string why = forbids(result); !why.empty()) return why;
+  }
+  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
+    if (!result.diagnoses[i]) continue;
+    const Diagnosis& diagnosis = *result.diagnoses[i];
+    for (const std::string& why :
+         {left_unnamed(diagnosis), moves_with_axis(result.streams.at(i), diagnosis),
+          few_angles(result.streams.at(i))})
+      if (!why.empty()) return of_reference(result, i) + why;
+  }
+  return "";
+}
+
 /// By the tolerance alone (Eq. 120).
 Verdict by_tolerance(Verdict verdict, const JobResult& result, double tolerance_mm) {
   const std::string limit = fmt::format(", tolerance {:.9g} µm", tolerance_mm / mm_per_um);
@@ -170,15 +189,12 @@ Verdict decide(const JobResult& result) {
   }
   verdict.moved = moved_part(result);
   const std::string moved = verdict.moved.empty() ? "" : "; " + verdict.moved;
+  if (const std::string why = axis_objection(result); !why.empty())
+    return not_proven(std::move(verdict), why);
   if (!result.correction) {
     verdict.decision = Decision::identified;
     verdict.line = "DONE: identified, no target to correct" + moved;
     return verdict;
-  }
-  for (const auto& forbids :
-       {datum_objection, left_out_at_an_end, far_off_at_the_end, left_unnamed, moves_with_axis}) {
-    if (const std::string why = forbids(result); !why.empty())
-      return not_proven(std::move(verdict), why);
   }
   const std::vector<OpenAxis> open = open_axes(result);
   for (const OpenAxis& o : open) verdict.reservations.push_back(o.why);

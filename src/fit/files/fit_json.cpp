@@ -198,6 +198,12 @@ FitResult fit_from_object(const Json& json) {
   fit.message = json.value("message", "");
   fit.coverage_factor = json.value("coverage_factor", 2.0);
   if (fit.status != FitStatus::converged) return fit;
+  for (const auto& [name, one] : json.at("parameters").items()) {
+    if (!one.at("value").is_null() || name.starts_with("radius") || name == "half_angle") continue;
+    fit.status = FitStatus::implausible;
+    fit.message = "the axis is not known: " + one.value("why", "");
+    return fit;
+  }
   const Json& axis = json.at("axis");
   fit.axis.axis = {value(axis, "x"), value(axis, "y"), value(axis, "slope_x"),
                    value(axis, "slope_y"), value(axis, "z_ref")};
