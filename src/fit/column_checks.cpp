@@ -20,7 +20,7 @@ constexpr double often = 0.3;       // share of the rows
 constexpr double many_steps = 10.0;
 constexpr double largest_machine_mm = 20e3;
 constexpr double alternate_least_mm = 5e-3;
-constexpr double alternate_share = 0.5;  // of the residuals' square
+constexpr double alternate_share = 0.2;  // of the residuals' square
 
 /// Readings in a row that show the same value.
 struct Run {

@@ -23,6 +23,7 @@ void diagnose_all(JobResult& result) {
     result.diagnoses[i] = diagnose(result.streams[i], options);
     if (result.diagnoses[i]->baseline.status == FitStatus::implausible) {
       result.fits[i] = result.diagnoses[i]->baseline;
+      result.diagnoses[i].reset();
       continue;
     }
     result.resimulations[i] =

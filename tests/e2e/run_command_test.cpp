@@ -102,7 +102,7 @@ TEST_F(RunCommand, ARefusalLeavesNoEarlierTable) {
 }
 
 TEST_F(RunCommand, TheSameBytesEveryTime) {
-  const auto job = "'" + places::source() + "/data/jobs/shaft.toml'";
+  const std::string job = shell_word(places::source() + "/data/jobs/shaft.toml");
   for (const char* folder : {"first", "second"})
     ASSERT_EQ(command(std::string("run ") + job + " -o " + folder).exit_code, 0);
   ASSERT_EQ(command(std::string("run ") + job + " -o second").exit_code,

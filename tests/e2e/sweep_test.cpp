@@ -47,11 +47,12 @@ class SweepCommand : public CommandTest {
     const fs::path journal = folder_ / out / "journal.bin";
     const pid_t child = ::fork();
     if (child == 0) {
+      const std::string program = places::command();
       ::setpgid(0, 0);
       fs::current_path(folder_);
       const int nowhere = ::open("/dev/null", O_WRONLY);
       ::dup2(nowhere, STDOUT_FILENO);
-      ::execl(places::command(), places::command(), "sweep", sweep.c_str(), "-o", out.c_str(),
+      ::execl(program.c_str(), program.c_str(), "sweep", sweep.c_str(), "-o", out.c_str(),
               static_cast<char*>(nullptr));
       ::_exit(127);
     }
