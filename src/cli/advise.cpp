@@ -127,6 +127,7 @@ void add_advise(CLI::App& app, int& exit_code) {
       "probe stream (CSV), '-' for standard input, or a job (.toml); with --machine "
       "its measurements (CSV), or none before any");
   options->stream.add_meaning_to(*command);
+  options->stream.add_range_to(*command);
   options->machine.add_to(*command);
   command
       ->add_option("-o,--output", options->machine.plan_output,
