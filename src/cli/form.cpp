@@ -89,6 +89,7 @@ FormResult assessed(const Options& options, const FormOptions& form) {
   expect_one_surface(stream, SurfaceKind::cylinder, RangesAs::options);
   if (options.datum.empty()) return assess_form(stream, form);
   const ProbeStream datum = read_recording(options.datum, options.stream.recording());
+  expect_one_surface(datum, SurfaceKind::cylinder, RangesAs::options);
   return assess_form(stream, form, &datum);
 }
 

@@ -160,6 +160,14 @@ TEST_F(SeatsCommand, AConeBehindACylinderIsASeatOfItsOwn) {
   expect_input_error("fit spindle.csv --surface cone", "the taper changes by 8.3° at Z 25 mm");
 }
 
+TEST_F(SeatsCommand, ImportBeginsAJobOfEverySeat) {
+  file("shaft.csv", two_diameters());
+  const CommandStreams done = command("import shaft.csv -o imported.csv");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  ASSERT_EQ(command("run imported.toml -o out").exit_code, 0);
+  expect_distance(result("out/result.json"));
+}
+
 /// Every number of a text with the half of its last digit.
 std::set<double> numbers_of(const std::string& text) {
   static const std::regex number("-?[0-9]+(\\.[0-9]+)?(e[-+]?[0-9]+)?");

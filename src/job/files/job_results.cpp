@@ -25,8 +25,9 @@
 namespace trueaxis {
 namespace {
 
-Json verdict_object(const Verdict& v) {
-  return {
+Json verdict_object(const JobResult& result) {
+  const Verdict& v = result.verdict;
+  Json json{
       {"go", v.go()},
       {"decision", to_string(v.decision)},
       {"line", v.line},
@@ -39,6 +40,12 @@ Json verdict_object(const Verdict& v) {
       {"what_would_prove", v.what_would_prove},
       {"moved", v.moved},
       {"coverage_factor", v.coverage_factor}};
+  if (!result.correction)  // nothing is cut: no number, not a 0
+    for (const char* of_cut :
+         {"coaxiality_before", "coaxiality_after", "coaxiality_at_least", "coaxiality_at_most"})
+      for (auto& [key, member] : json[of_cut].items())
+        if (member.is_number()) member = nullptr;
+  return json;
 }
 
 Json remainders_array(const std::vector<Remainder>& list) {
@@ -101,7 +108,7 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result.job, i);
   summary["readings"] = readings_file(result.job, i);
-  if (result.resimulations[i])
+  if (i < result.resimulations.size() && result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] = result.diagnoses[i]->verdict == DiagnosisVerdict::ideal ||
                                               result.job.axis_of_cut == AxisOfCut::ideal
@@ -197,7 +204,7 @@ Json job_object(const JobResult& result) {
   json["version"] = TRUEAXIS_VERSION;
   json["job"] = result.job.name;
   if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
-  json["verdict"] = verdict_object(result.verdict);
+  json["verdict"] = verdict_object(result);
   Json references = Json::array();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     Json reference{{"name", result.job.references[i].name},

@@ -15,7 +15,7 @@ Json seat_axis_object(const JobResult& result, std::size_t reference);
 /// How far the axes of each two seats are apart.
 Json seats_apart_array(const JobResult& result);
 
-/// The same for a terminal: lines "axis", "tap", "ecc", "apart", "coax"; empty where it is not known.
+/// The same for a terminal: lines "axis", "tap", "ecc", "apart", "coax"; empty where not known.
 std::string seat_axis_screen(const JobResult& result, std::size_t reference);
 std::string seats_apart_screen(const JobResult& result);
 
