@@ -27,6 +27,8 @@ struct StreamReading {
   std::optional<double> nominal_radius_mm;  ///< overrides the stream's `nominal_radius`
   std::string columns{};       ///< of another program's file: "X=Diameter,C=Angle(°),Z=3[mm]"
   std::size_t skip_lines = 0;  ///< of another program's file: lines above its table
+  /// Of the stream only the readings at these Z, machine frame; none: all of them.
+  std::optional<double> z_from_mm{}, z_to_mm{};
 };
 
 /// One reference surface of a job and how its stream is to be read and fitted.

@@ -23,6 +23,7 @@
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
+#include "job/one_surface.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
@@ -75,6 +76,8 @@ int advise_job(const Options& options) {
   JobResult result;
   result.job = read_job_toml(content, options.stream.path);
   result.streams = read_streams(result.job);
+  for (std::size_t i = 0; i < result.streams.size(); ++i)
+    expect_one_surface(result.streams[i], result.job.references[i].fit.surface, RangesAs::keys);
   if (options.check) {
     Outputs outputs;
     outputs.reads(options.stream.path);
@@ -127,6 +130,7 @@ void add_advise(CLI::App& app, int& exit_code) {
       "probe stream (CSV), '-' for standard input, or a job (.toml); with --machine "
       "its measurements (CSV), or none before any");
   options->stream.add_meaning_to(*command);
+  options->stream.add_range_to(*command);
   options->machine.add_to(*command);
   command
       ->add_option("-o,--output", options->machine.plan_output,
@@ -160,6 +164,7 @@ void add_advise(CLI::App& app, int& exit_code) {
     }
     if (surface->count() == 0) throw CLI::RequiredError("--surface");
     const ProbeStream stream = options->stream.read();
+    expect_one_surface(stream, options->association.chosen().surface, RangesAs::options);
     if (options->check) {
       Outputs outputs;
       outputs.reads(options->stream.path);

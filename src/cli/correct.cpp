@@ -171,6 +171,7 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->excludes(diagnosis);
   command->add_option("--stream", options->stream.path, "where the diagnosed stream is now");
   options->stream.add_meaning_to(*command);
+  options->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, options->ball_radius_mm);
   add_force(*command, options->force);
   add_check(*command, options->check);

@@ -18,6 +18,7 @@
 #include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
+#include "job/one_surface.hpp"
 #include "report/stream_report.hpp"
 #include "trueaxis/diagnosis.hpp"
 
@@ -49,7 +50,11 @@ int execute(const Options& options) {
   outputs.may_write(residuals, "trueaxis.residuals");
   outputs.may_write(report, "trueaxis.report");
   ProbeStream stream;
-  all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
+  all_of({[&] {
+            stream = options.stream.read();
+            expect_one_surface(stream, options.association.chosen().surface, RangesAs::options);
+          },
+          [&] { outputs.check(); }});
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 std::to_string(stream.size()) + " readings of " + stream.source +
@@ -139,6 +144,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
                    "(CSV) of kinds ball, bar, array, axis, which together are one")
       ->required();
   options->stream.add_meaning_to(*command);
+  options->stream.add_range_to(*command);
   const CLI::Option* const surface = options->association.add_to(*command);
   options->machine.add_to(*command);
   command

@@ -26,7 +26,8 @@ void expect_read_as_then(const std::string& diagnosis_path, const Diagnosis& dia
   if (reads_as_then(diagnosis, measured, simulated)) return;
   throw InputError(diagnosis_path,
                    "the stream does not leave the residuals that it states: repeat the "
-                   "--diameter, --relative, --nominal-radius or --ball-radius of the diagnosis");
+                   "--diameter, --relative, --nominal-radius, --ball-radius, --z-from-mm or "
+                   "--z-to-mm of the diagnosis");
 }
 
 Resimulation measured_again(const std::string& diagnosis_path, const Diagnosis& diagnosis,

@@ -17,6 +17,7 @@
 #include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
+#include "job/one_surface.hpp"
 #include "report/stream_report.hpp"
 
 namespace trueaxis::cli {
@@ -38,7 +39,11 @@ int execute(const Options& options) {
   outputs.may_write(residuals, "trueaxis.residuals");
   outputs.may_write(report, "trueaxis.report");
   ProbeStream stream;
-  all_of({[&] { stream = options.stream.read(); }, [&] { outputs.check(); }});
+  all_of({[&] {
+            stream = options.stream.read();
+            expect_one_surface(stream, options.association.chosen().surface, RangesAs::options);
+          },
+          [&] { outputs.check(); }});
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
                                 std::to_string(stream.size()) + " readings of " + stream.source);
@@ -72,6 +77,7 @@ void add_fit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("fit", "associate a surface with a probe stream");
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command);
+  options->stream.add_range_to(*command);
   options->association.add_to(*command, true)->required();
   options->criterion.add_to(*command);
   options->result.add_to(*command, "its residual here (CSV)");

@@ -7,6 +7,7 @@
 #include "associate/files/stream_association.hpp"
 #include "cli/guarded.hpp"
 #include "format/outputs.hpp"
+#include "job/one_surface.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -59,8 +60,10 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   outputs.may_write(result.residuals, "trueaxis.distances");
   outputs.may_write(certificate, "trueaxis.certificate");
   outputs.check();
+  const ProbeStream readings = stream.read();
+  expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
   const StreamAssociation found = associate_stream(
-      stream.read(), surface_from_id(association.surface), criterion_of(name),
+      readings, surface_from_id(association.surface), criterion_of(name),
       {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
   const bool converged = found.of_centres.status == AssociationStatus::converged;
   if (!result.json.empty()) outputs.write(result.json, stream_association_json(found));

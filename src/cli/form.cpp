@@ -17,6 +17,7 @@
 #include "form/files/form_text.hpp"
 #include "form/files/spindle_motion.hpp"
 #include "format/outputs.hpp"
+#include "job/one_surface.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -85,8 +86,10 @@ FormResult of_points(const Options& options, const FormOptions& form) {
 FormResult assessed(const Options& options, const FormOptions& form) {
   if (!options.element.empty()) return of_points(options, form);
   const ProbeStream stream = options.stream.read();
+  expect_one_surface(stream, SurfaceKind::cylinder, RangesAs::options);
   if (options.datum.empty()) return assess_form(stream, form);
   const ProbeStream datum = read_recording(options.datum, options.stream.recording());
+  expect_one_surface(datum, SurfaceKind::cylinder, RangesAs::options);
   return assess_form(stream, form, &datum);
 }
 
@@ -181,6 +184,7 @@ void add_form(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command,
                          "probe stream (CSV), or points x y z (with --element); '-' for standard "
                          "input");
+  options->stream.add_range_to(*command);
   auto* element =
       command
           ->add_option("--element", options->element,

@@ -12,7 +12,6 @@
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
 #include "format/text_layout.hpp"
-#include "job/evidence.hpp"
 #include "job/files/job_stub.hpp"
 
 namespace trueaxis::cli {
@@ -34,8 +33,7 @@ int execute(const Options& options) {
   const std::string job = job_place(options);
   const ImportedRecording imported =
       import_recording(options.stream.path, options.stream.recording());
-  const std::string stub =
-      job_stub(options.output, imported.stream, surface_by_evidence(imported.stream));
+  const std::string stub = job_stub(options.output, imported.stream);
   Outputs outputs(options.force);
   outputs.reads(options.stream.path);
   outputs.may_write(options.output, "trueaxis.stream");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -23,6 +24,8 @@
 #include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
+#include "job/one_surface.hpp"
+#include "job/seat_references.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
 
@@ -64,6 +67,10 @@ Job job_of_stream(const Options& options) {
   reference.stream = options.stream.path;
   reference.read = {said.diameter, said.indication, said.nominal_radius_mm, options.stream.columns,
                     options.stream.skip};
+  if (std::isfinite(options.stream.range.from_mm))
+    reference.read.z_from_mm = options.stream.range.from_mm;
+  if (std::isfinite(options.stream.range.to_mm))
+    reference.read.z_to_mm = options.stream.range.to_mm;
   reference.fit = options.association.chosen();
   Job job;
   job.path = options.stream.path;
@@ -111,6 +118,19 @@ std::string would_do(const Job& job, const std::vector<ProbeStream>& streams, bo
   return text + (job.target ? "; correct the target, and decide about it" : "");
 }
 
+/// The streams of a job, each of one surface; of a stream whose surface nobody says every seat.
+std::vector<ProbeStream> streams_of_surfaces(Job& job, bool said, bool surface_known) {
+  std::vector<ProbeStream> streams = read_streams(job);
+  if (!surface_known) {
+    take_every_seat(job, streams);
+    return streams;
+  }
+  for (std::size_t i = 0; i < streams.size(); ++i)
+    expect_one_surface(streams[i], job.references[i].fit.surface,
+                       said ? RangesAs::keys : RangesAs::options);
+  return streams;
+}
+
 /// All that is read and may be written.
 void prepare(Outputs& outputs, const Job& job, const Options& options) {
   outputs.reads(options.stream.path);
@@ -142,19 +162,21 @@ int execute(const Options& options) {
         surface_known ? to_string(job.references.front().fit.surface) : "SURFACE";
   Outputs outputs(options.force);
   std::vector<ProbeStream> streams;
+  const auto read = [&] { streams = streams_of_surfaces(job, said, surface_known); };
   if (options.check) prepare(outputs, job, options);
   if (options.check)
-    all_of({[&] { streams = read_streams(job); }, [&] { outputs.check(); }});
+    all_of({read, [&] { outputs.check(); }});
   else
-    streams = read_streams(job);
+    read();
   if (options.check) return checked(outputs, would_do(job, streams, surface_known));
   if (!said) {
-    if (options.surface->count() == 0) {
-      const SurfaceEvidence evidence = surface_by_evidence(streams.front());
-      job.references.front().fit.surface = evidence.surface;
-      streams.front().read_as.push_back(evidence.why);
+    for (std::size_t i = 0; i < streams.size() && !surface_known; ++i) {
+      const SurfaceEvidence evidence = surface_by_evidence(streams[i]);
+      job.references[i].fit.surface = evidence.surface;
+      streams[i].read_as.push_back(evidence.why);
     }
-    job.references.front().name = to_string(job.references.front().fit.surface);
+    if (streams.size() == 1)
+      job.references.front().name = to_string(job.references.front().fit.surface);
   }
   prepare(outputs, job, options);
   outputs.check();
@@ -215,6 +237,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "of several axes diagnosis, errors, program, report");
   auto options = std::make_shared<Options>();
   options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
+  options->stream.add_range_to(*command);
   options->surface = options->association.add_to(*command);
   command
       ->add_option("-o,--output", options->folder,

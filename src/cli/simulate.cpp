@@ -160,6 +160,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
   add_force(*command, options->force);
   add_check(*command, options->check);
   from->stream.add_meaning_to(*command);
+  from->stream.add_range_to(*command);
   StreamOptions::add_ball_radius(*command, from->ball_radius_mm)->needs(diagnosis);
   command->callback([options, from, &exit_code] {
     if (from->diagnosis.empty()) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
+#include "measure/seats.hpp"
 #include "recording/import.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/error.hpp"
@@ -20,6 +21,7 @@ struct StreamOptions {
   double nominal_radius_mm = 0.0;
   std::string columns;
   std::size_t skip = 0;
+  ZRange range{};
 
   void add_to(CLI::App& command,
               const std::string& what = "probe stream (CSV), '-' for standard input") {
@@ -45,6 +47,16 @@ struct StreamOptions {
         ->check(CLI::Range(0, 1000000));
   }
 
+  /// The options that take a stretch of Z alone.
+  void add_range_to(CLI::App& command) {
+    command.add_option("--z-from-mm", range.from_mm, "lower end of the Z that is read, mm (all)")
+        ->check(number_in(-1e6, true, 1e6, "a length in mm"));
+    command.add_option("--z-to-mm", range.to_mm, "upper end of the Z that is read, mm (all)")
+        ->check(number_in(-1e6, true, 1e6, "a length in mm"));
+  }
+
+  bool says_range() const { return range.from_mm > -1e6 || range.to_mm < 1e6; }
+
   /// `--ball-radius` of a command that reads a diagnosed stream again.
   static CLI::Option* add_ball_radius(CLI::App& command, double& radius_mm) {
     return command
@@ -54,7 +66,8 @@ struct StreamOptions {
   }
 
   bool says_anything() const {
-    return diameter || radius || relative || nominal_radius_mm > 0.0 || recording().says_anything();
+    return diameter || radius || relative || nominal_radius_mm > 0.0 || says_range() ||
+           recording().says_anything();
   }
 
   /// What the options say of a stream.
@@ -69,7 +82,10 @@ struct StreamOptions {
   /// The same of another program's file.
   RecordingOptions recording() const { return {columns, skip, said()}; }
 
-  ProbeStream read() const { return read_recording(path, recording()); }
+  ProbeStream read() const {
+    ProbeStream stream = read_recording(path, recording());
+    return says_range() ? within(stream, range) : stream;
+  }
 };
 
 /// How a stream is to be associated, the same for every command that fits one.

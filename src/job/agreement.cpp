@@ -191,12 +191,21 @@ void name_mistake(const JobResult& result, const Held& held, const Disagreement&
       fmt::format("{}, {} if {}: {}", how_apart(result, worst), apart(best.left), what, mend);
 }
 
+/// Whether all readings are of one file, whose signs, units and zeros are those of all.
+bool of_one_file(const JobResult& result) {
+  return std::ranges::all_of(result.streams, [&](const ProbeStream& stream) {
+    return !stream.input_hash.empty() && stream.input_hash == result.streams.front().input_hash;
+  });
+}
+
 void hold_axes(const JobResult& result, Agreement& out) {
   const Held held = held_of(result);
   if (held.axis.size() < 2) return;
   out.disagreements = held.pairs();
   std::erase_if(out.disagreements, [](const Disagreement& d) { return d.p_value >= by_chance; });
-  if (out.disagreements.empty() || size_mm(out.disagreements.front()) < tried_from_mm) return;
+  if (out.disagreements.empty() || size_mm(out.disagreements.front()) < tried_from_mm ||
+      of_one_file(result))
+    return;
   const Disagreement& worst = out.disagreements.front();
   name_mistake(result, held, worst, out);
   if (!out.reason.empty() || !of_no_part(worst)) return;
@@ -218,7 +227,7 @@ std::string how_apart(const JobResult& result, const Disagreement& d) {
 
 Agreement hold_together(const JobResult& result) {
   Agreement out;
-  out.reason = exchanged_streams(result);
+  if (!of_one_file(result)) out.reason = exchanged_streams(result);
   if (out.reason.empty()) hold_axes(result, out);
   return out;
 }

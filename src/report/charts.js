@@ -260,7 +260,7 @@ function startPage(build) {
     drawn = scheme;
     charts.splice(0).forEach((chart) => chart.dispose());
     Object.assign(colours, palettes[scheme]);
-    const open = [...document.querySelectorAll('details[open]')].map((d) => d.id);
+    const open = [...document.querySelectorAll('details[id][open]')].map((d) => d.id);
     build();
     open.forEach((id) => { document.getElementById(id).open = true; });
     startShown();

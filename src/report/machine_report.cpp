@@ -180,8 +180,9 @@ std::string render_machine_diagnosis_report(const MachineJobResult& result, cons
 }
 
 std::string render_machine_report(const MachineJobResult& result) {
+  const Json tables = machine_job_object(result);
   return page_of("TrueAxis report: " + title_of(result.job), result.verdict.line,
-                 machine_report_data(result), machine_script());
+                 machine_report_data(result), machine_script(), &tables);
 }
 
 }  // namespace trueaxis

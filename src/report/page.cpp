@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "report/plain_tables.hpp"
 #include "trueaxis/error.hpp"
 
 extern "C" {
@@ -41,11 +42,12 @@ std::string_view machine_script() {
 std::string_view sweep_script() { return between(trueaxis_sweep_js_begin, trueaxis_sweep_js_end); }
 
 std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
-                    std::string_view script) {
+                    std::string_view script, const Json* result) {
   return fill_template(between(trueaxis_report_html_begin, trueaxis_report_html_end),
                        {{"schema", data.at("schema").get_ref<const std::string&>()},
                         {"title", escape_html(title)},
                         {"verdict", escape_html(verdict)},
+                        {"tables", plain_tables(result ? *result : data)},
                         {"style", between(trueaxis_report_css_begin, trueaxis_report_css_end)},
                         {"data", json_for_script(data)},
                         {"echarts", between(trueaxis_echarts_begin, trueaxis_echarts_end)},

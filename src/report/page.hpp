@@ -16,9 +16,11 @@ std::string_view job_script();
 std::string_view machine_script();
 std::string_view sweep_script();
 
-/// One HTML page that opens offline: the template with its style, Apache ECharts, data and script.
+/// One HTML page that opens offline: the template with its style, tables of the result that need no
+/// script, Apache ECharts, data and the script, which puts its page in place of the tables.
+/// @param result what the tables hold; nullptr: the data
 std::string page_of(std::string_view title, std::string_view verdict, const Json& data,
-                    std::string_view script);
+                    std::string_view script, const Json* result = nullptr);
 
 /// `data` as ASCII JSON in which no character can end or open an HTML element: < > & are written as
 /// \u003c \u003e \u0026. Bytes that are not UTF-8 become U+FFFD; NaN becomes null.

@@ -10,6 +10,8 @@
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
 #include "job/files/datum_axes_files.hpp"
+#include "job/files/job_results.hpp"
+#include "job/files/seats_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 
@@ -185,6 +187,12 @@ Json report_data(const JobResult& result) {
             {"header", header_data(result)},   {"warnings", warnings_data(result)},
             {"next", next_data(result)},       {"words", words_data()},
             {"references", Json::array()}};
+  if (result.fits.size() > 1 && !result.job.target) {
+    data["seats_apart"] = seats_apart_array(result);
+    data["seat_axes"] = Json::array();
+    for (std::size_t i = 0; i < result.fits.size(); ++i)
+      data["seat_axes"].push_back(seat_axis_object(result, i));
+  }
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     data["references"].push_back(reference_data(result, i));
   }
@@ -193,8 +201,9 @@ Json report_data(const JobResult& result) {
 }
 
 std::string render_report(const JobResult& result) {
+  const Json tables = job_object(result);
   return page_of("TrueAxis report: " + job_title(result.job), result.verdict.line,
-                 report_data(result), job_script());
+                 report_data(result), job_script(), &tables);
 }
 
 }  // namespace trueaxis

@@ -7,6 +7,7 @@
 #include "fit/files/fit_screen.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
+#include "job/seat_distance.hpp"
 #include "job/slip.hpp"
 #include "report/page_data.hpp"
 
@@ -106,9 +107,11 @@ Json warnings_data(const JobResult& result) {
     if (!inclusion.included || !inclusion.why.empty()) warnings.add(text);
   }
   for (std::size_t i = 0; i < result.fits.size(); ++i) add_reference(warnings, result, i);
+  const bool answered = !result.job.target && !seat_distances(result).empty();
   for (const Disagreement& apart : result.agreement.disagreements)
-    warnings.add("More than U explains, " + how_apart(result, apart) +
-                 ", half-way between the two");
+    if (!answered)
+      warnings.add("More than U explains, " + how_apart(result, apart) +
+                   ", half-way between the two");
   return warnings.list();
 }
 

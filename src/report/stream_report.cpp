@@ -6,6 +6,7 @@
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "job/datum_axes.hpp"
+#include "job/files/job_results.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
@@ -44,7 +45,8 @@ std::string page(JobResult result, const char* outcome, const std::string& line,
   data["of_stream"] = true;
   for (const Json& step : next_data(result)) first_steps.push_back(step);
   data["next"] = std::move(first_steps);
-  return page_of("TrueAxis report: " + result.job.name, line, data, job_script());
+  const Json tables = job_object(result);
+  return page_of("TrueAxis report: " + result.job.name, line, data, job_script(), &tables);
 }
 
 }  // namespace

@@ -39,6 +39,24 @@ function axesTable(target, references, k) {
     ['Axis', `at Z = ${millimetres(target.z_start_mm, 2)}`, `at Z = ${millimetres(target.z_end_mm, 2)}`, 'Tilt'], rows, 1, true);
 }
 
+/** Each seat at the ends of its own length, and where to tap it. */
+function seatAxesTable({seat_axes: axes, references, verdict: {k}}) {
+  const rows = axes.map((axis, i) => [axis, references[i].name]).filter(([axis]) => axis?.ends).map(([{ends, tilt: {value, u}, tap}, name]) => ({
+    cells: [name, ...ends.map((end) => element('span', {}, plusMinus(end.offset.value, end.offset.u, k, 'u unknown'), element('small', {}, `at Z = ${millimetres(end.z.value, 2)}, towards ${fixed(end.towards.value, 0)}°`))),
+      slopeWords({tilt_deg: value, u_tilt_deg: u}, k)], note: tap ? sentence(capital(tap)) : null, lost: false}));
+  return rows.length ? table(`Each seat at the ends of its own length: eccentricity and tilt ± U (k = ${tick(k)}). Without form a seat runs out by twice its eccentricity`,
+    ['Seat', 'Eccentricity, lower end', 'Eccentricity, upper end', 'Tilt'], rows, 1, true) : null;
+}
+
+/** How far the axes of each two seats are from each other. */
+function seatsApartTable({seats_apart: pairs, verdict: {k}}) {
+  const size = ({value, u}) => plusMinus(value, u, k, 'u unknown');
+  const rows = pairs.flatMap(({at: both, angle}) => both.map((one, i) => [`${one.reference} from ${both[1 - i].reference}`, size(one.in_its_middle.offset),
+    size(one.coaxiality_about_the_other), slopeWords({tilt_deg: angle.value, u_tilt_deg: angle.u}, k)]));
+  return rows.length ? table(`How far the axes of the seats are from each other, ± U (k = ${tick(k)}); coaxiality (a diameter) over the probed length with the other axis as datum`,
+    ['Axis', 'In the middle of its length', 'Coaxiality', 'Angle'], rows, 1, true) : null;
+}
+
 function remaindersTable(target, references, k) {
   const rows = target.references.filter((r) => r.after).map((r) => [
     references[r.index].name, r.face ? 'axial run-out' : 'coaxiality',
@@ -67,6 +85,7 @@ function axesSection(all) {
   const one = Math.abs(target.z_end_mm - target.z_start_mm) < 1e-9;
   const insets = lines.length ? [endChart(lines, 'start', k, millimetres(target.z_start_mm, 2)), one ? null : endChart(lines, 'end', k, millimetres(target.z_end_mm, 2))].filter(Boolean) : [];
   return section('axes', 'Axes', words ? paragraph(words) : null, seatsChart(all),
+    all.seats_apart ? [seatAxesTable(all), seatsApartTable(all)] : null,
     insets.length ? element('div', {class: 'pair insets'}, insets) : null, axesTable(target, references, k));
 }
 

@@ -15,6 +15,8 @@
 #include "job/beyond_probed.hpp"
 #include "job/files/datum_axes_files.hpp"
 #include "job/files/part_form_files.hpp"
+#include "job/files/seats_files.hpp"
+#include "job/one_surface.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
@@ -23,8 +25,9 @@
 namespace trueaxis {
 namespace {
 
-Json verdict_object(const Verdict& v) {
-  return {
+Json verdict_object(const JobResult& result) {
+  const Verdict& v = result.verdict;
+  Json json{
       {"go", v.go()},
       {"decision", to_string(v.decision)},
       {"line", v.line},
@@ -37,6 +40,12 @@ Json verdict_object(const Verdict& v) {
       {"what_would_prove", v.what_would_prove},
       {"moved", v.moved},
       {"coverage_factor", v.coverage_factor}};
+  if (!result.correction)  // nothing is cut: no number, not a 0
+    for (const char* of_cut :
+         {"coaxiality_before", "coaxiality_after", "coaxiality_at_least", "coaxiality_at_most"})
+      for (auto& [key, member] : json[of_cut].items())
+        if (member.is_number()) member = nullptr;
+  return json;
 }
 
 Json remainders_array(const std::vector<Remainder>& list) {
@@ -99,7 +108,7 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
   Json summary = diagnosis_summary(*result.diagnoses[i]);
   summary["file"] = diagnosis_file(result.job, i);
   summary["readings"] = readings_file(result.job, i);
-  if (result.resimulations[i])
+  if (i < result.resimulations.size() && result.resimulations[i])
     summary["simulated_again"] = resimulation_object(*result.resimulations[i]);
   summary["axis_of_the_correction"] = result.diagnoses[i]->verdict == DiagnosisVerdict::ideal ||
                                               result.job.axis_of_cut == AxisOfCut::ideal
@@ -189,19 +198,20 @@ std::string readings_file(const Job& job, std::size_t reference) {
   return "readings_" + file_stem(job, reference) + ".csv";
 }
 
-std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside) {
+Json job_object(const JobResult& result) {
   Json json;
   json["schema"] = "trueaxis.run/2";
   json["version"] = TRUEAXIS_VERSION;
   json["job"] = result.job.name;
   if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
-  json["verdict"] = verdict_object(result.verdict);
+  json["verdict"] = verdict_object(result);
   Json references = Json::array();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     Json reference{{"name", result.job.references[i].name},
                    {"weight", result.job.references[i].weight},
                    {"fit", fit_object(result.fits[i])}};
     if (result.correction) reference["u_beyond_probed"] = number(u_beyond_probed(result, i));
+    if (!result.job.target) reference["axis"] = seat_axis_object(result, i);
     if (i < result.diagnoses.size()) reference["diagnosis"] = diagnosis_of(result, i);
     if (i < result.forms.size()) reference["form"] = part_form_object(result.forms[i]);
     if (i < result.datum_axes.size() && !result.datum_axes[i].empty()) {
@@ -216,39 +226,71 @@ std::string job_json(const JobResult& result, const std::vector<ResultFile>& bes
   json["forms_met"] = forms_met(result);
   if (result.fits.size() > 1 || !result.agreement.reason.empty())
     json["agreement"] = agreement_object(result);
+  if (result.fits.size() > 1 && !result.job.target) json["seats_apart"] = seats_apart_array(result);
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.datum) json["datum"] = datum_object(*result.datum);
   if (result.correction) json["correction"] = correction_object(*result.correction);
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
+  return json;
+}
+
+std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside) {
+  Json json = job_object(result);
   json["files"] = Json::array();
   for (const ResultFile& file : beside)
     json["files"].push_back({{"name", file.name}, {"hash", content_hash(file.text)}});
   return json_text(json);
 }
 
+namespace {
+
+ZRange range_of_reference(const JobReference& reference) {
+  ZRange range;
+  if (reference.read.z_from_mm) range.from_mm = *reference.read.z_from_mm;
+  if (reference.read.z_to_mm) range.to_mm = *reference.read.z_to_mm;
+  return range;
+}
+
+ProbeStream read_stream(const JobReference& reference) {
+  const StreamReading& said = reference.read;
+  ProbeStream stream = read_recording(
+      reference.stream, {said.columns,
+                         said.skip_lines,
+                         {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}});
+  if (!said.z_from_mm && !said.z_to_mm) return stream;
+  return within(stream, range_of_reference(reference));
+}
+
+/// Whether two references share readings of one file.
+bool overlap(const JobReference& a, const JobReference& b) {
+  const ZRange first = range_of_reference(a), second = range_of_reference(b);
+  return first.from_mm <= second.to_mm && second.from_mm <= first.to_mm;
+}
+
+}  // namespace
+
 std::vector<ProbeStream> read_streams(const Job& job) {
   std::vector<ProbeStream> streams;
   std::vector<Diagnostic> diagnostics;
   for (const JobReference& reference : job.references) {
     try {
-      const StreamReading& said = reference.read;
-      streams.push_back(
-          read_recording(reference.stream,
-                         {said.columns,
-                          said.skip_lines,
-                          {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}}));
+      streams.push_back(read_stream(reference));
     } catch (const InputError& error) {
       diagnostics.insert(diagnostics.end(), error.diagnostics().begin(), error.diagnostics().end());
     }
   }
   for (std::size_t i = 0; i < streams.size() && diagnostics.empty(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (streams[i].input_hash != streams[k].input_hash) continue;
+      if (streams[i].input_hash != streams[k].input_hash ||
+          !overlap(job.references[i], job.references[k]))
+        continue;
       diagnostics.push_back({job.references[i].stream, 0, 0,
                              "holds the readings of " + job.references[k].name + " (" +
                                  job.references[k].stream + ") again, for the reference " +
-                                 job.references[i].name + ": name the stream of each"});
+                                 job.references[i].name +
+                                 ": name the stream of each, or give each its own range of Z "
+                                 "(z_from_mm, z_to_mm)"});
     }
   }
   if (!diagnostics.empty()) throw InputError(std::move(diagnostics));
@@ -326,6 +368,7 @@ std::string job_text(const JobResult& result) {
                                       : "") +
         "\n";
   if (result.datum) text += "datum       " + result.datum->name + ": " + result.datum->how + "\n";
+  if (!result.job.target && result.fits.size() > 1) text += seats_apart_screen(result);
   for (const Disagreement& d : result.agreement.disagreements)
     text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions)

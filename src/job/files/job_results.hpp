@@ -42,6 +42,9 @@ std::string job_text(const JobResult& result);
 /// of the correction and the actuator's margin; the files written beside it, with their hashes.
 std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside);
 
+/// The same without the files.
+Json job_object(const JobResult& result);
+
 /// Rows, harmonics and the actuator's margin of a correction.
 Json correction_object(const Correction& correction);
 

@@ -12,6 +12,7 @@
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
+#include "job/files/seats_files.hpp"
 #include "job/references.hpp"
 #include "trueaxis/units.hpp"
 
@@ -23,8 +24,7 @@ using namespace layout;
 constexpr std::size_t most_findings = 2;
 constexpr double least_mm = 1e-5;  // what nobody measures
 
-/// Of a reference: its name, what was seen of it, and its axis where it is the only one and no
-/// table takes it off.
+/// Of a reference: its name, what was seen of it, and its axis where no table takes it off.
 std::string reference_screen(const JobResult& result, std::size_t i) {
   const FitResult& fit = fit_used(result, i);
   const std::string& name = result.job.references[i].name;
@@ -42,6 +42,7 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   const bool room = ideal || result.fits.size() > 1 || result.correction;
   if (i < result.forms.size() && (room || !result.forms[i].judgements.empty()))
     text += part_form_screen(result.forms[i], result.fits.size() > 1 ? name : "");
+  if (!result.job.target) return text + seat_axis_screen(result, i);
   if (result.fits.size() == 1 && !result.correction) text += axis_screen(fit);
   return text;
 }
@@ -92,8 +93,10 @@ std::string job_screen(const JobResult& result) {
   for (const std::string& reservation : result.verdict.reservations)
     text += "but    " + reservation + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
-  for (const Disagreement& apart : result.agreement.disagreements)
-    text += "apart  " + how_apart(result, apart) + "\n";
+  const std::string apart = result.job.target ? "" : seats_apart_screen(result);
+  text += apart;
+  for (const Disagreement& d : result.agreement.disagreements)
+    if (apart.empty()) text += "apart  " + how_apart(result, d) + "\n";
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);

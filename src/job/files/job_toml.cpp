@@ -71,6 +71,11 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
   reference.read.columns = table.text("columns", "");
   reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
+  reference.read.z_from_mm = table.maybe_number("z_from_mm");
+  reference.read.z_to_mm = table.maybe_number("z_to_mm");
+  if (reference.read.z_from_mm && reference.read.z_to_mm &&
+      !(*reference.read.z_from_mm < *reference.read.z_to_mm))
+    table.complain("z_to_mm", "is not above z_from_mm: give the lower end of Z first");
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.form = read_form_task(table, reference.fit.surface);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/seats_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "base/hundredths.hpp"
+#include "fit/files/fit_screen.hpp"
+#include "format/text_layout.hpp"
+#include "job/references.hpp"
+#include "job/seat_distance.hpp"
+#include "trueaxis/units.hpp"
+
+namespace trueaxis {
+namespace {
+
+double towards_deg(double x_mm, double y_mm) {
+  const double deg = std::atan2(y_mm, x_mm) / rad_per_deg;
+  return deg < 0.0 ? deg + 360.0 : deg;
+}
+
+/// Of a line's slopes: the angle to the spindle axis and its u in the worse direction, degrees.
+Estimate tilt_of(const AxisEstimate& axis) {
+  const auto& c = axis.covariance;
+  return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)) / rad_per_deg,
+          std::sqrt(0.5 * (c[10] + c[15]) + std::hypot(0.5 * (c[10] - c[15]), c[11])) / rad_per_deg,
+          "deg", ""};
+}
+
+Json offset_object(const AxisOffset& at) {
+  return {{"z", with_unit(at.z_mm, "mm")},
+          {"x", with_unit(at.x_mm, "mm")},
+          {"y", with_unit(at.y_mm, "mm")},
+          {"offset", to_json(Estimate{at.size_mm(), at.u_mm, "mm", ""})},
+          {"towards", with_unit(towards_deg(at.x_mm, at.y_mm), "deg")}};
+}
+
+std::array<AxisOffset, 2> ends_of(const FitResult& fit, const AxisEstimate& axis) {
+  std::array<AxisOffset, 2> ends;
+  const double z[] = {fit.position_min_mm, fit.position_max_mm};
+  for (std::size_t e = 0; e < 2; ++e) {
+    const auto [x, y] = axis.axis.at(z[e]);
+    ends[e] = {z[e], x, y, axis.u_at(z[e])};
+  }
+  return ends;
+}
+
+std::string um_pm(double value_mm, double u_mm, double k) {
+  return layout::plus_minus({value_mm, u_mm, "mm", ""}, k, 1.0 / mm_per_um, "µm");
+}
+
+std::string z_text(double z_mm) { return fmt::format("Z {:.6g} mm", hundredths(z_mm)); }
+
+}  // namespace
+
+Json seat_axis_object(const JobResult& result, std::size_t reference) {
+  const FitResult& fit = fit_used(result, reference);
+  if (!axis_is_known(result, reference)) return nullptr;
+  const AxisEstimate axis = axis_of_reference(result, reference);
+  Json json{{"tilt", to_json(tilt_of(axis))}, {"tap", tap_text(fit)}};
+  if (fit.surface == SurfaceKind::plane) return json;
+  json["ends"] = Json::array();
+  for (const AxisOffset& end : ends_of(fit, axis)) json["ends"].push_back(offset_object(end));
+  return json;
+}
+
+Json seats_apart_array(const JobResult& result) {
+  Json list = Json::array();
+  for (const SeatDistance& d : seat_distances(result)) {
+    Json both = Json::array();
+    for (std::size_t s = 0; s < 2; ++s)
+      both.push_back({{"reference", result.job.references[s == 0 ? d.first : d.second].name},
+                      {"in_its_middle", offset_object(d.middle[s])},
+                      {"coaxiality_about_the_other",
+                       to_json(Estimate{d.coaxiality_mm(s), d.u_coaxiality_mm(s), "mm", ""})}});
+    list.push_back({{"first", result.job.references[d.first].name},
+                    {"second", result.job.references[d.second].name},
+                    {"angle", to_json(Estimate{d.tilt_rad / rad_per_deg, d.u_tilt_rad / rad_per_deg,
+                                               "deg", ""})},
+                    {"at", both}});
+  }
+  return list;
+}
+
+std::string seat_axis_screen(const JobResult& result, std::size_t reference) {
+  const FitResult& fit = fit_used(result, reference);
+  if (!axis_is_known(result, reference)) return "";
+  const AxisEstimate axis = axis_of_reference(result, reference);
+  std::string text = axis_screen(fit);
+  if (result.fits.size() == 1 || fit.surface == SurfaceKind::plane ||
+      fit.position_min_mm == fit.position_max_mm)
+    return text;  // axis and tap say it of the only one
+  const auto ends = ends_of(fit, axis);
+  text += "ecc    ";
+  for (std::size_t e = 0; e < 2; ++e)
+    text += (e == 0 ? "" : ", ") + um_pm(ends[e].size_mm(), ends[e].u_mm, fit.coverage_factor) +
+            " at " + z_text(ends[e].z_mm);
+  return text + ", tilt " + layout::plus_minus(tilt_of(axis), fit.coverage_factor, 1.0, "°") + "\n";
+}
+
+std::string seats_apart_screen(const JobResult& result) {
+  const double k = result.job.references.front().fit.coverage_factor;
+  std::string text;
+  for (const SeatDistance& d : seat_distances(result)) {
+    const std::string a = result.job.references[d.first].name,
+                      b = result.job.references[d.second].name;
+    const auto at = [&](std::size_t s) {
+      return um_pm(d.middle[s].size_mm(), d.middle[s].u_mm, k) + " at " + z_text(d.middle[s].z_mm) +
+             ", the middle of " + (s == 0 ? a : b);
+    };
+    const auto coaxiality = [&](std::size_t s) {
+      return um_pm(d.coaxiality_mm(s), d.u_coaxiality_mm(s), k);
+    };
+    text += "apart  " + b + " from " + a + ": " + at(0) + "; " + at(1) + "; angle " +
+            layout::plus_minus({1e3 * d.tilt_rad, 1e3 * d.u_tilt_rad, "mrad", ""}, k, 1.0, "mrad") +
+            "\n";
+    text += "coax   " + coaxiality(1) + " of " + b + " with " + a + " as datum, " + coaxiality(0) +
+            " of " + a + " with " + b + " as datum (axes over the probed lengths)\n";
+  }
+  return text;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/seat_distance.hpp"
+
+#include <cmath>
+
+#include "job/references.hpp"
+#include "job/slip.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// The second axis less the first, an axis itself, about the first's z_ref.
+AxisEstimate difference(const AxisEstimate& first, const AxisEstimate& second) {
+  AxisEstimate out;
+  const double z = first.axis.z_ref_mm;
+  const auto [x, y] = second.axis.at(z);
+  out.axis = {x - first.axis.x_mm, y - first.axis.y_mm, second.axis.slope_x - first.axis.slope_x,
+              second.axis.slope_y - first.axis.slope_y, z};
+  // (x, y)(z) of the second is (x, y)(its z_ref) + slope d: J C Jᵀ with J = [[1, d], [0, 1]].
+  const double d = z - second.axis.z_ref_mm;
+  std::array<double, 16> moved = second.covariance;
+  for (std::size_t row = 0; row < 2; ++row)
+    for (std::size_t column = 0; column < 4; ++column)
+      moved[4 * row + column] += d * moved[4 * (row + 2) + column];
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t column = 0; column < 2; ++column)
+      moved[4 * row + column] += d * moved[4 * row + column + 2];
+  for (std::size_t i = 0; i < moved.size(); ++i) out.covariance[i] = first.covariance[i] + moved[i];
+  return out;
+}
+
+AxisOffset offset_at(const AxisEstimate& apart, double z_mm) {
+  const auto [x, y] = apart.axis.at(z_mm);
+  return {z_mm, x, y, apart.u_at(z_mm)};
+}
+
+AxisOffset worst_of(const AxisEstimate& apart, const FitResult& seat) {
+  const AxisOffset low = offset_at(apart, seat.position_min_mm),
+                   high = offset_at(apart, seat.position_max_mm);
+  return low.size_mm() > high.size_mm() ? low : high;
+}
+
+SeatDistance distance_of(const JobResult& result, std::size_t i, std::size_t j) {
+  const FitResult &a = fit_used(result, i), &b = fit_used(result, j);
+  const AxisEstimate apart = difference(axis_of_reference(result, i), axis_of_reference(result, j));
+  const auto middle = [](const FitResult& fit) {
+    return 0.5 * (fit.position_min_mm + fit.position_max_mm);
+  };
+  SeatDistance out{i, j, {}, {}, 0.0, 0.0};
+  out.middle = {offset_at(apart, middle(a)), offset_at(apart, middle(b))};
+  out.worst = {worst_of(apart, a), worst_of(apart, b)};
+  out.tilt_rad = std::atan(std::hypot(apart.axis.slope_x, apart.axis.slope_y));
+  const auto& c = apart.covariance;
+  out.u_tilt_rad = std::sqrt(0.5 * (c[10] + c[15]) + std::hypot(0.5 * (c[10] - c[15]), c[11]));
+  return out;
+}
+
+bool has_a_line(const FitResult& fit) {
+  return fit.surface == SurfaceKind::cone || fit.surface == SurfaceKind::cylinder;
+}
+
+}  // namespace
+
+double AxisOffset::size_mm() const { return std::hypot(x_mm, y_mm); }
+
+bool axis_is_known(const JobResult& result, std::size_t reference) {
+  const bool slipped = reference < result.diagnoses.size() && result.diagnoses[reference] &&
+                       result.diagnoses[reference]->slip() && !slip_objection(result).empty();
+  return !slipped && fit_used(result, reference).status == FitStatus::converged &&
+         result.agreement.reason.empty();
+}
+
+std::vector<SeatDistance> seat_distances(const JobResult& result) {
+  std::vector<SeatDistance> out;
+  for (std::size_t i = 0; i < result.fits.size(); ++i)
+    for (std::size_t j = i + 1; j < result.fits.size(); ++j)
+      if (has_a_line(fit_used(result, i)) && has_a_line(fit_used(result, j)) &&
+          axis_is_known(result, i) && axis_is_known(result, j))
+        out.push_back(distance_of(result, i, j));
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/seat_references.hpp"
+
+#include <string>
+#include <utility>
+
+#include "job/one_surface.hpp"
+#include "measure/seats.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+
+void take_every_seat(Job& job, std::vector<ProbeStream>& streams) {
+  expects(job.references.size() == 1 && streams.size() == 1, "a job of one stream");
+  const Seats found = find_seats(streams.front());
+  if (found.seats.empty()) return;
+  const JobReference whole = std::move(job.references.front());
+  const ProbeStream all = std::move(streams.front());
+  job.references.clear();
+  streams.clear();
+  for (std::size_t i = 0; i < found.seats.size(); ++i) {
+    const ZRange& z = found.seats[i].z;
+    job.references.push_back(whole);
+    job.references.back().name = std::string(1, static_cast<char>('A' + i));
+    job.references.back().read.z_from_mm = z.from_mm;
+    job.references.back().read.z_to_mm = z.to_mm;
+    streams.push_back(within(all, z));
+  }
+  streams.front().read_as.push_back(seats_text(found));
+}
+
+}  // namespace trueaxis
