@@ -37,9 +37,10 @@ struct ControlTable {
 struct MadeControlTable {
   std::string text;
   double rounding_mm = 0.0;  ///< half the last digit of a value
-  /// Largest difference of what the control makes of the file (linear between its points) from the
-  /// wanted correction, over the rows of the correction: rounding and coarseness together.
-  double off_mm = 0.0;
+  /// What the control makes of the text, read back (linear between its points, of a band its one
+  /// table, of halstreamer each line held until the next), from the wanted correction; of
+  /// halstreamer from straight lines between the commands: rounding and coarseness together.
+  Deviation off;
 };
 
 /// Why a file of this form cannot be made of such a cut, and what to do; empty: it can. The limits

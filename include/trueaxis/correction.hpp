@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <complex>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -103,6 +105,18 @@ struct TargetSurface {
   double tan_half_angle = 0.0;  ///< cone: signed, positive where the radius grows with Z
   double z_face_mm = 0.0;       ///< face: where the target axis meets it
   double radius_start_mm = 0.0, radius_end_mm = 0.0;  ///< face: X where the cut starts and ends
+  /// How far the path starts before and ends past the target, along the feed, >= 0.
+  double run_in_mm = 0.0, overrun_mm = 0.0;
+  /// Z (a face: X) that no point of the nose may pass; it lies outside of the target.
+  std::optional<double> shoulder_mm{};
+
+  double start_mm() const { return kind == TargetKind::face ? radius_start_mm : z_start_mm; }
+  double end_mm() const { return kind == TargetKind::face ? radius_end_mm : z_end_mm; }
+  /// Along Z (a face: X), in the order of the feed, with run-in and overrun.
+  double path_start_mm() const {
+    return start_mm() - std::copysign(run_in_mm, end_mm() - start_mm());
+  }
+  double path_end_mm() const { return end_mm() + std::copysign(overrun_mm, end_mm() - start_mm()); }
 };
 
 /// Tool and cutting motion.
@@ -122,7 +136,8 @@ struct ToolSetup {
 /// The rows of a correction table, in the order in which they are run. For a face the actuator
 /// works along Z and `position_mm` is the machine X; else it works along X and `position_mm` is Z.
 /// Positions are those of the centre of the tool's nose, so that the contact runs over the target.
-/// The rows are the fewest whole revolutions whose last row reaches the end.
+/// No row lies beyond the end of the path: the last whole revolution, and what is left of the one
+/// before it, are cut at the end, where the feed stands.
 struct CorrectionRows {
   std::vector<int> revolution;
   std::vector<double> position_mm;
@@ -168,6 +183,12 @@ struct RepeatingMotion {
   double z_mid_mm = 0.0, z_half_mm = 1.0;  ///< u = (z − z_mid)/z_half
 };
 
+/// How far what a control makes of a table is from the wanted correction, over the cut.
+struct Deviation {
+  double largest_mm = 0.0;  ///< anywhere
+  double once_mm = 0.0;     ///< amplitude of what turns once a revolution: the axis moves by it
+};
+
 struct Correction {
   TargetSurface target;
   ToolSetup tool;
@@ -175,11 +196,13 @@ struct Correction {
   AxisEstimate axis;                     ///< the target axis
   std::vector<RepeatingMotion> motions;  ///< of the machine, followed as well
   /// Where the programmed path of the nose's centre starts and ends, Z (a face: X): the contact
-  /// then runs from the target's start to its end.
+  /// then runs from the target's start to its end, with run-in and overrun. All rows lie between.
   double position_start_mm = 0.0, position_end_mm = 0.0;
   CorrectionRows rows;
   std::vector<CorrectionHarmonic> harmonics;
   ActuatorMargin margin;
+  /// Of a drive that joins the rows' wanted values by straight lines and follows without error.
+  Deviation between_rows;
 };
 
 /// The correction profile, its precompensation and its margin. An actuator that cannot follow is
@@ -190,5 +213,9 @@ struct Correction {
 Correction make_correction(const AxisEstimate& axis, const TargetSurface& target,
                            const ToolSetup& tool, const Actuator& actuator,
                            std::vector<RepeatingMotion> motions = {});
+
+/// The fewest rows a revolution with which `between_rows` of this cut would be at most `largest_mm`
+/// anywhere and `once_mm` once a revolution; 0: not even with 100000.
+int rows_that_would_do(const Correction& correction, const Deviation& limit);
 
 }  // namespace trueaxis

@@ -132,16 +132,29 @@ enum class Decision {
   no_go                  ///< nonconformity is proven, or something forbids the cut
 };
 
+/// A file that the cut may be run with, and what it adds to the coaxiality (of a face the run-out)
+/// of the target axis, a diameter, mm.
+struct CutFile {
+  std::string name;
+  double actuator_mm = 0.0;  ///< the part of the following error that turns with the part
+  double file_mm = 0.0;      ///< its rounding and coarseness, as its control reads it
+  double adds_mm = 0.0;      ///< both together
+};
+
 /// ISO 14253-1 decision about the tolerance, with the numbers it rests on.
 struct Verdict {
   Decision decision = Decision::no_go;
   std::string line;  ///< the first line of the result
   std::vector<std::string> reservations{};
-  std::string what_would_prove{};  ///< of not_proven: the measurement that would
+  /// Of not_proven the measurement that would; of a file that is too coarse what would do.
+  std::string what_would_prove{};
+  /// The files of the job and table.csv. The numbers below are of the one that adds most, `file`.
+  std::vector<CutFile> files{};
+  std::string file{};
   std::string moved{};  ///< that the part slipped, when and by how much; the axis is that of now
   double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
   double coaxiality_after_mm =
-      0.0;  ///< expected with the table: what the compromise and the actuator leave
+      0.0;  ///< expected with `file`: what the compromise, the actuator and the file leave
   double u_coaxiality_mm = 0.0;  ///< of the worst reference's axis in its worse direction, doubled
   double lower_mm = 0.0, upper_mm = 0.0;  ///< that the coaxiality is below in 5 and in 95 of 100
   double coverage_factor = 2.0;  ///< of U in fits; the decision's risk is 5 % whatever it is
@@ -181,6 +194,7 @@ struct JobResult {
   std::vector<Inclusion> inclusions;
   std::optional<TargetAxis> target_axis;
   std::optional<Correction> correction;
+  std::vector<MadeControlTable> control_files;  ///< of a correction, one for each of job.outputs
   std::string refused;  ///< why no correction could be made though all was fitted; else empty
   Verdict verdict;
 };

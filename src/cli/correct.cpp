@@ -108,6 +108,7 @@ JobResult result_of(const Options& options, Job job, Identified found, Outputs& 
         measured_again(path, *found.diagnosis, measured, options.ball_radius_mm);
   }
   job.references = {reference};
+  job.outputs.clear();  // the table alone is written, and judged
   result.job = std::move(job);
   result.streams.push_back(std::move(measured));
   result.fits.push_back(std::move(found.fit));

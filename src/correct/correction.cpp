@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "correct/deviation.hpp"
 #include "correct/margin.hpp"
 #include "correct/precompensate.hpp"
 #include "correct/profile.hpp"
@@ -49,6 +50,7 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
   correction.rows = wanted_rows(profile);
   correction.rows.command_mm = correction.rows.wanted_mm;
   correction.harmonics = table_harmonics(profile, actuator);
+  correction.between_rows = between_rows(profile, tool.rows_per_revolution);
 
   const Spectrum spectrum(profile);
   const Motion motion = motion_of(profile, tool.speed_rpm);

@@ -63,11 +63,12 @@ void precompensate(const Spectrum& spectrum, const Actuator& actuator, const Mot
   std::vector<SlowAmplitude> wanted;
   for (std::size_t row = 0; row < rows.wanted_mm.size(); ++row) {
     spectrum.at(rows.position_mm[row], wanted);
+    const bool stands = rows.position_mm[row] == spectrum.end_mm();  // the feed, at the end
+    const double rate_mm_per_s = stands ? 0.0 : motion.position_mm_per_s;
     double lead_mm = 0.0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
       const std::size_t angle = row * static_cast<std::size_t>(paths[i].order) % per_rev;
-      const Complex added =
-          commanded(paths[i], wanted[i], motion.position_mm_per_s) - wanted[i].value;
+      const Complex added = commanded(paths[i], wanted[i], rate_mm_per_s) - wanted[i].value;
       lead_mm += (added * turn[angle]).real();
     }
     rows.command_mm[row] = rows.wanted_mm[row] + lead_mm;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -24,6 +25,9 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
   expects(tool.sense == 1 || tool.sense == -1, "sense of rotation +1 or -1");
   expects(std::isfinite(tool.feed_mm_per_rev) && tool.feed_mm_per_rev > 0.0, "feed > 0 mm/rev");
   expects(tool.rows_per_revolution >= 8, "8 rows per revolution or more");
+  expects(std::isfinite(target.run_in_mm) && target.run_in_mm >= 0.0 &&
+              std::isfinite(target.overrun_mm) && target.overrun_mm >= 0.0,
+          "run-in and overrun >= 0 mm");
   if (face) {
     expects(!target.bore, "a face is no bore");
     expects(std::isfinite(target.z_face_mm), "a finite Z of the face");
@@ -43,6 +47,34 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
                             what, turned / rad_per_deg, z_mm));
 }
 
+/// The nose, a circle about its centre, stays on the target's side of a shoulder.
+void check_shoulder(const TargetSurface& target, const ToolSetup& tool, double start_mm,
+                    double end_mm) {
+  if (!target.shoulder_mm) return;
+  const bool face = target.kind == TargetKind::face;
+  const char along = face ? 'X' : 'Z';
+  const auto [low, high] = std::minmax({target.start_mm(), target.end_mm()});
+  const double shoulder = *target.shoulder_mm;
+  if (low < shoulder && shoulder < high)
+    throw Refusal(
+        fmt::format("the shoulder at {} = {:.6g} mm lies on the target, which is cut "
+                    "from {:.6g} to {:.6g} mm: give the place of the shoulder, or end "
+                    "the target before it",
+                    along, shoulder, target.start_mm(), target.end_mm()));
+  const double side = shoulder >= high ? 1.0 : -1.0;
+  const double reach = side * std::max(side * start_mm, side * end_mm) + side * tool.nose_radius_mm;
+  const double past_mm = side * (reach - shoulder);
+  if (!(past_mm > 1e-9)) return;
+  const bool at_end = side * end_mm > side * start_mm;
+  const double extra_mm = at_end ? target.overrun_mm : target.run_in_mm;
+  throw Refusal(fmt::format(
+      "the nose of the tool reaches {} = {:.6g} mm, {:.4g} mm past the shoulder at {:.6g} mm: {}{} "
+      "the target at {:.6g} mm",
+      along, reach, past_mm, shoulder,
+      extra_mm > 0.0 ? fmt::format("lower {}, or ", at_end ? "overrun_mm" : "run_in_mm") : "",
+      at_end ? "end" : "start", (at_end ? target.end_mm() : target.start_mm()) - side * past_mm));
+}
+
 }  // namespace
 
 Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup& tool,
@@ -58,26 +90,25 @@ Profile::Profile(const Axis& axis, const TargetSurface& target, const ToolSetup&
       {x, y, axis.slope_x, axis.slope_y, z_ref}, target.radius_mm, target.tan_half_angle};
   about_spindle_ = {{0.0, 0.0, 0.0, 0.0, z_ref}, target.radius_mm, target.tan_half_angle};
 
-  start_mm_ = face ? target.radius_start_mm : centre_over_mm(target.z_start_mm);
-  end_mm_ = face ? target.radius_end_mm : centre_over_mm(target.z_end_mm);
+  start_mm_ = face ? target.path_start_mm() : centre_over_mm(target.path_start_mm());
+  end_mm_ = face ? target.path_end_mm() : centre_over_mm(target.path_end_mm());
   const double travel = end_mm_ - start_mm_;
   if (!face && !(travel * (target.z_end_mm - target.z_start_mm) > 0.0))
     refuse_miss("the tool's nose does not fit the target surface", tool.c_start_rad, start_mm_);
+  check_shoulder(target, tool, start_mm_, end_mm_);
   feed_mm_per_rev_ = std::copysign(tool.feed_mm_per_rev, travel);
-  const double per_rev = tool.rows_per_revolution;
-  const double last = std::ceil(std::abs(travel) / tool.feed_mm_per_rev * per_rev - 1e-6);
-  const double revolutions = std::floor(last / per_rev) + 1.0;
-  expects(revolutions * per_rev <= 2e8, "a table of 2e8 rows or fewer");
-  rows_ = static_cast<std::size_t>(revolutions * per_rev);
+  turns_ = std::abs(travel) / tool.feed_mm_per_rev;
+  const double revolutions = std::ceil(turns_ - 1e-9) + 1.0;
+  expects(revolutions * tool.rows_per_revolution <= 2e8, "a table of 2e8 rows or fewer");
+  revolutions_ = static_cast<std::size_t>(revolutions);
 }
 
-double Profile::position_mm(std::size_t row) const {
-  return start_mm_ + feed_mm_per_rev_ * (static_cast<double>(row) / tool_.rows_per_revolution);
+double Profile::position_after_mm(double turns) const {
+  return turns < turns_ - 1e-9 ? start_mm_ + feed_mm_per_rev_ * turns : end_mm_;
 }
 
-double Profile::c_rad(std::size_t row) const {
-  return tool_.c_start_rad +
-         tool_.sense * two_pi * (static_cast<double>(row) / tool_.rows_per_revolution);
+double Profile::c_after_rad(double turns) const {
+  return tool_.c_start_rad + tool_.sense * two_pi * turns;
 }
 
 double Profile::at(double c_rad, double position_mm) const {

@@ -26,20 +26,31 @@ class Profile {
   double programmed_mm(double position_mm) const;
 
   /// Where the programmed path of the nose's centre starts and ends: the contact with the surface
-  /// about the spindle axis then runs over the target from its start to its end.
+  /// about the spindle axis then runs over the target from its start to its end, with run-in and
+  /// overrun.
   double position_start_mm() const { return start_mm_; }
   double position_end_mm() const { return end_mm_; }
   /// Along the feed, mm per revolution, with the sign of the direction.
   double feed_mm_per_rev() const { return feed_mm_per_rev_; }
-  /// Rows of the table: the fewest whole revolutions of which the last row reaches the
-  /// end.
-  std::size_t rows() const { return rows_; }
-  double position_mm(std::size_t row) const;
-  /// Running spindle angle of a row, in the sense of rotation when cutting.
-  double c_rad(std::size_t row) const;
+  /// Revolutions until the feed reaches the end.
+  double turns() const { return turns_; }
+  /// Of the table: whole ones, the last of them at the end.
+  std::size_t revolutions() const { return revolutions_; }
+  std::size_t rows() const {
+    return revolutions_ * static_cast<std::size_t>(tool_.rows_per_revolution);
+  }
+  /// Where the feed is after so many revolutions: at the end it stands.
+  double position_after_mm(double turns) const;
+  /// Running spindle angle then, in the sense of rotation when cutting.
+  double c_after_rad(double turns) const;
+  double position_mm(std::size_t row) const { return position_after_mm(turns_to(row)); }
+  double c_rad(std::size_t row) const { return c_after_rad(turns_to(row)); }
   const ToolSetup& tool() const { return tool_; }
 
  private:
+  double turns_to(std::size_t row) const {
+    return static_cast<double>(row) / tool_.rows_per_revolution;
+  }
   /// Z of the nose's centre when it touches the surface about the spindle axis at `z_mm`.
   double centre_over_mm(double z_mm) const;
   /// Eq. 109.
@@ -51,8 +62,8 @@ class Profile {
   ToolSetup tool_;
   std::vector<RepeatingMotion> motions_;
   Revolved about_target_, about_spindle_;
-  double start_mm_ = 0.0, end_mm_ = 0.0, feed_mm_per_rev_ = 0.0;
-  std::size_t rows_ = 0;
+  double start_mm_ = 0.0, end_mm_ = 0.0, feed_mm_per_rev_ = 0.0, turns_ = 0.0;
+  std::size_t revolutions_ = 0;
 };
 
 /// m at spindle angle C and height Z of a surface whose section has the slope dX/dZ, mm.

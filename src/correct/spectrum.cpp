@@ -81,7 +81,7 @@ std::vector<CorrectionHarmonic> table_harmonics(const Profile& profile, const Ac
 }
 
 Spectrum::Spectrum(const Profile& profile)
-    : start_mm_(profile.position_start_mm()), end_mm_(profile.position_mm(profile.rows() - 1)) {
+    : start_mm_(profile.position_start_mm()), end_mm_(profile.position_end_mm()) {
   std::vector<std::vector<Complex>> values(max_order + 1, std::vector<Complex>(nodes));
   for (int k = 0; k < nodes; ++k) {
     const double position = 0.5 * (start_mm_ + end_mm_) + 0.5 * (end_mm_ - start_mm_) * node_u(k);

@@ -53,6 +53,8 @@ void correct(JobResult& result) {
     result.datum->references = limited_remainders(references, solved.axis.axis, target);
   result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
                                       result.job.actuator, included_motions(result));
+  for (const ControlTable& output : result.job.outputs)
+    result.control_files.push_back(make_control_table(*result.correction, output));
 }
 
 }  // namespace

@@ -58,8 +58,7 @@ std::optional<std::pair<double, double>> overlap_mm(const JobResult& result, std
   if (fit.status != FitStatus::converged || result.streams[i].indication == Indication::relative ||
       fit.surface == SurfaceKind::own || face != (fit.surface == SurfaceKind::plane))
     return std::nullopt;
-  const auto [low, high] = face ? std::minmax(target.radius_start_mm, target.radius_end_mm)
-                                : std::minmax(target.z_start_mm, target.z_end_mm);
+  const auto [low, high] = std::minmax({target.path_start_mm(), target.path_end_mm()});
   const double from = std::max(low, fit.position_min_mm), to = std::min(high, fit.position_max_mm);
   return from < to ? std::optional(std::pair(from, to)) : std::nullopt;
 }

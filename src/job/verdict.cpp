@@ -9,6 +9,7 @@
 #include "correct/coaxiality_distribution.hpp"
 #include "fit/plausible.hpp"
 #include "job/cut_checks.hpp"
+#include "job/cut_files.hpp"
 #include "job/datum_doubts.hpp"
 #include "job/doubts.hpp"
 #include "job/ends_of_stream.hpp"
@@ -36,9 +37,9 @@ double coaxiality_uncorrected(const std::vector<Reference>& references,
   return worst;
 }
 
-/// What of the following error turns once a revolution moves the axis by its amplitude (Eq. 116a).
-double left_by_actuator_mm(const JobResult& result) {
-  return 2.0 * result.correction->margin.following_once_mm;
+/// The file that adds most to the coaxiality of the axis.
+const CutFile& worst_file(const std::vector<CutFile>& files) {
+  return *std::ranges::max_element(files, {}, &CutFile::adds_mm);
 }
 
 CoaxialityDistribution distribution_of(const JobResult& result,
@@ -55,12 +56,14 @@ Verdict expected_cut(const JobResult& result) {
   verdict.coaxiality_before_mm = coaxiality_uncorrected(references, *result.job.target);
   const auto worst =
       std::ranges::max_element(result.target_axis->remainders, {}, &Remainder::limit_mm);
-  const double following_mm = left_by_actuator_mm(result);
-  verdict.coaxiality_after_mm = worst->coaxiality_mm + following_mm;
+  verdict.files = cut_files(result);
+  const CutFile& file = worst_file(verdict.files);
+  verdict.file = file.name;
+  verdict.coaxiality_after_mm = worst->coaxiality_mm + file.adds_mm;
   verdict.u_coaxiality_mm = worst->u_coaxiality_mm;
   const CoaxialityDistribution distribution = distribution_of(result, references);
-  verdict.lower_mm = distribution.quantile(nonconformity_risk) + following_mm;
-  verdict.upper_mm = distribution.quantile(1.0 - nonconformity_risk) + following_mm;
+  verdict.lower_mm = distribution.quantile(nonconformity_risk) + file.adds_mm;
+  verdict.upper_mm = distribution.quantile(1.0 - nonconformity_risk) + file.adds_mm;
   return verdict;
 }
 
@@ -71,9 +74,13 @@ std::string in_um(double length_mm) {
 }
 
 std::string numbers_of(const Verdict& v, TargetKind kind) {
-  return fmt::format("{} at most {} with the table (in 95 of 100), {} without it",
+  const std::string with =
+      v.files.size() < 2
+          ? "the table (in 95 of 100)"
+          : fmt::format("{} (the worst of {} files, in 95 of 100)", v.file, v.files.size());
+  return fmt::format("{} at most {} with {}, {} without it",
                      kind == TargetKind::face ? "axial run-out" : "coaxiality", in_um(v.upper_mm),
-                     in_um(v.coaxiality_before_mm));
+                     with, in_um(v.coaxiality_before_mm));
 }
 
 std::string cannot_follow(const ActuatorMargin& margin) {
@@ -128,12 +135,13 @@ std::string objection(const JobResult& result, const Verdict& numbers) {
 
 /// The largest coaxiality, at the risk of the decision, if the open references are where the ideal
 /// fit has them.
-double upper_if_ideal_mm(const JobResult& result, const std::vector<OpenAxis>& open) {
+double upper_if_ideal_mm(const JobResult& result, const std::vector<OpenAxis>& open,
+                         double file_adds_mm) {
   std::vector<Reference> references = references_of(result);
   for (const OpenAxis& o : open)
     references[o.reference].axis.axis = result.fits[o.reference].axis.axis;
   return distribution_of(result, judged(result, references)).quantile(1.0 - nonconformity_risk) +
-         left_by_actuator_mm(result);
+         file_adds_mm;
 }
 
 Verdict not_proven(Verdict verdict, const std::string& why) {
@@ -168,11 +176,19 @@ Verdict by_tolerance(Verdict verdict, const JobResult& result, double tolerance_
   if (verdict.upper_mm <= tolerance_mm) {
     verdict.decision = Decision::go;
     verdict.line = "GO: " + numbers;
+    return verdict;
+  }
+  const CutFile worst = worst_file(verdict.files);
+  const double allowed_mm = tolerance_mm - (verdict.upper_mm - worst.adds_mm);
+  if (worst.actuator_mm <= allowed_mm) {  // the axis is good enough, the file is not
+    verdict.what_would_prove = what_would_do(result, worst, allowed_mm);
+    verdict.line = fmt::format("NO-GO: {}; {}, as its control reads it, adds {}: {}", numbers,
+                               worst.name, in_um(worst.file_mm), verdict.what_would_prove);
   } else if (verdict.coaxiality_after_mm > tolerance_mm && verdict.lower_mm > tolerance_mm) {
     verdict.decision = Decision::no_go;
     verdict.line = fmt::format("NO-GO: {}, and at least {}", numbers, in_um(verdict.lower_mm));
   } else {
-    verdict.what_would_prove = what_would_prove(result, tolerance_mm - left_by_actuator_mm(result));
+    verdict.what_would_prove = what_would_prove(result, tolerance_mm - worst.adds_mm);
     verdict = not_proven(std::move(verdict), numbers);
     verdict.line += "; " + verdict.what_would_prove;
   }
@@ -214,7 +230,8 @@ Verdict decide(const JobResult& result) {
       if (!why.empty()) return not_proven(std::move(verdict), why);
     }
     if (verdict.decision != Decision::go || verdict.reservations.empty()) return verdict;
-    const double if_ideal_mm = open.empty() ? 0.0 : upper_if_ideal_mm(result, open);
+    const double if_ideal_mm =
+        open.empty() ? 0.0 : upper_if_ideal_mm(result, open, worst_file(verdict.files).adds_mm);
     if (if_ideal_mm > *tolerance_mm) {
       return not_proven(
           std::move(verdict),

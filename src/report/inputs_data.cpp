@@ -98,6 +98,10 @@ Json cut_block(const TargetSurface& target, const ToolSetup& tool) {
     options.add("Z to", target.z_end_mm, "mm");
     options.add("radius at the start", target.radius_mm, "mm");
   }
+  options.add("run-in", target.run_in_mm, "mm");
+  options.add("overrun", target.overrun_mm, "mm");
+  if (target.shoulder_mm)
+    options.add(face ? "shoulder at X" : "shoulder at Z", *target.shoulder_mm, "mm");
   if (target.kind == TargetKind::cone)
     options.add("taper, radius per length", target.tan_half_angle, "");
   options.add("speed", tool.speed_rpm, "rpm");

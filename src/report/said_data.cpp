@@ -82,10 +82,19 @@ const NextMeasurement* best_next(const JobResult& result) {
   return best;
 }
 
+/// "cec.ini or servo.nc"; of a job without files for controls its table.
+std::string files_asked_for(const JobResult& result) {
+  std::string names;
+  for (const ControlTable& output : result.job.outputs)
+    names += (names.empty() ? "" : " or ") + output.file;
+  return names.empty() ? "table.csv" : names;
+}
+
 std::string cut_text(const JobResult& result) {
   const ActuatorMargin& margin = result.correction->margin;
   if (result.verdict.go())
-    return fmt::format("Run table.csv at {:.6g} rpm", result.correction->tool.speed_rpm);
+    return fmt::format("Run {} at {:.6g} rpm", files_asked_for(result),
+                       result.correction->tool.speed_rpm);
   if (!margin.follows && margin.max_speed_rpm > 0.0)
     return fmt::format("Lower the speed to {:.4g} rpm, at which the actuator follows",
                        margin.max_speed_rpm);

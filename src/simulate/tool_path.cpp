@@ -144,11 +144,16 @@ void ToolPath::check(const CutProgram& program, const CutTable& table) const {
        "the table and the target are not both of a face: name the table of this target");
   for (std::size_t i = 0; i < count; ++i) {
     const double off = table.position_mm[i] - position_mm(row_turn_[i]);
-    if (std::abs(off) <= 0.01 * std::abs(feed_mm_) + 1e-5) continue;
+    if (std::abs(off) <= 0.01 * std::abs(feed_mm_) + 1e-5 || stands_at_end(table, i)) continue;
     throw InputError("cut", fmt::format("row {} of the table is {:g} mm off the programmed path: "
                                         "start, feed, c_start or sense differ from the table's",
                                         i + 1, off));
   }
+}
+
+bool ToolPath::stands_at_end(const CutTable& table, std::size_t row) const {
+  return row_turn_[row] > turns_ &&
+         std::abs(table.position_mm[row] - position_mm(turns_)) <= 0.01 * std::abs(feed_mm_) + 1e-5;
 }
 
 void ToolPath::load(const CutProgram& program, const CutTable& table) {
@@ -161,6 +166,12 @@ void ToolPath::load(const CutProgram& program, const CutTable& table) {
   for (const double c : table.c_rad) row_turn_.push_back(tool.sense * (c - start_rad) / two_pi);
   check(program, table);
   row_mm_ = program.use == CutUse::wanted ? table.wanted_mm : table.command_mm;
+  // Past the end the feed of this path does not stand: the rows of a table that does are left out,
+  // but for the first.
+  std::size_t rows = row_mm_.size();
+  while (rows > 2 && stands_at_end(table, rows - 2)) --rows;
+  row_mm_.resize(rows);
+  row_turn_.resize(rows);
   if (row_turn_.back() - row_turn_.front() < 2.0 && row_turn_.back() < turns_ - 1e-6) {
     throw InputError("cut", "the table ends before the cut does: name the table of this target");
   }

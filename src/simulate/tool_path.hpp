@@ -25,6 +25,8 @@ class ToolPath {
 
  private:
   void check(const CutProgram& program, const CutTable& table) const;
+  /// Whether a row is past the last turn of the cut and yet at its end.
+  bool stands_at_end(const CutTable& table, std::size_t row) const;
   void load(const CutProgram& program, const CutTable& table);
   void program_line(const CutProgram& program);
   void run_actuator(const CutProgram& program);

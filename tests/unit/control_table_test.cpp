@@ -34,8 +34,10 @@ double wanted_mm(double c_rad, double z_mm) {
   return (-one + std::sqrt(one * one - two * none)) / two - radius_mm;
 }
 
-/// Where the tool is along Z in row i of the cut.
-double z_of_row(std::size_t i) { return z_start_mm - feed_mm * static_cast<double>(i) / 360.0; }
+/// Where the tool is along Z in row i of the cut: at its end the feed stands.
+double z_of_row(std::size_t i) {
+  return std::max(z_end_mm, z_start_mm - feed_mm * static_cast<double>(i) / 360.0);
+}
 
 Correction correction(bool precompensate = false) {
   AxisEstimate axis;
@@ -90,9 +92,10 @@ TEST(ControlTables, TheGridIsTheCircle) {
   // Linear over 1° of one undulation: (1°)²/8 of its amplitude, at the cut's end that has more.
   const double amplitude_mm = std::max(std::hypot(a_mm + 100.0 * slope_x, b_mm + 100.0 * slope_y),
                                        std::hypot(a_mm + 130.0 * slope_x, b_mm + 130.0 * slope_y));
-  // Behind the cut's end the tool runs one more revolution, where a table holds its last value.
-  EXPECT_LE(made.off_mm, 1.01 * amplitude_mm * rad_per_deg * rad_per_deg / 8.0 +
-                             feed_mm * std::hypot(slope_x, slope_y) + made.rounding_mm);
+  const double chord_mm = amplitude_mm * rad_per_deg * rad_per_deg / 8.0;
+  EXPECT_NEAR(made.off.largest_mm, chord_mm, 0.01 * chord_mm + made.rounding_mm);
+  // A chord leaves sinc² of its wave, 1 − (1°)²/12: two thirds of what it is off in the middle.
+  EXPECT_NEAR(made.off.once_mm, chord_mm * 2.0 / 3.0, 0.01 * chord_mm + made.rounding_mm);
 }
 
 TEST(ControlTables, TheStreamIsTheTableAndItsLastLineTwice) {
@@ -138,7 +141,8 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
     EXPECT_EQ(lines.back(), "M29");
     std::size_t blocks = 0;
     for (std::string line : lines) {
-      if (line.starts_with("G1 ")) line = line.substr(3);
+      const bool first = line.starts_with("G1 ");
+      if (first) line = line.substr(3);
       if (!line.starts_with('C')) continue;
       const std::vector<double> word = numbers_of(line);
       ASSERT_EQ(word.size(), 4U) << line;  // C X Z F
@@ -146,13 +150,20 @@ TEST(ControlTables, ProgramsSayRadiusAndDiameterAndBothFeeds) {
       EXPECT_NEAR(word[1] / scale, radius_mm + wanted_mm(word[0] * rad_per_deg, z_of_row(blocks)),
                   made.rounding_mm + 1e-12);
       EXPECT_NEAR(word[2], z_of_row(blocks), 0.5e-6 + 1e-12);
-      // 600 rpm and 360 blocks a turn.
-      EXPECT_NEAR(word[3], diameter ? 1.0 / 216000.0 : 216000.0, diameter ? 0.5e-6 : 1e-9);
+      // To the start at the feed of the cut, 600 rpm and 0.5 mm; then 360 blocks a turn.
+      if (first)
+        EXPECT_NEAR(word[3], 300.0, 1e-9);
+      else
+        EXPECT_NEAR(word[3], diameter ? 1.0 / 216000.0 : 216000.0, diameter ? 0.5e-6 : 1e-9);
       ++blocks;
     }
     EXPECT_EQ(blocks, correction().rows.wanted_mm.size());
-    // Inverse time holds for the blocks and for nothing else.
-    EXPECT_EQ(lines[3], "G93");
+    // Inverse time holds for the blocks of the cut and for nothing else; the first block says in a
+    // comment where the nose must stand, and only feeds there.
+    ASSERT_TRUE(lines[6].starts_with("G1 C")) << lines[6];
+    EXPECT_NE(lines[3].find(lines[6].substr(3, lines[6].find(" F") - 3)), std::string::npos);
+    EXPECT_EQ(lines[5], "G94");
+    EXPECT_EQ(lines[7], "G93");
     EXPECT_EQ(lines[lines.size() - 2], "G94");
   }
 }
@@ -174,11 +185,12 @@ TEST(ControlTables, SinumerikHasATableForEachBand) {
   for (const char* said : {"$AN_CEC_IS_MODULO[2]=1\n", "$AN_CEC_STEP[1]=2.000000\n",
                            "; table 2: Z 110.0000 to 120.0000\n"})
     EXPECT_NE(made.text.find(said), std::string::npos) << said;
-  // Off by what the axis leans over half a band, of the last one with the revolution behind the
-  // cut's end; the chord over 2° is less than its (2°)²/8.
-  EXPECT_NEAR(made.off_mm, (5.0 + 0.5 * feed_mm) * std::hypot(slope_x, slope_y),
-              0.5 * feed_mm * std::hypot(slope_x, slope_y) +
-                  0.2 * 4.0 * rad_per_deg * rad_per_deg / 8.0 + made.rounding_mm);
+  // Off by what the axis leans over half a band, which turns once a revolution; the chord over 2°
+  // is less than its (2°)²/8.
+  const double leans_mm = 5.0 * std::hypot(slope_x, slope_y);
+  const double chord_mm = 0.2 * 4.0 * rad_per_deg * rad_per_deg / 8.0;
+  EXPECT_NEAR(made.off.largest_mm, leans_mm, chord_mm + made.rounding_mm);
+  EXPECT_NEAR(made.off.once_mm, leans_mm, chord_mm + made.rounding_mm);
 }
 
 TEST(ControlTables, BeckhoffCountsInTenthsOfAMicrometre) {

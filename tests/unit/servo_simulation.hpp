@@ -26,8 +26,8 @@ class ServoSimulation {
     yy_ = c + s * decay, yv_ = s, vy_ = -s * wn * wn, vv_ = c - s * decay;
   }
 
-  /// Largest |position − profile| of a table run at `rpm`, after `settle_s`; exact at instants
-  /// 12.5 µs apart or less.
+  /// Largest |position − profile| of a table run at `rpm`, after `settle_s` and while it is fed;
+  /// exact at instants 12.5 µs apart or less.
   double following_mm(const Profile& profile, const std::vector<double>& table, double rpm,
                       double settle_s = 0.03) const {
     const int per_rev = profile.tool().rows_per_revolution;
@@ -37,7 +37,9 @@ class ServoSimulation {
     for (std::size_t tick = 0;; ++tick) {
       const double now_s = static_cast<double>(tick) * tick_s;
       const double row = now_s * rows_per_s;
-      if (row + rows_per_s * tick_s >= static_cast<double>(table.size() - 1)) break;
+      if (row + rows_per_s * tick_s >=
+          std::min(static_cast<double>(table.size() - 1), profile.turns() * per_rev))
+        break;  // a steady run: until the feed stops
       const double late = std::max(0.0, row - actuator_.delay_s * rows_per_s);
       const std::size_t at = static_cast<std::size_t>(late);
       const double held =
@@ -51,7 +53,7 @@ class ServoSimulation {
         const double turns = then_s * rpm / 60.0;
         const double wanted = profile.at(
             profile.tool().c_start_rad + profile.tool().sense * 2.0 * std::numbers::pi * turns,
-            profile.position_start_mm() + profile.feed_mm_per_rev() * turns);
+            profile.position_after_mm(turns));
         peak = std::max(peak, std::abs(position - wanted));
       }
     }

@@ -111,7 +111,10 @@ std::string correction_header(const Correction& correction) {
       {"nose_radius", fixed(tool.nose_radius_mm, 6) + " mm"},
       {"speed", fmt::format("{:.6g} rpm", tool.speed_rpm)},
       {"feed", fmt::format("{:.6g} mm/rev", tool.feed_mm_per_rev)},
-      {"rows_per_revolution", fmt::format("{}, linear in between", tool.rows_per_revolution)},
+      {"rows_per_revolution",
+       fmt::format("{}, linear in between, {}_fts there off by at most {} µm",
+                   tool.rows_per_revolution, along,
+                   fixed(correction.between_rows.largest_mm * um, 4))},
       {"actuator", actuator_text(correction.actuator)},
       {"stroke_used", fixed(margin.stroke_used_mm * um, 3) + " µm of " +
                           fixed(margin.stroke_available_mm * um, 3) + " µm"},
@@ -136,7 +139,8 @@ std::string correction_preview(const Correction& correction) {
           range_text(face, correction.position_start_mm, correction.position_end_mm) + '\n';
   text += "rows        " + std::to_string(rows.wanted_mm.size()) + " in " +
           std::to_string(rows.revolution.empty() ? 0 : rows.revolution.back() + 1) +
-          " revolutions\n";
+          " revolutions, straight lines between them off by at most " +
+          fixed(correction.between_rows.largest_mm * um, 3) + " µm\n";
   text += std::string(face ? "Z_fts       " : "X_fts       ") + range(rows.wanted_mm) + '\n';
   text += std::string(face ? "Z_command   " : "X_command   ") + range(rows.command_mm) + '\n';
   text += "harmonics   A cos(nC - phase), at the start and the end of the cut\n";

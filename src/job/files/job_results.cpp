@@ -13,6 +13,7 @@
 #include "format/toml_header.hpp"
 #include "job/agreement.hpp"
 #include "job/beyond_probed.hpp"
+#include "job/cut_files.hpp"
 #include "job/files/datum_axes_files.hpp"
 #include "job/files/part_form_files.hpp"
 #include "job/files/seats_files.hpp"
@@ -25,6 +26,17 @@
 namespace trueaxis {
 namespace {
 
+/// What each file that a go would write adds, as its control reads it.
+Json cut_files_array(const Verdict& v) {
+  Json files = Json::array();
+  for (const CutFile& file : v.files)
+    files.push_back({{"name", file.name},
+                     {"adds", with_unit(file.adds_mm, "mm")},
+                     {"by_actuator", with_unit(file.actuator_mm, "mm")},
+                     {"by_file", with_unit(file.file_mm, "mm")}});
+  return files;
+}
+
 Json verdict_object(const JobResult& result) {
   const Verdict& v = result.verdict;
   Json json{
@@ -32,6 +44,8 @@ Json verdict_object(const JobResult& result) {
       {"decision", to_string(v.decision)},
       {"line", v.line},
       {"reservations", v.reservations},
+      {"file", v.file},
+      {"files", cut_files_array(v)},
       {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
       {"coaxiality_after", to_json(Estimate{v.coaxiality_after_mm, v.u_coaxiality_mm, "mm", ""})},
       {"coaxiality_at_least", with_unit(v.lower_mm, "mm")},
@@ -171,6 +185,9 @@ Json correction_object(const Correction& correction) {
           {"nose_centre",
            {{"start", with_unit(correction.position_start_mm, "mm")},
             {"end", with_unit(correction.position_end_mm, "mm")}}},
+          {"between_rows",
+           {{"largest", with_unit(correction.between_rows.largest_mm, "mm")},
+            {"once", with_unit(correction.between_rows.once_mm, "mm")}}},
           {"harmonics", harmonics},
           {"margin",
            {{"follows", m.follows},
@@ -230,7 +247,10 @@ Json job_object(const JobResult& result) {
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
   if (result.datum) json["datum"] = datum_object(*result.datum);
-  if (result.correction) json["correction"] = correction_object(*result.correction);
+  if (result.correction) {
+    json["correction"] = correction_object(*result.correction);
+    json["correction"]["between_rows"]["coarse"] = coarse_rows(result);
+  }
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
   return json;
 }
@@ -333,12 +353,14 @@ std::vector<ResultFile> files_beside(const JobResult& result) {
                                                      &result.resimulations[i]->readings)});
   }
   if (!result.correction || !result.verdict.go()) return files;
-  for (const ControlTable& output : result.job.outputs) {
-    MadeControlTable made = make_control_table(*result.correction, output);
+  for (std::size_t i = 0; i < result.job.outputs.size(); ++i) {
+    const ControlTable& output = result.job.outputs[i];
+    const MadeControlTable& made = result.control_files[i];
     files.push_back(
-        {output.file, std::move(made.text),
-         fmt::format("{}, rounded to {:.3g} µm, off by at most {:.3g} µm", to_string(output.format),
-                     made.rounding_mm / mm_per_um, made.off_mm / mm_per_um)});
+        {output.file, made.text,
+         fmt::format("{}, rounded to {:.3g} µm, as its control reads it off by at most {:.3g} µm",
+                     to_string(output.format), made.rounding_mm / mm_per_um,
+                     made.off.largest_mm / mm_per_um)});
   }
   files.push_back({"table.csv", correction_csv(*result.correction)});
   return files;
@@ -373,7 +395,11 @@ std::string job_text(const JobResult& result) {
     text += "references  " + how_apart(result, d) + "\n";
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion      " + inclusion_text(inclusion);
-  if (result.correction) text += correction_preview(*result.correction) + "\n";
+  if (result.correction) {
+    text += correction_preview(*result.correction) + "\n";
+    if (const std::string rows = coarse_rows(result); !rows.empty())
+      text += "rows        " + rows + "\n";
+  }
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "fit/files/fit_screen.hpp"
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
+#include "job/cut_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
 #include "job/files/seats_files.hpp"
@@ -100,7 +101,11 @@ std::string job_screen(const JobResult& result) {
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
-  if (result.correction) text += tool_screen(result.correction->margin);
+  if (result.correction) {
+    text += tool_screen(result.correction->margin);
+    if (const std::string rows = coarse_rows(result); !rows.empty())
+      text += "rows   " + rows + "\n";
+  }
   return text + next_screen(result);
 }
 

@@ -119,6 +119,15 @@ TargetSurface read_target(TomlTable table, Job& job) {
       target.kind == TargetKind::face ? "runout_tolerance_mm" : "coaxiality_tolerance_mm",
       Range::positive());
   job.stock_mm = table.maybe_number("stock_mm", Range::positive());
+  const bool face = target.kind == TargetKind::face;
+  target.run_in_mm = table.number("run_in_mm", 0.0, Range::non_negative());
+  target.overrun_mm = table.number("overrun_mm", 0.0, Range::non_negative());
+  target.shoulder_mm = table.maybe_number(face ? "shoulder_radius_mm" : "shoulder_z_mm");
+  for (const auto& [key, end_mm] : {std::pair("run_in_mm", target.path_start_mm()),
+                                    std::pair("overrun_mm", target.path_end_mm())})
+    if (face && end_mm < 0.0)
+      table.complain(
+          key, fmt::format("takes the tool {:.6g} mm past the spindle axis: lower it", -end_mm));
   return target;
 }
 
@@ -143,7 +152,7 @@ constexpr double most_rows = 5e7;  // 2 GB of text; a bar of a metre at 0.02 mm/
 /// the tool's line does not meet is refused by the correction.)
 void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
   if (!target.bore) return;
-  for (const double z_mm : {target.z_start_mm, target.z_end_mm}) {
+  for (const double z_mm : {target.path_start_mm(), target.path_end_mm()}) {
     const double radius_mm = target.radius_mm + target.tan_half_angle * (z_mm - target.z_start_mm);
     if (!(radius_mm > std::abs(tool.height_mm))) return;
     const double wall_mm = std::sqrt(radius_mm * radius_mm - tool.height_mm * tool.height_mm);
@@ -159,9 +168,7 @@ void check_nose(TomlTable cut, const TargetSurface& target, const ToolSetup& too
 
 /// The rows that the table of this cut would have must fit a file that a control can be given.
 void check_rows(TomlTable cut, const TargetSurface& target, const ToolSetup& tool) {
-  const double travel = target.kind == TargetKind::face
-                            ? target.radius_end_mm - target.radius_start_mm
-                            : target.z_end_mm - target.z_start_mm;
+  const double travel = target.path_end_mm() - target.path_start_mm();
   if (tool.feed_mm_per_rev > std::abs(travel)) {
     cut.complain(
         "feed_mm_per_rev",

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "correct/files/control_table.hpp"
-#include "correct/files/correction_grid.hpp"
+#include "correct/control/as_read.hpp"
+#include "correct/control/control_table.hpp"
+#include "correct/control/correction_grid.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -40,7 +41,8 @@ MadeControlTable grid_csv(const Correction& correction, const ControlTable& tabl
           static_cast<double>(rounded_to(grid.at(j, i), unit_mm)) * unit_mm / mm_per_um);
     text += '\n';
   }
-  return {std::move(text), 0.5 * unit_mm, largest_difference_mm(correction, grid)};
+  const Deviation off = grid_as_read(correction, text);
+  return {std::move(text), 0.5 * unit_mm, off};
 }
 
 MadeControlTable sinumerik_cec(const Correction& correction, const ControlTable& table) {
@@ -56,37 +58,25 @@ MadeControlTable sinumerik_cec(const Correction& correction, const ControlTable&
       "; one table first. Enable one table at a time, by the Z of the cut.\n"
       "%_N_NC_CEC_INI\nCHANDATA(1)\n";
   // What a band has is that of its middle: a grid of two equal lines each.
-  double off_mm = 0.0;
   const CorrectionGrid whole = correction_grid(correction, table.c_step_rad, 0.5 * band_mm);
   for (std::size_t band = 0; band < bands; ++band) {
     const std::size_t middle = 2 * band + 1;
     put(text, "; table {}: Z {:.4f} to {:.4f}\n", band + 1,
         low + band_mm * static_cast<double>(band), low + band_mm * static_cast<double>(band + 1));
-    CorrectionGrid written = whole;
-    written.position_mm = {low, high};
-    written.value_mm.resize(2 * written.angles);
     for (std::size_t i = 0; i < whole.angles; ++i) {
       double value = whole.at(middle, i);
       rounded_to(value, unit_mm);
       put(text, "$AN_CEC[{},{}]={:.6f}\n", band, i, value == 0.0 ? 0.0 : value);
-      written.at(0, i) = written.at(1, i) = value;
     }
     put(text,
         "$AN_CEC_INPUT_AXIS[{0}]=(C1)\n$AN_CEC_OUTPUT_AXIS[{0}]=(X1)\n$AN_CEC_STEP[{0}]={1:.6f}\n"
         "$AN_CEC_MIN[{0}]=0.0\n$AN_CEC_MAX[{0}]=360.0\n$AN_CEC_DIRECTION[{0}]=0\n"
         "$AN_CEC_MULT_BY_TABLE[{0}]=0\n$AN_CEC_IS_MODULO[{0}]=1\n",
         band, table.c_step_rad / rad_per_deg);
-    const CorrectionRows& rows = correction.rows;
-    for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
-      const double into = (rows.position_mm[i] - low) / band_mm;
-      const auto of =
-          static_cast<std::size_t>(std::clamp(into, 0.0, static_cast<double>(bands) - 0.5));
-      if (of == band)
-        off_mm =
-            std::max(off_mm, std::abs(rows.wanted_mm[i] - written.between(rows.c_rad[i], low)));
-    }
   }
-  return {text + "M17\n", 0.5 * unit_mm, off_mm};
+  text += "M17\n";
+  const Deviation off = sinumerik_as_read(correction, text);
+  return {std::move(text), 0.5 * unit_mm, off};
 }
 
 MadeControlTable beckhoff_crosscomp2(const Correction& correction, const ControlTable& table) {
@@ -117,7 +107,8 @@ MadeControlTable beckhoff_crosscomp2(const Correction& correction, const Control
       put(text, "kw.crosscomp2.table[{}][{}].correction  {}\n", j, i,
           rounded_to(grid.at(j, i), unit_mm));
   text += "# to be enabled in the axis' parameters: lr_param.crosscomp2 1\nEnde\n";
-  return {std::move(text), 0.5 * unit_mm, largest_difference_mm(correction, grid)};
+  const Deviation off = beckhoff_as_read(correction, text);
+  return {std::move(text), 0.5 * unit_mm, off};
 }
 
 }  // namespace trueaxis

@@ -11,7 +11,6 @@ namespace trueaxis {
 /// The wanted correction on a grid over one turn of C and the length of the cut, both ends
 /// included, mm.
 struct CorrectionGrid {
-  double c_step_rad = 0.0;
   std::vector<double> position_mm;  ///< rising, evenly spaced
   std::size_t angles = 0;           ///< nodes of a turn, 0 and 360° both
   std::vector<double> value_mm;     ///< [position][angle]
@@ -32,8 +31,5 @@ std::size_t nodes_of_length(double length_mm, double step_mm);
 
 /// @param c_step_rad a whole number of them is a turn
 CorrectionGrid correction_grid(const Correction& correction, double c_step_rad, double step_mm);
-
-/// Largest |wanted − between| over the rows of the correction, mm.
-double largest_difference_mm(const Correction& correction, const CorrectionGrid& grid);
 
 }  // namespace trueaxis

@@ -6,25 +6,13 @@
 #include <iterator>
 #include <utility>
 
-#include "correct/files/control_table.hpp"
+#include "correct/control/as_read.hpp"
+#include "correct/control/control_table.hpp"
 #include "correct/profile.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-/// Largest distance of the middle of two rows from the wanted correction there, mm.
-double largest_between_mm(const Correction& correction, const Profile& profile) {
-  const CorrectionRows& rows = correction.rows;
-  double largest = 0.0;
-  for (std::size_t i = 0; i + 1 < rows.wanted_mm.size(); ++i) {
-    const double middle = profile.at(0.5 * (rows.c_rad[i] + rows.c_rad[i + 1]),
-                                     0.5 * (rows.position_mm[i] + rows.position_mm[i + 1]));
-    largest =
-        std::max(largest, std::abs(middle - 0.5 * (rows.wanted_mm[i] + rows.wanted_mm[i + 1])));
-  }
-  return largest;
-}
 
 /// Seven digits, without an exponent.
 std::string feed_word(double f) {
@@ -51,8 +39,8 @@ MadeControlTable halstreamer_text(const Correction& correction) {
     const std::size_t row = std::min(i, count - 1);
     put(text, "{:.6f} {:.6f}\n", rows.command_mm[row] / mm_per_um, rows.c_rad[row] / rad_per_deg);
   }
-  return {std::move(text), 0.5 * unit_mm,
-          largest_between_mm(correction, profile_of(correction)) + 0.5 * unit_mm};
+  const Deviation off = halstreamer_as_read(correction, text);
+  return {std::move(text), 0.5 * unit_mm, off};
 }
 
 MadeControlTable servo_nc(const Correction& correction, const ControlTable& table) {
@@ -66,18 +54,25 @@ MadeControlTable servo_nc(const Correction& correction, const ControlTable& tabl
   put(text, "( X IS A {}, OF THE CENTRE OF THE NOSE; C IN DEGREES, RUNNING, AS PROBED; F IN {} )\n",
       table.x_is_diameter ? "DIAMETER" : "RADIUS",
       table.minutes ? "MINUTES A BLOCK" : "BLOCKS A MINUTE");
-  text += table.head;
-  put(text, "G93\n");
+  std::string blocks;
+  const auto put_block = [&](std::size_t row, const char* before, const std::string& f) {
+    const double along = rows.position_mm[row];
+    const double depth = profile.programmed_mm(along) + rows.wanted_mm[row];
+    put(blocks, "{}C{:.6f} X{:.6f} Z{:.6f}{}\n", before, rows.c_rad[row] / rad_per_deg,
+        scale * (face ? along : depth), face ? depth : along, f);
+  };
+  put_block(0, "( BEFORE THE NEXT BLOCK THE CENTRE OF THE NOSE MUST STAND AT ", " )");
+  put(blocks,
+      "( FROM ELSEWHERE THE NEXT BLOCK FEEDS THERE, IN MM A MINUTE AT THE FEED OF THE CUT )\n");
+  put(blocks, "G94\n");
+  put_block(0, "G1 ", feed_word(correction.tool.feed_mm_per_rev * correction.tool.speed_rpm));
+  put(blocks, "G93\n");
   const std::string feed = feed_word(table.minutes ? minutes : 1.0 / minutes);
-  for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i) {
-    const double along = rows.position_mm[i];
-    const double programmed = profile.programmed_mm(along) + rows.wanted_mm[i];
-    put(text, "{}C{:.6f} X{:.6f} Z{:.6f}{}\n", i == 0 ? "G1 " : "", rows.c_rad[i] / rad_per_deg,
-        scale * (face ? along : programmed), face ? programmed : along, feed);
-  }
-  text += "G94\n" + table.tail;
+  for (std::size_t i = 1; i < rows.wanted_mm.size(); ++i) put_block(i, "", feed);
+  blocks += "G94\n";
   const double rounding_mm = 0.5 * unit_mm / (face ? 1.0 : scale);
-  return {std::move(text), rounding_mm, largest_between_mm(correction, profile) + rounding_mm};
+  const Deviation off = servo_as_read(correction, table, blocks);
+  return {std::move(text) + table.head + blocks + table.tail, rounding_mm, off};
 }
 
 }  // namespace trueaxis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correct/files/correction_grid.hpp"
+#include "correct/control/correction_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,6 @@ CorrectionGrid correction_grid(const Correction& correction, double c_step_rad, 
                         correction.motions);
   const auto [low, high] = std::minmax(correction.position_start_mm, correction.position_end_mm);
   CorrectionGrid grid;
-  grid.c_step_rad = c_step_rad;
   grid.angles = nodes_of_turn(c_step_rad);
   const std::size_t positions = std::max<std::size_t>(2, nodes_of_length(high - low, step_mm));
   for (std::size_t j = 0; j < positions; ++j)
@@ -41,22 +40,14 @@ double CorrectionGrid::between(double c_rad, double at_position_mm) const {
   const double turns = c_rad / two_pi;
   const double c = (turns - std::floor(turns)) * static_cast<double>(angles - 1);
   const auto i = std::min(static_cast<std::size_t>(c), angles - 2);
-  const double step = position_mm[1] - position_mm[0];
+  const double step =
+      (position_mm.back() - position_mm.front()) / static_cast<double>(position_mm.size() - 1);
   const double p = std::clamp((at_position_mm - position_mm.front()) / step, 0.0,
                               static_cast<double>(position_mm.size() - 1));
   const auto j = std::min(static_cast<std::size_t>(p), position_mm.size() - 2);
   const double v = c - static_cast<double>(i), w = p - static_cast<double>(j);
   return (1.0 - w) * ((1.0 - v) * at(j, i) + v * at(j, i + 1)) +
          w * ((1.0 - v) * at(j + 1, i) + v * at(j + 1, i + 1));
-}
-
-double largest_difference_mm(const Correction& correction, const CorrectionGrid& grid) {
-  const CorrectionRows& rows = correction.rows;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < rows.wanted_mm.size(); ++i)
-    largest = std::max(
-        largest, std::abs(rows.wanted_mm[i] - grid.between(rows.c_rad[i], rows.position_mm[i])));
-  return largest;
 }
 
 }  // namespace trueaxis

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "correct/files/control_table.hpp"
+#include "correct/control/control_table.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "correct/files/correction_grid.hpp"
+#include "correct/control/correction_grid.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -17,8 +17,7 @@ constexpr double most_tables = 8, most_points = 200;  // SINUMERIK 828D: MD18342
 constexpr double most_plane_points = 10201;           // kw.crosscomp2.max_points, its default
 
 double length_of(const TargetSurface& target) {
-  return target.kind == TargetKind::face ? target.radius_end_mm - target.radius_start_mm
-                                         : target.z_end_mm - target.z_start_mm;
+  return target.path_end_mm() - target.path_start_mm();
 }
 
 double rows_of(const TargetSurface& target, const ToolSetup& tool) {
