@@ -73,11 +73,18 @@ std::string in_um(double length_mm) {
   return fmt::format("{:.{}f} µm", um, decimals_of(um, 0));
 }
 
+/// "cec.ini, servo.nc or table.csv"
+std::string names_of(const std::vector<CutFile>& files) {
+  std::string names;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    names += (i == 0 ? "" : i + 1 < files.size() ? ", " : " or ") + files[i].name;
+  return names;
+}
+
 std::string numbers_of(const Verdict& v, TargetKind kind) {
   const std::string with =
-      v.files.size() < 2
-          ? "the table (in 95 of 100)"
-          : fmt::format("{} (the worst of {} files, in 95 of 100)", v.file, v.files.size());
+      v.files.size() < 2 ? "the table (in 95 of 100)"
+                         : fmt::format("{} (worst: {}, in 95 of 100)", names_of(v.files), v.file);
   return fmt::format("{} at most {} with {}, {} without it",
                      kind == TargetKind::face ? "axial run-out" : "coaxiality", in_um(v.upper_mm),
                      with, in_um(v.coaxiality_before_mm));
@@ -179,17 +186,24 @@ Verdict by_tolerance(Verdict verdict, const JobResult& result, double tolerance_
     return verdict;
   }
   const CutFile worst = worst_file(verdict.files);
-  const double allowed_mm = tolerance_mm - (verdict.upper_mm - worst.adds_mm);
-  if (worst.actuator_mm <= allowed_mm) {  // the axis is good enough, the file is not
+  const double by_file_mm = worst.adds_mm - worst.actuator_mm;
+  const double axis_mm = verdict.upper_mm - by_file_mm;
+  const std::string name_of_it = in_um(axis_mm) == in_um(verdict.upper_mm)
+                                     ? ""
+                                     : fmt::format("; {}, as its control reads it, adds {} of it",
+                                                   worst.name, in_um(by_file_mm));
+  if (axis_mm <= tolerance_mm || by_file_mm > tolerance_mm) {  // the file forbids it, not the axis
+    const double allowed_mm = std::max(tolerance_mm - (verdict.upper_mm - worst.adds_mm),
+                                       0.1 * tolerance_mm + worst.actuator_mm);
     verdict.what_would_prove = what_would_do(result, worst, allowed_mm);
-    verdict.line = fmt::format("NO-GO: {}; {}, as its control reads it, adds {}: {}", numbers,
-                               worst.name, in_um(worst.file_mm), verdict.what_would_prove);
+    verdict.line = "NO-GO: " + numbers + name_of_it + ": " + verdict.what_would_prove;
   } else if (verdict.coaxiality_after_mm > tolerance_mm && verdict.lower_mm > tolerance_mm) {
     verdict.decision = Decision::no_go;
-    verdict.line = fmt::format("NO-GO: {}, and at least {}", numbers, in_um(verdict.lower_mm));
+    verdict.line =
+        fmt::format("NO-GO: {}, and at least {}{}", numbers, in_um(verdict.lower_mm), name_of_it);
   } else {
     verdict.what_would_prove = what_would_prove(result, tolerance_mm - worst.adds_mm);
-    verdict = not_proven(std::move(verdict), numbers);
+    verdict = not_proven(std::move(verdict), numbers + name_of_it);
     verdict.line += "; " + verdict.what_would_prove;
   }
   return verdict;
