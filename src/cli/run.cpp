@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -102,7 +103,7 @@ Earlier take_away_earlier(Outputs& outputs, const Job& job, const std::vector<Re
 std::string would_do(const Job& job, const std::vector<ProbeStream>& streams, bool surface_known) {
   std::string text;
   for (std::size_t i = 0; i < streams.size(); ++i) {
-    const std::string of = std::to_string(streams[i].size()) + " readings of " + streams[i].source;
+    const std::string of = counted(streams[i].size(), "reading") + " of " + streams[i].source;
     text += i == 0 ? "" : "; ";
     text += surface_known ? std::string("fit and diagnose a ") +
                                 to_string(job.references[i].fit.surface) + " in " + of
@@ -142,11 +143,17 @@ int execute(const Options& options) {
         surface_known ? to_string(job.references.front().fit.surface) : "SURFACE";
   Outputs outputs(options.force);
   std::vector<ProbeStream> streams;
+  const auto read = [&] {
+    if (said)
+      streams = read_streams(job);
+    else
+      streams.push_back(options.stream.read());
+  };
   if (options.check) prepare(outputs, job, options);
   if (options.check)
-    all_of({[&] { streams = read_streams(job); }, [&] { outputs.check(); }});
+    all_of({read, [&] { outputs.check(); }});
   else
-    streams = read_streams(job);
+    read();
   if (options.check) return checked(outputs, would_do(job, streams, surface_known));
   if (!said) {
     if (options.surface->count() == 0) {
@@ -202,7 +209,12 @@ void expect_no_stream_options(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
-    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
+    throw CLI::ValidationError(
+        name,
+        name == "--drop-invalid"
+            ? "is of a stream alone: trueaxis import STREAM --drop-invalid -o CLEAN.csv writes "
+              "one for the job"
+            : "is of a stream alone: write it into the job");
   }
 }
 

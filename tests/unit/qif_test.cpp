@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands in a QIF document is what the result holds: numbers are written with the digits that
-// are read as the same number, so that all are compared as equal.
+// are read as the same number, up to the 18th behind the point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,6 +16,8 @@
 namespace trueaxis::testing {
 namespace {
 
+constexpr double last_digit = 0.5e-18;
+
 double number(pugi::xml_node node) { return std::strtod(node.text().get(), nullptr); }
 double number(pugi::xml_attribute attribute) { return std::strtod(attribute.value(), nullptr); }
 
@@ -26,9 +28,9 @@ std::array<double, 3> vector(pugi::xml_node node) {
 }
 
 void expect_value(pugi::xml_node node, const FormValue& one) {
-  EXPECT_EQ(number(node), one.estimate.value);
-  EXPECT_EQ(number(node.attribute("combinedUncertainty")), one.estimate.u);
-  EXPECT_EQ(number(node.attribute("meanError")), one.bias_mm);
+  EXPECT_NEAR(number(node), one.estimate.value, last_digit);
+  EXPECT_NEAR(number(node.attribute("combinedUncertainty")), one.estimate.u, last_digit);
+  EXPECT_NEAR(number(node.attribute("meanError")), one.bias_mm, last_digit);
 }
 
 const FormValue& value(const std::vector<FormValue>& values, const std::string& name,
@@ -262,7 +264,18 @@ TEST(Qif, DecimalsHaveNoExponent) {
   EXPECT_EQ(qif_decimal(1e-7), "0.0000001");
   EXPECT_EQ(qif_decimal(-0.0), "0");
   EXPECT_EQ(qif_decimal(1e22), "10000000000000000000000");
-  EXPECT_EQ(std::strtod(qif_decimal(5e-324).c_str(), nullptr), 5e-324);
+  EXPECT_EQ(qif_decimal(0.017453292519943295), "0.017453292519943295");
+}
+
+// An xs:decimal of more than 18 digits need not be read (XML Schema part 2, 3.2.3). 2⁻³⁰ has 30
+// decimals: 9.31322574615478515625e-10; the last that is kept is rounded.
+TEST(Qif, DecimalsHaveAtMost18Digits) {
+  EXPECT_EQ(qif_decimal(std::ldexp(1.0, -30)), "0.000000000931322575");
+  EXPECT_EQ(qif_decimal(-std::ldexp(1.0, -30)), "-0.000000000931322575");
+  EXPECT_EQ(qif_decimal(5e-324), "0");
+  EXPECT_EQ(qif_decimal(-5e-324), "0");
+  EXPECT_EQ(qif_decimal(1.5e-18), "0.000000000000000002");
+  EXPECT_EQ(std::strtod(qif_decimal(123456.78901234567).c_str(), nullptr), 123456.78901234567);
 }
 
 }  // namespace
