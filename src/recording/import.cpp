@@ -88,9 +88,10 @@ std::string command_suggested(const std::string& path, const Recording& recordin
   StreamReadOptions read = options.read;
   if (unclear.convention) read.diameter.reset();
   add(words_of(read));
+  if (unclear.convention && is_probe_log(recording)) add({"--radius"});
   if (!typed)
     add({"-o", (path == "-" ? "my" : std::filesystem::path(path).stem().string()) + "_stream.csv"});
-  if (unclear.convention) add({is_probe_log(recording) ? "--radius" : "--diameter"});
+  if (unclear.convention && !is_probe_log(recording)) add({"--diameter"});
   return shell_line(words) +
          (unclear.convention && !is_probe_log(recording) ? " (or --radius)" : "");
 }

@@ -180,14 +180,21 @@ std::string sectors_text(const ProbeStream& stream, const std::vector<Rejected>&
   return text + (sectors.size() > most ? " …" : "");
 }
 
-/// "3 readings excluded as outliers: rows 778, 800-801 (row 778: 31 µm off, 9.1 σ)".
-std::string rows_text(const std::vector<Rejected>& masked, std::size_t of) {
-  if (masked.empty()) return fmt::format("none of {} readings excluded", of);
+/// "3 outliers excluded, up to 31 µm off: rows 778, 800-801".
+std::string rows_text(const std::vector<Rejected>& masked, const std::vector<double>& residual_mm) {
+  constexpr std::size_t most = 3;
+  if (masked.empty()) return "no outliers excluded";
   std::vector<std::size_t> rows;
-  for (const Rejected& one : masked) rows.push_back(one.row);
-  return fmt::format("{} of {} excluded as outliers: row{} {} (row {}: {})",
-                     counted(rows.size(), "reading"), of, rows.size() == 1 ? "" : "s",
-                     ranges_text(rows), rows.front(), masked.front().why);
+  double farthest_mm = 0.0;
+  for (const Rejected& one : masked) {
+    rows.push_back(one.row);
+    const double off_mm = std::abs(residual_mm[one.row - 1]);
+    if (std::isfinite(off_mm)) farthest_mm = std::max(farthest_mm, off_mm);
+  }
+  return fmt::format(
+      "{} excluded{}: row{} {}", counted(rows.size(), "outlier"),
+      farthest_mm > 0.0 ? fmt::format(", up to {:.3g} µm off", farthest_mm / mm_per_um) : "",
+      rows.size() == 1 ? "" : "s", ranges_text(rows, most));
 }
 
 QualityCheck result(Check check, bool found, std::string text) {
@@ -298,7 +305,7 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   std::vector<QualityCheck> list{saturation(stream, ideal.indication),
                                  quantisation(ideal.indication.step, joint, noise.sigma_mm)};
   list.push_back(result(Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
-                        rows_text(noise.masked, stream.size())));
+                        rows_text(noise.masked, residual_mm)));
   list.push_back(result(Check::interruption, !noise.interruptions.empty(),
                         sectors_text(stream, noise.masked) +
                             " excluded, which are far off on every revolution (a keyway, a hole)"));
