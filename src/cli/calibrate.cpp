@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/counted.hpp"
 #include "calibrate/files/calibration_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
@@ -48,8 +49,8 @@ int execute(const Options& options) {
   if (options.check) {
     std::size_t rows = 0;
     for (const MachineMeasurement& one : data) rows += one.rows();
-    return checked(outputs, "estimate the errors of " + file.machine.name + " from " +
-                                std::to_string(rows) + " rows");
+    return checked(outputs,
+                   "estimate the errors of " + file.machine.name + " from " + counted(rows, "row"));
   }
   std::optional<Waiting> waiting("calibration of " + file.machine.name);
   const Calibration found = calibrate(file.machine, data, calibration);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/counted.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -67,7 +68,7 @@ int execute(const Options& options) {
               moves = nc::read_program(text, options.program, axes.read_options(options.arcs_mm))
                           .moves.size();
             }});
-    return checked(outputs, "rewrite " + std::to_string(moves) + " moves of " + options.program);
+    return checked(outputs, "rewrite " + counted(moves, "move") + " of " + options.program);
   }
   of_files = options.machine.read_errors_of(machine);
   const MachineModel model(machine.machine, of_files.errors);
@@ -92,7 +93,7 @@ int execute(const Options& options) {
   if (options.verbose)
     std::cout << compensation_text(result) << notes_screen(of_files.remarks);
   else
-    print_screen(with_notes(compensation_screen(result), of_files.remarks));
+    print_screen(with_notes(compensation_screen(result, task.tolerance_mm), of_files.remarks));
   std::cout << "program " << options.output << '\n';
   if (!options.json.empty()) std::cout << "result  " << options.json << '\n';
   return done;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/counted.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -57,7 +58,7 @@ int execute(const Options& options) {
           [&] { outputs.check(); }});
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
-                                std::to_string(stream.size()) + " readings of " + stream.source +
+                                counted(stream.size(), "reading") + " of " + stream.source +
                                 " and diagnose it");
   std::optional<Waiting> waiting("diagnosis of " + stream.source);
   DiagnoseOptions diagnose_options;

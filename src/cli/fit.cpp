@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/counted.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/fit_criterion.hpp"
@@ -16,6 +17,7 @@
 #include "fit/files/fit_files.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
+#include "format/shell.hpp"
 #include "job/files/job_results.hpp"
 #include "job/one_surface.hpp"
 #include "report/stream_report.hpp"
@@ -30,6 +32,15 @@ struct Options {
   FitCriterion criterion;
   bool verbose = false, check = false;
 };
+
+/// The command that was typed, as one that diagnoses.
+std::string diagnose_command(const Options& options) {
+  std::vector<std::string> words =
+      typed_command(*options.stream.command,
+                    {"--json", "--residuals", "--report", "--force", "--verbose", "--check"});
+  words.at(1) = "diagnose";
+  return shell_line(words);
+}
 
 int execute(const Options& options) {
   const auto& [json, residuals, report, force] = options.result;
@@ -46,7 +57,7 @@ int execute(const Options& options) {
           [&] { outputs.check(); }});
   if (options.check)
     return checked(outputs, "fit a " + options.association.surface + " to " +
-                                std::to_string(stream.size()) + " readings of " + stream.source);
+                                counted(stream.size(), "reading") + " of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
   const FitOptions chosen = options.association.chosen();
   const FitResult result = fit(stream, chosen);
@@ -58,11 +69,10 @@ int execute(const Options& options) {
   outputs.commit();
   if (!options.result.printed() && options.verbose) std::cout << fit_text(result);
   if (!options.result.printed() && !options.verbose)
-    print_screen(fit_screen(result) +
-                 (is_diagnosed(chosen.surface)
-                      ? "next   trueaxis diagnose " + options.stream.path + " --surface " +
-                            options.association.surface + ": what the surface does not explain\n"
-                      : std::string()));
+    print_screen(fit_screen(result) + (is_diagnosed(chosen.surface)
+                                           ? "next   " + diagnose_command(options) +
+                                                 ": what the surface does not explain\n"
+                                           : std::string()));
   if (result.status != FitStatus::converged) {
     std::cerr << stream.source << ": " << to_string(result.status) << ": " << result.message
               << '\n';

@@ -7,10 +7,12 @@
 #include <iostream>
 #include <memory>
 
+#include "base/counted.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
+#include "format/shell.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/job_stub.hpp"
 
@@ -44,8 +46,11 @@ int execute(const Options& options) {
   outputs.commit();
   if (options.output == "-") return done;
   for (const std::string& note : imported.notes) std::cout << layout::wrapped("", note);
-  std::cout << fmt::format("stream  {} ({} readings)\n", options.output, imported.stream.size());
-  if (!job.empty()) std::cout << "job     " << job << "  (trueaxis run " << job << " -o result)\n";
+  std::cout << fmt::format("stream  {} ({})\n", options.output,
+                           counted(imported.stream.size(), "reading"));
+  if (!job.empty())
+    std::cout << "job     " << job << "  (" << shell_line({"trueaxis", "run", job, "-o", "result"})
+              << ")\n";
   return done;
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "base/counted.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
@@ -109,9 +110,9 @@ MachineJobResult as_job(const MachineDiagnosed& run, const Read& read,
 std::string would_do(const MachineDiagnosed& run, const Read& read) {
   std::size_t rows = 0;
   for (const MachineMeasurement& one : read.data) rows += one.rows();
-  std::string text = run.data.empty() ? "plan a measurement of " + read.file.machine.name
-                                      : "diagnose " + read.file.machine.name + " by " +
-                                            std::to_string(rows) + " rows";
+  std::string text = run.data.empty()
+                         ? "plan a measurement of " + read.file.machine.name
+                         : "diagnose " + read.file.machine.name + " by " + counted(rows, "row");
   return text + (run.program.empty() ? "" : ", weigh what is found on " + run.program);
 }
 

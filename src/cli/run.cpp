@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -109,7 +110,7 @@ Earlier take_away_earlier(Outputs& outputs, const Job& job, const std::vector<Re
 std::string would_do(const Job& job, const std::vector<ProbeStream>& streams, bool surface_known) {
   std::string text;
   for (std::size_t i = 0; i < streams.size(); ++i) {
-    const std::string of = std::to_string(streams[i].size()) + " readings of " + streams[i].source;
+    const std::string of = counted(streams[i].size(), "reading") + " of " + streams[i].source;
     text += i == 0 ? "" : "; ";
     text += surface_known ? std::string("fit and diagnose a ") +
                                 to_string(job.references[i].fit.surface) + " in " + of
@@ -118,17 +119,12 @@ std::string would_do(const Job& job, const std::vector<ProbeStream>& streams, bo
   return text + (job.target ? "; correct the target, and decide about it" : "");
 }
 
-/// The streams of a job, each of one surface; of a stream whose surface nobody says every seat.
-std::vector<ProbeStream> streams_of_surfaces(Job& job, bool said, bool surface_known) {
-  std::vector<ProbeStream> streams = read_streams(job);
-  if (!surface_known) {
-    take_every_seat(job, streams);
-    return streams;
-  }
+/// Streams of one surface each; of a stream whose surface nobody says every seat.
+void take_surfaces(Job& job, std::vector<ProbeStream>& streams, bool said, bool surface_known) {
+  if (!surface_known) return take_every_seat(job, streams);
   for (std::size_t i = 0; i < streams.size(); ++i)
     expect_one_surface(streams[i], job.references[i].fit.surface,
                        said ? RangesAs::keys : RangesAs::options);
-  return streams;
 }
 
 /// All that is read and may be written.
@@ -162,7 +158,10 @@ int execute(const Options& options) {
         surface_known ? to_string(job.references.front().fit.surface) : "SURFACE";
   Outputs outputs(options.force);
   std::vector<ProbeStream> streams;
-  const auto read = [&] { streams = streams_of_surfaces(job, said, surface_known); };
+  const auto read = [&] {
+    streams = said ? read_streams(job) : std::vector{options.stream.read()};
+    take_surfaces(job, streams, said, surface_known);
+  };
   if (options.check) prepare(outputs, job, options);
   if (options.check)
     all_of({read, [&] { outputs.check(); }});
@@ -224,7 +223,12 @@ void expect_no_stream_options(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
-    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
+    throw CLI::ValidationError(
+        name,
+        name == "--drop-invalid"
+            ? "is of a stream alone: trueaxis import STREAM --drop-invalid -o CLEAN.csv writes "
+              "one for the job"
+            : "is of a stream alone: write it into the job");
   }
 }
 

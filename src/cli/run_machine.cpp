@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "cli/check.hpp"
 #include "cli/guarded.hpp"
@@ -61,7 +62,7 @@ void write_all(Outputs& outputs, const MachineJobResult& result) {
 std::string would_do(const MachineJob& job) {
   std::size_t rows = 0;
   for (const MachineMeasurement& one : job.data) rows += one.rows();
-  std::string text = "diagnose " + job.machine.name + " by " + std::to_string(rows) + " rows";
+  std::string text = "diagnose " + job.machine.name + " by " + counted(rows, "row");
   if (job.program) text += ", rewrite " + job.program->file + " for the errors found";
   return text + (job.tolerance_mm ? ", and decide about the tolerance" : "");
 }

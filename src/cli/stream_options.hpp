@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cli/options.hpp"
+#include "cli/typed_command.hpp"
 #include "measure/seats.hpp"
 #include "recording/import.hpp"
 #include "surface/surface.hpp"
@@ -22,6 +23,8 @@ struct StreamOptions {
   std::string columns;
   std::size_t skip = 0;
   ZRange range{};
+  bool drop_invalid = false;
+  const CLI::App* command = nullptr;  ///< whose options these are
 
   void add_to(CLI::App& command,
               const std::string& what = "probe stream (CSV), '-' for standard input") {
@@ -31,6 +34,7 @@ struct StreamOptions {
 
   /// The options that say what the readings are.
   void add_meaning_to(CLI::App& command) {
+    this->command = &command;
     auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
@@ -45,6 +49,8 @@ struct StreamOptions {
         .add_option("--skip", skip,
                     "of another program's file: lines above its table that are passed over")
         ->check(CLI::Range(0, 1000000));
+    command.add_flag("--drop-invalid", drop_invalid,
+                     "leave out rows without a value (NaN, #N/A, empty), and list them");
   }
 
   /// The options that take a stretch of Z alone.
@@ -66,8 +72,8 @@ struct StreamOptions {
   }
 
   bool says_anything() const {
-    return diameter || radius || relative || nominal_radius_mm > 0.0 || says_range() ||
-           recording().says_anything();
+    return diameter || radius || relative || nominal_radius_mm > 0.0 || drop_invalid ||
+           says_range() || recording().says_anything();
   }
 
   /// What the options say of a stream.
@@ -76,6 +82,9 @@ struct StreamOptions {
     if (diameter || radius) options.diameter = diameter;
     if (relative) options.indication = Indication::relative;
     if (nominal_radius_mm > 0.0) options.nominal_radius_mm = nominal_radius_mm;
+    options.drop_invalid = drop_invalid;
+    options.typed = typed_command(*command, {"--diameter", "--radius", "--relative",
+                                             "--nominal-radius", "--columns", "--skip"});
     return options;
   }
 

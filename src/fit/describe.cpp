@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "fit/apex_interval.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -272,8 +273,9 @@ void add_notes(const ReadingNoise& noise, FitResult& result) {
            .abs() > limit)
           .count();
   if (far > 0 && limit > 0.0 && result.sigma_mm > 1e-9) {
-    result.notes.push_back(fmt::format(
-        "{} readings lie beyond 6 robust σ: outliers? fit with a robust loss (tukey)", far));
+    result.notes.push_back(
+        fmt::format("{} beyond 6 robust σ: outliers? fit with a robust loss (tukey)",
+                    counted(static_cast<std::size_t>(far), "reading lies", "readings lie")));
   }
 }
 

@@ -19,6 +19,10 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
 /// U of the fitted radius, mm: a smaller one is not shown to be any. 0 where there is none.
 double radius_U_mm(const FitResult& fit);
 
+/// One to three readings so far from all others that they are a mistake (a lost decimal point): by
+/// row, with what to do. Empty: there are none, or too many for one.
+std::string gross_readings(const ProbeStream& stream);
+
 /// What a fit takes of a stream although nothing says it, what of the stream it does not use, and
 /// what looks like another unit of C; a sentence each. Only of a stream that was read from a file:
 /// who fills one in a program knows what is in it.

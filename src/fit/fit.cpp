@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/counted.hpp"
 #include "fit/associate.hpp"
 #include "fit/describe.hpp"
 #include "fit/plausible.hpp"
@@ -122,7 +123,7 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
   FitResult result = empty_result(stream, options, model.last_range_mm());
   result.input_notes = notes_on_input(stream, model.info());
   if (stream.size() < model.parameter_count()) {
-    result.message = std::to_string(stream.size()) + " readings are fewer than the " +
+    result.message = counted(stream.size(), "reading is", "readings are") + " fewer than the " +
                      std::to_string(model.parameter_count()) + " parameters of a " +
                      model.info().id + in_clampings(model.clampings());
     return result;
@@ -145,6 +146,13 @@ FitResult fit_model(const ProbeStream& stream, const std::vector<PlacedSetUp>& s
                      " passes: raise max_iterations";
   }
   describe(model, set_ups, association, noise, known, result);
+  if (options.loss != Loss::plain) return result;
+  if (const std::string gross = gross_readings(stream); !gross.empty()) {
+    if (result.status == FitStatus::converged)
+      result.input_notes.push_back(gross);
+    else
+      result.message = gross;
+  }
   return result;
 }
 

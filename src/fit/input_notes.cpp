@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "fit/describe.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -26,9 +27,9 @@ std::string unused_position(const ProbeStream& stream) {
   const auto [low, high] = range_of(stream.position_mm);
   if (!(high > low)) return "";
   return fmt::format(
-      "Z is not used: {} readings from Z = {:.6g} to {:.6g} mm{} were thrown together as one "
+      "Z is not used: {} from Z = {:.6g} to {:.6g} mm{} were thrown together as one "
       "section; taper and tilt between them count as noise (one section: a stream of one Z)",
-      stream.size(), low, high, in_sections(stream.position_mm));
+      counted(stream.size(), "reading"), low, high, in_sections(stream.position_mm));
 }
 
 /// C in radians under a header that says degrees, or the other way round.
@@ -40,9 +41,9 @@ std::string unit_of_angle(const ProbeStream& stream) {
   const double turns = (high - low) / two_pi;
   if (stream.size() > 1 && 2 * long_steps >= stream.size() - 1) {
     return fmt::format(
-        "C runs over {:.4g} turns in {} readings, mostly more than half a turn from one to the "
+        "C runs over {:.4g} turns in {}, mostly more than half a turn from one to the "
         "next: where it is in degrees, write C[deg]",
-        turns, stream.size());
+        turns, counted(stream.size(), "reading"));
   }
   if (360.0 * turns < few_degrees) {
     return fmt::format(
@@ -73,6 +74,36 @@ std::string exchanged_columns(const ProbeStream& stream) {
 }
 
 }  // namespace
+
+std::string gross_readings(const ProbeStream& stream) {
+  // Of a straight-sided surface the farthest reading is hardly farther from the median than nine in
+  // ten are: a lost decimal point is, and few readings alone are a mistake, more a step of the
+  // part.
+  constexpr double far = 10.0;
+  constexpr std::size_t most = 3, one_in = 20;
+  if (stream.size() < one_in) return "";
+  const double middle_mm = median(stream.reading_mm);
+  std::vector<double> off_mm;
+  off_mm.reserve(stream.size());
+  for (const double reading : stream.reading_mm) off_mm.push_back(std::abs(reading - middle_mm));
+  std::vector<double> sorted = off_mm;
+  const auto usual = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 9 / 10);
+  std::ranges::nth_element(sorted, usual);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < off_mm.size() && rows.size() <= most; ++i)
+    if (*usual > 0.0 && off_mm[i] > far * *usual) rows.push_back(i + 1);
+  if (rows.empty() || rows.size() > most || rows.size() * one_in > stream.size()) return "";
+  return fmt::format(
+      "row{} {} read{} {:.6g} mm{}, {:.4g} mm from the median of all, where nine readings in ten "
+      "lie "
+      "within {:.3g} mm: correct or remove {}, or count {} less with the loss tukey (--loss tukey, "
+      "in "
+      "a job loss = \"tukey\")",
+      rows.size() == 1 ? "" : "s", ranges_text(rows), rows.size() == 1 ? "s" : "",
+      stream.reading_mm[rows.front() - 1], rows.size() == 1 ? "" : " and the like",
+      off_mm[rows.front() - 1], *usual, rows.size() == 1 ? "it" : "them",
+      rows.size() == 1 ? "it" : "them");
+}
 
 std::vector<std::string> notes_on_input(const ProbeStream& stream, const SurfaceInfo& info) {
   std::vector<std::string> notes = stream.read_as;

@@ -239,6 +239,10 @@ std::vector<std::string> TomlTable::texts(std::string_view key) {
 std::optional<std::string> TomlTable::maybe_path(std::string_view key) {
   const std::optional<std::string> name = maybe_text(key);
   if (!name || name->empty() || *name == "-") return name;
+  if (holds_control_character(*name)) {  // "b\temp.csv" is TOML, with a tab
+    state_->wrong(state_->find(key), std::string("holds a control character: ") + backslash_advice);
+    return std::nullopt;
+  }
   const std::filesystem::path folder = std::filesystem::path(state_->document->path).parent_path();
   return (folder / *name).lexically_normal().string();
 }
@@ -344,7 +348,8 @@ void TomlDocument::Impl::parse(std::string_view content) {
     root = toml::parse(content, path);
   } catch (const toml::parse_error& error) {
     throw InputError({{path, error.source().begin.line, error.source().begin.column,
-                       "is no TOML: " + std::string(error.description())}});
+                       "is no TOML: " + std::string(error.description()) +
+                           backslash_hint(content, error.source().begin.line)}});
   }
   open(&root, "", {1, 1});
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <string_view>
@@ -30,6 +31,23 @@ std::string type_text(const toml::node& node) {
   text << node.type();
   const bool vowel = std::string_view("aeiou").find(text.str().front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + text.str();
+}
+
+std::string backslash_hint(std::string_view content, std::size_t number) {
+  for (std::size_t line = 1; line < number; ++line) {
+    const std::size_t end = content.find('\n');
+    if (end == std::string_view::npos) return "";
+    content.remove_prefix(end + 1);
+  }
+  content = content.substr(0, content.find('\n'));
+  const std::size_t quote = content.find('"');
+  const bool escape =
+      quote != std::string_view::npos && content.find('\\', quote) != std::string_view::npos;
+  return escape ? std::string(": ") + backslash_advice : "";
+}
+
+bool holds_control_character(std::string_view text) {
+  return std::ranges::any_of(text, [](unsigned char c) { return c < 0x20U || c == 0x7FU; });
 }
 
 }  // namespace trueaxis

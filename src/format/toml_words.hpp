@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <string>
+#include <string_view>
 
 #include "format/toml_reader.hpp"
 
@@ -20,5 +21,17 @@ bool contains(const Range& range, double value);
 
 /// "an integer", "a string"
 std::string type_text(const toml::node& node);
+
+/// How a path of Windows is written in TOML.
+inline constexpr const char* backslash_advice =
+    "in double quotes a backslash begins an escape: write the path in single quotes, 'a\\b.csv', "
+    "or "
+    "with '/'";
+
+/// Of line `number` (1-based) of a text that is no TOML: ": " and that advice where the line has a
+/// backslash in double quotes.
+std::string backslash_hint(std::string_view content, std::size_t number);
+
+bool holds_control_character(std::string_view text);
 
 }  // namespace trueaxis

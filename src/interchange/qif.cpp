@@ -76,10 +76,23 @@ std::string text_of(const pugi::xml_document& xml) {
 
 std::string qif_decimal(double value) {
   expects(std::isfinite(value), "a decimal is finite");
-  std::array<char, 512> text{};  // 1e±308 needs 330
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0,
-                                 std::chars_format::fixed);  // −0 + 0 is 0
-  return {text.data(), end.ptr};
+  // What every processor must take of an xs:decimal (XML Schema part 2, 3.2.3).
+  constexpr std::size_t most_digits = 18;
+  const auto fixed = [value](auto... decimals) {
+    std::array<char, 512> text{};  // 1e±308 needs 330
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value + 0.0,
+                                   std::chars_format::fixed, decimals...);  // −0 + 0 is 0
+    return std::string(text.data(), end.ptr);
+  };
+  std::string text = fixed();
+  const std::size_t point = text.find('.');
+  if (point == std::string::npos) return text;
+  const std::size_t whole = std::abs(value) < 1.0 ? 0 : point - (value < 0.0 ? 1 : 0);
+  if (whole + text.size() - point - 1 <= most_digits) return text;
+  text = fixed(static_cast<int>(most_digits - whole));  // of 2^53 or more there is no fraction
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text == "-0" ? "0" : text;
 }
 
 pugi::xml_node qif_child(pugi::xml_node parent, const std::string& name, const std::string& text) {

@@ -2,6 +2,7 @@
 #include "job/beyond_probed.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -86,6 +87,24 @@ std::string extrapolation(const JobResult& result, double factor) {
         target.z_start_mm, target.z_end_mm, line.name, line.low_mm, line.high_mm, times);
   }
   return "";
+}
+
+std::string common_datum(const JobResult& result) {
+  if (result.datum || !result.job.target) return "";
+  double low_mm = std::numeric_limits<double>::infinity(), high_mm = -low_mm;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+    const FitResult& fit = of_the_line(result, i);
+    if (fit.surface == SurfaceKind::plane) continue;
+    low_mm = std::min(low_mm, fit.position_min_mm);
+    high_mm = std::max(high_mm, fit.position_max_mm);
+    names.push_back("\"" + result.job.references[i].name + "\"");
+  }
+  const auto [from_mm, to_mm] =
+      std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
+  if (names.size() < 2 || from_mm < low_mm || to_mm > high_mm) return "";
+  return fmt::format("it lies between them, so take the axis of both: datum = [{}] in [target]",
+                     fmt::join(names, ", "));
 }
 
 }  // namespace trueaxis

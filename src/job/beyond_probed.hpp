@@ -21,4 +21,8 @@ double u_beyond_probed(const JobResult& result, std::size_t reference);
 /// without its end; empty: it does not.
 std::string extrapolation(const JobResult& result, double factor);
 
+/// Where the target lies between references that are judged each for itself: the line of [target]
+/// that makes one datum of them. Empty: it does not.
+std::string common_datum(const JobResult& result);
+
 }  // namespace trueaxis

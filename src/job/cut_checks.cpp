@@ -109,14 +109,18 @@ std::string cut_objection(const JobResult& result) {
   if (std::string why = first_of(hollow_objection); !why.empty()) return why;
   if (std::string why = first_of(stock_objection); !why.empty()) return why;
   const std::string far = extrapolation(result, refused_u_factor);
-  return far.empty() ? "" : far + ": probe nearer to it, or a greater length";
+  if (far.empty()) return "";
+  const std::string common = common_datum(result);
+  return far + ": " + (common.empty() ? "probe nearer to it, or a greater length" : common);
 }
 
 std::vector<std::string> cut_reservations(const JobResult& result) {
   std::vector<std::string> sentences;
   if (!result.correction) return sentences;
-  if (std::string far = extrapolation(result, reserved_u_factor); !far.empty())
-    sentences.push_back(std::move(far));
+  if (std::string far = extrapolation(result, reserved_u_factor); !far.empty()) {
+    const std::string common = common_datum(result);
+    sentences.push_back(far + (common.empty() ? "" : "; " + common));
+  }
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     if (result.streams[i].indication == Indication::relative)
       sentences.push_back(result.job.references[i].name +

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/counted.hpp"
 #include "measure/files/stream_csv_text.hpp"
 #include "recording/column_names.hpp"
 #include "recording/instant.hpp"
@@ -135,8 +136,9 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
                     "channel and are left out",
                     outside, fastest->first));
   if (others > 0)
-    out.notes.push_back(
-        fmt::format("{} lines without a number (disconnected, alarms) are passed over", others));
+    out.notes.push_back(counted(others, "line without a number (disconnected, alarms) is",
+                                "lines without a number (disconnected, alarms) are") +
+                        " passed over");
   out.producer = "an EPICS camonitor log";
   return true;
 }

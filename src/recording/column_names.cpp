@@ -2,93 +2,51 @@
 #include "recording/column_names.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <span>
 
 #include "measure/files/stream_csv_number.hpp"
+#include "recording/folded.hpp"
+#include "recording/header_words.hpp"
 
 namespace trueaxis {
 namespace {
 
-struct Name {
-  std::string_view folded;
-  NamedRole is;
-};
-
-constexpr Name names[] = {
-    {"xm", {RecordedRole::x}},
-    {"x", {RecordedRole::x}},
-    {"xpos", {RecordedRole::x}},
-    {"xposition", {RecordedRole::x}},
-    {"xachse", {RecordedRole::x}},
-    {"xaxis", {RecordedRole::x}},
-    {"xist", {RecordedRole::x}},
-    {"xact", {RecordedRole::x}},
-    {"xactual", {RecordedRole::x}},
-    {"xactpos", {RecordedRole::x}},
-    {"radius", {RecordedRole::x, false}},
-    {"r", {RecordedRole::x, false}},
-    {"xradius", {RecordedRole::x, false}},
-    {"diameter", {RecordedRole::x, true}},
-    {"durchmesser", {RecordedRole::x, true}},
-    {"dia", {RecordedRole::x, true}},
-    {"diam", {RecordedRole::x, true}},
-    {"ø", {RecordedRole::x, true}},
-    {"⌀", {RecordedRole::x, true}},
-    {"xdiameter", {RecordedRole::x, true}},
-    {"xdia", {RecordedRole::x, true}},
-    {"indicator", {RecordedRole::x, false, true}},
-    {"gauge", {RecordedRole::x, false, true}},
-    {"messuhr", {RecordedRole::x, false, true}},
-    {"runout", {RecordedRole::x, false, true}},
-    {"zm", {RecordedRole::face}},
-    {"c", {RecordedRole::c}},
-    {"cpos", {RecordedRole::c}},
-    {"cposition", {RecordedRole::c}},
-    {"cachse", {RecordedRole::c}},
-    {"caxis", {RecordedRole::c}},
-    {"cist", {RecordedRole::c}},
-    {"cact", {RecordedRole::c}},
-    {"cactual", {RecordedRole::c}},
-    {"cactpos", {RecordedRole::c}},
-    {"angle", {RecordedRole::c}},
-    {"winkel", {RecordedRole::c}},
-    {"spindleangle", {RecordedRole::c}},
-    {"spindelwinkel", {RecordedRole::c}},
-    {"theta", {RecordedRole::c}},
-    {"z", {RecordedRole::z}},
-    {"zpos", {RecordedRole::z}},
-    {"zposition", {RecordedRole::z}},
-    {"zachse", {RecordedRole::z}},
-    {"zaxis", {RecordedRole::z}},
-    {"zist", {RecordedRole::z}},
-    {"zact", {RecordedRole::z}},
-    {"zactual", {RecordedRole::z}},
-    {"zactpos", {RecordedRole::z}},
-    {"y", {RecordedRole::y}},
-    {"ypos", {RecordedRole::y}},
-    {"yachse", {RecordedRole::y}},
-    {"yaxis", {RecordedRole::y}},
-    {"t", {RecordedRole::t}},
-    {"time", {RecordedRole::t}},
-    {"zeit", {RecordedRole::t}},
-    {"timestamp", {RecordedRole::t}},
-    {"elapsed", {RecordedRole::t}},
-    {"pass", {RecordedRole::pass}},
-    {"durchgang", {RecordedRole::pass}},
-    {"setup", {RecordedRole::setup}},
-    {"aufspannung", {RecordedRole::setup}},
-};
-
-/// Small letters without blanks, '_' and '-'.
-std::string folded(std::string_view name) {
-  std::string out;
-  for (const char c : name)
-    if (c != ' ' && c != '_' && c != '-')
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  // The one capital of the list that is not ASCII.
-  if (const auto at = out.find("Ø"); at != std::string::npos) out.replace(at, 2, "ø");
-  return out;
+/// What the words of a name make of a column; nothing where they do not say which.
+std::optional<NamedRole> role_of(const HeaderName& name) {
+  using enum HeaderMeaning;
+  const auto with_axis = [&](char axis, NamedRole role) {
+    role.language = name.language;
+    return name.axis == 0 || name.axis == axis ? std::optional(role) : std::nullopt;
+  };
+  if (!name.meaning) {
+    if (name.axis == 0 && !name.position) return {};
+    NamedRole role{name.axis == 'x'   ? RecordedRole::x
+                   : name.axis == 'c' ? RecordedRole::c
+                   : name.axis == 'y' ? RecordedRole::y
+                                      : RecordedRole::z};
+    role.vague = name.axis == 0;
+    role.language = name.language;
+    return role;
+  }
+  switch (*name.meaning) {
+    case radius:
+      return with_axis('x', {RecordedRole::x, false});
+    case diameter:
+      return with_axis('x', {RecordedRole::x, true});
+    case gauge:
+      return with_axis('x', {RecordedRole::x, false, true});
+    case angle:
+      return with_axis('c', {RecordedRole::c});
+    case face:
+      return with_axis('z', {RecordedRole::face});
+    case time:
+      return with_axis(0, {RecordedRole::t});
+    case pass:
+      return with_axis(0, {RecordedRole::pass});
+    case setup:
+      return with_axis(0, {RecordedRole::setup});
+    default:
+      return {};
+  }
 }
 
 CsvQuantity quantity_of(RecordedRole role) {
@@ -102,9 +60,8 @@ CsvQuantity quantity_of(RecordedRole role) {
 
 std::optional<NamedRole> role_of_name(std::string_view name) {
   const auto look_up = [](std::string_view text) -> std::optional<NamedRole> {
-    const std::string key = folded(text);
-    const auto* found = std::ranges::find(names, key, &Name::folded);
-    return found == std::end(names) ? std::nullopt : std::optional(found->is);
+    const auto words = read_header_name(text);
+    return words ? role_of(*words) : std::nullopt;
   };
   if (const auto whole = look_up(name)) return whole;
   const std::size_t part = name.find_last_of(":.");
@@ -116,7 +73,8 @@ std::optional<RecordedRole> role_of_word(std::string_view word) {
       {"x", RecordedRole::x}, {"xm", RecordedRole::x},      {"zm", RecordedRole::face},
       {"c", RecordedRole::c}, {"z", RecordedRole::z},       {"y", RecordedRole::y},
       {"t", RecordedRole::t}, {"pass", RecordedRole::pass}, {"setup", RecordedRole::setup}};
-  const std::string key = folded(word);
+  std::string key = folded(word);
+  std::erase_if(key, [](char c) { return c == ' ' || c == '_' || c == '-'; });
   for (const auto& [name, role] : words)
     if (name == key) return role;
   return {};
@@ -127,23 +85,22 @@ const char* word_of(RecordedRole role) {
   return words[static_cast<std::size_t>(role)];
 }
 
-std::optional<std::string> stream_unit(RecordedRole role, std::string_view unit) {
+std::optional<std::string> stream_unit(RecordedRole role, std::string_view unit,
+                                       std::string_view language) {
   const CsvQuantity quantity = quantity_of(role);
-  std::string text(csv_trimmed(unit));
+  std::string_view text = csv_trimmed(unit);
+  if (quantity == CsvQuantity::count)
+    return text.empty() ? std::optional(std::string()) : std::nullopt;
   std::string dia;
-  for (const std::string_view word : {" dia", " diameter", " Ø"}) {
-    if (quantity != CsvQuantity::length || !text.ends_with(word)) continue;
-    text.erase(text.size() - word.size());
-    dia = " dia";
+  if (const std::size_t blank = text.rfind(' '); blank != std::string_view::npos) {
+    const auto last = read_header_name(text.substr(blank + 1));
+    if (quantity == CsvQuantity::length && last && last->meaning == HeaderMeaning::diameter) {
+      text = text.substr(0, blank);
+      dia = " dia";
+    }
   }
-  constexpr std::pair<std::string_view, std::string_view> others[] = {
-      {"°", "deg"},     {"degree", "deg"}, {"degrees", "deg"}, {"º", "deg"}, {"turns", "rev"},
-      {"MM", "mm"},     {"\"", "in"},      {"inches", "in"},   {"sec", "s"}, {"msec", "ms"},
-      {"micron", "um"}, {"microns", "um"}, {"µm", "um"},       {"μm", "um"}, {"Deg", "deg"}};
-  for (const auto& [from, to] : others)
-    if (text == from) text = to;
-  if (quantity == CsvQuantity::count) return text.empty() ? std::optional(text) : std::nullopt;
-  return csv_find_unit(quantity, text) ? std::optional(text + dia) : std::nullopt;
+  const auto known = unit_of_word(text, language);
+  return known && csv_find_unit(quantity, *known) ? std::optional(*known + dia) : std::nullopt;
 }
 
 const char* default_unit(RecordedRole role) {

@@ -32,6 +32,14 @@ std::optional<std::size_t> find_column(const Recording& recording, const std::st
   return number - 1;
 }
 
+/// The language that the header is in, where a name is of one alone: "Winkel", "Durchmesser".
+std::string language_of(const Recording& recording) {
+  for (const RecordedColumn& column : recording.columns)
+    if (const auto named = role_of_name(column.name); named && !named->language.empty())
+      return named->language;
+  return "";
+}
+
 /// The unit of a column as a stream writes it; what is not clear is said.
 void take_unit(const Recording& recording, TakenColumn& taken,
                const std::optional<std::string>& said, std::vector<std::string>& unclear) {
@@ -41,7 +49,7 @@ void take_unit(const Recording& recording, TakenColumn& taken,
     taken.unit_said = false;
     return;
   }
-  if (const auto known = stream_unit(taken.role, unit)) {
+  if (const auto known = stream_unit(taken.role, unit, language_of(recording))) {
     taken.unit = *known;
     if (known->ends_with(" dia")) {
       taken.unit = known->substr(0, known->size() - 4);
@@ -91,11 +99,35 @@ std::vector<TakenColumn> as_said(const Recording& recording, const ColumnsSaid& 
   return taken;
 }
 
+/// What a position of an axis that its name does not say becomes: an angle is C; one that may be
+/// the only Z is asked for.
+void take_vague(const Recording& recording, std::size_t k, std::vector<TakenColumn>& taken,
+                std::vector<std::string>& unclear) {
+  const auto has = [&](RecordedRole role) {
+    return std::ranges::find(taken, role, &TakenColumn::role) != taken.end();
+  };
+  const bool turns =
+      stream_unit(RecordedRole::c, recording.columns[k].unit, language_of(recording)).has_value();
+  if (turns && !has(RecordedRole::c)) {
+    taken.push_back({RecordedRole::c, k});
+    take_unit(recording, taken.back(), std::nullopt, unclear);
+  } else if (!turns && !has(RecordedRole::z) && !has(RecordedRole::face)) {
+    unclear.push_back(described(recording, k) +
+                      " does not say of which axis it is: say it in --columns, Z=" +
+                      std::to_string(k + 1) + " for a position along the part");
+  }
+}
+
 std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::string>& unclear) {
   std::vector<TakenColumn> taken;
+  std::vector<std::size_t> vague;
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     const auto named = role_of_name(recording.columns[k].name);
     if (!named) continue;
+    if (named->vague) {
+      vague.push_back(k);
+      continue;
+    }
     if (named->gauge) {
       unclear.push_back(described(recording, k) + " is of an indicator: say X=" +
                         std::to_string(k + 1) + ", --relative and --nominal-radius");
@@ -113,6 +145,7 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
     take_unit(recording, one, std::nullopt, unclear);
     taken.push_back(std::move(one));
   }
+  for (const std::size_t k : vague) take_vague(recording, k, taken, unclear);
   return taken;
 }
 
@@ -209,19 +242,26 @@ std::vector<TakenColumn> take_columns(const Recording& recording, const ColumnsS
 std::string columns_suggested(const Recording& recording) {
   if (is_probe_log(recording)) return "X=1[mm],C=6[deg],Z=3[mm]";
   std::string x = "X=…", c = "C=…", z = "Z=…";
-  for (std::size_t k = 0; k < recording.columns.size(); ++k) {
-    const auto named = role_of_name(recording.columns[k].name);
-    if (!named) continue;
-    std::string* item = named->role == RecordedRole::x   ? &x
-                        : named->role == RecordedRole::c ? &c
-                        : named->role == RecordedRole::z ? &z
-                                                         : nullptr;
-    if (item != nullptr && item->ends_with("…"))
-      *item = std::string(word_of(named->role)) + "=" + std::to_string(k + 1) +
-              (recording.of_numbers && recording.columns[k].unit.empty()
-                   ? fmt::format("[{}]", default_unit(named->role))
-                   : "");
-  }
+  for (const bool vague : {false, true})
+    for (std::size_t k = 0; k < recording.columns.size(); ++k) {
+      const auto named = role_of_name(recording.columns[k].name);
+      if (!named || named->vague != vague) continue;
+      const std::string& unit = recording.columns[k].unit;
+      const RecordedRole role =
+          vague && stream_unit(RecordedRole::c, unit, "*") ? RecordedRole::c : named->role;
+      std::string* item = role == RecordedRole::x   ? &x
+                          : role == RecordedRole::c ? &c
+                          : role == RecordedRole::z ? &z
+                                                    : nullptr;
+      if (item == nullptr || !item->ends_with("…")) continue;
+      const bool said = stream_unit(role, unit, language_of(recording)).has_value();
+      const auto meant = stream_unit(role, unit, "*");  // "Grad", where it is a degree
+      *item = std::string(word_of(role)) + "=" + std::to_string(k + 1);
+      if (unit.empty() && recording.of_numbers)
+        *item += fmt::format("[{}]", default_unit(role));
+      else if (!unit.empty() && !said)
+        *item += "[" + meant.value_or("…") + "]";
+    }
   return x + "," + c + "," + z;
 }
 

@@ -11,6 +11,7 @@
 
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "format/shell.hpp"
 #include "interchange/number_file.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_text.hpp"
@@ -49,10 +50,6 @@ std::string listed(const Recording& recording) {
   return text;
 }
 
-std::string quoted_path(const std::string& path) {
-  return path.find_first_of(" '\"()&;$") == std::string::npos ? path : "\"" + path + "\"";
-}
-
 /// What is not clear: in sentences, and what the command that would read the file must say for it.
 struct Unclear {
   std::vector<std::string> why;
@@ -61,22 +58,52 @@ struct Unclear {
   bool decimal = false;     ///< a decimal mark that may part thousands as well
 };
 
-/// The options of the command that would read the file: those that were given, and what is asked.
-std::string options_suggested(const Recording& recording, const RecordingOptions& options,
-                              const Unclear& unclear) {
+/// What a recording's own options are as words of a command.
+std::vector<std::string> recording_words(const std::string& columns, std::size_t skip) {
+  std::vector<std::string> words;
+  if (!columns.empty()) words.insert(words.end(), {"--columns", columns});
+  if (skip > 0) words.insert(words.end(), {"--skip", std::to_string(skip)});
+  return words;
+}
+
+/// The columns that were said, and what is asked, as far as it is clear.
+std::string columns_to_say(const Recording& recording, const RecordingOptions& options,
+                           const Unclear& unclear) {
   std::string columns =
       unclear.columns || options.columns.empty() ? columns_suggested(recording) : options.columns;
   if (unclear.decimal) columns += recording.decimal == ',' ? ",decimal=comma" : ",decimal=point";
-  std::string text = " --columns \"" + columns + "\"";
-  if (options.skip > 0) text += fmt::format(" --skip {}", options.skip);
-  if (unclear.convention) {
-    text += is_probe_log(recording) ? " --radius" : " --diameter (or --radius)";
-  } else if (options.read.diameter) {
-    text += *options.read.diameter ? " --diameter" : " --radius";
-  }
-  if (options.read.indication == Indication::relative) text += " --relative";
-  if (options.read.nominal_radius_mm)
-    text += fmt::format(" --nominal-radius {}", *options.read.nominal_radius_mm);
+  return columns;
+}
+
+/// The command that would read the file: the one that was typed with what is asked.
+std::string command_suggested(const std::string& path, const Recording& recording,
+                              const RecordingOptions& options, const Unclear& unclear) {
+  std::vector<std::string> words = options.read.typed;
+  const bool typed = !words.empty();
+  if (!typed) words = {"trueaxis", "import", path};
+  const auto add = [&](const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+  };
+  add(recording_words(columns_to_say(recording, options, unclear), options.skip));
+  StreamReadOptions read = options.read;
+  if (unclear.convention) read.diameter.reset();
+  add(words_of(read));
+  if (unclear.convention && is_probe_log(recording)) add({"--radius"});
+  if (!typed)
+    add({"-o", (path == "-" ? "my" : std::filesystem::path(path).stem().string()) + "_stream.csv"});
+  if (unclear.convention && !is_probe_log(recording)) add({"--diameter"});
+  return shell_line(words) +
+         (unclear.convention && !is_probe_log(recording) ? " (or --radius)" : "");
+}
+
+/// The same as the lines of a job's [[reference]].
+std::string lines_suggested(const Recording& recording, const RecordingOptions& options,
+                            const Unclear& unclear) {
+  std::string text = "columns = '" + columns_to_say(recording, options, unclear) + "'";
+  if (options.skip > 0) text += fmt::format(", skip_lines = {}", options.skip);
+  if (unclear.convention)
+    text += is_probe_log(recording) ? ", x_convention = \"radius\""
+                                    : ", x_convention = \"diameter\" (or \"radius\")";
   return text;
 }
 
@@ -86,9 +113,11 @@ std::string options_suggested(const Recording& recording, const RecordingOptions
   const auto say = [&](std::string what) { diagnostics.push_back({path, 0, 0, std::move(what)}); };
   for (const std::string& why : unclear.why) say(why);
   say("was read as " + recording.producer + " with the columns " + listed(recording));
-  say(fmt::format("the command that would read it: trueaxis import {}{} -o {}_stream.csv",
-                  quoted_path(path), options_suggested(recording, options, unclear),
-                  path == "-" ? "my" : std::filesystem::path(path).stem().string()));
+  if (options.read.diameter_said_by == SaidBy::job)
+    say("the lines of its [[reference]] that would read it: " +
+        lines_suggested(recording, options, unclear));
+  else
+    say("the command that would read it: " + command_suggested(path, recording, options, unclear));
   throw InputError(std::move(diagnostics));
 }
 
@@ -223,7 +252,8 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   CsvDiagnostics diagnostics(path, options.read.max_diagnostics);
   for (const Diagnostic& wrong : recording.wrong)
     diagnostics.add(wrong.line, wrong.column, wrong.message, "row");
-  const StreamRows rows = stream_rows(recording, text, taken, *diameter, diagnostics);
+  const StreamRows rows =
+      stream_rows(recording, text, taken, *diameter, options.read.drop_invalid, diagnostics);
 
   ImportedRecording out;
   out.producer = recording.producer;
@@ -256,7 +286,12 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
         thrown_by([&] { out.stream = read_stream_csv_text(out.text, path, read, line_of); }),
         std::back_inserter(wrong));
   std::ranges::stable_sort(wrong, {}, &Diagnostic::line);
-  if (!wrong.empty()) throw InputError(std::move(wrong));
+  if (!wrong.empty()) {
+    const std::string remedy = rows.invalid.remedy(
+        path, options.read, recording_words(options.columns, options.skip), rows.rows.size());
+    if (!remedy.empty()) wrong.push_back({path, 0, 0, remedy});
+    throw InputError(std::move(wrong));
+  }
   out.stream.read_as = out.notes;
   out.stream.input_hash = content_hash(bytes);
   return out;

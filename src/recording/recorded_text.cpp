@@ -6,27 +6,12 @@
 
 #include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_text.hpp"
+#include "recording/folded.hpp"
+#include "recording/header_words.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
 namespace {
-
-void append_utf8(std::string& out, unsigned code) {
-  const auto put = [&](unsigned byte) { out += static_cast<char>(byte); };
-  if (code < 0x80U) return put(code);
-  if (code < 0x800U) {
-    put(0xC0U | (code >> 6U));
-  } else {
-    if (code < 0x10000U) {
-      put(0xE0U | (code >> 12U));
-    } else {
-      put(0xF0U | (code >> 18U));
-      put(0x80U | ((code >> 12U) & 0x3FU));
-    }
-    put(0x80U | ((code >> 6U) & 0x3FU));
-  }
-  put(0x80U | (code & 0x3FU));
-}
 
 /// UTF-16 behind its byte order mark, as a spreadsheet's "Unicode text" is.
 std::string from_utf16(std::string_view bytes, bool little) {
@@ -82,26 +67,38 @@ RecordedColumn recorded_column(std::string_view field) {
   RecordedColumn column;
   field = csv_trimmed(field);
   column.whole = field;
-  const auto split_at = [&](std::size_t name_end, std::size_t begin, std::size_t end) {
+  const auto split_at = [&](std::size_t name_end, std::string_view unit) {
     column.name = csv_trimmed(field.substr(0, name_end));
-    column.unit = csv_trimmed(field.substr(begin, end - begin));
+    column.unit = csv_trimmed(unit);
   };
-  for (const std::string_view brackets : {"[]", "()"}) {
-    const std::size_t open = field.find_last_of(brackets[0]);
-    if (open != std::string_view::npos && open > 0 && field.back() == brackets[1]) {
-      split_at(open, open + 1, field.size() - 1);
+  constexpr std::pair<std::string_view, std::string_view> brackets[] = {
+      {"[", "]"}, {"(", ")"}, {"（", "）"}, {"［", "］"}};
+  for (const auto& [left, right] : brackets) {
+    const std::size_t open = field.rfind(left);
+    if (open == std::string_view::npos || open == 0 || !field.ends_with(right)) continue;
+    const std::string_view inside =
+        field.substr(open + left.size(), field.size() - right.size() - open - left.size());
+    // "Angle (C)", "X (Radius)": more of the name.
+    if (left != "[" && !is_unit_word(inside) && read_header_name(inside)) break;
+    split_at(open, inside);
+    return column;
+  }
+  if (constexpr std::string_view degree = "°"; field.ends_with(degree) && field != degree) {
+    split_at(field.find_last_not_of(" /,_", field.size() - degree.size() - 1) + 1, degree);
+    return column;
+  }
+  // "C / deg", "X in mm", "angle, rad", "time_s"; X_M is no X in metres, and "in" may be a word.
+  const std::size_t at = field.find_last_of(" /,_");
+  if (at != std::string_view::npos && at > 0) {
+    const std::string_view unit = field.substr(at + 1);
+    const bool letter = unit.size() == 1 && field[at] == '_' && unit != "s";
+    if (is_unit_word(unit) && folded(unit) != "in" && !letter) {
+      std::size_t end = field.find_last_not_of(" /,_", at);
+      end = end == std::string_view::npos ? 0 : end + 1;
+      if (field.substr(0, end).ends_with(" in")) end -= 3;
+      split_at(end, unit);
       return column;
     }
-  }
-  for (const std::string_view between : {" / ", " in ", "/", " "}) {
-    const std::size_t at = field.rfind(between);
-    if (at == std::string_view::npos || at == 0) continue;
-    const std::string_view unit = csv_trimmed(field.substr(at + between.size()));
-    constexpr std::string_view plain[] = {"mm",  "um", "µm",  "μm",  "m", "inch",
-                                          "deg", "°",  "rad", "rev", "s", "ms"};
-    if (std::ranges::find(plain, unit) == std::end(plain)) continue;
-    split_at(at, at + between.size(), field.size());
-    return column;
   }
   column.name = field;
   return column;

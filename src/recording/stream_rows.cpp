@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "measure/files/stream_csv_number.hpp"
 #include "recording/column_names.hpp"
@@ -56,17 +57,26 @@ std::string why_no_number(std::string_view cell, char decimal) {
 class RowMaker {
  public:
   RowMaker(const Recording& recording, const RecordedText& text,
-           const std::vector<TakenColumn>& taken, bool diameter, CsvDiagnostics& diagnostics)
+           const std::vector<TakenColumn>& taken, bool diameter, bool drop_invalid,
+           CsvDiagnostics& diagnostics)
       : recording_(recording),
         text_(text),
         taken_(taken),
         diameter_(diameter),
+        drop_invalid_(drop_invalid),
         diagnostics_(diagnostics),
         points_(find(taken, RecordedRole::y) != nullptr) {}
+
+  /// Rows of which no value stands in a cell that is needed.
+  const CsvInvalidRows& invalid() const { return invalid_; }
 
   /// False where a cell is wrong.
   bool row(std::size_t i, std::string& out) {
     out.clear();
+    if (const auto field = without_value(i)) {
+      invalid_.add(recording_.lines[i], *field);
+      if (drop_invalid_) return false;
+    }
     double x = 0.0, y = 0.0, c = 0.0;
     bool good = true;
     if (points_) {
@@ -97,9 +107,28 @@ class RowMaker {
   }
 
  private:
+  bool is_instant(const TakenColumn& column) const {
+    return column.role == RecordedRole::t && !recording_.columns[column.column].is_number;
+  }
+
+  /// The first cell that holds no value, where all that are wrong are such.
+  std::optional<std::string_view> without_value(std::size_t i) const {
+    std::optional<std::string_view> first;
+    for (const TakenColumn& column : taken_) {
+      const std::string_view cell = recording_.cell(i, column.column);
+      double value = 0.0;
+      if (is_instant(column) ? instant_s(cell).has_value()
+                             : recorded_number(cell, recording_.decimal, value))
+        continue;
+      if (!csv_is_no_value(cell)) return {};
+      if (!first) first = cell;
+    }
+    return first;
+  }
+
   void append(std::string& out, std::size_t i, const TakenColumn& column, double value) const {
     const std::string_view cell = recording_.cell(i, column.column);
-    if (column.role == RecordedRole::t && !recording_.columns[column.column].is_number) {
+    if (is_instant(column)) {
       out += fmt::format("{:.9g}", value);
     } else {
       out += with_point(cell);
@@ -109,7 +138,7 @@ class RowMaker {
   bool number(std::size_t i, const TakenColumn& column, double& value) {
     const std::string_view cell = recording_.cell(i, column.column);
     const std::string name = word_of(column.role);
-    if (column.role == RecordedRole::t && !recording_.columns[column.column].is_number) {
+    if (is_instant(column)) {
       const auto at_s = instant_s(cell);
       if (!at_s)
         return wrong(i, column, "t: " + csv_quoted(cell) + " is no time of day: write 13:55:48.325",
@@ -144,10 +173,11 @@ class RowMaker {
   const Recording& recording_;
   const RecordedText& text_;
   const std::vector<TakenColumn>& taken_;
-  bool diameter_;
+  bool diameter_, drop_invalid_;
   CsvDiagnostics& diagnostics_;
   bool points_;
   double first_s_ = std::nan("");
+  CsvInvalidRows invalid_;
 };
 
 /// A column Y that is 0 throughout says nothing.
@@ -165,7 +195,8 @@ void drop_y_of_zeros(const Recording& recording, std::vector<TakenColumn>& taken
 }  // namespace
 
 StreamRows stream_rows(const Recording& recording, const RecordedText& text,
-                       std::vector<TakenColumn> taken, bool diameter, CsvDiagnostics& diagnostics) {
+                       std::vector<TakenColumn> taken, bool diameter, bool drop_invalid,
+                       CsvDiagnostics& diagnostics) {
   drop_y_of_zeros(recording, taken);
   std::ranges::stable_sort(taken, {}, &TakenColumn::role);
   StreamRows out;
@@ -180,12 +211,19 @@ StreamRows stream_rows(const Recording& recording, const RecordedText& text,
         "C + arctan(Y/X)");
   }
   out.header = header_of(taken, diameter);
-  RowMaker maker(recording, text, taken, diameter, diagnostics);
+  RowMaker maker(recording, text, taken, diameter, drop_invalid, diagnostics);
   std::string row;
   for (std::size_t i = 0; i < recording.rows(); ++i) {
     if (!maker.row(i, row)) continue;
     out.rows.push_back(row);
     out.lines.push_back(recording.lines[i]);
+  }
+  out.invalid = maker.invalid();
+  if (drop_invalid && out.invalid.any()) {
+    out.notes.push_back(out.invalid.left_out());
+    if (const std::string many = csv_too_many_invalid(out.invalid.count(), out.rows.size());
+        !many.empty())
+      diagnostics.add(0, 0, many);
   }
   return out;
 }

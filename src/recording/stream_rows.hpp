@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/files/stream_csv_invalid.hpp"
 #include "measure/files/stream_csv_text.hpp"
 #include "recording/columns.hpp"
 #include "recording/recording.hpp"
@@ -17,12 +18,15 @@ struct StreamRows {
   std::vector<std::string> rows;   ///< without line ends; those of which every cell is good
   std::vector<std::size_t> lines;  ///< of the file, of each row
   std::vector<std::string> notes;
+  CsvInvalidRows invalid;  ///< that hold no value in a column that was taken
 };
 
 /// What is no number goes to `diagnostics`, one place and a count of each kind. Where there is a
 /// column Y, (X, Y) at C is a point: the reading is its distance from the spindle axis, signed as
 /// X, at the angle C + arctan(Y/X), which is the same point of the part.
+/// With `drop_invalid` rows without a value are no mistakes.
 StreamRows stream_rows(const Recording& recording, const RecordedText& text,
-                       std::vector<TakenColumn> taken, bool diameter, CsvDiagnostics& diagnostics);
+                       std::vector<TakenColumn> taken, bool diameter, bool drop_invalid,
+                       CsvDiagnostics& diagnostics);
 
 }  // namespace trueaxis

@@ -2,11 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 
 #include "measure/files/stream_csv_text.hpp"
+#include "recording/folded.hpp"
+#include "recording/header_words.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
@@ -107,14 +108,12 @@ bool is_comment(std::string_view line) { return csv_trimmed(line).starts_with('#
 
 /// A row of units below the names: every field is a unit or empty, none a number.
 bool is_unit_row(const std::vector<std::string_view>& fields) {
-  constexpr std::string_view units[] = {"mm",  "um", "µm",  "μm",  "m",    "in",    "inch", "\"",
-                                        "deg", "°",  "rad", "rev", "Grad", "grad",  "s",    "ms",
-                                        "",    "-",  "sec", "min", "1",    "mm dia"};
+  constexpr std::string_view others[] = {"", "-", "min", "1", "mm dia"};
   bool any = false;
   for (std::string_view field : fields) {
     if (field.size() > 2 && (field.front() == '[' || field.front() == '('))
       field = csv_trimmed(field.substr(1, field.size() - 2));
-    if (std::ranges::find(units, field) == std::end(units)) return false;
+    if (!is_unit_word(field) && std::ranges::find(others, field) == std::end(others)) return false;
     any = any || !field.empty();
   }
   return any;
@@ -122,13 +121,25 @@ bool is_unit_row(const std::vector<std::string_view>& fields) {
 
 /// A title that says a unit or a convention of the whole table must not be passed over.
 void note_convention(std::string_view line, Recording& out) {
-  std::string small;
-  for (const char c : line) small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const char* word : {"inch", "diameter", "durchmesser", "radius", "unit", "einheit"}) {
-    if (small.find(word) == std::string::npos) continue;
-    out.unclear.push_back("a line above the table says " + csv_quoted(line) +
-                          ": say in --columns what the columns are, with their units");
-    return;
+  const std::string text = folded(line);
+  const auto says = [](std::string_view word) {
+    const auto name = read_header_name(word);
+    const auto unit = unit_of_word(word);
+    return (name &&
+            (name->meaning == HeaderMeaning::radius || name->meaning == HeaderMeaning::diameter) &&
+            word.size() > 1) ||
+           (unit == "in" && word.size() > 2) || word.starts_with("unit") ||
+           word.starts_with("einheit") || word.starts_with("durchmesser");
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    constexpr std::string_view between = " \t:;,|=()[]\"";
+    const std::size_t end = std::min(text.find_first_of(between, at), text.size());
+    if (says(std::string_view(text).substr(at, end - at))) {
+      out.unclear.push_back("a line above the table says " + csv_quoted(line) +
+                            ": say in --columns what the columns are, with their units");
+      return;
+    }
+    at = end + 1;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/counted.hpp"
 #include "measure/files/stream_csv_number.hpp"
 #include "recording/recording.hpp"
 
@@ -90,8 +91,10 @@ bool read_words(const RecordedText& text, Recording& out) {
     out.columns.push_back({name, "", name, true});
   }
   if (others > 0)
-    out.notes.push_back(fmt::format("{} lines that are no words of numbers are passed over: {}{}",
-                                    others, first_other, others > 1 ? " …" : ""));
+    out.notes.push_back(fmt::format("{} passed over: {}{}",
+                                    counted(others, "line that is no words of numbers is",
+                                            "lines that are no words of numbers are"),
+                                    first_other, others > 1 ? " …" : ""));
   out.producer = "words of a letter and a number, as DPRNT prints them";
   return true;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "fit/files/fit_screen.hpp"
+#include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
 #include "job/seat_distance.hpp"
@@ -53,18 +54,13 @@ void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
     if (check.found && check.effect != "probe.correlated_noise") warnings.add(check.text, name);
 }
 
-std::string chance_text(double probability) {
-  return fmt::format("{:.0f} %", 100.0 * std::clamp(probability, 0.0, 1.0));
-}
-
-/// What the diagnosis asks to be measured next, and what it would tell.
+/// What the diagnosis asks to be measured next, and what it would tell. With what probability the
+/// right cause is known now stands at each finding, of its own.
 std::string measurement_text(const NextMeasurement& next) {
   return fmt::format(
       "To tell the causes apart: {} (about {:.0f} min). The right cause is then named with a "
-      "chance "
-      "of {} instead of {}",
-      next.what, std::ceil(next.minutes), chance_text(next.power_after),
-      chance_text(next.power_before));
+      "probability of {}",
+      next.what, std::ceil(next.minutes), layout::probability(next.power_after));
 }
 
 /// The most telling measurement of all diagnoses that found something.

@@ -29,11 +29,12 @@ TEST_P(BadStreamCommand, EveryDiagnosticAndNoFile) {
   // for.
   const bool asked = GetParam() == "header_missing.csv" || GetParam() == "reading_missing.csv" ||
                      GetParam() == "decimal_comma.csv";
-  const std::string said = asked ? "the command that would read it: trueaxis import" : expected;
+  const std::string said = asked ? "the command that would read it: trueaxis fit" : expected;
   expect_input_error("fit " + GetParam() + " --json f.json --residuals r.csv --surface " + surface,
                      said);
   file("job.toml", simple_job("stream = \"" + GetParam() + "\"\nsurface = \"" + surface + "\"\n"));
-  expect_input_error("run job.toml -o out", said);
+  expect_input_error("run job.toml -o out",
+                     asked ? "the lines of its [[reference]] that would read it: columns" : said);
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, BadStreamCommand, ::testing::ValuesIn(bad_cases()),

@@ -112,7 +112,8 @@ TEST_F(FirstHour, FromStandardInput) {
   const CommandStreams unclear = command("diagnose - --surface cylinder < export.csv");
   EXPECT_EQ(unclear.exit_code, 3);
   EXPECT_TRUE(contains(unclear.err, "radius or a diameter")) << unclear.err;
-  EXPECT_TRUE(contains(unclear.err, "-o my_stream.csv")) << unclear.err;
+  EXPECT_TRUE(contains(unclear.err, "trueaxis diagnose - --surface cylinder --columns X=3,C=2,Z=4"))
+      << unclear.err;
 }
 
 }  // namespace

@@ -140,6 +140,9 @@ class QifReader {
   static void expect_decimal(const std::string& text, const std::string& of) {
     EXPECT_TRUE(!text.empty() && text.find_first_not_of("-.0123456789") == text.npos)
         << of << ": " << text;
+    const auto digits = std::ranges::count_if(text, [](char c) { return c >= '0' && c <= '9'; });
+    EXPECT_LE(digits - (text.starts_with("0.") || text.starts_with("-0.") ? 1 : 0), 18)
+        << of << ": " << text;
   }
 
   pugi::xml_document xml_;

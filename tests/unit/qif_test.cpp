@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands in a QIF document is what the result holds: numbers are written with the digits that
-// are read as the same number, so that all are compared as equal.
+// are read as the same number, up to the 18th behind the point.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,8 +16,15 @@
 namespace trueaxis::testing {
 namespace {
 
+// Half of the 18th digit behind the point, and as much for the double that is read.
+constexpr double last_digit = 1e-18;
+
 double number(pugi::xml_node node) { return std::strtod(node.text().get(), nullptr); }
 double number(pugi::xml_attribute attribute) { return std::strtod(attribute.value(), nullptr); }
+
+void expect_near(std::array<double, 3> found, std::array<double, 3> expected) {
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], expected[i], last_digit) << i;
+}
 
 std::array<double, 3> vector(pugi::xml_node node) {
   std::array<double, 3> out{};
@@ -26,9 +33,9 @@ std::array<double, 3> vector(pugi::xml_node node) {
 }
 
 void expect_value(pugi::xml_node node, const FormValue& one) {
-  EXPECT_EQ(number(node), one.estimate.value);
-  EXPECT_EQ(number(node.attribute("combinedUncertainty")), one.estimate.u);
-  EXPECT_EQ(number(node.attribute("meanError")), one.bias_mm);
+  EXPECT_NEAR(number(node), one.estimate.value, last_digit);
+  EXPECT_NEAR(number(node.attribute("combinedUncertainty")), one.estimate.u, last_digit);
+  EXPECT_NEAR(number(node.attribute("meanError")), one.bias_mm, last_digit);
 }
 
 const FormValue& value(const std::vector<FormValue>& values, const std::string& name,
@@ -67,9 +74,9 @@ TEST(Qif, SectionsAndTheWholeAreFeaturesWithTheirForm) {
     const FormCircle& circle = section.circles[1];
     ASSERT_EQ(circle.criterion, Criterion::minimum_zone);
     EXPECT_STREQ(features[s].name(), "CircleFeatureMeasurement");
-    EXPECT_EQ(vector(features[s].child("Location")),
-              (std::array{circle.x_mm, circle.y_mm, *section.z_mm}));
-    EXPECT_EQ(number(features[s].child("Diameter")), 2.0 * circle.radius_mm);
+    expect_near(vector(features[s].child("Location")),
+                (std::array{circle.x_mm, circle.y_mm, *section.z_mm}));
+    EXPECT_NEAR(number(features[s].child("Diameter")), 2.0 * circle.radius_mm, last_digit);
     expect_value(features[s].child("Form"), value(section.values, "RONt", "MZCI"));
   }
   const std::vector<FormValue>& whole = result.groups.front().values;
@@ -134,7 +141,7 @@ TEST(Qif, PointsHaveNoPlaceInTheFrameAndALineOfSpaceIsStraightInACylinder) {
   qif.expect_structure();
   // Nobody told the noise of a point: no u, and then no mean error either.
   const pugi::xml_node measured = qif.characteristics().at(0).child("Value");
-  EXPECT_EQ(number(measured), straight.groups[0].values[0].estimate.value);
+  EXPECT_NEAR(number(measured), straight.groups[0].values[0].estimate.value, last_digit);
   EXPECT_FALSE(measured.attribute("combinedUncertainty"));
   EXPECT_FALSE(measured.attribute("meanError"));
   EXPECT_TRUE(qif.root()
@@ -190,24 +197,25 @@ TEST_P(QifElement, IsAMeasuredFeatureWithItsPlaceAndSize) {
       place.child("AxisPoint") ? place.child("AxisPoint") : place.child("Location");
   const bool begins = element == Element::line || element == Element::cylinder;
   if (!begins) {
-    EXPECT_EQ(vector(at), of.feature.point_mm);
-    EXPECT_EQ(number(at.attribute("yCombinedUncertainty")), of.u.point_mm[1]);
+    expect_near(vector(at), of.feature.point_mm);
+    EXPECT_NEAR(number(at.attribute("yCombinedUncertainty")), of.u.point_mm[1], last_digit);
   }
   for (const char* direction : {"Direction", "Normal", "AxisVector"})
     if (place.child(direction)) {
-      EXPECT_EQ(vector(place.child(direction)), of.feature.direction);
+      expect_near(vector(place.child(direction)), of.feature.direction);
     }
   const auto expect = [&](const char* name, double value, double u) {
     if (!feature.child(name)) return;
-    EXPECT_EQ(number(feature.child(name)), value) << name;
-    EXPECT_EQ(number(feature.child(name).attribute("combinedUncertainty")), u) << name;
+    EXPECT_NEAR(number(feature.child(name)), value, last_digit) << name;
+    EXPECT_NEAR(number(feature.child(name).attribute("combinedUncertainty")), u, last_digit)
+        << name;
   };
   expect("Diameter", 2.0 * of.feature.radius_mm, 2.0 * of.u.radius_mm);
   expect("MajorDiameter", 2.0 * of.feature.radius_mm, 2.0 * of.u.radius_mm);
   expect("MinorDiameter", 2.0 * of.feature.minor_radius_mm, 2.0 * of.u.minor_radius_mm);
   EXPECT_EQ(!feature.child("Form"), element == Element::circle);  // a tube about it: no roundness
   if (feature.child("Form")) {
-    EXPECT_EQ(number(feature.child("Form")), of.zone_mm);
+    EXPECT_NEAR(number(feature.child("Form")), of.zone_mm, last_digit);
   }
   if (element == Element::cone) {  // degrees; 1 µm over 24 mm is 0.0024°
     EXPECT_NEAR(number(feature.child("HalfAngle")), std::atan(0.2) * 180.0 / std::numbers::pi,
@@ -262,7 +270,18 @@ TEST(Qif, DecimalsHaveNoExponent) {
   EXPECT_EQ(qif_decimal(1e-7), "0.0000001");
   EXPECT_EQ(qif_decimal(-0.0), "0");
   EXPECT_EQ(qif_decimal(1e22), "10000000000000000000000");
-  EXPECT_EQ(std::strtod(qif_decimal(5e-324).c_str(), nullptr), 5e-324);
+  EXPECT_EQ(qif_decimal(0.017453292519943295), "0.017453292519943295");
+}
+
+// An xs:decimal of more than 18 digits need not be read (XML Schema part 2, 3.2.3). 2⁻³⁰ has 30
+// decimals: 9.31322574615478515625e-10; the last that is kept is rounded.
+TEST(Qif, DecimalsHaveAtMost18Digits) {
+  EXPECT_EQ(qif_decimal(std::ldexp(1.0, -30)), "0.000000000931322575");
+  EXPECT_EQ(qif_decimal(-std::ldexp(1.0, -30)), "-0.000000000931322575");
+  EXPECT_EQ(qif_decimal(5e-324), "0");
+  EXPECT_EQ(qif_decimal(-5e-324), "0");
+  EXPECT_EQ(qif_decimal(1.6e-18), "0.000000000000000002");
+  EXPECT_EQ(std::strtod(qif_decimal(123456.78901234567).c_str(), nullptr), 123456.78901234567);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/counted.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -53,7 +54,8 @@ std::string degrees(double angle_rad) {
 
 }  // namespace
 
-std::string compensation_screen(const ProgramCompensation& result) {
+std::string compensation_screen(const ProgramCompensation& result,
+                                std::optional<double> tolerance_mm) {
   if (result.blocks_moved == 0) return "DONE: the program moves nowhere, nothing was changed\n";
   std::string text = fmt::format(
       "DONE: tip off by {} at most with the new program, {} without it (ends of "
@@ -69,10 +71,13 @@ std::string compensation_screen(const ProgramCompensation& result) {
             " (k = 2), with what is not known of where the part stands\n";
   text += changes_screen(result) + causes_screen(result);
   if (!result.singular.empty())
-    text += fmt::format("pole   {} blocks whose direction is left off, the first in line {}\n",
-                        result.singular.size(), result.singular.front().line);
+    text += fmt::format("pole   {} whose direction is left off, the first in line {}\n",
+                        counted(result.singular.size(), "block"), result.singular.front().line);
   const double between_mm = result.between_after.value;
-  if (between_mm > std::max(1e-3, 5.0 * result.after.position.value))
+  if (tolerance_mm && between_mm > *tolerance_mm)
+    return text + "next   a smaller --tolerance-um than " + um(*tolerance_mm) +
+           ": between the ends of blocks the tip is off by " + um(between_mm) + "\n";
+  if (!tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
     return text +
            "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
            um(between_mm) + "\n";

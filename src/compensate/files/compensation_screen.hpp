@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "trueaxis/compensation.hpp"
@@ -9,7 +10,8 @@ namespace trueaxis {
 
 /// What fits a screen of a compensated program: how far the tip is off before and after, what was
 /// changed, what does it. Lines are not broken, their text stands in column 8.
-std::string compensation_screen(const ProgramCompensation& result);
+std::string compensation_screen(const ProgramCompensation& result,
+                                std::optional<double> tolerance_mm);
 
 /// A line of it: blocks, and the largest changes.
 std::string changes_screen(const ProgramCompensation& result);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
@@ -145,6 +146,57 @@ void find_gaps(const LinearisationPoint& point, const ObservationMask& mask, Noi
          });
 }
 
+/// Where on the circumference excluded readings lie: "100 readings at C 80-98°", the largest
+/// groups.
+std::string sectors_text(const ProbeStream& stream, const std::vector<Rejected>& masked) {
+  constexpr double apart_deg = 10.0;
+  constexpr std::size_t most = 3;
+  std::vector<double> c_deg;
+  for (const Rejected& one : masked) {
+    const double turns = stream.c_rad[one.row - 1] / two_pi;
+    c_deg.push_back(360.0 * (turns - std::floor(turns)));
+  }
+  std::ranges::sort(c_deg);
+  struct Sector {
+    double from, to;
+    std::size_t count;
+  };
+  std::vector<Sector> sectors;
+  for (const double c : c_deg) {
+    if (sectors.empty() || c - sectors.back().to > apart_deg) sectors.push_back({c, c, 0});
+    sectors.back().to = c;
+    ++sectors.back().count;
+  }
+  if (sectors.size() > 1 && 360.0 - sectors.back().to + sectors.front().from <= apart_deg) {
+    sectors.front().from = sectors.back().from;  // across 0°
+    sectors.front().count += sectors.back().count;
+    sectors.pop_back();
+  }
+  std::ranges::stable_sort(sectors, std::greater{}, &Sector::count);
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, sectors.size()); ++i)
+    text += fmt::format("{}{} at C {:.0f}-{:.0f}°", i == 0 ? "" : ", ",
+                        counted(sectors[i].count, "reading"), sectors[i].from, sectors[i].to);
+  return text + (sectors.size() > most ? " …" : "");
+}
+
+/// "3 outliers excluded, up to 31 µm off: rows 778, 800-801".
+std::string rows_text(const std::vector<Rejected>& masked, const std::vector<double>& residual_mm) {
+  constexpr std::size_t most = 3;
+  if (masked.empty()) return "no outliers excluded";
+  std::vector<std::size_t> rows;
+  double farthest_mm = 0.0;
+  for (const Rejected& one : masked) {
+    rows.push_back(one.row);
+    const double off_mm = std::abs(residual_mm[one.row - 1]);
+    if (std::isfinite(off_mm)) farthest_mm = std::max(farthest_mm, off_mm);
+  }
+  return fmt::format(
+      "{} excluded{}: row{} {}", counted(rows.size(), "outlier"),
+      farthest_mm > 0.0 ? fmt::format(", up to {:.3g} µm off", farthest_mm / mm_per_um) : "",
+      rows.size() == 1 ? "" : "s", ranges_text(rows, most));
+}
+
 QualityCheck result(Check check, bool found, std::string text) {
   const auto entry = std::ranges::find(effect_catalogue(), check, &Effect::check);
   return {std::string(entry->id), found, std::move(text)};
@@ -252,14 +304,11 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   const ProbeStream& stream = ideal.stream;
   std::vector<QualityCheck> list{saturation(stream, ideal.indication),
                                  quantisation(ideal.indication.step, joint, noise.sigma_mm)};
-  list.push_back(result(
-      Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
-      fmt::format(
-          "{} of {} readings masked ({:.2g} %)", noise.masked.size(), stream.size(),
-          100.0 * static_cast<double>(noise.masked.size()) / static_cast<double>(stream.size()))));
-  list.push_back(
-      result(Check::interruption, !noise.interruptions.empty(),
-             fmt::format("{} sectors are far off on every turn", noise.interruptions.size())));
+  list.push_back(result(Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
+                        rows_text(noise.masked, residual_mm)));
+  list.push_back(result(Check::interruption, !noise.interruptions.empty(),
+                        sectors_text(stream, noise.masked) +
+                            " excluded, which are far off on every revolution (a keyway, a hole)"));
   // Variance against tan² of the angle between probe and normal, in units of the mean variance.
   double sum_t = 0.0, sum_v = 0.0, sum_tt = 0.0, sum_tv = 0.0, n = 0.0;
   point.for_each_part([&](const PointPart& at) {

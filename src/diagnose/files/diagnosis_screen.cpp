@@ -23,10 +23,11 @@ std::string line(const std::string& head, const std::string& text) { return head
 
 std::string verdict_line(const Diagnosis& d) {
   const auto found = d.findings.size(), unexplained = d.unexplained.size();
-  const std::string rms = fmt::format(
-      "residuals {} RMS, noise {}",
-      um(d.verdict == DiagnosisVerdict::ideal ? d.baseline.rms_mm : d.gain.rms_after_mm),
-      um(d.noise.sigma_mm));
+  const std::string rms = fmt::format("residuals {} RMS, noise {}",
+                                      um(d.verdict != DiagnosisVerdict::ideal ? d.gain.rms_after_mm
+                                         : d.noise.masked.empty()             ? d.baseline.rms_mm
+                                                                              : d.extended.rms_mm),
+                                      um(d.noise.sigma_mm));
   if (d.verdict == DiagnosisVerdict::ideal)
     return std::string("IDEAL: the readings show a ") + to_string(d.baseline.surface) +
            " and nothing else; " + rms;
@@ -63,6 +64,16 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
   return text;
 }
 
+std::string excluded_screen(const Diagnosis& d) {
+  std::string text;
+  for (const Check check : {Check::outliers, Check::interruption}) {
+    const auto entry = std::ranges::find(effect_catalogue(), check, &Effect::check);
+    for (const QualityCheck& one : d.checks)
+      if (one.found && one.effect == entry->id) text += line("check  ", one.text);
+  }
+  return text;
+}
+
 std::string diagnosis_screen(const Diagnosis& d) {
   if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
   std::string text = line("", verdict_line(d));
@@ -75,11 +86,11 @@ std::string diagnosis_screen(const Diagnosis& d) {
     return text + (sure ? "next   nothing: the axis may be used\n"
                         : "next   probe more: these readings give the axis no uncertainty\n");
   if (!d.next.plan.empty())
-    text += line("next   ",
-                 fmt::format("{}: {:.0f} min, and the right cause is told with a chance of {} "
-                             "instead of {}",
-                             d.next.what, std::ceil(d.next.minutes),
-                             probability(d.next.power_after), probability(d.next.power_before)));
+    text +=
+        line("next   ",
+             fmt::format("{}: {:.0f} min, and then the right cause is named with a probability "
+                         "of {}",
+                         d.next.what, std::ceil(d.next.minutes), probability(d.next.power_after)));
   return text;
 }
 

@@ -14,4 +14,7 @@ std::string diagnosis_screen(const Diagnosis& diagnosis);
 /// The part of it about what was seen, at most `most` findings.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 
+/// "check  100 readings at C 80-98° excluded …": which readings count nowhere, and why.
+std::string excluded_screen(const Diagnosis& diagnosis);
+
 }  // namespace trueaxis

@@ -2,11 +2,11 @@
 #include "fit/files/fit_screen.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
@@ -34,12 +34,12 @@ std::string parameter_line(const FitResult& result, const std::string& name,
 
 std::string rejected_text(const FitResult& result) {
   constexpr std::size_t most = 5;
+  if (result.rejected.empty()) return "";
   std::vector<std::size_t> rows;
-  for (const Rejected& one : result.rejected)
-    if (rows.size() < most) rows.push_back(one.row);
-  if (rows.empty()) return "";
-  return fmt::format(", {} left out as outliers (rows {}{})", result.rejected.size(),
-                     fmt::join(rows, ", "), result.rejected.size() > most ? " …" : "");
+  for (const Rejected& one : result.rejected) rows.push_back(one.row);
+  return fmt::format(", {} excluded as outliers (row{} {}; row {}: {})", rows.size(),
+                     rows.size() == 1 ? "" : "s", ranges_text(rows, most), rows.front(),
+                     result.rejected.front().why);
 }
 
 std::string why_unknown(const FitResult& fit) {
@@ -97,8 +97,8 @@ std::string axis_screen(const FitResult& fit) {
 
 std::string fit_screen(const FitResult& result) {
   std::string text =
-      fmt::format("{} of {}: {} readings, residuals {} RMS{}\n", to_string(result.surface),
-                  result.source, result.points, um(result.rms_mm), rejected_text(result));
+      fmt::format("{} of {}: {}, residuals {} RMS{}\n", to_string(result.surface), result.source,
+                  counted(result.points, "reading"), um(result.rms_mm), rejected_text(result));
   if (result.status != FitStatus::converged) {
     for (const std::string& note : result.input_notes) text += "input  " + note + "\n";
     return text + "why    " + result.message + "\n";

@@ -155,7 +155,8 @@ std::string run_on(const FormGroup& group, std::span<const char* const> names, d
   return text;
 }
 
-std::string group_text(const FormGroup& group, double k) {
+std::string group_text(const FormGroup& group, const FormResult& result) {
+  const double k = result.options.coverage_factor;
   constexpr const char* cylinders[] = {"LSCY", "MZCY", "MCCY", "MICY"};
   constexpr const char* total[] = {"CYLt"};
   constexpr const char* parts[] = {"CYLrr", "CYLtt", "CYLat", "STRsa", "STRsg", "CONt"};
@@ -170,7 +171,9 @@ std::string group_text(const FormGroup& group, double k) {
   if (group.name == "straightness") return table(group.values, straight, lines, k);
   std::vector<const char*> names;
   for (const FormValue& one : group.values) names.push_back(one.name.c_str());
-  return layout::wrapped(padded("to the datum", name_width), run_on(group, names, k));
+  return layout::wrapped(
+      padded(result.datum_source.empty() ? "to the spindle" : "to the datum", name_width),
+      run_on(group, names, k));
 }
 
 std::string harmonics_table(const FormResult& result) {
@@ -206,7 +209,7 @@ std::string form_text(const FormResult& result, bool verbose) {
   if (result.sections.size() > 1) text += section_rows(result, verbose);
   if (!result.swallowed.empty())
     text += layout::wrapped("lobes ", swallowed_words(result) + ": no RONt at this cut-off");
-  for (const FormGroup& group : result.groups) text += group_text(group, k);
+  for (const FormGroup& group : result.groups) text += group_text(group, result);
   for (const std::string& note : result.notes) text += layout::wrapped("note: ", note);
   return verbose ? text + harmonics_table(result) : text;
 }

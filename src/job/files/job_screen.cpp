@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/counted.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "format/text_layout.hpp"
@@ -30,14 +31,15 @@ std::string reference_screen(const JobResult& result, std::size_t i) {
   const FitResult& fit = fit_used(result, i);
   const std::string& name = result.job.references[i].name;
   const std::string surface = to_string(fit.surface);
-  std::string text = "seat   " + name + (name == surface ? "" : ", a " + surface) +
-                     fmt::format(": {} readings", fit.points);
+  std::string text = "seat   " + name + (name == surface ? "" : ", a " + surface) + ": " +
+                     counted(fit.points, "reading");
   if (fit.status != FitStatus::converged) return text + ", " + fit.message + "\n";
   const auto& diagnosis = result.diagnoses[i];
   const bool ideal = diagnosis && diagnosis->verdict == DiagnosisVerdict::ideal;
   text += ", residuals " + um(diagnosis && !ideal ? diagnosis->gain.rms_after_mm : fit.rms_mm) +
           " RMS" + (ideal ? ", and nothing seen that the ideal surface has not" : "") + "\n";
   for (const std::string& note : result.fits[i].input_notes) text += "input  " + note + "\n";
+  if (diagnosis) text += excluded_screen(*diagnosis);
   if (diagnosis && !ideal) text += findings_screen(*diagnosis, most_findings);
   // Beside findings and the axis the screen has no line for what no tolerance asks for.
   const bool room = ideal || result.fits.size() > 1 || result.correction;

@@ -62,8 +62,8 @@ class ByteSource {
 /// Takes whole lines and turns them into metadata, header and rows.
 class LineReader {
  public:
-  LineReader(ProbeStream& stream, CsvDiagnostics& diagnostics)
-      : stream_(stream), diagnostics_(diagnostics), metadata_(diagnostics) {}
+  LineReader(ProbeStream& stream, CsvDiagnostics& diagnostics, const StreamReadOptions& options)
+      : stream_(stream), diagnostics_(diagnostics), metadata_(diagnostics), options_(options) {}
 
   /// Lines from `p` to `end`; the last byte is '\n'. False: what follows cannot be read.
   bool block(const char* p, const char* end) {
@@ -94,17 +94,26 @@ class LineReader {
                      "the line is longer than 1 MiB: this is not a text table");
   }
 
-  void finish(const StreamReadOptions& options) {
+  void finish() {
     if (header_.line == 0 && !diagnostics_.any()) {
       diagnostics_.add(0, 0,
                        line_number_ == 0
                            ? "is empty: write a header X_M,C,Z and rows"
                            : "has no header and no rows: write a header X_M,C,Z and rows");
     }
+    const std::size_t good = stream_.size();
+    const bool dropped = rows_ && rows_->invalid().any() && options_.drop_invalid;
+    if (dropped)
+      if (const std::string many = csv_too_many_invalid(rows_->invalid().count(), good);
+          !many.empty())
+        diagnostics_.add(0, 0, many);
     if (header_.line != 0 && !header_.columns.empty()) {
-      csv_finish(header_, metadata_, options, stream_, diagnostics_);
+      csv_finish(header_, metadata_, options_, stream_, diagnostics_);
     }
+    if (rows_ && !dropped)
+      diagnostics_.remedy(rows_->invalid().remedy(stream_.source, options_, {}, good));
     diagnostics_.throw_if_any();
+    if (dropped) stream_.read_as.push_back(rows_->invalid().left_out());
   }
 
  private:
@@ -117,6 +126,10 @@ class LineReader {
     }
     const std::string_view content = csv_without_comment(text);
     if (csv_trimmed(content).empty()) {
+      if (rows_ && text.starts_with('#') && rows_->is_row_of_no_value(text)) {
+        rows_->any_row(text, line_number_);
+        return true;
+      }
       if (content.size() < text.size()) metadata_.comment(text, line_number_);
       return true;
     }
@@ -127,13 +140,14 @@ class LineReader {
     }
     header_ = csv_parse_header(content, line_number_, diagnostics_);
     if (header_.columns.empty()) return false;
-    rows_.emplace(header_, stream_, diagnostics_);
+    rows_.emplace(header_, stream_, diagnostics_, options_.drop_invalid);
     return true;
   }
 
   ProbeStream& stream_;
   CsvDiagnostics& diagnostics_;
   CsvMetadataReader metadata_;
+  const StreamReadOptions& options_;
   CsvHeader header_;
   std::optional<CsvRows> rows_;
   std::size_t line_number_ = 0;
@@ -188,10 +202,10 @@ ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& op
   ProbeStream stream;
   stream.source = path;
   CsvDiagnostics diagnostics(path, options.max_diagnostics);
-  LineReader lines(stream, diagnostics);
+  LineReader lines(stream, diagnostics, options);
   StreamingHash hash;
   read_lines(source, lines, hash);
-  lines.finish(options);
+  lines.finish();
   stream.input_hash = hash.text();
   return stream;
 }
@@ -202,7 +216,7 @@ ProbeStream read_stream_csv_text(std::string_view text, const std::string& sourc
   ProbeStream stream;
   stream.source = source;
   CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
-  LineReader lines(stream, diagnostics);
+  LineReader lines(stream, diagnostics, options);
   StreamingHash hash;
   hash.add(text.data(), text.size());
   const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
@@ -210,7 +224,7 @@ ProbeStream read_stream_csv_text(std::string_view text, const std::string& sourc
     const std::string last = std::string(text.substr(whole)) + '\n';
     lines.block(last.data(), last.data() + last.size());
   }
-  lines.finish(options);
+  lines.finish();
   stream.input_hash = hash.text();
   return stream;
 }

@@ -21,7 +21,13 @@ struct StreamReadOptions {
   bool several_sensors = false;              ///< columns X_M1, X_M2 … may be read
   std::vector<double> sensor_angles_rad{};   ///< of a stream that does not say `sensor_angles`
   std::size_t max_diagnostics = 1000;        ///< further ones are counted, not listed
+  bool drop_invalid = false;  ///< rows without a value (csv_is_no_value) are left out, and said
+  /// The command that was typed, without what says how a stream is read; empty: none, or a job.
+  std::vector<std::string> typed{};
 };
+
+/// What `options` say of the readings, as options of a command: "--diameter".
+std::vector<std::string> words_of(const StreamReadOptions& options);
 
 /// Reads the CSV of docs/files.md from a file, or from standard input when `path` is "-".
 /// @throws InputError with every diagnostic (file, line, column, what to do).

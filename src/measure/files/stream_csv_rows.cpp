@@ -42,13 +42,15 @@ std::string kind_of(std::string_view message) {
 
 }  // namespace
 
-CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics)
+CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics,
+                 bool drop_invalid)
     : header_(header),
       diagnostics_(diagnostics),
       row_(header.columns.size()),
       time_at_(header.columns.size()),
       last_time_(-std::numeric_limits<double>::infinity()),
-      all_known_(true) {
+      all_known_(true),
+      drop_invalid_(drop_invalid) {
   if (header.sensors() > 1) stream.more_reading_mm.resize(header.sensors() - 1);
   for (const CsvColumn& column : header.columns) {
     Target target;
@@ -172,26 +174,47 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
                      "fields");
     return;
   }
-  bool good = true;
+  struct Mistake {
+    std::size_t byte;
+    std::string why;
+  };
+  std::vector<Mistake> mistakes;
+  std::string_view no_value;
+  bool no_values_alone = true;
   for (std::size_t k = 0; k < count; ++k) {
     if (targets_[k].column->role == CsvRole::unknown) continue;
     std::string why;
     bool fine = field(targets_[k], fields_[k].text, row_[k], why);
+    if (!fine) {
+      const bool none = csv_is_no_value(fields_[k].text);
+      if (none && mistakes.empty()) no_value = fields_[k].text;
+      no_values_alone = no_values_alone && none;
+    }
     if (fine && k == time_at_) {
       if (row_[k] < last_time_) {
-        fine = false;
+        fine = no_values_alone = false;
         why = "t falls from " + csv_text(last_time_) + " to " + csv_text(row_[k]) +
               ": sort the rows by time";
       }
       last_time_ = row_[k];
     }
-    if (!fine) {
-      const std::string kind = kind_of(why);
-      diagnostics_.add(line_number, csv_character(line, fields_[k].byte), std::move(why), kind);
-    }
-    good = good && fine;
+    if (!fine) mistakes.push_back({fields_[k].byte, std::move(why)});
   }
-  if (good && all_known_) append();
+  if (mistakes.empty()) {
+    if (all_known_) append();
+    return;
+  }
+  if (no_values_alone) invalid_.add(diagnostics_.line_of(line_number), no_value);
+  if (no_values_alone && drop_invalid_) return;
+  for (Mistake& mistake : mistakes) {
+    const std::string kind = kind_of(mistake.why);
+    diagnostics_.add(line_number, csv_character(line, mistake.byte), std::move(mistake.why), kind);
+  }
+}
+
+bool CsvRows::is_row_of_no_value(std::string_view line) {
+  csv_split(line, header_.separator, fields_);
+  return csv_is_row_of_no_value(fields_, targets_.size());
 }
 
 }  // namespace trueaxis

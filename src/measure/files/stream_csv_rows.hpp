@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "measure/files/stream_csv_header.hpp"
+#include "measure/files/stream_csv_invalid.hpp"
 #include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/probe_stream.hpp"
 
@@ -14,7 +15,8 @@ namespace trueaxis {
 /// Appends rows to the columns of a stream, as the numbers stand in the file (units come later).
 class CsvRows {
  public:
-  CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics);
+  CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& diagnostics,
+          bool drop_invalid);
 
   /// Room for `rows` rows in every column.
   void reserve(std::size_t rows);
@@ -25,6 +27,11 @@ class CsvRows {
 
   /// Reads a row whatever it looks like (no line end, no comment); what is wrong is a diagnostic.
   void any_row(std::string_view line, std::size_t line_number);
+
+  /// Rows that hold no value somewhere; with `drop_invalid` they are no mistakes.
+  const CsvInvalidRows& invalid() const { return invalid_; }
+  /// Whether a line that begins with '#' is such a row.
+  bool is_row_of_no_value(std::string_view line);
 
  private:
   struct Target {
@@ -43,7 +50,8 @@ class CsvRows {
   std::vector<CsvField> fields_;
   std::size_t time_at_;  ///< index of t, or the number of columns
   double last_time_;
-  bool all_known_;
+  bool all_known_, drop_invalid_;
+  CsvInvalidRows invalid_;
 };
 
 }  // namespace trueaxis

@@ -122,7 +122,7 @@ void CsvDiagnostics::add(std::size_t line, std::size_t column, std::string messa
                          const std::string& kind) {
   constexpr std::size_t most_lines = 7;
   if (line_of_) {
-    line = line_of_(line);
+    line = line_of(line);
     column = 0;
   }
   if (!kind.empty()) {
@@ -157,6 +157,7 @@ void CsvDiagnostics::throw_if_any() {
     return std::tie(a.line, a.column) < std::tie(b.line, b.column);
   });
   if (more_ != 0) found_.push_back({file_, 0, 0, "and " + std::to_string(more_) + " more"});
+  if (!remedy_.empty()) found_.push_back({file_, 0, 0, remedy_});
   throw InputError(std::move(found_));
 }
 

@@ -52,11 +52,14 @@ class CsvDiagnostics {
 
   void add(std::size_t line, std::size_t column, std::string message, const std::string& kind = "");
   bool any() const { return !found_.empty() || more_ != 0; }
+  /// What is said behind everything that was found; nothing of itself.
+  void remedy(std::string text) { remedy_ = std::move(text); }
+  std::size_t line_of(std::size_t line) const { return line_of_ ? line_of_(line) : line; }
   /// Throws InputError with everything found, in line order, if anything was.
   void throw_if_any();
 
  private:
-  std::string file_;
+  std::string file_, remedy_;
   std::size_t max_, more_ = 0;
   std::function<std::size_t(std::size_t)> line_of_;
   std::vector<Diagnostic> found_;
