@@ -135,6 +135,9 @@ class Writer {
       if (!std::exchange(absolute, true)) out_.text += line.has_blanks ? "G90 " : "G90";
     };
     const std::size_t begin = out_.text.size();
+    const Word* last = nullptr;  // behind which other axes stand
+    for (const Word& word : words_of(line))
+      if (axis_of(word.letter) < axis_count && word.letter != 'Z') last = &word;
     for (const Word& word : words_of(line)) {
       const std::size_t axis = axis_of(word.letter);
       const bool cycle = word.letter == 'G' && word.number >= 81.0 && word.number <= 83.0;
@@ -158,12 +161,13 @@ class Writer {
       } else {
         copy_to(word.end);
       }
+      if (&word == last) add_words(line, move, position);
     }
     if (!absolute) {
       if (line.has_blanks && out_.text.size() > begin) out_.text += ' ';
       out_.text += "G90";
     }
-    add_words(line, move, position);
+    if (last == nullptr) add_words(line, move, position);
   }
 
   void write_block(const Line& line, std::span<const NewPosition> positions) {
