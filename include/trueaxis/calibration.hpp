@@ -27,6 +27,7 @@ struct MachineMeasurement {
   MeasurementKind kind = MeasurementKind::ball;
   std::optional<double> noise_mm;      ///< σ of one read-out as stated; of a rotary axis rad
   std::optional<AxisName> axis;        ///< of kinds array and axis
+  std::optional<int> gear_ratio{};     ///< of kind axis: turns of its gear per turn of the axis
   std::vector<int> setup, ball;        ///< numbers of this file
   std::vector<AxisPositions> axes;     ///< commanded
   std::vector<Vector3> deviation_mm;   ///< ball: centre − tip, directions of M
@@ -73,7 +74,8 @@ struct PlacedBall {
 struct AxisReadOut {
   AxisName axis = AxisName::X;
   std::size_t readings = 0;
-  double period = 0.0;  ///< mm or rad; 0: nothing periodic was found
+  double period = 0.0;   ///< mm or rad; 0: nothing periodic was found
+  bool repeats = false;  ///< a rotary axis read all around: its errors are periodic everywhere
   struct Order {
     int order = 1;
     Estimate cos, sin;  ///< mm or rad
@@ -130,9 +132,12 @@ std::string implausible(const Calibration& found, const CalibrationOptions& opti
 
 /// The mistake in the columns that a measurement most likely has, and what to write: exchanged
 /// columns, wrong signs, radians as degrees, where mended they leave half of the RMS at most; and
-/// readings that scatter thirty times less than is stated. Empty: the data show none. That all
+/// readings that scatter thirty times less than is stated, or of which more is left than machines
+/// leave and thirty times more than is stated. Empty: the data show none. That all
 /// deviations are negated they show only where the axes stood off the ball by more than its errors.
+/// @param left_by_all_mm RMS of the readings beside all errors, those that a diagnosis found too
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
-                           const CalibrationOptions& options, const Calibration& found);
+                           const CalibrationOptions& options, const Calibration& found,
+                           double left_by_all_mm);
 
 }  // namespace trueaxis

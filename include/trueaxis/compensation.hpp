@@ -18,8 +18,15 @@ enum class CompensationMethod {
   differential  ///< compensate_by_differential
 };
 
+/// Rotary axes that a compensation may turn.
+enum class RotaryUse {
+  moved,  ///< in a block those that the block moves: what a program leaves standing stands still
+  all     ///< all of them in every block
+};
+
 struct CompensationOptions {
   CompensationMethod method = CompensationMethod::exact;
+  RotaryUse rotary = RotaryUse::moved;
   /// How far the actual tip may be from the line between the nominal ends of a G1 block, which is
   /// cut in pieces for it; not given: blocks stay whole.
   std::optional<double> tolerance_mm{};
@@ -61,8 +68,10 @@ struct ErrorAlone {
 
 /// Where a move ends: in the program as it was read, and as it was written.
 struct ProgramEnd {
-  std::size_t line = 0;  ///< 1-based, of the program that was read
-  bool rapid = false;    ///< G0: no cut
+  std::size_t line = 0;    ///< 1-based, of the program that was read
+  bool rapid = false;      ///< G0: no cut
+  bool continues = false;  ///< begins where the move before it ends
+  bool along_tip = false;  ///< between its ends the tip and the rotary axes go evenly, not all axes
   AxisPositions commanded{}, written{};
   Setting setting;
 };
@@ -77,11 +86,22 @@ struct ProgramCompensation {
   LargestInProgram about_tool_axis;  ///< left about the tool's own axis
   std::array<LargestInProgram, axis_count> exact_minus_differential{};
   LargestToolError rounding;  ///< what the decimals cost
+  /// Lines of blocks that would have come out worse than they went in, and of those next to them:
+  /// their positions are those that were read.
+  std::vector<std::size_t> left;
+  std::vector<std::size_t> worse;  ///< lines that came out worse all the same; none but by a bug
   std::vector<SingularBlock> singular;
   std::vector<UnreachableBlock> unreachable;
   std::vector<ErrorAlone> by_error;       ///< the largest first
   std::optional<LargestInProgram> u_tip;  ///< standard uncertainty, where the errors have u
   std::vector<ProgramEnd> ends;           ///< of every move that is reached, where they are wanted
+
+  /// The largest deviation of the actual tip on the whole path, ends of blocks and between them: of
+  /// the program as it was read, and as it is written.
+  LargestInProgram off_before() const, off_after() const;
+  /// Whether it is further off than it was, to a hundredth: such a program is no improvement and
+  /// must not replace the old one.
+  bool comes_out_worse() const;
 };
 
 /// Reads the program `text` (called `file` in diagnostics) and compensates every position.

@@ -152,6 +152,8 @@ struct ErrorTerm {
   ErrorName name;
   ErrorFunction function;
   double u = 0.0;  ///< standard uncertainty of a constant added to it, mm or rad; 0: not stated
+  /// From where to where on its axis it was measured, mm or rad; none: it holds everywhere.
+  std::optional<std::array<double, 2>> known_over{};
 };
 
 /// Of component errors of the workpiece side.
@@ -280,7 +282,7 @@ std::optional<AxisPositions> axes_for_tip(const MachineModel& model, const Vecto
 
 enum class CompensationStatus {
   compensated,  ///< as far as the axes of the machine can: see the parts that are left
-  singular,     ///< a pole: tip exact, rotary axes at their largest change, a direction left
+  singular,     ///< near a pole: tip exact, of the direction what is not worth a rotary change left
   outside,      ///< an axis would leave its limits
   unreachable   ///< the tip cannot be put there
 };
@@ -296,8 +298,9 @@ struct CompensatedPosition {
 
 /// Axis positions at which the actual machine has the tip and direction that the nominal one has at
 /// `commanded`, nearest to those; by Newton, to rounding. Rotary axes change by
-/// `machine.max_rotary_change_rad` at most. With fewer than two rotary axes the tip is exact and
-/// the angle least; with fewer than three linear ones only the tip is looked at.
+/// `machine.max_rotary_change_rad` at most, and near a pole by twenty times at most what this turns
+/// the tool. With fewer than two rotary axes the tip is exact and the angle least; with fewer than
+/// three linear ones only the tip is looked at.
 CompensatedPosition compensate_exactly(const MachineModel& model, const AxisPositions& commanded,
                                        const Setting& setting);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -78,11 +79,17 @@ struct MachineJobVerdict {
   std::string next;                        ///< what to do now
   double before_mm = 0.0, after_mm = 0.0;  ///< largest, at the ends of cutting moves
   std::size_t before_line = 0, after_line = 0;
-  double between_mm = 0.0;        ///< largest deviation between the ends, of the new program
-  double U_mm = 0.0;              ///< of the tip, k = 2, largest
-  double not_corrected_mm = 0.0;  ///< what was found and no program can correct
+  double between_mm = 0.0;  ///< largest deviation between the ends, of the new program
+  /// The same of the program as it was read, without the displacement of the part as a whole.
+  double between_before_mm = 0.0;
+  std::size_t between_before_line = 0;
+  double U_mm = 0.0;                      ///< of the tip, k = 2, largest
+  double not_corrected_mm = 0.0;          ///< what was found and no program can correct
   double lower_mm = 0.0, upper_mm = 0.0;  ///< that the tip is off by in 5 and in 95 of 100
 
+  /// On the whole path, ends of blocks and between them.
+  double path_before_mm() const { return std::max(before_mm, between_before_mm); }
+  double path_after_mm() const { return std::max(after_mm, between_mm); }
   bool go() const { return decision != Decision::not_proven && decision != Decision::no_go; }
 };
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "calibrate/read_out_mistake.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "trueaxis/error.hpp"
 
@@ -16,7 +17,10 @@ using calibrate_detail::fit_tips;
 constexpr double far_better = 0.5;    // of the RMS: four times the χ²
 constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
 constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
-constexpr double far_too_small = 30;  // times less scatter than is stated
+constexpr double far_too_small = 30;  // times less scatter than is stated, or more
+// RMS that machines leave once everything is fitted: ten times what the component errors of worn
+// ones do (docs/calibration.md).
+constexpr double largest_left_mm = 0.05;
 constexpr double some_numbers = 120;  // of readings, on which a mistake is tried first
 constexpr double some_leeway = 1.3;   // of the RMS that is left of them
 
@@ -24,6 +28,8 @@ constexpr double some_leeway = 1.3;   // of the RMS that is left of them
 struct Mistake {
   std::string what, mend;
   std::function<void(MachineMeasurement&)> undo;
+  /// By which mending makes the readings smaller, and what is left of them with it.
+  double smaller = 1.0;
 };
 
 std::string d(std::size_t i) { return std::string("d") + "XYZ"[i]; }
@@ -44,7 +50,20 @@ Mistake scaled_axis(AxisName axis, double factor, const std::string& what,
           }};
 }
 
+/// Deviations in another unit than their header says.
+Mistake scaled_deviations(double factor, const std::string& is, const std::string& said) {
+  return {"the deviations are in " + is + " and the header says " + said,
+          "write [" + is + "] behind their names",
+          [=](MachineMeasurement& file) {
+            for (Vector3& one : file.deviation_mm)
+              for (double& size : one) size *= factor;
+          },
+          std::min(1.0, factor)};
+}
+
 void add_deviations(std::vector<Mistake>& list) {
+  list.push_back(scaled_deviations(1.0 / mm_per_um, "mm", "um"));
+  list.push_back(scaled_deviations(mm_per_um, "um", "mm"));
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = i + 1; j < 3; ++j)
       list.push_back({"the columns " + d(i) + " and " + d(j) + " are exchanged", "exchange them",
@@ -155,7 +174,7 @@ class Worthwhile {
     std::vector<MachineMeasurement> right = some_;
     undo(mistake, right);
     const auto again_mm = left_of_some_mm(machine_, right, options_);
-    return again_mm && *again_mm < some_leeway * far_better * *as_read_mm_;
+    return again_mm && *again_mm < some_leeway * far_better * mistake.smaller * *as_read_mm_;
   }
 
  private:
@@ -168,7 +187,10 @@ class Worthwhile {
 }  // namespace
 
 std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
-                           const CalibrationOptions& options, const Calibration& found) {
+                           const CalibrationOptions& options, const Calibration& found,
+                           double left_by_all_mm) {
+  if (const std::string why = calibrate_detail::read_out_mistake(data, found); !why.empty())
+    return why;
   if (found.equations == 0) return "";
   if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
     return fmt::format(
@@ -179,7 +201,9 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
   const bool wrong = !found.converged || !implausible(found, options).empty();
   const double fine_mm = found.stated_noise_mm > 0.0 ? well_fitted * found.stated_noise_mm
                                                      : much_fitted * found.rms_before_mm;
-  if (!wrong && as_read_mm < fine_mm) return "";
+  const bool in_proportion =
+      left_by_all_mm <= std::max(far_too_small * found.stated_noise_mm, largest_left_mm);
+  if (!wrong && in_proportion && as_read_mm < fine_mm) return "";
   std::string best;
   double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
   const Worthwhile worthwhile(machine, data, options, found.equations);
@@ -188,15 +212,24 @@ std::string likely_mistake(const Machine& machine, std::span<const MachineMeasur
     std::vector<MachineMeasurement> right(data.begin(), data.end());
     undo(mistake, right);
     const std::optional<double> again_mm = left_mm(machine, right, options);
-    if (!again_mm || !(*again_mm < least_mm)) continue;
-    least_mm = *again_mm;
+    if (!again_mm || !(*again_mm < least_mm * mistake.smaller)) continue;
+    least_mm = *again_mm / mistake.smaller;
     best = fmt::format("{}, and {:.3g} µm are left if {}: {}",
                        wrong ? "no machine fits the readings"
                              : fmt::format("{:.3g} µm of the readings are left by the fit",
                                            as_read_mm / mm_per_um),
-                       least_mm / mm_per_um, mistake.what, mistake.mend);
+                       *again_mm / mm_per_um, mistake.what, mistake.mend);
   }
-  return best;
+  if (!best.empty() || in_proportion || wrong) return best;
+  return fmt::format(
+      "{:.3g} µm of the readings are left by every error that a machine has{}: see whether the "
+      "units "
+      "of the deviations and positions in the header are those of the numbers, and whether the "
+      "machine file, the tool length and the columns are those of the measurement",
+      left_by_all_mm / mm_per_um,
+      found.stated_noise_mm > 0.0 ? fmt::format(", and their noise is said to be {:.2g} µm",
+                                                found.stated_noise_mm / mm_per_um)
+                                  : std::string());
 }
 
 }  // namespace trueaxis

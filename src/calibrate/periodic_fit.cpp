@@ -18,10 +18,11 @@ using Eigen::VectorXd;
 
 }  // namespace
 
-PeriodicFit::PeriodicFit(std::vector<double> position, std::vector<double> value)
+PeriodicFit::PeriodicFit(std::vector<double> position, std::vector<double> value,
+                         std::size_t smooth)
     : position_(std::move(position)),
       value_(std::move(value)),
-      smooth_(std::clamp<std::size_t>(position_.size() / 3, 2, 4)) {}
+      smooth_(std::min(smooth, std::clamp<std::size_t>(position_.size() / 3, 2, 4))) {}
 
 std::vector<int> PeriodicFit::orders_up_to(int most, double period,
                                            double highest_frequency) const {

@@ -17,7 +17,8 @@ class PeriodicFit {
     double rss = 0.0, freedom = 0.0;
   };
 
-  PeriodicFit(std::vector<double> position, std::vector<double> value);
+  /// @param smooth polynomials at most, degree 0 first: 4, of what repeats itself 1
+  PeriodicFit(std::vector<double> position, std::vector<double> value, std::size_t smooth = 4);
 
   const std::vector<double>& position() const { return position_; }
   std::size_t smooth() const { return smooth_; }  ///< polynomials: degree 3 at most, plus one

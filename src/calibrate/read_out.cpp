@@ -19,6 +19,7 @@ namespace {
 constexpr double oversampling = 8.0;        // points of the periodogram a resolution width
 constexpr std::size_t least_readings = 24;  // for something periodic to be looked for
 constexpr int most_divisions = 8;           // orders of the period that its strongest line may be
+constexpr int most_gear_orders = 4;         // of a gear's turn
 constexpr double false_alarm = 0.01;
 
 struct Band {
@@ -58,8 +59,8 @@ struct Choice {
   std::vector<int> orders;
 };
 
-Choice choose(const PeriodicFit& fit, double period, const Band& band, int max_orders) {
-  Choice choice{period, 0.0, fit.orders_up_to(max_orders, period, band.high)};
+Choice choose(const PeriodicFit& fit, double period, std::vector<int> orders) {
+  Choice choice{period, 0.0, std::move(orders)};
   const auto n = static_cast<double>(fit.position().size());
   const PeriodicFit::Result all = fit.with(choice.orders, period);
   const double tests = static_cast<double>(choice.orders.size());
@@ -67,14 +68,19 @@ Choice choose(const PeriodicFit& fit, double period, const Band& band, int max_o
   for (std::size_t k = 0; k < choice.orders.size(); ++k)
     if (chance_of(all.gains[k], 2.0, all.rss, all.freedom) * tests < false_alarm)
       real.push_back(choice.orders[k]);
-  // Orders that are all multiples of one are orders of a shorter period.
-  int common = 0;
-  for (const int order : real) common = std::gcd(common, order);
-  if (common > 1) choice.period = period /= common;
-  for (int& order : real) order /= std::max(1, common);
   choice.orders = real;
   choice.criterion = n * std::log(std::max(fit.with(real, period).rss, 1e-300)) +
                      2.0 * std::log(n) * static_cast<double>(real.size());
+  return choice;
+}
+
+/// Orders that are all multiples of one are orders of a shorter period.
+Choice in_shortest(Choice choice) {
+  int common = 0;
+  for (const int order : choice.orders) common = std::gcd(common, order);
+  if (common < 2) return choice;
+  choice.period /= common;
+  for (int& order : choice.orders) order /= common;
   return choice;
 }
 
@@ -87,7 +93,8 @@ Choice best_period(const PeriodicFit& fit, int max_orders) {
   const double line = strongest_line(fit, band);
   if (line == 0.0) return best;
   for (int k = 1; k <= most_divisions && k / line <= range_of(position).length(); ++k) {
-    Choice one = choose(fit, k / line, band, max_orders);
+    Choice one =
+        in_shortest(choose(fit, k / line, fit.orders_up_to(max_orders, k / line, band.high)));
     // The same lines of a longer period differ by rounding only.
     if (!one.orders.empty() && (best.period == 0.0 || one.criterion < best.criterion - 1e-3))
       best = std::move(one);
@@ -97,6 +104,64 @@ Choice best_period(const PeriodicFit& fit, int max_orders) {
   best.period = least_of([&](double period) { return fit.with(best.orders, period).rss; },
                          best.period - off, best.period + off);
   return best;
+}
+
+constexpr double whole_turn_gap_rad = 60.0 * rad_per_deg;  // the widest of a turn that was measured
+constexpr double free_period_turns = 2.0;                  // below, a period is that of the turn
+constexpr double clearly = 10.0;                           // Bayesian information: 150 to 1
+
+/// The widest gap that positions leave in the circle, rad.
+double widest_gap_rad(const std::vector<double>& position_rad) {
+  std::vector<double> on_turn;
+  for (const double at : position_rad) on_turn.push_back(at - two_pi * std::floor(at / two_pi));
+  std::ranges::sort(on_turn);
+  double widest = on_turn.front() + two_pi - on_turn.back();
+  for (std::size_t i = 1; i < on_turn.size(); ++i)
+    widest = std::max(widest, on_turn[i] - on_turn[i - 1]);
+  return widest;
+}
+
+/// Of a rotary axis that was read all around: what it does repeats itself every turn. Orders of
+/// which half a wave is wider than every gap, and those of the gear, which turns `gear_ratio`
+/// times.
+Choice of_turn(const PeriodicFit& fit, const MachineMeasurement& file, int max_orders) {
+  const double highest = 0.5 / widest_gap_rad(fit.position());
+  std::vector<int> orders = fit.orders_up_to(max_orders, two_pi, highest);
+  const auto room = fit.position().size() / 6;
+  for (int k = 1; file.gear_ratio && k <= most_gear_orders; ++k) {
+    const int order = k * *file.gear_ratio;
+    if (order / two_pi <= highest && orders.size() < room &&
+        std::ranges::find(orders, order) == orders.end())
+      orders.push_back(order);
+  }
+  return choose(fit, two_pi, std::move(orders));
+}
+
+/// What is fitted to a read-out: a linear axis' polynomial and any period; of a rotary axis that
+/// was read all around the turn alone, or a free period that wins clearly over more than two turns;
+/// of one that was read over a part of it a polynomial.
+struct ReadOutModel {
+  PeriodicFit fit;
+  Choice choice;
+  bool repeats = false;  ///< its errors are known everywhere
+};
+
+ReadOutModel model_of(const MachineMeasurement& file, std::vector<double> position,
+                      std::vector<double> error, int max_orders) {
+  if (!is_rotary(*file.axis)) {
+    PeriodicFit fit(std::move(position), std::move(error));
+    Choice choice = best_period(fit, max_orders);
+    return {std::move(fit), std::move(choice), false};
+  }
+  if (widest_gap_rad(position) > whole_turn_gap_rad)
+    return {PeriodicFit(std::move(position), std::move(error)), {}, false};
+  PeriodicFit fit(std::move(position), std::move(error), 1);
+  Choice choice = of_turn(fit, file, max_orders);
+  if (!file.gear_ratio && range_of(fit.position()).length() > free_period_turns * two_pi) {
+    Choice free = best_period(fit, max_orders);
+    if (free.period > 0.0 && free.criterion < choice.criterion - clearly) choice = std::move(free);
+  }
+  return {std::move(fit), std::move(choice), true};
 }
 
 /// u of one coefficient, along every direction that the axis has a part in.
@@ -133,6 +198,8 @@ void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibratio
   FourierError fourier{{}, read_out.period};
   for (const AxisReadOut::Order& one : read_out.orders)
     fourier.terms.push_back({static_cast<double>(one.order), one.cos.value, one.sin.value});
+  std::optional<std::array<double, 2>> known;
+  if (!read_out.repeats) known = {read_out.low, read_out.high};
   std::array<double, 3> factors{};
   for (std::size_t i = 0; i < 3; ++i) factors[i] = (against ? -1.0 : 1.0) * axis.direction[i];
   const ErrorName along{true, first, body};
@@ -151,7 +218,8 @@ void add_errors(const MachineAxis& axis, const AxisReadOut& read_out, Calibratio
     const double factor = factors[i];
     if (factor == 0.0) continue;
     const ErrorName name{true, first + i, body};
-    out.errors.terms.push_back({name, scaled(polynomial, factor), 0.0});
+    if (read_out.polynomial.size() > 1)
+      out.errors.terms.push_back({name, scaled(polynomial, factor), 0.0, known});
     if (read_out.period > 0.0) out.errors.terms.push_back({name, scaled(fourier, factor), 0.0});
   }
 }
@@ -175,8 +243,9 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
     position.push_back(file.axes[i][index_of(out.axis)]);
     error.push_back(file.actual[i] - position.back());
   }
-  const PeriodicFit fit(std::move(position), std::move(error));
-  const Choice choice = best_period(fit, max_orders);
+  const ReadOutModel model = model_of(file, std::move(position), std::move(error), max_orders);
+  const PeriodicFit& fit = model.fit;
+  const Choice& choice = model.choice;
   const PeriodicFit::Result result = fit.with(choice.orders, std::max(choice.period, 1e-300));
   const char* const unit = is_rotary(out.axis) ? "rad" : "mm";
   const auto estimate = [&](std::size_t i) {
@@ -185,7 +254,8 @@ AxisReadOut read_out_of(const MachineMeasurement& file, int max_orders) {
   const Extent range = range_of(fit.position());
   out.low = range.low;
   out.high = range.high;
-  out.period = choice.period;
+  out.period = choice.orders.empty() ? 0.0 : choice.period;
+  out.repeats = model.repeats;
   for (std::size_t i = 0; i < fit.smooth(); ++i) out.polynomial.push_back(estimate(i));
   for (std::size_t k = 0; k < choice.orders.size(); ++k)
     out.orders.push_back(

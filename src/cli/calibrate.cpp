@@ -55,7 +55,7 @@ int execute(const Options& options) {
   std::optional<Waiting> waiting("calibration of " + file.machine.name);
   const Calibration found = calibrate(file.machine, data, calibration);
   waiting.reset();
-  expect_no_mistake(file.machine, data, calibration, found);
+  expect_no_mistake(file.machine, data, calibration, found, found.rms_after_mm);
   if (!found.converged) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;

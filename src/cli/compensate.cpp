@@ -29,7 +29,7 @@ namespace trueaxis::cli {
 namespace {
 
 struct Options {
-  std::string program, output, json, method = "exact";
+  std::string program, output, json, method = "exact", rotary = "moved";
   MachineOptions machine;
   std::optional<double> tolerance_um, arcs_mm;
   CompensationOptions compensation;
@@ -75,6 +75,7 @@ int execute(const Options& options) {
   const std::vector<CompensationInput> inputs = inputs_of(options, text);
   CompensationOptions task = options.compensation;
   if (options.method == "differential") task.method = CompensationMethod::differential;
+  if (options.rotary == "all") task.rotary = RotaryUse::all;
   if (options.tolerance_um) task.tolerance_mm = *options.tolerance_um * mm_per_um;
   task.arc_tolerance_mm = options.arcs_mm;
   std::optional<Waiting> waiting("compensation of " + options.program);
@@ -86,14 +87,16 @@ int execute(const Options& options) {
                      "moves no axis of the machine: name the program that cuts the part");
   if (!options.json.empty())
     outputs.write(options.json, compensation_json(result, task, inputs, of_files.remarks));
-  if (result.unreachable.empty()) outputs.open(options.output).write(result.text);
+  const bool worse = result.unreachable.empty() && result.comes_out_worse();
+  if (result.unreachable.empty() && !worse) outputs.open(options.output).write(result.text);
   outputs.commit();
   if (!result.unreachable.empty()) throw Refusal(unreachable_text(result, options.program));
+  if (worse) throw Refusal(options.program + ": " + worse_text(result, task));
   if (options.json == "-" || is_standard_output(options.output)) return done;
   if (options.verbose)
     std::cout << compensation_text(result) << notes_screen(of_files.remarks);
   else
-    print_screen(with_notes(compensation_screen(result, task.tolerance_mm), of_files.remarks));
+    print_screen(with_notes(compensation_screen(result, task), of_files.remarks));
   std::cout << "program " << options.output << '\n';
   if (!options.json.empty()) std::cout << "result  " << options.json << '\n';
   return done;
@@ -102,6 +105,10 @@ int execute(const Options& options) {
 void add_accuracy(CLI::App& command, Options& options) {
   command.add_option("--method", options.method, "exact, or differential: Δq = -J⁻¹ L (exact)")
       ->check(CLI::IsMember({"exact", "differential"}));
+  command
+      .add_option("--rotary", options.rotary,
+                  "rotary axes that a block may correct: moved (those that it moves), all (moved)")
+      ->check(CLI::IsMember({"moved", "all"}));
   command
       .add_option(
           "--tolerance-um", options.tolerance_um,

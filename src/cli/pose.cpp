@@ -7,6 +7,8 @@
 #include "cli/machine_options.hpp"
 #include "format/notes.hpp"
 #include "machine/files/positions_csv.hpp"
+#include "machine/limits.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -26,6 +28,8 @@ int execute(const Options& options) {
   std::vector<ToolPose> poses;
   std::vector<double> twists_rad;
   for (const AxisPositions& axes : read_positions_csv(options.positions, file.machine)) {
+    if (const std::string why = outside_known(model.errors(), axes); !why.empty())
+      throw Refusal(options.positions + ": " + why);
     poses.push_back(model.actual(axes, setting));
     twists_rad.push_back(about_tool_axis_rad(poses.back(), model.nominal(axes, setting)));
   }

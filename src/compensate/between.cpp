@@ -27,13 +27,14 @@ AxisPositions mix(const AxisPositions& a, const AxisPositions& b, double s) {
 }  // namespace
 
 BlockPath::BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
-                     const BlockEnd& to, bool same_setting)
+                     const BlockEnd& to, bool same_setting, const HeldAxes& held)
     : task_(task),
       move_(move),
       from_(from),
       to_(to),
       setting_(task.axes.setting(move.modal)),
       same_setting_(same_setting),
+      held_(held),
       start_mm_(same_setting ? from.tip_mm : task.model.nominal(from.commanded, setting_).tip_mm),
       end_mm_(to.tip_mm) {}
 
@@ -54,12 +55,13 @@ BlockPath::Way BlockPath::way(const AxisPositions& from, const AxisPositions& to
   return way;
 }
 
-Vector3 BlockPath::actual_tip_mm(const Way& way, double s) const {
+Vector3 BlockPath::tip_mm(const Way& way, double s, bool nominal) const {
   AxisPositions axes = mix(way.from, way.to, s);
   if (way.along_tip)
     axes = axes_for_tip(task_.model, mix(way.tip_from_mm, way.tip_to_mm, s), axes, setting_)
                .value_or(axes);
-  return task_.model.actual(axes, setting_).tip_mm;
+  return (nominal ? task_.model.nominal(axes, setting_) : task_.model.actual(axes, setting_))
+      .tip_mm;
 }
 
 /// How far two points are from each other across the line.
@@ -121,7 +123,7 @@ double beside_parabola_mm(const AxisPositions& from, const AxisPositions& to,
 
 double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& to,
                                const Vector3& from_tip_mm, const Vector3& to_tip_mm,
-                               double of_interest_mm) const {
+                               double of_interest_mm, bool nominal) const {
   const Way on = way(from, to);
   const double parts = parts_of(from, to, task_.bends);
   const auto looks = 2 * static_cast<std::size_t>(std::ceil(std::clamp(parts, 2.0, 500.0)));
@@ -129,7 +131,7 @@ double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& t
   const double off_from_mm = distance_mm(from_tip_mm), off_to_mm = distance_mm(to_tip_mm);
   Vector3 middle{};
   if (is_even) {
-    middle = actual_tip_mm(on, 0.5);
+    middle = tip_mm(on, 0.5, nominal);
     const double bow_mm = across_mm(middle, mix(from_tip_mm, to_tip_mm, 0.5));
     const double ends_mm = std::max(off_from_mm, off_to_mm);
     const double seen_mm = std::max(ends_mm, distance_mm(middle));
@@ -139,7 +141,7 @@ double BlockPath::deviation_mm(const AxisPositions& from, const AxisPositions& t
   const auto off_mm = [&](double s) {
     if (s == 0.0) return off_from_mm;
     if (s == 1.0) return off_to_mm;
-    return distance_mm(s == 0.5 && is_even ? middle : actual_tip_mm(on, s));
+    return distance_mm(s == 0.5 && is_even ? middle : tip_mm(on, s, nominal));
   };
   return LargestOnWay(off_mm, looks).value(of_interest_mm);
 }
@@ -148,6 +150,9 @@ double BlockPath::deviation_before_mm(double of_interest_mm) const {
   const auto& from_tip_mm =
       same_setting_ ? from_.actual_mm : task_.model.actual(from_.commanded, setting_).tip_mm;
   return deviation_mm(from_.commanded, to_.commanded, from_tip_mm, to_.actual_mm, of_interest_mm);
+}
+double BlockPath::deviation_nominal_mm() const {
+  return deviation_mm(from_.commanded, to_.commanded, start_mm_, end_mm_, 0.0, true);
 }
 Vector3 BlockPath::written_from_mm() const {
   return same_setting_ ? from_.written_mm : task_.model.actual(from_.written, setting_).tip_mm;
@@ -167,7 +172,7 @@ BlockPath::Pieces BlockPath::cut(const std::vector<double>& ends, double of_inte
     const AxisPositions even = mix(from_.commanded, to_.commanded, s);
     const AxisPositions nominal =
         axes_for_tip(task_.model, tip_at(s), even, setting_).value_or(even);
-    const CompensatedPosition position = compensate_position(task_, nominal, setting_);
+    const CompensatedPosition position = compensate_position(task_, nominal, setting_, held_);
     if (!is_reached(position, task_.line_of(move_), tally)) return {{}, {}, false};
     pieces.words.push_back(
         task_.axes.words(move_.words, to_.commanded, position.axes, move_.modal));

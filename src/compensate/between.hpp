@@ -12,14 +12,17 @@ namespace trueaxis {
 class BlockPath {
  public:
   /// @param same_setting program frame and tool are those of the move before
+  /// @param held axes that the block does not turn
   BlockPath(const CompensationTask& task, const nc::Move& move, const BlockEnd& from,
-            const BlockEnd& to, bool same_setting);
+            const BlockEnd& to, bool same_setting, const HeldAxes& held);
 
   /// Largest distance of the actual tip from the line between the nominal ends: of the program as
   /// it was read, and as it is written in one piece; to a hundredth where it is above
   /// `of_interest_mm`, and else no more than that.
   double deviation_before_mm(double of_interest_mm) const;
   double deviation_after_mm(double of_interest_mm) const;
+  /// The same of the program as it was read on a machine without errors.
+  double deviation_nominal_mm() const;
 
   /// The positions (words, rounded by whoever writes them) that cut the block in pieces, few more
   /// than its curvature asks for the tolerance, and the deviation that is left. Pieces are equal
@@ -35,13 +38,13 @@ class BlockPath {
   };
   Pieces cut(const std::vector<double>& ends, double of_interest_mm, Tally& tally) const;
   double deviation_mm(const AxisPositions& from, const AxisPositions& to,
-                      const Vector3& from_tip_mm, const Vector3& to_tip_mm,
-                      double of_interest_mm) const;
+                      const Vector3& from_tip_mm, const Vector3& to_tip_mm, double of_interest_mm,
+                      bool nominal = false) const;
   double distance_mm(const Vector3& tip) const;
   double across_mm(const Vector3& a, const Vector3& b) const;
   struct Way;
   Way way(const AxisPositions& from, const AxisPositions& to) const;
-  Vector3 actual_tip_mm(const Way& way, double s) const;
+  Vector3 tip_mm(const Way& way, double s, bool nominal) const;
   Vector3 written_from_mm() const;
   Vector3 tip_at(double s) const;
 
@@ -50,6 +53,7 @@ class BlockPath {
   const BlockEnd &from_, &to_;
   Setting setting_;
   bool same_setting_;
+  HeldAxes held_;
   Vector3 start_mm_{}, end_mm_{};  ///< nominal tips, in the frame of the block
 };
 

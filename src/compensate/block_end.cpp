@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "machine/compensations.hpp"
+#include "machine/limits.hpp"
 
 namespace trueaxis {
 CompensationTask::CompensationTask(const MachineModel& model_of, const nc::Program& program_of,
@@ -36,10 +38,11 @@ void take_single_errors(const CompensationTask& task, const AxisPositions& axes,
 }  // namespace
 
 CompensatedPosition compensate_position(const CompensationTask& task, const AxisPositions& axes,
-                                        const Setting& setting) {
-  return task.options.method == CompensationMethod::exact
-             ? compensate_exactly(task.model, axes, setting)
-             : compensate_by_differential(task.model, axes, setting);
+                                        const Setting& setting, const HeldAxes& held) {
+  if (task.options.method == CompensationMethod::differential)
+    return compensate_by_differential(task.model, axes, setting, held);
+  const ToolPose target = task.model.nominal(axes, setting);
+  return compensate_exactly_with_before(task.model, target, axes, setting, held).position;
 }
 
 bool is_reached(const CompensatedPosition& position, std::size_t line, Tally& tally) {
@@ -51,36 +54,67 @@ bool is_reached(const CompensatedPosition& position, std::size_t line, Tally& ta
   return reached;
 }
 
-BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tally& tally) {
-  const std::size_t line = task.line_of(move);
-  const Setting setting = task.axes.setting(move.modal);
-  BlockEnd end;
+namespace {
+
+/// Where the move ends as it was read; nothing where no axis position has its tip.
+std::optional<BlockEnd> as_read(const CompensationTask& task, const nc::Move& move, Tally& tally) {
   const auto commanded = task.axes.positions(move.words, move.modal);
   if (!commanded) {
-    tally.sums.unreachable.push_back({line, "the linear axes cannot put the tip there"});
-    return end;
+    tally.sums.unreachable.push_back(
+        {task.line_of(move), "the linear axes cannot put the tip there"});
+    return std::nullopt;
   }
+  if (std::string why = outside_known(task.model.errors(), *commanded); !why.empty()) {
+    tally.sums.unreachable.push_back({task.line_of(move), std::move(why)});
+    return std::nullopt;
+  }
+  BlockEnd end;
   end.commanded = *commanded;
-  const ToolPose target = task.model.nominal(end.commanded, setting);
+  return end;
+}
+
+void take_before(const CompensationTask& task, const nc::Move& move, const ToolPose& target,
+                 const ToolPose& before, BlockEnd& end, Tally& tally) {
   end.tip_mm = target.tip_mm;
+  end.actual_mm = before.tip_mm;
+  end.before_mm = distance_mm(before.tip_mm, target.tip_mm);
+  take(tally.sums.before, before, target, task.line_of(move));
+  take_single_errors(task, end.commanded, task.axes.setting(move.modal), task.line_of(move), tally);
+}
+
+void take_after(const CompensationTask& task, const nc::Move& move, const ToolPose& target,
+                const ToolPose& after, BlockEnd& end, Tally& tally) {
+  end.reached = true;
+  end.written_mm = after.tip_mm;
+  end.after_mm = distance_mm(after.tip_mm, target.tip_mm);
+  take(tally.sums.after, after, target, task.line_of(move));
+}
+
+}  // namespace
+
+BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, const HeldAxes& held,
+                        Tally& tally) {
+  const std::size_t line = task.line_of(move);
+  const Setting setting = task.axes.setting(move.modal);
+  std::optional<BlockEnd> read = as_read(task, move, tally);
+  if (!read) return {};
+  BlockEnd& end = *read;
+  const ToolPose target = task.model.nominal(end.commanded, setting);
   CompensatedPosition position;
   ToolPose before;
   AxisPositions by_other_method;
+  auto exact = compensate_exactly_with_before(task.model, target, end.commanded, setting, held);
   if (task.options.method == CompensationMethod::exact) {
-    auto exact = compensate_exactly_with_before(task.model, target, end.commanded, setting);
     position = std::move(exact.position);
     before = exact.before;
-    by_other_method = axes_by_differential(task.model, end.commanded, setting);
+    by_other_method = axes_by_differential(task.model, end.commanded, setting, held);
   } else {
-    position = compensate_by_differential(task.model, end.commanded, setting);
+    position = compensate_by_differential(task.model, end.commanded, setting, held);
     before = task.model.actual(end.commanded, setting);
-    by_other_method = compensate_exactly(task.model, target, end.commanded, setting).axes;
+    by_other_method = exact.position.axes;
   }
-  end.actual_mm = before.tip_mm;
-  take(tally.sums.before, before, target, line);
-  take_single_errors(task, end.commanded, setting, line, tally);
-  end.reached = is_reached(position, line, tally);
-  if (!end.reached) return end;
+  take_before(task, move, target, before, end, tally);
+  if (!is_reached(position, line, tally)) return end;
   end.words = task.axes.words(move.words, end.commanded, position.axes, move.modal);
   const auto written = task.axes.positions(nc::as_written(move, end.words, task.write), move.modal);
   end.written = written.value_or(position.axes);
@@ -90,13 +124,25 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tall
     take(tally.sums.exact_minus_differential[k], position.axes[k] - by_other_method[k], line);
   }
   const ToolPose after = task.model.actual(end.written, setting);
-  end.written_mm = after.tip_mm;
-  take(tally.sums.after, after, target, line);
+  take_after(task, move, target, after, end, tally);
   const bool there = position.tip_left_mm < 1e-11 && position.direction_left_rad < 1e-13;
-  take(tally.sums.rounding, after, there ? target : task.model.actual(position.axes, setting),
-       line);
+  const ToolPose unrounded = there ? target : task.model.actual(position.axes, setting);
+  take(tally.sums.rounding, after, unrounded, line);
   take(tally.sums.about_tool_axis, position.about_tool_axis_rad, line);
   return end;
+}
+
+BlockEnd leave_end(const CompensationTask& task, const nc::Move& move, Tally& tally) {
+  std::optional<BlockEnd> end = as_read(task, move, tally);
+  if (!end) return {};
+  const Setting setting = task.axes.setting(move.modal);
+  const ToolPose target = task.model.nominal(end->commanded, setting),
+                 actual = task.model.actual(end->commanded, setting);
+  take_before(task, move, target, actual, *end, tally);
+  end->written = end->commanded;
+  end->words = move.words;
+  take_after(task, move, target, actual, *end, tally);
+  return *end;
 }
 
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 #include "compensate/program_axes.hpp"
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
+#include "machine/held_axes.hpp"
 #include "machine/uncertainty.hpp"
 #include "nc/writer.hpp"
 
@@ -34,15 +35,20 @@ struct BlockEnd {
   Vector3 tip_mm{};           ///< nominal, at `commanded`
   Vector3 actual_mm{};        ///< actual tip, at `commanded`
   Vector3 written_mm{};       ///< actual tip, at `written`
+  double before_mm = 0.0;     ///< actual tip from the nominal one, at `commanded`
+  double after_mm = 0.0;      ///< the same at `written`
   bool reached = false;
 };
 
-/// Compensates the position at which a move ends.
-BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, Tally& tally);
+/// Compensates the position at which a move ends, but for axes that are held.
+BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, const HeldAxes& held,
+                        Tally& tally);
+/// The same of a move that is left as it was.
+BlockEnd leave_end(const CompensationTask& task, const nc::Move& move, Tally& tally);
 
 /// One position by the method that was asked for.
 CompensatedPosition compensate_position(const CompensationTask& task, const AxisPositions& axes,
-                                        const Setting& setting);
+                                        const Setting& setting, const HeldAxes& held);
 
 /// Whether the position can be commanded; if not, it is noted.
 bool is_reached(const CompensatedPosition& position, std::size_t line, Tally& tally);

@@ -6,6 +6,7 @@
 
 #include "base/threads.hpp"
 #include "compensate/between.hpp"
+#include "compensate/rotary_hold.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -36,35 +37,60 @@ void expect_length_axis(const nc::Program& program, const ProgramAxes& axes) {
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 
+constexpr double stated_to = 1.01;    // a deviation is stated to a hundredth
+constexpr double model_mm = 1e-9;     // rounding of the model
+constexpr double decimals_mm = 1e-4;  // of one block: what the last of four decimals does
+constexpr int most_left_rounds = 20;  // in which blocks are left as they were
+
+bool is_worse(double after_mm, double before_mm) {
+  return after_mm > stated_to * before_mm + decimals_mm;
+}
+
 /// Every move in the order of the program with its pieces before it.
 class NewProgram {
  public:
-  explicit NewProgram(const CompensationTask& task) : task_(task), moves_(task.program.moves) {}
+  explicit NewProgram(const CompensationTask& task)
+      : task_(task),
+        moves_(task.program.moves),
+        hold_(task),
+        worse_(moves_.size()),
+        left_(moves_.size()) {}
 
   ProgramCompensation make() {
-    Tally tally = compensate_ends();
-    if (tally.sums.unreachable.empty()) tally.add(compensate_ways());
+    Tally tally = compensate();
+    for (int i = 0; i < most_left_rounds && tally.sums.unreachable.empty() && leave_worse(); ++i)
+      tally = compensate();
     ProgramCompensation out = std::move(tally.sums);
     out.blocks_read = task_.program.blocks;
     out.blocks_moved =
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
+    list(left_, out.left);
+    list(worse_, out.worse);
     if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
     return out;
   }
 
  private:
+  Tally compensate() {
+    std::ranges::fill(worse_, 0);
+    Tally tally = compensate_ends();
+    if (tally.sums.unreachable.empty()) tally.add(compensate_ways());
+    return tally;
+  }
+
   Tally compensate_ends() {
     ends_.resize(moves_.size());
-    return in_runs(moves_.size(), task_.options.threads,
-                   [&](std::size_t, std::size_t i, Tally& tally) {
-                     ends_[i] = compensate_end(task_, moves_[i], tally);
-                   });
+    return in_runs(
+        moves_.size(), task_.options.threads, [&](std::size_t, std::size_t i, Tally& tally) {
+          ends_[i] = left_[i] != 0 ? leave_end(task_, moves_[i], tally)
+                                   : compensate_end(task_, moves_[i], hold_.of(i), tally);
+        });
   }
 
   Tally compensate_ways() {
-    pieces_.resize((moves_.size() + moves_a_run - 1) / moves_a_run);
+    pieces_.assign((moves_.size() + moves_a_run - 1) / moves_a_run, {});
     return in_runs(moves_.size(), task_.options.threads,
                    [&](std::size_t run, std::size_t i, Tally& tally) {
                      take_way(i, pieces_[run], tally);
@@ -73,22 +99,54 @@ class NewProgram {
                    });
   }
 
-  void take_way(std::size_t i, std::vector<nc::NewPosition>& pieces, Tally& tally) const {
+  void take_way(std::size_t i, std::vector<nc::NewPosition>& pieces, Tally& tally) {
     const nc::Move& move = moves_[i];
+    const BlockEnd& end = ends_[i];
+    worse_[i] = is_worse(end.after_mm, end.before_mm);
     if (!move.continues || move.modal.motion == nc::Motion::rapid) return;
     const nc::ModalState& last = moves_[i - 1].modal;
     const bool same_setting =
         last.work_offset == move.modal.work_offset && last.tool == move.modal.tool;
-    const BlockPath path(task_, move, ends_[i - 1], ends_[i], same_setting);
+    const BlockPath path(task_, move, ends_[i - 1], end, same_setting, hold_.of(i));
     const std::size_t line = task_.line_of(move);
     LargestInProgram &before = tally.sums.between_before, &after = tally.sums.between_after;
-    take(before, path.deviation_before_mm(before.value), line);
+    double before_mm = path.deviation_before_mm(before.value);
+    take(before, before_mm, line);
+    const double of_interest_mm = std::min(after.value, std::max(before_mm, end.before_mm));
     const auto& tolerance_mm = task_.options.tolerance_mm;
-    double deviation_mm = path.deviation_after_mm(tolerance_mm ? 0.9 * *tolerance_mm : after.value);
+    double deviation_mm = path.deviation_after_mm(
+        tolerance_mm ? std::min(0.9 * *tolerance_mm, of_interest_mm) : of_interest_mm);
     if (tolerance_mm)
       for (const nc::AxisValues& words : path.split(*tolerance_mm, deviation_mm, tally))
         pieces.push_back({static_cast<std::uint32_t>(i), true, words});
     take(after, deviation_mm, line);
+    if (!is_worse(deviation_mm, std::max(before_mm, end.before_mm))) return;
+    // What the control makes of the block on a machine without errors is no fault of the new one.
+    before_mm =
+        std::max({path.deviation_before_mm(0.0), path.deviation_nominal_mm(), end.before_mm});
+    worse_[i] = worse_[i] != 0 || is_worse(deviation_mm, before_mm);
+  }
+
+  /// Leaves the blocks that came out worse, and where they begin, as they were; whether there are
+  /// some that were not left yet.
+  bool leave_worse() {
+    bool some = false;
+    const auto leave = [&](std::size_t i) { some = !std::exchange(left_[i], 1) || some; };
+    for (std::size_t i = 0; i < moves_.size(); ++i) {
+      if (worse_[i] == 0) continue;
+      std::size_t first = i, last = i;
+      while (first > 0 && moves_[first - 1].line == moves_[i].line) --first;
+      while (last + 1 < moves_.size() && moves_[last + 1].line == moves_[i].line) ++last;
+      if (moves_[first].continues) --first;
+      for (std::size_t k = first; k <= last; ++k) leave(k);
+    }
+    return some;
+  }
+
+  void list(const std::vector<char>& of, std::vector<std::size_t>& lines) const {
+    for (std::size_t i = 0; i < moves_.size(); ++i)
+      if (of[i] != 0 && (lines.empty() || lines.back() != task_.line_of(moves_[i])))
+        lines.push_back(task_.line_of(moves_[i]));
   }
 
   void rank(ProgramCompensation& out, const Tally& tally) const {
@@ -105,6 +163,7 @@ class NewProgram {
       if (!ends_[i].reached) continue;
       const nc::ModalState& modal = moves_[i].modal;
       out.ends.push_back({task_.line_of(moves_[i]), modal.motion == nc::Motion::rapid,
+                          moves_[i].continues, task_.axes.mode(modal) == ProgramMode::tip,
                           ends_[i].commanded, ends_[i].written, task_.axes.setting(modal)});
     }
   }
@@ -121,6 +180,8 @@ class NewProgram {
 
   const CompensationTask& task_;
   const std::vector<nc::Move>& moves_;
+  RotaryHold hold_;
+  std::vector<char> worse_, left_;  ///< by move: it came out worse; it is left as it was
   std::vector<BlockEnd> ends_;
   std::vector<std::vector<nc::NewPosition>> pieces_;  ///< by run
 };
@@ -132,6 +193,26 @@ void CompensationOptions::validate() const {
   expects(!arc_tolerance_mm || *arc_tolerance_mm > 0.0, "a tolerance of arcs above 0");
   expects(decimals >= 0 && decimals <= 15 && angle_decimals >= 0 && angle_decimals <= 15,
           "0 to 15 decimals");
+}
+
+namespace {
+
+/// The larger of both; of two alike that of the earlier line.
+LargestInProgram larger(const LargestInProgram& a, const LargestInProgram& b) {
+  if (a.line == 0 || b.line == 0) return a.line == 0 ? b : a;
+  return b.value > a.value || (b.value == a.value && b.line < a.line) ? b : a;
+}
+
+}  // namespace
+
+LargestInProgram ProgramCompensation::off_before() const {
+  return larger(before.position, between_before);
+}
+LargestInProgram ProgramCompensation::off_after() const {
+  return larger(after.position, between_after);
+}
+bool ProgramCompensation::comes_out_worse() const {
+  return !worse.empty() || off_after().value > stated_to * off_before().value + model_mm;
 }
 
 ProgramCompensation compensate_program(const MachineModel& model, std::string text,

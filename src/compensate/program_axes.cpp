@@ -74,6 +74,23 @@ std::optional<AxisPositions> ProgramAxes::positions(const nc::AxisValues& words,
   return axes;
 }
 
+AxisPositions ProgramAxes::rotary_positions(const nc::AxisValues& words,
+                                            const nc::ModalState& modal) const {
+  AxisPositions out{};
+  for (std::size_t k = 3; k < axis_count; ++k)
+    if (nc::has(axes_, k)) out[k] = words[k] + offset(modal).zero[k];
+  return out;
+}
+
+AxisPositions ProgramAxes::rotary_start(const nc::Program& program,
+                                        const nc::ModalState& modal) const {
+  AxisPositions out = rotary_positions({}, modal);
+  for (std::size_t k = 3; k < axis_count; ++k)
+    if (nc::has(axes_, k) && !std::isnan(program.start_words[k]))
+      out[k] = program.start_words[k] + offsets_[0].zero[k];
+  return out;
+}
+
 nc::AxisValues ProgramAxes::words(const nc::AxisValues& words_from, const AxisPositions& from,
                                   const AxisPositions& to, const nc::ModalState& modal) const {
   if (from == to) return words_from;

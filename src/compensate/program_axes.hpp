@@ -34,6 +34,12 @@ class ProgramAxes {
   nc::AxisValues words(const nc::AxisValues& words_from, const AxisPositions& from,
                        const AxisPositions& to, const nc::ModalState& modal) const;
 
+  /// Where the rotary axes are by the words of a position; 0 of all others.
+  AxisPositions rotary_positions(const nc::AxisValues& words, const nc::ModalState& modal) const;
+  /// Where they are before the first move, which has `modal` in force: by [program] start of the
+  /// machine, else at the word 0.
+  AxisPositions rotary_start(const nc::Program& program, const nc::ModalState& modal) const;
+
   nc::AxisSet axes() const { return axes_; }
 
  private:

@@ -16,12 +16,12 @@ inline void take(LargestInProgram& largest, double value, std::size_t line) {
 inline void take(LargestInProgram& largest, const LargestInProgram& later) {
   if (later.line != 0) take(largest, later.value, later.line);
 }
+inline double distance_mm(const Vector3& a, const Vector3& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 inline void take(LargestToolError& largest, const ToolPose& pose, const ToolPose& target,
                  std::size_t line) {
-  take(largest.position,
-       std::hypot(pose.tip_mm[0] - target.tip_mm[0], pose.tip_mm[1] - target.tip_mm[1],
-                  pose.tip_mm[2] - target.tip_mm[2]),
-       line);
+  take(largest.position, distance_mm(pose.tip_mm, target.tip_mm), line);
   take(largest.direction, angle_between_rad(pose.direction, target.direction), line);
 }
 inline void take(LargestToolError& largest, const LargestToolError& later) {

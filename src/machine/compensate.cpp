@@ -57,6 +57,7 @@ struct Problem {
   const Target& target;
   const AxisPositions& near;
   const Setting& setting;
+  const HeldAxes& held;
 
   rigid::Motion tool(const AxisPositions& change) const {
     return actual_tool(machine, sum(near, change), setting);
@@ -69,8 +70,7 @@ struct Problem {
 struct Solution {
   AxisPositions change{};
   rigid::Motion tool;    ///< with it
-  rigid::Motion before;  ///< where the method began
-  std::size_t weakest_rotary = 0;
+  rigid::Motion before;  ///< where the method began: as commanded, but for axes that are held
 };
 
 bool direction_met(const Left& left) { return left.direction.norm() <= exact_direction; }
@@ -78,11 +78,11 @@ bool direction_met(const Left& left) { return left.direction.norm() <= exact_dir
 /// Newton's method with a Jacobian that is kept as long as it serves: the errors turn it by some
 /// 1e-4, so that each step takes away four digits of what is left. Where a direction is left it is
 /// the Jacobian that says where it is least, and only a fresh one is right.
-Solution newton(const Problem& problem, const AxisPositions& start) {
+Solution solve(const Problem& problem) {
   const Compiled& machine = problem.machine;
-  const ToolMotion motion = problem.motion(start);
-  Solution now{start, motion.tool, motion.tool};
-  CorrectionStep step(machine, motion);
+  const ToolMotion motion = problem.motion(problem.held.change);
+  Solution now{problem.held.change, motion.tool, motion.tool};
+  CorrectionStep step(machine, motion, problem.held);
   bool fresh = true;
   double before = INFINITY;
   for (int i = 0; i < largest_count; ++i) {
@@ -93,42 +93,19 @@ Solution newton(const Problem& problem, const AxisPositions& start) {
     now.tool = problem.tool(next);
     const bool slow = i > 0 && size > 0.02 * before;
     const bool still = size <= fine_mm || (i > 0 && !slow && size * size / before <= fine_mm);
-    if (still && (fresh || direction_met(left_of(machine, now.tool, problem.target)))) break;
+    if (still &&
+        (fresh || !step.turns() || direction_met(left_of(machine, now.tool, problem.target))))
+      break;
     fresh = still || slow;
-    if (fresh) step = CorrectionStep(machine, problem.motion(next));
+    if (fresh) step = CorrectionStep(machine, problem.motion(next), problem.held);
     before = size;
   }
-  now.weakest_rotary = step.weakest_rotary();
   return now;
 }
 
-bool corrects_direction(const Machine& machine) {
-  return machine.rotary_count() >= 2 && machine.linear_count() >= 3;
-}
-
-/// The solution nearest to the commanded axes. At a pole, where a direction is left, there may be a
-/// valley on either side of the axis that has lost its effect: both are looked into.
-Solution solve(const Problem& problem) {
-  Solution best = newton(problem, {});
-  Left left = left_of(problem.machine, best.tool, problem.target);
-  if (!corrects_direction(problem.machine.machine) || direction_met(left)) return best;
-  const Solution first = best;
-  const std::size_t weakest = first.weakest_rotary;
-  const double largest_rad = problem.machine.machine.max_rotary_change_rad;
-  for (const double end : {largest_rad, -largest_rad}) {
-    AxisPositions start = first.change;
-    if (std::abs(start[weakest] - end) < 0.5 * largest_rad) continue;  // this is that valley
-    start[weakest] = end;
-    const Solution other = newton(problem, start);
-    const Left of_other = left_of(problem.machine, other.tool, problem.target);
-    if (of_other.tip.norm() > exact_tip_mm ||
-        !(of_other.direction.norm() < left.direction.norm() * (1.0 - 1e-9)))
-      continue;
-    best = other;
-    best.before = first.before;
-    left = of_other;
-  }
-  return best;
+/// Whether rotary axes are there, and free, to meet the direction.
+bool corrects_direction(const Machine& machine, const HeldAxes& held) {
+  return held.set == 0 && machine.rotary_count() >= 2 && machine.linear_count() >= 3;
 }
 
 bool at_largest_change(const Machine& machine, const AxisPositions& change) {
@@ -168,21 +145,24 @@ void refuse_outside(CompensatedPosition& result, const Machine& machine) {
 }  // namespace
 
 ExactCompensation compensate_exactly_with_before(const MachineModel& model, const ToolPose& target,
-                                                 const AxisPositions& near,
-                                                 const Setting& setting) {
+                                                 const AxisPositions& near, const Setting& setting,
+                                                 const HeldAxes& held) {
   const Compiled& machine = model.compiled();
   const AxisPositions from = of_machine(machine.machine, near);
   const Target wanted{rigid::eigen(target.tip_mm), rigid::eigen(target.direction)};
-  const Solution solution = solve({machine, wanted, from, setting});
+  const Solution solution = solve({machine, wanted, from, setting, held});
   CompensatedPosition result = result_of(model, target, from, solution);
   if (!(result.tip_left_mm <= exact_tip_mm)) {
     result.status = CompensationStatus::unreachable;
     result.why = fmt::format("the tip stays {:.6f} mm off", result.tip_left_mm);
-  } else if (corrects_direction(machine.machine) && result.direction_left_rad > exact_direction) {
+  } else if (corrects_direction(machine.machine, held) &&
+             result.direction_left_rad > exact_direction) {
     result.status = CompensationStatus::singular;
   }
   refuse_outside(result, machine.machine);
-  return {std::move(result), pose_of(machine, solution.before)};
+  const bool as_commanded = held.change == AxisPositions{};
+  return {std::move(result),
+          pose_of(machine, as_commanded ? solution.before : actual_tool(machine, from, setting))};
 }
 
 CompensatedPosition compensate_exactly(const MachineModel& model, const ToolPose& target,
@@ -197,35 +177,55 @@ CompensatedPosition compensate_exactly(const MachineModel& model, const AxisPosi
 
 namespace {
 
-AxisPositions differential_change(const Compiled& machine, const AxisPositions& from,
-                                  const Setting& setting) {
+struct DifferentialChange {
+  AxisPositions change{};
+  bool near_pole = false;
+};
+
+DifferentialChange differential_change(const Compiled& machine, const AxisPositions& from,
+                                       const Setting& setting, const HeldAxes& held) {
   const ToolMotion motion = nominal_motion(machine, from, setting);
   const Screw error = linear_error_screw(machine, from, setting);
-  const Left left{error.of_point(motion.tool.t), error.w.cross(motion.direction(machine))};
-  return CorrectionStep(machine, motion).total({}, left, machine.machine.max_rotary_change_rad);
+  Left left{error.of_point(motion.tool.t), error.w.cross(motion.direction(machine))};
+  for (const Joint& joint : machine.joints) {
+    const double change = held.change[joint.axis];
+    if (change == 0.0) continue;
+    left.tip += change * motion.axes[joint.axis].of_point(motion.tool.t);
+    left.direction += change * motion.axes[joint.axis].w.cross(motion.direction(machine));
+  }
+  const CorrectionStep step(machine, motion, held);
+  return {step.total(held.change, left, machine.machine.max_rotary_change_rad), step.near_pole()};
 }
 
 }  // namespace
 
 AxisPositions axes_by_differential(const MachineModel& model, const AxisPositions& commanded,
-                                   const Setting& setting) {
+                                   const Setting& setting, const HeldAxes& held) {
   const AxisPositions from = of_machine(model.machine(), commanded);
-  return sum(from, differential_change(model.compiled(), from, setting));
+  return sum(from, differential_change(model.compiled(), from, setting, held).change);
+}
+
+CompensatedPosition compensate_by_differential(const MachineModel& model,
+                                               const AxisPositions& commanded,
+                                               const Setting& setting, const HeldAxes& held) {
+  const Compiled& machine = model.compiled();
+  const AxisPositions from = of_machine(machine.machine, commanded);
+  const DifferentialChange found = differential_change(machine, from, setting, held);
+  Solution solution;
+  solution.change = found.change;
+  solution.tool = actual_tool(machine, sum(from, solution.change), setting);
+  CompensatedPosition result = result_of(model, model.nominal(from, setting), from, solution);
+  if (corrects_direction(machine.machine, held) &&
+      (found.near_pole || at_largest_change(machine.machine, solution.change)))
+    result.status = CompensationStatus::singular;
+  refuse_outside(result, machine.machine);
+  return result;
 }
 
 CompensatedPosition compensate_by_differential(const MachineModel& model,
                                                const AxisPositions& commanded,
                                                const Setting& setting) {
-  const Compiled& machine = model.compiled();
-  const AxisPositions from = of_machine(machine.machine, commanded);
-  Solution solution;
-  solution.change = differential_change(machine, from, setting);
-  solution.tool = actual_tool(machine, sum(from, solution.change), setting);
-  CompensatedPosition result = result_of(model, model.nominal(from, setting), from, solution);
-  if (corrects_direction(machine.machine) && at_largest_change(machine.machine, solution.change))
-    result.status = CompensationStatus::singular;
-  refuse_outside(result, machine.machine);
-  return result;
+  return compensate_by_differential(model, commanded, setting, {});
 }
 
 }  // namespace trueaxis

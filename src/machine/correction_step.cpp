@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/correction_step.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
-
-#include "machine/bounded_least_squares.hpp"
 
 namespace trueaxis {
 namespace {
@@ -13,28 +13,52 @@ using Eigen::Index;
 using Eigen::Vector3d;
 
 constexpr double spanning = 1e-3;  ///< volume of the linear axes' directions that spans space
+constexpr double weak = 0.05;      ///< turn of the direction over that of the axes: near a pole
 
 }  // namespace
 
-CorrectionStep::CorrectionStep(const MachineModel::Compiled& machine, const ToolMotion& motion) {
+CorrectionStep::CorrectionStep(const MachineModel::Compiled& machine, const ToolMotion& motion,
+                               const HeldAxes& held) {
   const Vector3d direction = motion.direction(machine);
-  for (const Joint& joint : machine.joints) {
+  const auto add = [&](const Joint& joint, Columns& columns) {
     const Screw& screw = motion.axes[joint.axis];
-    Columns& columns = joint.rotary ? rotary_ : linear_;
     columns.add({joint.axis, screw.of_point(motion.tool.t), screw.w.cross(direction)});
+  };
+  for (const Joint& joint : machine.joints)
+    if (!joint.rotary) add(joint, linear_);
+  if (linear_.count == 3) {
+    Eigen::Matrix3d tip;
+    tip << linear_.all[0].tip, linear_.all[1].tip, linear_.all[2].tip;
+    spans_ = std::abs(tip.determinant()) > spanning;
+    if (spans_) tip_inverse_ = tip.inverse();
   }
-  if (linear_.count != 3) return;
-  Eigen::Matrix3d tip;
-  tip << linear_.all[0].tip, linear_.all[1].tip, linear_.all[2].tip;
-  spans_ = std::abs(tip.determinant()) > spanning;
-  if (spans_) tip_inverse_ = tip.inverse();
+  for (const Joint& joint : machine.joints)
+    if (joint.rotary && !(spans_ && held.holds(joint.axis))) add(joint, rotary_);
+  if (spans_) weigh();
 }
 
-std::size_t CorrectionStep::weakest_rotary() const {
-  std::size_t weakest = 0;
-  for (std::size_t i = 1; i < rotary_.count; ++i)
-    if (rotary_.all[i].direction.norm() < rotary_.all[weakest].direction.norm()) weakest = i;
-  return rotary_.all[weakest].axis;
+/// Directions in which the tool turns, by how far a turn of the axes turns it: where that is little
+/// the correction is bounded by what it gains.
+void CorrectionStep::weigh() {
+  // The linear axes take the tip along: their turning the tool is what their errors do.
+  Eigen::Matrix3d turning;
+  turning << linear_.all[0].direction, linear_.all[1].direction, linear_.all[2].direction;
+  by_tip_ = turning * tip_inverse_;
+  const std::size_t n = rotary_.count;
+  turning_.resize(3, static_cast<Index>(n));
+  for (std::size_t i = 0; i < n; ++i)
+    turning_.col(static_cast<Index>(i)) = rotary_.all[i].direction - by_tip_ * rotary_.all[i].tip;
+  if (n == 0) return;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+      Eigen::Matrix3d(turning_ * turning_.transpose()));
+  worth_.setZero();
+  // The tool's own direction, which nothing turns, is the weakest; one axis turns one other way.
+  for (Index i = 0; i < 3; ++i) {
+    const double worth = std::clamp(axes.eigenvalues()[i] / (weak * weak), 0.0, 1.0);
+    const Vector3d way = axes.eigenvectors().col(i);
+    worth_ += worth * way * way.transpose();
+    if (worth < 1.0 && i >= (n == 1 ? 2 : 1)) near_pole_ = true;
+  }
 }
 
 AxisPositions CorrectionStep::total(const AxisPositions& change, const Left& left,
@@ -44,25 +68,20 @@ AxisPositions CorrectionStep::total(const AxisPositions& change, const Left& lef
 
 AxisPositions CorrectionStep::by_rotary(const AxisPositions& change, const Left& left,
                                         double largest_rad) const {
-  // The linear axes take the tip along: their turning the tool is what their errors do.
-  Eigen::Matrix3d turning;
-  turning << linear_.all[0].direction, linear_.all[1].direction, linear_.all[2].direction;
-  const Eigen::Matrix3d by_tip = turning * tip_inverse_;
   const auto n = static_cast<Index>(rotary_.count);
-  SmallMatrix M(3, n);
-  Vector3d c = left.direction - by_tip * left.tip;
-  for (Index i = 0; i < n; ++i) {
-    const Column& column = rotary_.all[static_cast<std::size_t>(i)];
-    M.col(i) = column.direction - by_tip * column.tip;
-    c -= change[column.axis] * M.col(i);
-  }
-  const SmallVector y = bounded_least_squares(M, c, SmallVector::Constant(n, largest_rad));
   AxisPositions total = change;
   Vector3d tip = left.tip;
-  for (Index i = 0; i < n; ++i) {
-    const Column& column = rotary_.all[static_cast<std::size_t>(i)];
-    tip += (y[i] - change[column.axis]) * column.tip;
-    total[column.axis] = y[i];
+  if (n > 0) {
+    Vector3d c = left.direction - by_tip_ * left.tip;
+    for (Index i = 0; i < n; ++i)
+      c -= change[rotary_.all[static_cast<std::size_t>(i)].axis] * turning_.col(i);
+    if (near_pole_) c = worth_ * c;
+    const SmallVector y = bounded_least_squares(turning_, c, SmallVector::Constant(n, largest_rad));
+    for (Index i = 0; i < n; ++i) {
+      const Column& column = rotary_.all[static_cast<std::size_t>(i)];
+      tip += (y[i] - change[column.axis]) * column.tip;
+      total[column.axis] = y[i];
+    }
   }
   const Vector3d step = -(tip_inverse_ * tip);
   for (Index i = 0; i < 3; ++i) total[linear_.all[static_cast<std::size_t>(i)].axis] += step[i];

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "machine/bounded_least_squares.hpp"
+#include "machine/held_axes.hpp"
 #include "machine/screw.hpp"
 
 namespace trueaxis {
@@ -8,7 +10,8 @@ namespace trueaxis {
 /// The linear problem of a correction: what the axes do to the tool, from a Jacobian.
 class CorrectionStep {
  public:
-  CorrectionStep(const MachineModel::Compiled& machine, const ToolMotion& motion);
+  CorrectionStep(const MachineModel::Compiled& machine, const ToolMotion& motion,
+                 const HeldAxes& held);
 
   /// What is left of a tool: of its tip in mm, of its direction as the part of the difference that
   /// lies across the target's.
@@ -18,18 +21,23 @@ class CorrectionStep {
 
   /// The total change of the axes from where they were commanded, given the `change` so far and
   /// what is left with it. With linear axes that span space the tip is exact by them and the rotary
-  /// ones make the direction least, each within `largest_rad` of where it was commanded; of several
-  /// such the one with the least rotary change. With fewer linear axes the tip alone is looked at,
-  /// of several the least change in mm and degrees.
+  /// ones that are not held make the direction least, each within `largest_rad` of where it was
+  /// commanded; of several such the one with the least rotary change. Where they turn the direction
+  /// by less than a twentieth of their own turn (a pole), the part of the error that only this turn
+  /// would correct counts by (20 σ)², so that their change falls off to nothing at the pole with
+  /// what it gains. With fewer linear axes the tip alone is looked at, of several the least change
+  /// in mm and degrees.
   AxisPositions total(const AxisPositions& change, const Left& left, double largest_rad) const;
 
-  /// The rotary axis that turns the tool's direction least: the one that a pole leaves without
-  /// effect.
-  std::size_t weakest_rotary() const;
+  /// Whether some error of direction is not worth its correction: near a pole.
+  bool near_pole() const { return near_pole_; }
+  /// Whether rotary axes correct the direction.
+  bool turns() const { return rotary_.count > 0; }
 
  private:
   AxisPositions by_rotary(const AxisPositions& change, const Left& left, double largest_rad) const;
   AxisPositions of_tip(const AxisPositions& change, const Left& left, double largest_rad) const;
+  void weigh();
 
   struct Column {
     std::size_t axis = 0;
@@ -41,8 +49,11 @@ class CorrectionStep {
     void add(const Column& column) { all[count++] = column; }
   };
   Columns linear_, rotary_;
-  bool spans_ = false;
+  bool spans_ = false, near_pole_ = false;
   Eigen::Matrix3d tip_inverse_;
+  Eigen::Matrix3d by_tip_;  ///< direction that the linear axes turn as the tip is taken along
+  SmallMatrix turning_;     ///< direction by the rotary axes, the tip held
+  Eigen::Matrix3d worth_;   ///< near a pole: the part of an error of direction that is corrected
 };
 
 }  // namespace trueaxis

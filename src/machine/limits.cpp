@@ -27,4 +27,20 @@ std::string outside_limits(const Machine& machine, const AxisPositions& axes) {
   return text;
 }
 
+std::string outside_known(const ErrorModel& errors, const AxisPositions& axes) {
+  constexpr double slack = 0.1;
+  for (const ErrorTerm& term : errors.terms) {
+    if (!term.known_over || !term.name.component) continue;
+    const auto [low, high] = *term.known_over;
+    const double position = axes[term.name.body], more = slack * (high - low);
+    if (position >= low - more && position <= high + more) continue;
+    const auto axis = static_cast<AxisName>(term.name.body);
+    const double unit = is_rotary(axis) ? rad_per_deg : 1.0;
+    return fmt::format("{} at {:.6g} {} is beyond {:.6g} to {:.6g}, where its {} was measured",
+                       letter_of(axis), position / unit, is_rotary(axis) ? "deg" : "mm", low / unit,
+                       high / unit, to_string(term.name));
+  }
+  return "";
+}
+
 }  // namespace trueaxis

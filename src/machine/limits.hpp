@@ -15,4 +15,8 @@ bool within(const MachineAxis& axis, double position);
 /// Which axis would leave its limits, and where to; empty: none.
 std::string outside_limits(const Machine& machine, const AxisPositions& axes);
 
+/// Which axis would be further from where an error of it was measured than a tenth of that range,
+/// and where to: what the error is there is not known. Empty: none.
+std::string outside_known(const ErrorModel& errors, const AxisPositions& axes);
+
 }  // namespace trueaxis

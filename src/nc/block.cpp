@@ -69,7 +69,8 @@ class Sorter {
                                              : std::string(why)));
     }
     for (const int other : block_.g_tenths)
-      if (group_of(other) == group)
+      if (group_of(other) == group || (is_cycle(other) && group == Group::motion) ||
+          (is_cycle(tenths) && group_of(other) == Group::motion))
         return complain(word, name + " stands beside another G code of its group: keep one");
     block_.g_tenths.push_back(tenths);
   }
@@ -108,13 +109,24 @@ class Sorter {
                                      : of_path               ? "PQ"
                                      : block_.has_g(g_dwell) ? "P"
                                                              : "";
+    const bool of_cycle = cycle_letters().find(word.letter) != std::string_view::npos;
     const bool of_arc =
         rules_.arcs && std::string_view("IJKR").find(word.letter) != std::string_view::npos;
-    if (of_arc || letters.find(word.letter) != std::string_view::npos) return;
+    if (of_arc || of_cycle || letters.find(word.letter) != std::string_view::npos) return;
     if (block_.refused) return;  // a parameter of the code that was refused
     complain(word, word.letter == 'E'
                        ? std::string("E is an exponent or no word: write the number without one")
                        : std::string(1, word.letter) + " has no meaning that is known here");
+  }
+
+  /// Parameters of the canned cycle that the block carries out.
+  std::string_view cycle_letters() const {
+    int cycle = rules_.cycle;
+    for (const int code : block_.g_tenths) {
+      if (group_of(code) == Group::motion || code == 800) cycle = 0;
+      if (is_cycle(code)) cycle = code / 10;
+    }
+    return cycle == 81 ? "RKL" : cycle == 82 ? "RPKL" : cycle == 83 ? "RQKL" : "";
   }
 
   const BlockRules& rules_;

@@ -34,6 +34,7 @@ struct Block {
 struct BlockRules {
   AxisSet axes = all_axes;
   bool arcs = false;
+  int cycle = 0;  ///< canned cycle in force before the block: 81, 82, 83; 0: none
 };
 
 /// Sorts the words of a block; what is not read goes to `troubles`.

@@ -7,7 +7,7 @@ namespace trueaxis::nc {
 namespace {
 
 constexpr std::string_view canned =
-    "is a canned cycle, whose moves are not in the program: write them as G0 and G1";
+    "is a canned cycle that is not read (G81, G82 and G83 are): write its moves as G0 and G1";
 constexpr std::string_view cutter =
     "moves the path by the cutter's radius: post the path of the tool's centre with G40";
 constexpr std::string_view zero =
@@ -30,8 +30,9 @@ constexpr std::array codes = {
     Code{550, Group::work_offset}, Code{560, Group::work_offset}, Code{570, Group::work_offset},
     Code{580, Group::work_offset}, Code{590, Group::work_offset}, Code{610, Group::path},
     Code{640, Group::path},        Code{800, Group::cycle},       Code{900, Group::distance},
-    Code{910, Group::distance},    Code{930, Group::feed_mode},   Code{940, Group::feed_mode},
-    Code{950, Group::feed_mode}};
+    Code{810, Group::cycle},       Code{820, Group::cycle},       Code{830, Group::cycle},
+    Code{980, Group::retract},     Code{990, Group::retract},     Code{910, Group::distance},
+    Code{930, Group::feed_mode},   Code{940, Group::feed_mode},   Code{950, Group::feed_mode}};
 
 }  // namespace
 
@@ -61,6 +62,7 @@ void apply_g(ModalState& state, int g_tenths) {
   switch (group_of(g_tenths)) {
     case Group::motion:
       state.motion = static_cast<Motion>(g_tenths / 10 + 1);
+      state.cycle = 0;
       break;
     case Group::plane:
       state.plane = static_cast<Plane>(g_tenths / 10 - 17);
@@ -80,6 +82,14 @@ void apply_g(ModalState& state, int g_tenths) {
       state.length = g_tenths == 430   ? LengthOffset::along_axis
                      : g_tenths == 434 ? LengthOffset::tip
                                        : LengthOffset::none;
+      break;
+    case Group::cycle:
+      // Controls differ in what goes on after G80: the motion must be said.
+      if (g_tenths == 800 && state.cycle != 0) state.motion = Motion::none;
+      state.cycle = static_cast<std::uint8_t>(g_tenths == 800 ? 0 : g_tenths / 10);
+      break;
+    case Group::retract:
+      state.back_to_r = g_tenths == 990;
       break;
     case Group::work_offset:
       state.work_offset = static_cast<std::uint8_t>(g_tenths / 10 - 54);

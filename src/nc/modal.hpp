@@ -24,6 +24,8 @@ struct ModalState {
   FeedMode feed_mode = FeedMode::per_minute;
   LengthOffset length = LengthOffset::none;
   bool inch = false, incremental = false;
+  std::uint8_t cycle = 0;        ///< canned cycle: 81, 82, 83; 0: none
+  bool back_to_r = false;        ///< G99, else G98
   std::uint8_t work_offset = 0;  ///< 0: G54 … 5: G59
   int tool = 0;                  ///< in the spindle, by T N M6; 0: none was put in
   double feed = std::numeric_limits<double>::quiet_NaN();  ///< the last F, as written
@@ -46,11 +48,17 @@ enum class Group : std::uint8_t {
   work_offset,
   path,
   cycle,
+  retract,
   once
 };
 
 /// The group of a G code that is read; `none` for any other.
 Group group_of(int g_tenths);
+
+/// Whether it is a drilling cycle that is read: G81, G82, G83.
+constexpr bool is_cycle(int g_tenths) {
+  return g_tenths == 810 || g_tenths == 820 || g_tenths == 830;
+}
 
 /// Why a G code is not read and what to do; "" where there is no more to say.
 std::string_view why_not_g(int g_tenths);

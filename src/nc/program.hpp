@@ -29,11 +29,16 @@ struct ReadOptions {
   std::optional<double> arc_tolerance_mm{};
 };
 
-/// A move to a position: a block with axis words under G0 or G1, or a chord of an arc.
+/// A move to a position: a block with axis words under G0 or G1, a chord of an arc, or one of the
+/// moves of a canned cycle.
 struct Move {
+  static constexpr std::uint32_t no_dwell = 0xFFFFFFFF;
   std::uint32_t line = 0;  ///< index in Program::lines
-  bool inserted = false;   ///< a chord that ends within its arc: it has no block of its own yet
-  bool continues = false;  ///< begins where the move before it in Program::moves ended
+  /// A chord that ends within its arc, or a move of a cycle after its first: it has no block yet.
+  bool inserted = false;
+  bool cycle = false;              ///< of a canned cycle; `modal` has G0 or G1
+  std::uint32_t dwell = no_dwell;  ///< index of the P of a dwell after it (G82) in Program::words
+  bool continues = false;          ///< begins where the move before it in Program::moves ended
   /// Its block puts something into force (G1, F, S, M3) that a line before it would need.
   bool sets = false;
   bool may_be_split = true;  ///< no M code of its block would be carried out later or twice
@@ -59,12 +64,13 @@ struct Program {
 };
 
 /// Reads a program of ISO 6983 words. Read are N G M F S T H O, axis words, comments, `/` and `%`;
-/// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80 G90 G91 G93-G95, G2 and G3 with
-/// an arc tolerance. A position is known when every axis of the machine has a word in force; none
-/// has after G28, G30, G53 and the end of a program, and the axes that the tool's length moves must
-/// be given again after G43, G43.4 and G49. Under G91 only G28 and G30 may have axis words, which
-/// are left alone. After another work offset the machine stands where it stood, so that the words
-/// in force are others by the difference of the zeros; a tip must then be given again.
+/// G0 G1 G4 G17-G21 G28 G30 G40 G43 G43.4 G49 G53-G59 G61 G64 G80-G83 G90 G91 G93-G95 G98 G99, G2
+/// and G3 with an arc tolerance. Canned cycles are moves along Z in G17. A position is known when
+/// every axis of the machine has a word in force; none has after G28, G30, G53 and the end of a
+/// program, and the axes that the tool's length moves must be given again after G43, G43.4 and G49.
+/// Under G91 only G28 and G30 may have axis words, which are left alone, and canned cycles. After
+/// another work offset the machine stands where it stood, so that the words in force are others by
+/// the difference of the zeros; a tip must then be given again.
 /// @throws InputError with everything that is not read, each with its line and column
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 

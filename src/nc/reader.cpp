@@ -6,6 +6,7 @@
 
 #include "nc/arc.hpp"
 #include "nc/block.hpp"
+#include "nc/cycle_words.hpp"
 #include "nc/program.hpp"
 #include "trueaxis/units.hpp"
 
@@ -33,7 +34,8 @@ class Reader {
     ++program_.blocks;
     troubles_.clear();
     sort_words({program_.words.data() + line.first_word, line.word_count},
-               {options_.axes, options_.arc_tolerance_mm.has_value()}, block_, troubles_);
+               {options_.axes, options_.arc_tolerance_mm.has_value(), state_.cycle}, block_,
+               troubles_);
     for (const WordTrouble& trouble : troubles_) complain(*trouble.word, trouble.why);
     take_program_number();
     change_tool();
@@ -103,6 +105,7 @@ class Reader {
     const ModalState before = state_;
     before_ = before;
     for (const int code : block_.g_tenths) apply_g(state_, code);
+    if (before.cycle == 0 && state_.cycle != 0) cycle_.begin(words_[2]);
     if (const Word* feed = block_.word('F')) state_.feed = feed->number;
     if (state_.length != before.length)
       forget(length_axes(before, state_), "the tool's length was switched");
@@ -148,6 +151,9 @@ class Reader {
   }
 
   void take_axes() {
+    const bool away_now = block_.has_g(g_home) || block_.has_g(g_second_home) ||
+                          block_.has_g(g_machine) || block_.has_g(g_dwell);
+    if (state_.cycle != 0 && !away_now && !block_.refused) return take_cycle();
     const bool circle = block_.named == 0 && is_arc(state_.motion) && centre_word() != nullptr;
     if ((block_.named == 0 && !circle) || block_.has_g(g_dwell)) return check_dwell();
     const Word& first = circle ? *centre_word() : first_axis_word();
@@ -206,6 +212,52 @@ class Reader {
     made.continues = continues_;
     program_.moves.push_back(made);
     continues_ = true;
+  }
+
+  /// A block of a canned cycle: the moves that it makes.
+  void take_cycle() {
+    if (!cycle_.take(block_, state_, program_.words)) return refuse_idle_cycle_words();
+    const Word& first = block_.named != 0 ? first_axis_word() : *block_.word('R');
+    const auto missing = static_cast<AxisSet>(options_.axes & ~known_ & ~(block_.named & 0b011));
+    std::string trouble = missing == 0
+                              ? cycle_.trouble(block_, state_, words_, options_.axes)
+                              : "the position of " + names_of(missing) + " is not known here (" +
+                                    unknown_since_ + "): give it before the cycle";
+    std::vector<CycleStep> steps;
+    if (trouble.empty()) steps = steps_of(cycle_.cycle(block_, state_, words_), trouble);
+    if (!trouble.empty()) return complain(first, trouble);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (has(block_.named, k)) decimals_[k] = block_.word(axis_letters[k])->decimals;
+    known_ |= static_cast<AxisSet>(block_.named & 0b011);
+    for (const CycleStep& step : steps) push_step(step);
+  }
+
+  /// They would be left without a cycle where its moves are written out.
+  void refuse_idle_cycle_words() {
+    for (const Word& word : words_of_line())
+      if (std::string_view("QPKL").find(word.letter) != std::string_view::npos ||
+          (word.letter == 'G' && word.number > 80.0 && word.number < 84.0))
+        complain(word,
+                 "a word of a canned cycle without a hole: write it in the block of the hole");
+  }
+
+  void push_step(const CycleStep& step) {
+    std::copy_n(step.at_mm, 3, words_.begin());
+    Move made;
+    made.line = static_cast<std::uint32_t>(line_);
+    made.cycle = true;
+    made.inserted = !program_.moves.empty() && program_.moves.back().line == line_;
+    made.modal = state_;
+    made.modal.motion = step.feed ? Motion::feed : Motion::rapid;
+    made.decimals = decimals_;
+    made.decimals[2] = std::max(decimals_[2], cycle_.decimals());
+    if (step.bottom) made.dwell = cycle_.dwell();
+    made.words = words_;
+    made.named = static_cast<AxisSet>(block_.named & ~only(2));
+    made.continues = continues_;
+    program_.moves.push_back(made);
+    continues_ = true;
+    told_motion_ = told_incremental_ = false;
   }
 
   bool sets_something() const {
@@ -289,6 +341,7 @@ class Reader {
   int selected_ = -1;
   AxisValues words_{};
   std::array<std::uint8_t, axis_count> decimals_{};
+  CycleWords cycle_;
   AxisSet known_ = 0, told_ = 0;
   std::string unknown_since_;
   bool continues_ = false, told_motion_ = false, told_incremental_ = false;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "nc/number_text.hpp"
 #include "trueaxis/error.hpp"
@@ -31,12 +32,19 @@ class Writer {
 
   Written write(std::span<const NewPosition> positions) {
     std::size_t next = 0;
+    cycles_change_ = std::ranges::any_of(positions, [&](const NewPosition& one) {
+      return program_.moves[one.move].cycle && changes(one);
+    });
     for (std::size_t i = 0; i < program_.lines.size(); ++i) {
       const Line& line = program_.lines[i];
       copy_to(line.begin);
       const std::size_t first = next;
       while (next < positions.size() && program_.moves[positions[next].move].line == i) ++next;
-      if (next > first) write_block(line, positions.subspan(first, next - first));
+      if (next == first) continue;
+      if (program_.moves[positions[first].move].cycle)
+        write_cycle(line, positions.subspan(first, next - first));
+      else
+        write_block(line, positions.subspan(first, next - first));
     }
     copy_to(source_.size());
     if (!wrong_.empty()) throw InputError(std::move(wrong_));
@@ -47,6 +55,119 @@ class Writer {
   void copy_to(std::size_t end) {
     out_.text.append(source_, copied_, end - copied_);
     copied_ = end;
+  }
+
+  bool changes(const NewPosition& position) const {
+    const Move& move = program_.moves[position.move];
+    for (std::size_t k = 0; k < axis_count; ++k)
+      if (has(options_.axes, k) && !new_number(move, k, position.words[k], options_).stays)
+        return true;
+    return false;
+  }
+
+  /// The moves of a canned cycle as G0 and G1: the block itself becomes the first of them. Where no
+  /// cycle of the program changes, all stay.
+  void write_cycle(const Line& line, std::span<const NewPosition> positions) {
+    const Move& move = program_.moves[positions.front().move];
+    change_work_offset(move.modal.work_offset);
+    if (!cycles_change_) {
+      in_force_ = program_.moves[positions.back().move].words;
+      return;
+    }
+    const std::size_t begin = out_.text.size();
+    rewrite_cycle(line, positions.front());
+    copy_to(line.end);
+    check_length(line, out_.text.size() - begin);
+    ++out_.rewritten;
+    rapid_ = true;
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+      const Move& step = program_.moves[positions[i].move];
+      write_step(line, step, positions[i]);
+      const bool ends = i + 1 == positions.size() || positions[i + 1].move != positions[i].move;
+      if (step.dwell == Move::no_dwell || !ends) continue;
+      const Word& dwell = program_.words[step.dwell];
+      begin_step(line);
+      out_.text += line.has_blanks ? "G4 " : "G4";
+      out_.text += source_.substr(dwell.letter_at, dwell.end - dwell.letter_at);
+      ++out_.inserted;
+    }
+    if (!move.modal.incremental) return;
+    begin_step(line);
+    out_.text += "G91";
+    ++out_.inserted;
+  }
+
+  void begin_step(const Line& line) {
+    out_.text += line_end_of(line);
+    if (line.skippable) out_.text += '/';
+    words_ = 0;
+  }
+
+  void write_step(const Line& line, const Move& step, const NewPosition& position) {
+    const std::size_t before = out_.text.size();
+    begin_step(line);
+    const std::size_t begin = out_.text.size();
+    const bool rapid = step.modal.motion == Motion::rapid;
+    if (rapid != rapid_) {
+      separate(line);
+      out_.text += rapid ? "G0" : "G1";
+    }
+    const int without_axes = words_;
+    for (std::size_t k = 0; k < axis_count; ++k) {
+      if (!has(options_.axes, k)) continue;
+      const NewNumber now = new_number(step, k, position.words[k], options_);
+      if (!is_new(k, now)) continue;
+      separate(line);
+      append(axis_letters[k], now);
+      in_force_[k] = now.value;
+    }
+    if (words_ == without_axes) return out_.text.resize(before);  // it is where the one before is
+    rapid_ = rapid;
+    check_length(line, out_.text.size() - begin);
+    ++out_.inserted;
+  }
+
+  /// The block as G0 above its first hole, under G90 and without what only the cycle needs.
+  void rewrite_cycle(const Line& line, const NewPosition& position) {
+    const Move& move = program_.moves[position.move];
+    bool absolute = !move.modal.incremental;
+    const auto say_absolute = [&] {
+      if (!std::exchange(absolute, true)) out_.text += line.has_blanks ? "G90 " : "G90";
+    };
+    const std::size_t begin = out_.text.size();
+    const Word* last = nullptr;  // behind which other axes stand
+    for (const Word& word : words_of(line))
+      if (axis_of(word.letter) < axis_count && word.letter != 'Z') last = &word;
+    for (const Word& word : words_of(line)) {
+      const std::size_t axis = axis_of(word.letter);
+      const bool cycle = word.letter == 'G' && word.number >= 81.0 && word.number <= 83.0;
+      if (is_one_of(word.letter, "ZRQPKL") ||
+          (word.letter == 'G' && (word.number >= 98.0 || word.number == 91.0))) {
+        drop(word);
+        if (out_.text.size() == begin)
+          while (copied_ < line.end && is_blank(source_[copied_])) ++copied_;
+        continue;
+      }
+      if (cycle || (axis < axis_count && has(move.named, axis))) {
+        copy_to(word.letter_at);
+        say_absolute();
+      }
+      if (cycle) {
+        out_.text += source_[word.letter_at];
+        out_.text += '0';
+        copied_ = word.end;
+      } else if (axis < axis_count && has(move.named, axis)) {
+        replace_number(word, new_number(move, axis, position.words[axis], options_), axis);
+      } else {
+        copy_to(word.end);
+      }
+      if (&word == last) add_words(line, move, position);
+    }
+    if (!absolute) {
+      if (line.has_blanks && out_.text.size() > begin) out_.text += ' ';
+      out_.text += "G90";
+    }
+    if (last == nullptr) add_words(line, move, position);
   }
 
   void write_block(const Line& line, std::span<const NewPosition> positions) {
@@ -246,35 +367,12 @@ class Writer {
   std::vector<Diagnostic> wrong_;
   std::size_t copied_ = 0, work_offset_ = 0;
   double pieces_ = 1.0;
-  int words_ = 0;  ///< of the line that is made
+  int words_ = 0;               ///< of the line that is made
+  bool cycles_change_ = false;  ///< canned cycles are written as G0 and G1
+  bool rapid_ = true;           ///< of a cycle that is written, the motion in force
 };
 
 }  // namespace
-
-NewNumber new_number(const Move& move, std::size_t axis, double value,
-                     const WriteOptions& options) {
-  const bool inch = move.modal.inch && !is_rotary(axis);
-  const double factor = is_rotary(axis) ? rad_per_deg : inch ? mm_per_inch : 1.0;
-  const int least =
-      is_rotary(axis) ? options.angle_decimals : options.linear_decimals + (inch ? 2 : 0);
-  NewNumber out;
-  out.decimals = std::max<int>(move.decimals[axis], least);
-  const double before = move.words[axis] / factor, change = (value - move.words[axis]) / factor;
-  out.number = rounded(before + change, out.decimals);
-  // Half of the last decimal, less the rounding of the conversion.
-  out.stays = std::abs(change) < half_of(out.decimals) ||
-              std::abs(out.number - before) <=
-                  8.0 * std::numeric_limits<double>::epsilon() * std::abs(before);
-  out.value = out.stays ? move.words[axis] : out.number * factor;
-  return out;
-}
-
-AxisValues as_written(const Move& move, const AxisValues& words, const WriteOptions& options) {
-  AxisValues out{};
-  for (std::size_t k = 0; k < axis_count; ++k)
-    if (has(options.axes, k)) out[k] = new_number(move, k, words[k], options).value;
-  return out;
-}
 
 Written write_program(const Program& program, std::span<const NewPosition> positions,
                       const WriteOptions& options) {

@@ -47,7 +47,9 @@ struct Written {
 /// value changed; an axis without a word whose output changed gets one behind the last axis word.
 /// Before a block with inserted positions stand lines with their axis words; the first of them also
 /// has the words of the block that it needs where the block itself puts them into force (G1, F, S,
-/// M3), and under G93 every F is multiplied by the number of pieces. Arcs become G1.
+/// M3), and under G93 every F is multiplied by the number of pieces. Arcs become G1. Canned
+/// cycles become G0 and G1 where a position of any of them changes, the lines after the first
+/// behind the block.
 /// @throws InputError where a line would have more than 251 characters, or a block cannot be cut
 ///         in pieces
 Written write_program(const Program& program, std::span<const NewPosition> positions,

@@ -44,9 +44,11 @@ Json verdict_data(const MachineJobResult& result) {
             {"remarks", result.remarks},
             {"tolerance_um", result.job.tolerance_mm ? um(*result.job.tolerance_mm) : nothing}};
   if (result.tips.empty()) return data;
+  data["path_before_um"] = um(v.path_before_mm());
   data["before_um"] = um(v.before_mm);
   data["before_line"] = v.before_line;
   data["after_um"] = um(v.after_mm);
+  data["between_before_um"] = um(v.between_before_mm);
   data["between_um"] = um(v.between_mm);
   data["not_corrected_um"] = um(v.not_corrected_mm);
   data["U_um"] = um(v.U_mm);

@@ -17,7 +17,7 @@ function keyNumbers(verdict) {
   if (!isNumber(verdict.before_um)) return null;
   return facts(
       [
-        ['Tip off with the program as it is, at the ends of blocks', micrometres(verdict.before_um / 1000, verdict.before_um / 1000)],
+        ['Tip off with the program as it is, on its path', micrometres(verdict.path_before_um / 1000, verdict.path_before_um / 1000)],
         ['Tip off with the new program', `at most ${micrometres(verdict.at_most_um / 1000, verdict.at_most_um / 1000)} in 95 of 100`],
         [
           'Tolerance',
@@ -70,7 +70,10 @@ function programFacts({compensation: c, part, verdict, program}) {
           'Tip at the ends of blocks, before → after',
           `${um(verdict.before_um)} → ${um(verdict.after_um)}`
         ],
-        ['Between the ends, new program', um(verdict.between_um)],
+        [
+          'Tip between the ends, before → after',
+          `${um(verdict.between_before_um)} → ${um(verdict.between_um)}`
+        ],
         ['U of the tip (k = 2), without where the part stands', um(verdict.U_um)]);
   if (verdict.not_corrected_um > 0)
     list.push(['Found, and not to be corrected', um(verdict.not_corrected_um)]);

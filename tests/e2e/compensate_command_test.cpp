@@ -109,7 +109,7 @@ TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
   // The tool along C: its direction off by B0C and the like needs a turn of C of any size.
   const CommandStreams done = compensate("p.nc", "G1 X50. Y20. Z30. A0. C10.\n",
                                          of_trunnion +
-                                             "-o out.nc --json r.json "
+                                             "-o out.nc --json r.json --rotary all "
                                              "--decimals 12 --angle-decimals 12");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   const auto json = result("r.json");
@@ -118,9 +118,14 @@ TEST_F(CompensateCommand, AtAPoleTheTipIsExactAndTheBlockIsListed) {
   EXPECT_LT(value_of(json.at("error_after").at("position")), 1e-9);
   EXPECT_NEAR(value_of(json.at("error_after").at("direction")),
               value_of(json.at("singular")[0].at("direction_left")), 1e-9);
-  // max_rotary_change_deg is 0.5 where the machine says nothing.
+  // Twenty times the angle that is corrected, at most.
+  const double angle = value_of(json.at("error_before").at("direction"));
   for (const char* const axis : {"A", "C"})
-    EXPECT_LE(value_of(json.at("largest_change").at(axis)), 0.5 * (1.0 + 1e-9)) << axis;
+    EXPECT_LE(value_of(json.at("largest_change").at(axis)), 20.0 * angle) << axis;
+  // A is where a machine begins: the program does not move it.
+  ASSERT_EQ(command("compensate p.nc " + of_trunnion + "-o still.nc").exit_code, 0);
+  EXPECT_TRUE(contains(read_text(folder_ / "still.nc"), " A0. C10"))
+      << read_text(folder_ / "still.nc");
 }
 
 TEST_F(CompensateCommand, ReplacesNoProgramUnasked) {

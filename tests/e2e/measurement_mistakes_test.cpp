@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A measurement of a machine whose columns are written wrongly, each in one way.
 #include <functional>
+#include <random>
 #include <sstream>
 
 #include "support/command_fixture.hpp"
@@ -97,7 +98,64 @@ TEST_F(MeasurementMistakes, UnitsOfTheDeviations) {
   rows(scaled({"dX", "dY", "dZ"}, 1e-3));  // mm under µm
   expect_refused({"scatter by 0.001", "noise is said to be 1 µm", "unit of the deviations"});
   write(replaced("dX[um],dY[um],dZ[um]", "dX[mm],dY[mm],dZ[mm]"), [](Fields&) {});
-  expect_refused({"X0C would be 2", "no machine is so far from its model", "units"});
+  expect_refused({"the deviations are in um and the header says mm", "write [um]"});
+}
+
+// A probe's own deviations, with the axes off the ball by up to 0.2 mm and the file's noise 1 µm:
+// in mm under µm they say nothing, and what the axes were off is left of the readings.
+TEST_F(MeasurementMistakes, UnitsOfTheDeviationsOfAProbe) {
+  const auto off = [](double by_um) {
+    return [by_um, count = 0](Fields& at) mutable {
+      const double off_um[3] = {120.0 * std::cos(1.7 * count), 120.0 * std::sin(2.9 * count),
+                                120.0 * std::cos(4.1 * count + 1.0)};
+      ++count;
+      char number[40];
+      for (std::size_t k = 0; k < 3; ++k) {
+        std::string &axis = at[std::string(1, "XYZ"[k])], &d = at[std::string("d") + "XYZ"[k]];
+        std::snprintf(number, sizeof number, "%.12g", std::stod(axis) + 1e-3 * off_um[k]);
+        axis = number;
+        // Y carries the part: the table goes against +Y.
+        std::snprintf(number, sizeof number, "%.12g", (std::stod(d) - off_um[k]) * by_um);
+        d = number;
+      }
+    };
+  };
+  rows(off(1.0));
+  EXPECT_EQ(command("calibrate " + machine_ + " wrong.csv -o off.toml").exit_code, 0);
+  rows(off(1e-3));
+  expect_refused({"the deviations are in mm and the header says um", "write [mm]"});
+  write(replaced("dX[um],dY[um],dZ[um]", "dX[mm],dY[mm],dZ[mm]"), off(1.0));
+  expect_refused({"the deviations are in um and the header says mm", "write [um]"});
+}
+
+// Numbers that no machine makes: residuals out of proportion to the noise that is stated.
+TEST_F(MeasurementMistakes, RandomNumbers) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> draw(-400.0, 400.0);
+  rows([&](Fields& at) {
+    for (const char* d : {"dX", "dY", "dZ"}) at[d] = std::to_string(draw(random));
+  });
+  expect_refused({"of the readings are left by every error", "noise is said to be 1 µm", "units"});
+}
+
+TEST_F(MeasurementMistakes, ReadOutsInTwoUnits) {
+  const auto refused = [&](const std::string& text, const char* words) {
+    file("axis.csv", text);
+    const CommandStreams done = command("calibrate " + machine_ + " axis.csv -o wrong.toml");
+    EXPECT_EQ(done.exit_code, 1) << text;
+    EXPECT_TRUE(contains(done.err, words)) << done.err;
+    EXPECT_FALSE(there("wrong.toml"));
+  };
+  std::string um = "# kind: axis\n# axis: X\ncommand[mm],actual[mm]\n", rad = um, turned = um;
+  rad = "# kind: axis\n# axis: C\ncommand[deg],actual[deg]\n";
+  for (int i = 0; i < 36; ++i) {
+    um += std::to_string(10.0 * i) + "," + std::to_string(1e4 * i) + "\n";
+    rad += std::to_string(10.0 * i) + "," + std::to_string(10.0 * i * 3.14159265 / 180.0) + "\n";
+    turned += std::to_string(10.0 * i) + "," + std::to_string(-10.0 * i) + "\n";
+  }
+  refused(um, "actual is in um");
+  refused(rad, "actual is in radians");
+  refused(turned, "runs the other way");
 }
 
 TEST_F(MeasurementMistakes, UnitsOfThePositions) {

@@ -125,6 +125,10 @@ bool take_metadata(const MeasurementMetadata& metadata, const Machine& machine, 
   out.kind = *metadata.kind;
   const bool of_axis = out.kind == MeasurementKind::array || out.kind == MeasurementKind::axis;
   out.axis = metadata.axis;
+  out.gear_ratio = metadata.gear_ratio;
+  if (metadata.gear_ratio &&
+      !(out.kind == MeasurementKind::axis && is_rotary(metadata.axis.value_or(AxisName::C))))
+    wrong("gear_ratio", "gear_ratio is said of kind axis and a rotary axis only");
   out.noise_mm = metadata.noise;
   if (!of_axis && metadata.axis) wrong("axis", "axis is said of kinds array and axis only");
   if (of_axis && !metadata.axis && !metadata.lines.contains("axis"))

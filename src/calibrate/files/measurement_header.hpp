@@ -19,6 +19,7 @@ struct MeasurementMetadata {
   std::optional<double> noise;  ///< mm or rad
   bool noise_is_angle = false;
   std::optional<AxisName> axis;
+  std::optional<int> gear_ratio;
   std::map<std::string, std::size_t> lines;  ///< by key
 };
 

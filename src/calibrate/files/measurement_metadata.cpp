@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
+#include <charconv>
 
 #include "base/edit_distance.hpp"
 #include "calibrate/files/measurement_header.hpp"
@@ -8,7 +9,7 @@
 namespace trueaxis {
 namespace {
 
-constexpr std::array keys{"kind", "noise", "axis"};
+constexpr std::array keys{"kind", "noise", "axis", "gear_ratio"};
 constexpr std::array kinds{MeasurementKind::ball, MeasurementKind::bar, MeasurementKind::array,
                            MeasurementKind::axis};
 
@@ -35,6 +36,17 @@ std::string take_axis(std::string_view value, MeasurementMetadata& metadata) {
   if (value.size() != 1 || at == std::string_view::npos)
     return csv_quoted(value) + " is no axis: write one of X Y Z A B C";
   metadata.axis = static_cast<AxisName>(at);
+  return "";
+}
+
+std::string take_gear_ratio(std::string_view value, MeasurementMetadata& metadata) {
+  int ratio = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), ratio);
+  constexpr int most = 10000;
+  if (error != std::errc{} || end != value.data() + value.size() || ratio < 2 || ratio > most)
+    return csv_quoted(value) +
+           " is no gear ratio: write how often the gear turns in a turn of the axis, 2 to 10000";
+  metadata.gear_ratio = ratio;
   return "";
 }
 
@@ -71,7 +83,8 @@ void take_measurement_comment(std::string_view line, std::size_t number,
   else
     wrong = key == "kind"    ? take_kind(value, metadata)
             : key == "noise" ? take_noise(value, metadata)
-                             : take_axis(value, metadata);
+            : key == "axis"  ? take_axis(value, metadata)
+                             : take_gear_ratio(value, metadata);
   if (!wrong.empty()) diagnostics.add(number, column, std::move(wrong));
 }
 

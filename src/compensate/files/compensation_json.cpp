@@ -62,6 +62,7 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
             {"version", TRUEAXIS_VERSION},
             {"inputs", std::move(files)},
             {"method", options.method == CompensationMethod::exact ? "exact" : "differential"},
+            {"rotary", options.rotary == RotaryUse::moved ? "moved" : "all"},
             {"decimals", options.decimals},
             {"angle_decimals", options.angle_decimals},
             {"blocks",
@@ -74,9 +75,13 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["largest_change"] = axes_json(result.largest_change);
   json["error_before"] = tool_json(result.before);
   json["error_after"] = tool_json(result.after);
+  json["whole_path"] = {{"before", largest_json(result.off_before(), false)},
+                        {"after", largest_json(result.off_after(), false)}};
   json["between_blocks"] = {{"before", largest_json(result.between_before, false)},
                             {"after", largest_json(result.between_after, false)}};
   json["about_tool_axis"] = largest_json(result.about_tool_axis, true);
+  json["left_as_they_were"] = result.left;
+  json["comes_out_worse"] = result.comes_out_worse();
   json["singular"] = singular_json(result.singular);
   json["unreachable"] = unreachable_json(result.unreachable);
   json["exact_minus_differential"] = axes_json(result.exact_minus_differential);

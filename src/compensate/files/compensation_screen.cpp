@@ -52,37 +52,51 @@ std::string degrees(double angle_rad) {
   return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);
 }
 
-}  // namespace
-
-std::string compensation_screen(const ProgramCompensation& result,
-                                std::optional<double> tolerance_mm) {
-  if (result.blocks_moved == 0) return "DONE: the program moves nowhere, nothing was changed\n";
-  std::string text = fmt::format(
-      "DONE: tip off by {} at most with the new program, {} without it (ends of "
-      "blocks, line {})\n",
-      um(result.after.position.value), um(result.before.position.value),
-      result.before.position.line);
-  text += "turned direction of the tool off by " + degrees(result.after.direction.value) + ", " +
-          degrees(result.before.direction.value) + " without it\n";
-  text += "path   off by " + um(result.between_after.value) + " between the ends of blocks, " +
-          um(result.between_before.value) + " without it\n";
-  if (result.u_tip)
-    text += "U      of the tip " + um(2.0 * result.u_tip->value) +
-            " (k = 2), with what is not known of where the part stands\n";
-  text += changes_screen(result) + causes_screen(result);
+/// Blocks that need a word: those left as they were, and those near a pole.
+std::string blocks_screen(const ProgramCompensation& result) {
+  std::string text;
+  if (!result.left.empty())
+    text += fmt::format(
+        "left   {} unchanged, because they would come out worse; the first in line {}\n",
+        counted(result.left.size(), "block"), result.left.front());
   if (!result.singular.empty())
     text += fmt::format("pole   {} whose direction is left off, the first in line {}\n",
                         counted(result.singular.size(), "block"), result.singular.front().line);
+  return text;
+}
+
+std::string next_screen_of(const ProgramCompensation& result, const CompensationOptions& options) {
   const double between_mm = result.between_after.value;
-  if (tolerance_mm && between_mm > *tolerance_mm)
-    return text + "next   a smaller --tolerance-um than " + um(*tolerance_mm) +
+  if (options.tolerance_mm && between_mm > *options.tolerance_mm)
+    return "next   a smaller --tolerance-um than " + um(*options.tolerance_mm) +
            ": between the ends of blocks the tip is off by " + um(between_mm) + "\n";
-  if (!tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
-    return text +
-           "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
+  if (!options.tolerance_mm && between_mm > std::max(1e-3, 5.0 * result.after.position.value))
+    return "next   --tolerance-um cuts the moves in pieces: between their ends the tip is off by " +
            um(between_mm) + "\n";
-  return text +
-         "next   run the new program in place of the old one; trueaxis simulate cuts it first\n";
+  return "next   run the new program in place of the old one; trueaxis simulate cuts it first\n";
+}
+
+}  // namespace
+
+std::string compensation_screen(const ProgramCompensation& result,
+                                const CompensationOptions& options) {
+  if (result.blocks_moved == 0) return "DONE: the program moves nowhere, nothing was changed\n";
+  const LargestInProgram before = result.off_before(), after = result.off_after();
+  std::string text = fmt::format(
+      "DONE: tip off by {} at most on the whole path with the new program, {} without it (line "
+      "{})\n",
+      um(after.value), um(before.value), before.line);
+  text += "ends   off by " + um(result.after.position.value) + " at the ends of blocks, " +
+          um(result.before.position.value) + " without it\n";
+  text += "path   off by " + um(result.between_after.value) + " between the ends of blocks, " +
+          um(result.between_before.value) + " without it\n";
+  text += "turned direction of the tool off by " + degrees(result.after.direction.value) + ", " +
+          degrees(result.before.direction.value) + " without it\n";
+  if (result.u_tip)
+    text += "U      of the tip " + um(2.0 * result.u_tip->value) +
+            " (k = 2), with what is not known of where the part stands\n";
+  return text + changes_screen(result) + causes_screen(result) + blocks_screen(result) +
+         next_screen_of(result, options);
 }
 
 }  // namespace trueaxis

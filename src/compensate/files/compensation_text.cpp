@@ -55,8 +55,9 @@ std::string compensation_text(const ProgramCompensation& result) {
       format("{} blocks read, {} move, {} rewritten, {} inserted\n", result.blocks_read,
              result.blocks_moved, result.blocks_rewritten, result.blocks_inserted);
   if (result.blocks_moved == 0) return text;
-  text +=
-      row("tip off by", length(result.before.position) + ", now " + length(result.after.position));
+  text += row("tip off by", length(result.off_before()) + ", now " + length(result.off_after()));
+  text += row("ends of blocks",
+              length(result.before.position) + ", now " + length(result.after.position));
   text +=
       row("direction", angle(result.before.direction) + ", now " + angle(result.after.direction));
   text += row("between blocks",
@@ -67,10 +68,25 @@ std::string compensation_text(const ProgramCompensation& result) {
     text += row("U of the tip", layout::um(2.0 * result.u_tip->value) +
                                     " (k = 2), with what is "
                                     "not known of where the part stands");
+  if (!result.left.empty())
+    text +=
+        row("left as it was", format("{} blocks that would come out worse: the first in line {}",
+                                     result.left.size(), result.left.front()));
   if (!result.singular.empty())
     text += row("at a pole", format("{} blocks, whose direction is left off: the first in line {}",
                                     result.singular.size(), result.singular.front().line));
   return text;
+}
+
+std::string worse_text(const ProgramCompensation& result, const CompensationOptions& options) {
+  const LargestInProgram before = result.off_before(), after = result.off_after();
+  return format(
+      "the new program would be off by {} in line {}, and the old one is by {}: nothing was "
+      "written. "
+      "{}",
+      layout::um(after.value), after.line, layout::um(before.value),
+      options.tolerance_mm ? "Ask for more decimals (--decimals, --angle-decimals)"
+                           : "Cut its blocks in pieces (--tolerance-um)");
 }
 
 std::string unreachable_text(const ProgramCompensation& result, const std::string& file) {

@@ -8,6 +8,7 @@
 #include "job/machine/job_errors.hpp"
 #include "job/machine/machine_doubts.hpp"
 #include "job/machine/machine_job_verdict.hpp"
+#include "job/machine/path_before.hpp"
 #include "machine/algebra.hpp"
 #include "trueaxis/error.hpp"
 
@@ -136,6 +137,10 @@ MachineJobResult run_machine_job(MachineJob job, MachineDiagnosis diagnosis) {
       result.part = displacement_of(tips.part());
       result.tips = tips.take(uncertainty, numbers);
       numbers.between_mm = result.compensation->between_after.value;
+      const LargestInProgram between =
+          off_between_before(model, result.compensation->ends, tips.part());
+      numbers.between_before_mm = between.value;
+      numbers.between_before_line = between.line;
       numbers.not_corrected_mm = not_corrected_mm(result, model, tips.stands());
       result.maps =
           error_maps(model, result.ranges, ends.front().setting, uncertainty, tips.part());

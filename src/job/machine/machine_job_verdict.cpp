@@ -19,15 +19,29 @@ std::string in_um(double length_mm) {
 
 std::string numbers_text(const MachineJobVerdict& v) {
   return fmt::format(
-      "tip off by at most {} with the new program (in 95 of 100), {} at the ends of blocks without "
-      "it",
-      in_um(v.upper_mm), in_um(v.before_mm));
+      "tip off by at most {} with the new program (in 95 of 100), {} on its path without it",
+      in_um(v.upper_mm), in_um(v.path_before_mm()));
+}
+
+/// Why the new program is no better than the old one; empty: it is.
+std::string worse(const MachineJobResult& result, const MachineJobVerdict& v) {
+  if (!result.compensation || result.tips.empty()) return "";
+  constexpr double stated_to = 1.01;
+  const double by_decimals_mm = 2.0 * result.compensation->rounding.position.value;
+  if (!result.compensation->comes_out_worse() &&
+      v.path_after_mm() <= stated_to * v.path_before_mm() + by_decimals_mm)
+    return "";
+  return fmt::format("the new program is off by {} on its path, the old one by {}; {}",
+                     in_um(v.path_after_mm()), in_um(v.path_before_mm()),
+                     v.between_mm > v.after_mm
+                         ? "cut its blocks in pieces with [program] tolerance_um"
+                         : "ask for more [program] decimals");
 }
 
 /// What would bring the tip within its tolerance: the largest part of what it is off by.
 std::string remedy(const MachineJobResult& result, const MachineJobVerdict& v,
                    double tolerance_mm) {
-  const double left_mm = std::max(v.after_mm, v.between_mm);
+  const double left_mm = v.path_after_mm();
   const double budget_mm = tolerance_mm - v.not_corrected_mm - v.U_mm;
   if (v.between_mm > v.after_mm && v.between_mm > std::max(v.U_mm, v.not_corrected_mm)) {
     const double pieces_um = std::floor(0.8 * budget_mm / mm_per_um);
@@ -86,10 +100,12 @@ std::string next_of(const MachineJobResult& result, const MachineJobVerdict& v) 
 }
 
 MachineJobVerdict without_next(const MachineJobResult& result, MachineJobVerdict v) {
-  const double left_mm = std::max(v.after_mm, v.between_mm);
+  const double left_mm = v.path_after_mm();
   v.upper_mm = left_mm + v.not_corrected_mm + v.U_mm;
   v.lower_mm = std::max(0.0, left_mm - v.U_mm);
   if (const std::string why = machine_objection(result); !why.empty())
+    return ends_as(std::move(v), Decision::no_go, "NO-GO: " + why);
+  if (const std::string why = worse(result, v); !why.empty())
     return ends_as(std::move(v), Decision::no_go, "NO-GO: " + why);
   v.reservations = machine_reservations(result);
   if (!result.job.program) {

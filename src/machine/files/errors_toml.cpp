@@ -115,6 +115,12 @@ void read_error(TomlTable table, const Machine& machine, bool large, ErrorModel&
   const Keys keys(*name);
   ErrorTerm term{*name, read_function(table, kind, keys)};
   term.u = table.number("u" + keys.value, 0.0, Range::non_negative());
+  const std::string known = "known" + keys.position;
+  if (const std::vector<double> range = table.numbers(known);
+      range.size() == 2 && range[0] < range[1])
+    term.known_over = {range[0], range[1]};
+  else if (!range.empty())
+    table.complain(known, "must be two positions that ascend: from where to where it was measured");
   if (!large) check_size(table, term, kind, machine);
   if (without_effect(*name) && value_at(term.function, 0.0) != 0.0)
     table.complain("value" + keys.value, "must be 0: " + text + " has no effect");

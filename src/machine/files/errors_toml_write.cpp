@@ -93,6 +93,10 @@ std::string errors_toml(const ErrorModel& errors, const Machine* of) {
     const Units units(term.name);
     text += format("\n[[error]]\nname = \"{}\"\n", to_string(term.name));
     text += std::visit([&](const auto& kind) { return lines(kind, units); }, term.function);
+    if (term.known_over)
+      text +=
+          format("known_{} = {}\n", units.position,
+                 units.list({(*term.known_over)[0], (*term.known_over)[1]}, units.per_position));
     if (const double u = u_of(errors, i); u > 0.0)
       text += format("u_{} = {}\n", units.value, u * units.per_value);
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "simulate/machine/tool_in_part.hpp"
 
@@ -47,6 +48,8 @@ class Control {
         if (block.has(letter)) clock_s_ += block.of_letter.at(letter);
     } else if (block.has_g(28.0) || block.has_g(30.0)) {
       go_home(block);
+    } else if (cycle_ > 80.0 && !block.has_g(53.0)) {
+      drill(block);
     } else if (has_axis_word(block) || (is_arc() && has_centre(block))) {
       go(block);
     }
@@ -71,9 +74,9 @@ class Control {
   }
 
   void check(const BlockWords& block) {
-    static const std::set<double> known{0,  2,  3,  1,    4,  17, 18, 19, 20, 21, 28,
-                                        30, 40, 43, 43.4, 49, 53, 54, 55, 56, 57, 58,
-                                        59, 61, 64, 80,   90, 91, 93, 94, 95};
+    static const std::set<double> known{0,  2,  3,    1,  4,  17, 18, 19, 20, 21, 28, 30,
+                                        40, 43, 43.4, 49, 53, 54, 55, 56, 57, 58, 59, 61,
+                                        64, 80, 81,   82, 83, 90, 91, 93, 94, 95, 98, 99};
     for (const double code : block.g)
       if (!known.contains(code)) complain(block, fmt::format("this control has no G{:g}", code));
     for (const auto& [letter, value] : block.of_letter)
@@ -87,6 +90,12 @@ class Control {
   void put_in_force(const BlockWords& block) {
     for (const double code : block.g) {
       if (code <= 3.0) motion_ = static_cast<int>(code);
+      if (code <= 3.0 || code == 80.0) cycle_ = 80.0;
+      if (code >= 81.0 && code <= 83.0) {
+        if (cycle_ == 80.0) from_level_mm_ = lead()[2];
+        cycle_ = code;
+      }
+      if (code == 98.0 || code == 99.0) back_to_r_ = code == 99.0;
       if (code >= 17.0 && code <= 19.0) plane_ = static_cast<int>(code);
       if (code == 20.0 || code == 21.0) unit_mm_ = code == 20.0 ? mm_per_inch : 1.0;
       if (code == 43.0 || code == 43.4 || code == 49.0) length_ = code;
@@ -163,6 +172,69 @@ class Control {
     move(block, to, tip_goes, machine_zero, arc);
   }
 
+  /// X Y Z of what words say where the machine stands: the tip, or the words of the axes.
+  Vector3 lead() const {
+    if (along_tip()) return tool_in_part(machine_, {}, stands_, setting()).tip_mm;
+    Vector3 out = linear_part(stands_);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (machine_.find(static_cast<AxisName>(k)) != nullptr) out[k] -= zero(k) + length_on(k);
+    return out;
+  }
+
+  /// A straight move of a cycle, as a block of its own words would make it.
+  void step(const BlockWords& block, const Vector3& to, double code) {
+    BlockWords words = block;
+    words.g = {code};
+    for (const char letter : {'A', 'B', 'C', 'I', 'J', 'K', 'L', 'P', 'Q', 'R'})
+      words.of_letter.erase(letter);
+    for (std::size_t k = 0; k < 3; ++k) words.of_letter[letters[k]] = to[k] / unit_mm_;
+    const bool incremental = std::exchange(incremental_, false);
+    motion_ = static_cast<int>(code);
+    go(words);
+    incremental_ = incremental;
+  }
+
+  /// G81, G82, G83: above the hole, to R, down, back; below R first up to it.
+  void drill(const BlockWords& block) {
+    const auto mm = [&](char letter) { return unit_mm_ * block.of_letter.at(letter); };
+    if (block.has('R')) r_mm_ = mm('R') + (incremental_ ? from_level_mm_ : 0.0);
+    if (block.has('Z')) bottom_mm_ = mm('Z') + (incremental_ ? r_mm_ : 0.0);
+    if (block.has('Q')) peck_mm_ = mm('Q');
+    if (block.has('P')) dwell_s_ = block.of_letter.at('P');
+    if (!block.has('X') && !block.has('Y') && !block.has('Z') && !block.has('R')) return;
+    if (plane_ != 17 || !(bottom_mm_ < r_mm_) || (cycle_ == 83.0 && !(peck_mm_ > 0.0)))
+      return complain(block, "a cycle in G18 or G19, with Z above R, or G83 without Q");
+    Vector3 at = lead();
+    const auto to_level = [&](double level_mm, double code) {
+      if (std::fabs(at[2] - level_mm) < 1e-12) return;
+      at[2] = level_mm;
+      step(block, at, code);
+    };
+    const double repeats = block.has('K')   ? block.of_letter.at('K')
+                           : block.has('L') ? block.of_letter.at('L')
+                                            : 1.0;
+    if (at[2] < r_mm_) to_level(r_mm_, 0.0);
+    for (int hole = 0; hole < static_cast<int>(repeats); ++hole) {
+      const Vector3 last = at;
+      for (std::size_t k = 0; k < 2; ++k)
+        if (block.has(letters[k])) at[k] = mm(letters[k]) + (incremental_ ? at[k] : 0.0);
+      if (hole == 0 || at != last) step(block, at, 0.0);
+      to_level(r_mm_, 0.0);
+      double depth = r_mm_;
+      while (depth > bottom_mm_) {
+        if (depth < r_mm_) {
+          constexpr double clearance_mm = 0.254;
+          to_level(r_mm_, 0.0);
+          to_level(std::fmin(depth + clearance_mm, r_mm_), 0.0);
+        }
+        depth = cycle_ == 83.0 ? std::fmax(depth - peck_mm_, bottom_mm_) : bottom_mm_;
+        to_level(depth, 1.0);
+      }
+      if (cycle_ == 82.0) clock_s_ += dwell_s_;
+      to_level(back_to_r_ ? r_mm_ : std::fmax(from_level_mm_, r_mm_), 0.0);
+    }
+  }
+
   void go_home(const BlockWords& block) {
     AxisPositions to = stands_;
     for (std::size_t k = 0; k < axis_count; ++k)
@@ -215,6 +287,9 @@ class Control {
   bool incremental_ = false, anew_ = true;
   int motion_ = -1, plane_ = 17;  ///< -1: no G0 … G3 yet
   double unit_mm_ = 1.0, length_ = 49.0, feed_mode_ = 94.0, feed_ = 0.0, speed_rpm_ = 0.0;
+  double cycle_ = 80.0, from_level_mm_ = 0.0, r_mm_ = 0.0, bottom_mm_ = 0.0, peck_mm_ = 0.0,
+         dwell_s_ = 0.0;  ///< of canned cycles
+  bool back_to_r_ = false;
   std::size_t offset_ = 0;
   int tool_ = 0, selected_ = 0;
   double clock_s_ = 0.0;

@@ -27,6 +27,7 @@ Json verdict_json(const MachineJobResult& result) {
   if (result.tips.empty()) return json;
   json["tip_before"] = at_line(v.before_mm, v.before_line);
   json["tip_after"] = at_line(v.after_mm, v.after_line);
+  json["between_blocks_before"] = at_line(v.between_before_mm, v.between_before_line);
   json["between_blocks_after"] = with_unit(v.between_mm, "mm");
   json["not_corrected"] = with_unit(v.not_corrected_mm, "mm");
   json["U_without_place_of_part"] = with_unit(v.U_mm, "mm");

@@ -21,7 +21,7 @@ std::string machine_job_screen(const MachineJobResult& result) {
     text += fmt::format(
         "tip    off by {:.{}f} ± {:.{}f} µm with the new program (U, k = 2, without where the part "
         "stands)\n",
-        verdict.after_mm / mm_per_um, decimals, U_um, decimals);
+        verdict.path_after_mm() / mm_per_um, decimals, U_um, decimals);
   }
   if (result.compensation && result.compensation->unreachable.empty())
     text += changes_screen(*result.compensation);

@@ -68,6 +68,8 @@ void read_program(TomlTable table, Said& said, MachineJob& job) {
       "method",
       {{"exact", CompensationMethod::exact}, {"differential", CompensationMethod::differential}},
       CompensationMethod::exact);
+  options.rotary = table.choice<RotaryUse>(
+      "rotary", {{"moved", RotaryUse::moved}, {"all", RotaryUse::all}}, RotaryUse::moved);
   const Range length{0.0, 10.0, true, false};
   options.tolerance_mm = table.maybe_number("tolerance_mm", length);
   options.arc_tolerance_mm = table.maybe_number("arc_tolerance_mm", {0.0, 1.0, true, false});

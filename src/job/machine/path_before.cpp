@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/machine/path_before.hpp"
+
+#include <cmath>
+
+#include "compensate/largest_on_way.hpp"
+#include "machine/algebra.hpp"
+
+namespace trueaxis::machine_job {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double even_rad = 20.0 * rad_per_deg;  // of rotary axes, over which a way is even
+
+class WayBefore {
+ public:
+  WayBefore(const MachineModel& model, const ProgramEnd& from, const ProgramEnd& to,
+            const RigidFit::Body& part)
+      : model_(model),
+        from_(from),
+        to_(to),
+        part_(part),
+        bed_from_program_(rigid::motion(to.setting.bed_from_program)),
+        start_(rigid::eigen(model.nominal(from.commanded, to.setting).tip_mm)),
+        line_(rigid::eigen(model.nominal(to.commanded, to.setting).tip_mm) - start_) {}
+
+  double off_mm(double s) const {
+    const Vector3d point = start_ + s * line_;
+    AxisPositions axes;
+    for (std::size_t k = 0; k < axis_count; ++k)
+      axes[k] = std::lerp(from_.commanded[k], to_.commanded[k], s);
+    if (to_.along_tip)
+      axes = axes_for_tip(model_, rigid::array(point), axes, to_.setting).value_or(axes);
+    const Vector3d tip = rigid::eigen(model_.actual(axes, to_.setting).tip_mm);
+    const Vector3d of_part = bed_from_program_.R.transpose() * part_.at(bed_from_program_ * point);
+    const Vector3d off = tip - of_part - start_;
+    const double square = line_.squaredNorm();
+    const double along = square > 0.0 ? std::clamp(off.dot(line_) / square, 0.0, 1.0) : 0.0;
+    return (off - along * line_).norm();
+  }
+
+  double largest_mm(double of_interest_mm) const {
+    double turn = 0.0;
+    for (std::size_t k = 3; k < axis_count; ++k)
+      turn += std::abs(to_.commanded[k] - from_.commanded[k]);
+    const auto parts =
+        2 * static_cast<std::size_t>(std::ceil(std::min(turn / even_rad, 250.0)) + 1);
+    const auto off = [this](double s) { return off_mm(s); };
+    return LargestOnWay(off, parts).value(of_interest_mm);
+  }
+
+ private:
+  const MachineModel& model_;
+  const ProgramEnd &from_, &to_;
+  const RigidFit::Body& part_;
+  rigid::Motion bed_from_program_;
+  Vector3d start_, line_;
+};
+
+}  // namespace
+
+LargestInProgram off_between_before(const MachineModel& model, const std::vector<ProgramEnd>& ends,
+                                    const RigidFit::Body& part) {
+  LargestInProgram largest;
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    if (ends[i].rapid || !ends[i].continues) continue;
+    const double off_mm = WayBefore(model, ends[i - 1], ends[i], part).largest_mm(largest.value);
+    if (largest.line == 0 || off_mm > largest.value) largest = {off_mm, ends[i].line};
+  }
+  return largest;
+}
+
+}  // namespace trueaxis::machine_job
