@@ -51,14 +51,9 @@ std::string degrees(double angle_rad) {
   return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);
 }
 
-/// Blocks that need a word: those left as they were, and those near a pole.
+/// Blocks near a pole.
 std::string blocks_screen(const ProgramCompensation& result) {
   std::string text;
-  if (!result.left.empty())
-    text += fmt::format(
-        "left   {} blocks stay as they were, because they would come out worse; the first in line "
-        "{}\n",
-        result.left.size(), result.left.front());
   if (!result.singular.empty())
     text += fmt::format("pole   {} blocks whose direction is left off, the first in line {}\n",
                         result.singular.size(), result.singular.front().line);
