@@ -86,10 +86,8 @@ struct ProgramCompensation {
   LargestInProgram about_tool_axis;  ///< left about the tool's own axis
   std::array<LargestInProgram, axis_count> exact_minus_differential{};
   LargestToolError rounding;  ///< what the decimals cost
-  /// Lines of blocks that would have come out worse than they went in, and of those next to them:
-  /// their positions are those that were read.
-  std::vector<std::size_t> left;
-  std::vector<std::size_t> worse;  ///< lines that came out worse all the same; none but by a bug
+  /// Lines of blocks that come out worse than they went in, by a hundredth and 0.1 µm.
+  std::vector<std::size_t> worse;
   std::vector<SingularBlock> singular;
   std::vector<UnreachableBlock> unreachable;
   std::vector<ErrorAlone> by_error;       ///< the largest first
@@ -99,8 +97,8 @@ struct ProgramCompensation {
   /// The largest deviation of the actual tip on the whole path, ends of blocks and between them: of
   /// the program as it was read, and as it is written.
   LargestInProgram off_before() const, off_after() const;
-  /// Whether it is further off than it was, to a hundredth: such a program is no improvement and
-  /// must not replace the old one.
+  /// Whether a block or the whole path is further off than it was: such a program is no improvement
+  /// and must not replace the old one.
   bool comes_out_worse() const;
 };
 

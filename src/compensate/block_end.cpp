@@ -132,17 +132,4 @@ BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, cons
   return end;
 }
 
-BlockEnd leave_end(const CompensationTask& task, const nc::Move& move, Tally& tally) {
-  std::optional<BlockEnd> end = as_read(task, move, tally);
-  if (!end) return {};
-  const Setting setting = task.axes.setting(move.modal);
-  const ToolPose target = task.model.nominal(end->commanded, setting),
-                 actual = task.model.actual(end->commanded, setting);
-  take_before(task, move, target, actual, *end, tally);
-  end->written = end->commanded;
-  end->words = move.words;
-  take_after(task, move, target, actual, *end, tally);
-  return *end;
-}
-
 }  // namespace trueaxis

@@ -43,8 +43,6 @@ struct BlockEnd {
 /// Compensates the position at which a move ends, but for axes that are held.
 BlockEnd compensate_end(const CompensationTask& task, const nc::Move& move, const HeldAxes& held,
                         Tally& tally);
-/// The same of a move that is left as it was.
-BlockEnd leave_end(const CompensationTask& task, const nc::Move& move, Tally& tally);
 
 /// One position by the method that was asked for.
 CompensatedPosition compensate_position(const CompensationTask& task, const AxisPositions& axes,

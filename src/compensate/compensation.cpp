@@ -40,7 +40,6 @@ void expect_length_axis(const nc::Program& program, const ProgramAxes& axes) {
 constexpr double stated_to = 1.01;    // a deviation is stated to a hundredth
 constexpr double model_mm = 1e-9;     // rounding of the model
 constexpr double decimals_mm = 1e-4;  // of one block: what the last of four decimals does
-constexpr int most_left_rounds = 20;  // in which blocks are left as they were
 
 bool is_worse(double after_mm, double before_mm) {
   return after_mm > stated_to * before_mm + decimals_mm;
@@ -50,23 +49,16 @@ bool is_worse(double after_mm, double before_mm) {
 class NewProgram {
  public:
   explicit NewProgram(const CompensationTask& task)
-      : task_(task),
-        moves_(task.program.moves),
-        hold_(task),
-        worse_(moves_.size()),
-        left_(moves_.size()) {}
+      : task_(task), moves_(task.program.moves), hold_(task), worse_(moves_.size()) {}
 
   ProgramCompensation make() {
     Tally tally = compensate();
-    for (int i = 0; i < most_left_rounds && tally.sums.unreachable.empty() && leave_worse(); ++i)
-      tally = compensate();
     ProgramCompensation out = std::move(tally.sums);
     out.blocks_read = task_.program.blocks;
     out.blocks_moved =
         static_cast<std::size_t>(std::ranges::count(moves_, false, &nc::Move::inserted));
     rank(out, tally);
-    list(left_, out.left);
-    list(worse_, out.worse);
+    list_worse(out.worse);
     if (task_.options.keep_ends) keep_ends(out);
     if (out.unreachable.empty()) write(out);
     return out;
@@ -82,11 +74,10 @@ class NewProgram {
 
   Tally compensate_ends() {
     ends_.resize(moves_.size());
-    return in_runs(
-        moves_.size(), task_.options.threads, [&](std::size_t, std::size_t i, Tally& tally) {
-          ends_[i] = left_[i] != 0 ? leave_end(task_, moves_[i], tally)
-                                   : compensate_end(task_, moves_[i], hold_.of(i), tally);
-        });
+    return in_runs(moves_.size(), task_.options.threads,
+                   [&](std::size_t, std::size_t i, Tally& tally) {
+                     ends_[i] = compensate_end(task_, moves_[i], hold_.of(i), tally);
+                   });
   }
 
   Tally compensate_ways() {
@@ -121,31 +112,16 @@ class NewProgram {
         pieces.push_back({static_cast<std::uint32_t>(i), true, words});
     take(after, deviation_mm, line);
     if (!is_worse(deviation_mm, std::max(before_mm, end.before_mm))) return;
-    // What the control makes of the block on a machine without errors is no fault of the new one.
-    before_mm =
-        std::max({path.deviation_before_mm(0.0), path.deviation_nominal_mm(), end.before_mm});
+    // Where the block's own way leaves the line further than the errors do, on a machine without
+    // errors too, it is the program's and not the compensation's.
+    if (path.deviation_nominal_mm() > std::max(ends_[i - 1].before_mm, end.before_mm)) return;
+    before_mm = std::max(path.deviation_before_mm(0.0), end.before_mm);
     worse_[i] = worse_[i] != 0 || is_worse(deviation_mm, before_mm);
   }
 
-  /// Leaves the blocks that came out worse, and where they begin, as they were; whether there are
-  /// some that were not left yet.
-  bool leave_worse() {
-    bool some = false;
-    const auto leave = [&](std::size_t i) { some = !std::exchange(left_[i], 1) || some; };
-    for (std::size_t i = 0; i < moves_.size(); ++i) {
-      if (worse_[i] == 0) continue;
-      std::size_t first = i, last = i;
-      while (first > 0 && moves_[first - 1].line == moves_[i].line) --first;
-      while (last + 1 < moves_.size() && moves_[last + 1].line == moves_[i].line) ++last;
-      if (moves_[first].continues) --first;
-      for (std::size_t k = first; k <= last; ++k) leave(k);
-    }
-    return some;
-  }
-
-  void list(const std::vector<char>& of, std::vector<std::size_t>& lines) const {
+  void list_worse(std::vector<std::size_t>& lines) const {
     for (std::size_t i = 0; i < moves_.size(); ++i)
-      if (of[i] != 0 && (lines.empty() || lines.back() != task_.line_of(moves_[i])))
+      if (worse_[i] != 0 && (lines.empty() || lines.back() != task_.line_of(moves_[i])))
         lines.push_back(task_.line_of(moves_[i]));
   }
 
@@ -181,7 +157,7 @@ class NewProgram {
   const CompensationTask& task_;
   const std::vector<nc::Move>& moves_;
   RotaryHold hold_;
-  std::vector<char> worse_, left_;  ///< by move: it came out worse; it is left as it was
+  std::vector<char> worse_;  ///< by move: it came out worse
   std::vector<BlockEnd> ends_;
   std::vector<std::vector<nc::NewPosition>> pieces_;  ///< by run
 };

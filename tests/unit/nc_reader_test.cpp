@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
         RefusedCase{"G91 G28 Z0\nX1\nG90 X1\n", "3:1 4:5"},
         RefusedCase{"G28 G91 Z0.\nG30 X0 Y0\nG0 X1 Y1 Z1 A1 C1\n", "4:4"},
         RefusedCase{"G2 X1 Y1 I1\n", "2:1"}, RefusedCase{"N1 G03 X1 Y1 R5\n", "2:4"},
-        RefusedCase{"G84 X1 Z-5 R2 F100\nG81 Z-3 Q1 R1\n", "2:1 3:8"},
+        RefusedCase{"G84 X1 Z-5 R2 F100\nG81 Z-3 Q1 R1\n", "2:1 3:9"},
         RefusedCase{"G73 Z1 Q1\nG74 Z1\nG76 P1\nG85 Z1\nG89 Z1\n", "2:1 3:1 4:1 5:1 6:1"},
         RefusedCase{"G41 D1\nG42 D1\n", "2:1 3:1"}, RefusedCase{"G52 X1\n", "2:1"},
         RefusedCase{"G68 X0 Y0 R30\nG68.2 P1 X0\n", "2:1 3:1"},

@@ -80,7 +80,7 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["between_blocks"] = {{"before", largest_json(result.between_before, false)},
                             {"after", largest_json(result.between_after, false)}};
   json["about_tool_axis"] = largest_json(result.about_tool_axis, true);
-  json["left_as_they_were"] = result.left;
+  json["worse"] = result.worse;
   json["comes_out_worse"] = result.comes_out_worse();
   json["singular"] = singular_json(result.singular);
   json["unreachable"] = unreachable_json(result.unreachable);

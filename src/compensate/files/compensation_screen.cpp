@@ -52,13 +52,9 @@ std::string degrees(double angle_rad) {
   return deg < 1e-4 ? "less than 0.0001°" : fmt::format("{:.2g}°", deg);
 }
 
-/// Blocks that need a word: those left as they were, and those near a pole.
+/// Blocks near a pole.
 std::string blocks_screen(const ProgramCompensation& result) {
   std::string text;
-  if (!result.left.empty())
-    text += fmt::format(
-        "left   {} unchanged, because they would come out worse; the first in line {}\n",
-        counted(result.left.size(), "block"), result.left.front());
   if (!result.singular.empty())
     text += fmt::format("pole   {} whose direction is left off, the first in line {}\n",
                         counted(result.singular.size(), "block"), result.singular.front().line);

@@ -68,10 +68,6 @@ std::string compensation_text(const ProgramCompensation& result) {
     text += row("U of the tip", layout::um(2.0 * result.u_tip->value) +
                                     " (k = 2), with what is "
                                     "not known of where the part stands");
-  if (!result.left.empty())
-    text +=
-        row("left as it was", format("{} blocks that would come out worse: the first in line {}",
-                                     result.left.size(), result.left.front()));
   if (!result.singular.empty())
     text += row("at a pole", format("{} blocks, whose direction is left off: the first in line {}",
                                     result.singular.size(), result.singular.front().line));
@@ -80,13 +76,18 @@ std::string compensation_text(const ProgramCompensation& result) {
 
 std::string worse_text(const ProgramCompensation& result, const CompensationOptions& options) {
   const LargestInProgram before = result.off_before(), after = result.off_after();
+  const std::string cure = options.tolerance_mm
+                               ? "Ask for a smaller --tolerance-um, or more decimals"
+                               : "Cut its blocks in pieces (--tolerance-um)";
+  if (!result.worse.empty())
+    return format(
+        "{} blocks would be further from their lines than they are, the first in line {}: nothing "
+        "was written. {}",
+        result.worse.size(), result.worse.front(), cure);
   return format(
       "the new program would be off by {} in line {}, and the old one is by {}: nothing was "
-      "written. "
-      "{}",
-      layout::um(after.value), after.line, layout::um(before.value),
-      options.tolerance_mm ? "Ask for more decimals (--decimals, --angle-decimals)"
-                           : "Cut its blocks in pieces (--tolerance-um)");
+      "written. {}",
+      layout::um(after.value), after.line, layout::um(before.value), cure);
 }
 
 std::string unreachable_text(const ProgramCompensation& result, const std::string& file) {

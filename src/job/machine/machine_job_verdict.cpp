@@ -28,9 +28,7 @@ std::string worse(const MachineJobResult& result, const MachineJobVerdict& v) {
   if (!result.compensation || result.tips.empty()) return "";
   constexpr double stated_to = 1.01;
   const double by_decimals_mm = 2.0 * result.compensation->rounding.position.value;
-  if (!result.compensation->comes_out_worse() &&
-      v.path_after_mm() <= stated_to * v.path_before_mm() + by_decimals_mm)
-    return "";
+  if (v.path_after_mm() <= stated_to * v.path_before_mm() + by_decimals_mm) return "";
   return fmt::format("the new program is off by {} on its path, the old one by {}; {}",
                      in_um(v.path_after_mm()), in_um(v.path_before_mm()),
                      v.between_mm > v.after_mm
