@@ -82,12 +82,17 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
 
 }  // namespace
 
-std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
-  if (fit.status == FitStatus::too_few) return "";
+std::string column_objection(const ProbeStream& stream) {
   if (std::string why = stuck_probe(stream); !why.empty()) return why;
   if (stream.x_convention)  // of a file: who fills a stream in a program may model anything
     for (const auto& check : {no_such_size, repeated_rows, counts_rows, lost_decimal_point})
       if (std::string why = check(stream); !why.empty()) return why;
+  return "";
+}
+
+std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
+  if (fit.status == FitStatus::too_few) return "";
+  if (std::string why = column_objection(stream); !why.empty()) return why;
   if (std::string why = alternate_rows(stream, fit); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
   // Who fills a stream in a program knows its units: a model may have any scale.

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "fit/plausible.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -44,6 +45,7 @@ std::string range_text(const ZRange& z, RangesAs as) {
 
 void expect_one_surface(const ProbeStream& stream, SurfaceKind surface, RangesAs ranges) {
   if (surface != SurfaceKind::cone && surface != SurfaceKind::cylinder) return;
+  if (!column_objection(stream).empty()) return;  // the fit says so
   const Seats found = find_seats(stream);
   if (!found.broken()) return;
   std::vector<std::string> of;

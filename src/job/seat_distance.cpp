@@ -66,8 +66,7 @@ double AxisOffset::size_mm() const { return std::hypot(x_mm, y_mm); }
 bool axis_is_known(const JobResult& result, std::size_t reference) {
   const bool slipped = reference < result.diagnoses.size() && result.diagnoses[reference] &&
                        result.diagnoses[reference]->slip() && !slip_objection(result).empty();
-  return !slipped && fit_used(result, reference).status == FitStatus::converged &&
-         result.agreement.reason.empty();
+  return !slipped && fit_used(result, reference).axis_known() && result.agreement.reason.empty();
 }
 
 std::vector<SeatDistance> seat_distances(const JobResult& result) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "fit/plausible.hpp"
 #include "job/one_surface.hpp"
 #include "measure/seats.hpp"
 #include "trueaxis/error.hpp"
@@ -12,6 +13,7 @@ namespace trueaxis {
 
 void take_every_seat(Job& job, std::vector<ProbeStream>& streams) {
   expects(job.references.size() == 1 && streams.size() == 1, "a job of one stream");
+  if (!column_objection(streams.front()).empty()) return;  // the fit says so
   const Seats found = find_seats(streams.front());
   if (found.seats.empty()) return;
   const JobReference whole = std::move(job.references.front());
