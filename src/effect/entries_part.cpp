@@ -140,11 +140,8 @@ std::vector<Effect> part_roundness() {
        .needs = {.stream = StreamKind::lateral},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
        .search = {.when = When::scanned,
-                  .forms = {{{0, 1}},
-                            {{2}},
-                            {.free = {0, 1, 3, 4}, .degrees = 1},
-                            {.free = {0, 1, 3, 4, 5, 6}, .degrees = 1}},
-                  .tests = 64},
+                  .forms = {{{0, 1}}, {{2}}, {.free = {0, 1, 3, 4}, .degrees = 1}},
+                  .tests = 43},
        .refinement = Refinement{&TermShape::onset_s, By::duration}},
   };
 }

@@ -20,6 +20,7 @@ constexpr double often = 0.3;       // share of the rows
 constexpr double many_steps = 10.0;
 constexpr double largest_machine_mm = 20e3;
 constexpr double alternate_least_mm = 5e-3;
+constexpr double six_sigma = 36.0;
 constexpr double alternate_share = 0.2;  // of the residuals' square
 
 /// Readings in a row that show the same value.
@@ -90,6 +91,17 @@ bool repeats_row(const ProbeStream& stream, std::size_t i) {
          (!stream.has_position() || stream.position_mm[i] == stream.position_mm[i - 1]);
 }
 
+/// Whether lobes of two readings each can be: an even number of readings in every revolution.
+bool has_lobes_of_two_readings(const ProbeStream& stream) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stream.size() && steps.size() < 2000; ++i)
+    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
+  const double step = steps.empty() ? 0.0 : median(std::move(steps));
+  if (!(step > 0.0)) return true;
+  const double lobes = 0.5 * two_pi / step;
+  return std::abs(lobes - std::round(lobes)) < 0.01;
+}
+
 }  // namespace
 
 std::string stuck_probe(const ProbeStream& stream) {
@@ -100,8 +112,6 @@ std::string stuck_probe(const ProbeStream& stream) {
     ++runs;
     if (one.turned_rad > longest.turned_rad) longest = one;
   });
-  // A stream that a program fills may be of a perfect part.
-  if (runs == 1 && !stream.x_convention) return "";
   if (longest.size() < shown_run || longest.turned_rad < shown_angle_rad) return "";
   const double others = static_cast<double>(stream.size() - longest.size());
   const double repeated = others - static_cast<double>(runs - 1);
@@ -197,6 +207,7 @@ std::string lost_decimal_point(const ProbeStream& stream) {
 }
 
 std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
+  if (!stream.x_convention || has_lobes_of_two_readings(stream)) return "";
   if (fit.residual_mm.size() < 4 * shown_run || fit.rms_mm < alternate_least_mm) return "";
   double sum = 0.0, squares = 0.0, sign = 1.0;
   for (const double r : fit.residual_mm) {
@@ -206,7 +217,8 @@ std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
   }
   const auto n = static_cast<double>(fit.residual_mm.size());
   const double half_mm = std::abs(sum) / n;
-  if (n * half_mm * half_mm < alternate_share * squares) return "";
+  const double explained = n * half_mm * half_mm / squares;  // share; n times it is chi-squared
+  if (explained < alternate_share || n * explained < six_sigma) return "";
   return fmt::format(
       "odd and even rows of {} differ by {:.3g} µm all through: two recordings are interleaved, or "
       "two sensors are in one column. Give each a file",

@@ -62,7 +62,8 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   const std::string remedy =
       "Check that columns, units and surface are right. If the sensor really scatters like that, "
       "state it: '# sensor_noise: 1 mm'";
-  if (fit.rms_mm > limit_mm) {
+  // A keyway or a chip is no scatter: the bulk of the residuals is looked at.
+  if (fit.rms_mm > limit_mm && mad_sigma(fit.residual_mm) > limit_mm) {
     const std::string other = other_surface(stream, fit, refit);
     return fmt::format(
         "the residuals are {:.3g} mm RMS. No turned part and no probe leave more than {:.2g} mm, "
@@ -83,10 +84,10 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
 }  // namespace
 
 std::string column_objection(const ProbeStream& stream) {
-  if (std::string why = stuck_probe(stream); !why.empty()) return why;
-  if (stream.x_convention)  // of a file: who fills a stream in a program may model anything
-    for (const auto& check : {no_such_size, repeated_rows, counts_rows, lost_decimal_point})
-      if (std::string why = check(stream); !why.empty()) return why;
+  if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
+  for (const auto& check :
+       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point})
+    if (std::string why = check(stream); !why.empty()) return why;
   return "";
 }
 

@@ -40,7 +40,8 @@ std::string alternate_rows(const ProbeStream& stream, const FitResult& fit);
 /// empty: no such reading of the stream does.
 std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, const Refit& refit);
 
-/// What of the columns alone speaks against a stream, before any fit; empty: nothing does.
+/// What of the columns alone speaks against a stream that was read from a file; empty: nothing
+/// does.
 std::string column_objection(const ProbeStream& stream);
 
 /// "C from 0° to 14508°, 40.3 revolutions, 1.01 per mm"

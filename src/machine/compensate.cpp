@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -105,7 +106,10 @@ Solution solve(const Problem& problem) {
 
 /// Whether rotary axes are there, and free, to meet the direction.
 bool corrects_direction(const Machine& machine, const HeldAxes& held) {
-  return held.set == 0 && machine.rotary_count() >= 2 && machine.linear_count() >= 3;
+  const bool one_held = std::ranges::any_of(machine.axes, [&](const MachineAxis& axis) {
+    return is_rotary(axis.name) && held.holds(static_cast<std::size_t>(axis.name));
+  });
+  return !one_held && machine.rotary_count() >= 2 && machine.linear_count() >= 3;
 }
 
 bool at_largest_change(const Machine& machine, const AxisPositions& change) {

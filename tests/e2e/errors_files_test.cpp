@@ -61,8 +61,9 @@ TEST_F(ErrorsFiles, LocatedPartOnAMachineWithErrors) {
                 .exit_code,
             0);
   const auto U_with = [&](const std::string& errors) {
-    const CommandStreams done = command("compensate " + data_ + "example.nc --machine " + machine_ +
-                                        " --errors " + errors + " -o cut.nc --json c.json --force");
+    const CommandStreams done =
+        command("compensate " + data_ + "example.nc --machine " + machine_ + " --errors " + errors +
+                " -o cut.nc --tolerance-um 20 --json c.json --force");
     EXPECT_EQ(done.exit_code, 0) << done.err;
     return result("c.json").at("U").at("value").get<double>();
   };
@@ -84,7 +85,7 @@ TEST_F(ErrorsFiles, DiagnoseWritesTheCovarianceOfWhatItFinds) {
   EXPECT_TRUE(contains(text, "{name = \"EXC\", cos = 2, period_deg = 360},"));
   EXPECT_TRUE(contains(text, "name = \"trunnion AC\""));
   const CommandStreams done = command("compensate " + data_ + "example.nc --machine " + machine_ +
-                                      " --errors d.toml -o cut.nc --json c.json");
+                                      " --errors d.toml -o cut.nc --tolerance-um 20 --json c.json");
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_GT(result("c.json").at("U").at("value").get<double>(), 0.0);
 }
@@ -166,12 +167,12 @@ TEST_F(ErrorsFiles, ThatDoNotSayTheirMachineAreTakenWithAWord) {
   const std::string ball = data_ + "trunnion_ac_ball.csv";
   const struct {
     std::string before, behind;
-  } calls[] = {
-      {"compensate " + data_ + "example.nc --machine " + machine_, " -o o.nc --json j.json"},
-      {"calibrate " + machine_ + ' ' + ball, " -o o.toml --json j.json"},
-      {"diagnose " + ball + " --machine " + machine_, " -o d.toml --json j.json"},
-      {"errors " + machine_, " --json j.json"},
-      {"pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv", ""}};
+  } calls[] = {{"compensate " + data_ + "example.nc --tolerance-um 20 --machine " + machine_,
+                " -o o.nc --json j.json"},
+               {"calibrate " + machine_ + ' ' + ball, " -o o.toml --json j.json"},
+               {"diagnose " + ball + " --machine " + machine_, " -o d.toml --json j.json"},
+               {"errors " + machine_, " --json j.json"},
+               {"pose " + machine_ + ' ' + data_ + "trunnion_ac_positions.csv", ""}};
   for (const auto& [before, behind] : calls)
     for (const std::string name : {"own.toml", "stated.toml", "part.toml"}) {
       const auto done =

@@ -75,10 +75,10 @@ TEST(LeftUnnamed, MoreThanHalfAgainTheNoiseIsNoNoise) {
   diagnosis.noise.source = "revolution differences";
   diagnosis.noise.sigma_mm = sigma_mm, diagnosis.noise.u_sigma_mm = 0.05 * sigma_mm;
   diagnosis.gain.rms_after_mm = 1.6 * sigma_mm;  // 1.5 (1 + 2 · 0.05) = 1.65
-  EXPECT_EQ(left_unnamed(result), "");
+  EXPECT_EQ(left_unnamed(diagnosis), "");
   diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
-  EXPECT_TRUE(left_unnamed(result).starts_with("seat: what was found leaves 1.7 µm"))
-      << left_unnamed(result);
+  EXPECT_TRUE(left_unnamed(diagnosis).starts_with("what was found leaves 1.7 µm"))
+      << left_unnamed(diagnosis);
 }
 
 }  // namespace

@@ -97,10 +97,10 @@ TEST(PartForm, AVibrationIsTakenOff) {
   const FormValue* probed = worst_value(one.form.probed, "RONt", "MZCI");
   const FormValue* of_part = worst_value(one.form.with_open(), "RONt", "MZCI");
   ASSERT_TRUE(probed && of_part);
-  EXPECT_GT(probed->estimate.value, 1e-3);
+  EXPECT_GT(size_of(*probed), 1e-3);
   // The part is round: 0 is within U of the noise, of the worst of 24 sections within 1.5 U.
   EXPECT_LT(of_part->estimate.value, 1.5 * U_of(*of_part));
-  EXPECT_LT(of_part->estimate.value, 0.5 * probed->estimate.value);
+  EXPECT_LT(of_part->estimate.value, 0.5 * size_of(*probed));
 }
 
 TEST(PartForm, TermsOfFindingsAddUpToTheEffect) {

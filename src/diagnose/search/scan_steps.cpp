@@ -149,12 +149,12 @@ const Date* most_likely(const std::vector<Index>& form, const SizePrior& prior,
                         const std::vector<Date>& dates, std::size_t size, double rss,
                         double freedom) {
   std::vector<double> gains;
-  const std::size_t fewest = per_column * form.size();
+  const std::size_t fewest = per_column * std::max<std::size_t>(form.size(), 2);
   for (const Date& date : dates) {
     const double gain = gain_of(form, date, date.right);
     const std::size_t side = std::min(date.reading, size - date.reading);
-    const bool of_outliers =
-        side <= few * form.size() && gain_of(form, date, date.without) < kept * gain;
+    const bool of_outliers = side <= few * std::max<std::size_t>(form.size(), 2) &&
+                             gain_of(form, date, date.without) < kept * gain;
     const bool of_few = side < fewest;
     gains.push_back(of_outliers || of_few ? 0.0 : gain);
   }
