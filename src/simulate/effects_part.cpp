@@ -93,7 +93,7 @@ constexpr EffectEntry part_table[] = {
                          share * tilt_y};
        })(of, chain);
        in<&Chain::machine>([](TrueState& state, double when, double, double, double, double, double,
-                      double dr, double taper, double middle, double ends) {
+                              double dr, double taper, double middle, double ends) {
          const bool before = state.at.t_s < when;
          const double share = before ? (ends > 0.5 ? -1.0 : 0.0) : (ends > 0.5 ? 0.0 : 1.0);
          state.part_x_mm += share * (dr + taper * (state.at.position_mm - middle));

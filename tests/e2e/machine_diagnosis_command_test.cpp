@@ -183,8 +183,7 @@ TEST(MachineDiagnosisCommand, RefusesWhatCannotBeRight) {
   const auto ran = trueaxis_command("diagnose " + at + "/ball.csv --machine " + machine +
                                     " --json " + at + "/out.json -o " + at + "/errors.toml");
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
-  EXPECT_NE(ran.output.find("write [um] behind their names"), std::string::npos)
-      << ran.output;
+  EXPECT_NE(ran.output.find("write [um] behind their names"), std::string::npos) << ran.output;
   EXPECT_FALSE(std::filesystem::exists(folder / "out.json"));
   EXPECT_FALSE(std::filesystem::exists(folder / "errors.toml"));
 }
