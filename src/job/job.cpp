@@ -45,6 +45,13 @@ void assess_forms(JobResult& result) {
   };
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     const JobReference& reference = result.job.references[i];
+    if (result.fits[i].status == FitStatus::implausible) {
+      PartForm none;
+      none.why_not = "the readings are refused";
+      judge(reference.form, none);
+      result.forms.push_back(std::move(none));
+      continue;
+    }
     const auto datum = datum_of(result, reference.form);
     const DiagnosedStream of_part = diagnosed(i), of_datum = diagnosed(datum.value_or(i));
     result.forms.push_back(

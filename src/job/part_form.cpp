@@ -121,6 +121,11 @@ PartForm part_form(const DiagnosedStream& part, const FitOptions& fit, const For
                    const DiagnosedStream* datum) {
   PartForm out;
   try {
+    if (part.diagnosis && part.diagnosis->baseline.status == FitStatus::implausible) {
+      out.why_not = part.diagnosis->baseline.message;
+      judge(task, out);
+      return out;
+    }
     if (part.stream.size() > (task.judges() ? most_to_judge : most_to_show)) {
       out.why_not = fmt::format("of {} readings it takes its time: `trueaxis form` does it",
                                 part.stream.size());

@@ -111,19 +111,25 @@ inline std::vector<LatheCase> all_lathe_cases(double middle_mm = 24.0, double ha
       {"part.slip",
        1e-3,
        [](double a) {
-         return Parameters{{"time_s", 12.345}, {"tilt_x_rad", 0.02 * a}, {"tilt_y_rad", -0.01 * a},
-                           {"dr_mm", 0.5 * a}, {"middle_mm", 5},         {"ends", 1}};
+         return Parameters{{"time_s", 12.345},
+                           {"tilt_x_rad", 0.02 * a},
+                           {"tilt_y_rad", -0.01 * a},
+                           {"middle_mm", 5},
+                           {"ends", 1}};
        },
        {.onset_s = 12.345},
-       {0.0, 0.0, 0.0, 0.02, -0.01, 0.5, 0.0}},
+       {0.0, 0.0, 0.0, 0.02, -0.01, 0.0, 0.0}},
       {"part.slip",
        1e-3,
        [](double a) {
-         return Parameters{
-             {"time_s", 12.345}, {"taper_rad", 0.02 * a}, {"middle_mm", 5}, {"ends", 1}};
+         return Parameters{{"time_s", 12.345},
+                           {"dr_mm", 0.5 * a},
+                           {"taper_rad", 0.01 * a},
+                           {"middle_mm", 5},
+                           {"ends", 1}};
        },
        {.onset_s = 12.345},
-       {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.02}},
+       {0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.01}},
       {"spindle.radial_synchronous",
        1e-3,
        [](double a) {
