@@ -14,6 +14,9 @@ namespace {
 
 // The largest form in the catalogue is 0.2 mm in amplitude, 0.14 mm RMS; large parts more. Eq. 308.
 constexpr double most_left_mm = 0.5, most_left_per_radius = 1e-3;
+constexpr double alternate_least_mm = 5e-3;
+constexpr double alternate_share = 0.2;  // of the residuals' square
+constexpr double six_sigma = 36.0;
 constexpr double most_scatter_mm = 0.1;   // of single readings; dirty probes show 0.02
 constexpr double more_than_stated = 3.0;  // a noise that is stated may be exceeded by as much
 constexpr double other_is_far_better = 1.0 / 3.0;  // of the RMS
@@ -81,15 +84,38 @@ std::string out_of_proportion(const ProbeStream& stream, const FitResult& fit, c
   return "";
 }
 
-}  // namespace
-
-std::string column_objection(const ProbeStream& stream) {
-  if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
-  for (const auto& check :
-       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point})
-    if (std::string why = check(stream); !why.empty()) return why;
-  return "";
+/// Whether lobes of two readings each can be: an even number of readings in every revolution.
+bool has_lobes_of_two_readings(const ProbeStream& stream) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stream.size() && steps.size() < 2000; ++i)
+    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
+  const double step = steps.empty() ? 0.0 : median(std::move(steps));
+  if (!(step > 0.0)) return true;
+  const double lobes = 0.5 * two_pi / step;
+  return std::abs(lobes - std::round(lobes)) < 0.01;
 }
+
+/// Residuals that alternate from row to row, by more than all else that is left; empty: none do.
+std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
+  if (!stream.x_convention || has_lobes_of_two_readings(stream)) return "";
+  if (fit.residual_mm.size() < 4 * 8 || fit.rms_mm < alternate_least_mm) return "";
+  double sum = 0.0, squares = 0.0, sign = 1.0;
+  for (const double r : fit.residual_mm) {
+    sum += sign * r;
+    squares += r * r;
+    sign = -sign;
+  }
+  const auto n = static_cast<double>(fit.residual_mm.size());
+  const double half_mm = std::abs(sum) / n;
+  const double explained = n * half_mm * half_mm / squares;  // share; n times it is chi-squared
+  if (explained < alternate_share || n * explained < six_sigma) return "";
+  return fmt::format(
+      "odd and even rows of {} differ by {:.3g} µm all through: two recordings are interleaved, or "
+      "two sensors are in one column. Give each a file",
+      stream.source, 2.0 * half_mm / mm_per_um);
+}
+
+}  // namespace
 
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
   if (fit.status == FitStatus::too_few) return "";

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "math/statistics.hpp"
+#include "measure/column_checks.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -80,6 +81,7 @@ void check_common(const ProbeStream& stream, Troubles& troubles) {
   if (!all_finite(stream.reading_mm) || !all_finite(stream.c_rad) ||
       !all_finite(stream.position_mm))
     troubles.add("a number is not finite");
+  if (std::string why = repeated_rows(stream); !why.empty()) troubles.add(std::move(why));
   troubles.finish();
 }
 

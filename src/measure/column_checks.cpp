@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "measure/column_checks.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "fit/plausible.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -19,9 +20,6 @@ constexpr double near_steps = 3.0;  // median steps within which a value is wher
 constexpr double often = 0.3;       // share of the rows
 constexpr double many_steps = 10.0;
 constexpr double largest_machine_mm = 20e3;
-constexpr double alternate_least_mm = 5e-3;
-constexpr double six_sigma = 36.0;
-constexpr double alternate_share = 0.2;  // of the residuals' square
 
 /// Readings in a row that show the same value.
 struct Run {
@@ -89,17 +87,6 @@ bool repeats_row(const ProbeStream& stream, std::size_t i) {
   return stream.reading_mm[i] == stream.reading_mm[i - 1] &&
          stream.c_rad[i] == stream.c_rad[i - 1] &&
          (!stream.has_position() || stream.position_mm[i] == stream.position_mm[i - 1]);
-}
-
-/// Whether lobes of two readings each can be: an even number of readings in every revolution.
-bool has_lobes_of_two_readings(const ProbeStream& stream) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < stream.size() && steps.size() < 2000; ++i)
-    steps.push_back(std::abs(stream.c_rad[i] - stream.c_rad[i - 1]));
-  const double step = steps.empty() ? 0.0 : median(std::move(steps));
-  if (!(step > 0.0)) return true;
-  const double lobes = 0.5 * two_pi / step;
-  return std::abs(lobes - std::round(lobes)) < 0.01;
 }
 
 }  // namespace
@@ -206,23 +193,12 @@ std::string lost_decimal_point(const ProbeStream& stream) {
   return "";
 }
 
-std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
-  if (!stream.x_convention || has_lobes_of_two_readings(stream)) return "";
-  if (fit.residual_mm.size() < 4 * shown_run || fit.rms_mm < alternate_least_mm) return "";
-  double sum = 0.0, squares = 0.0, sign = 1.0;
-  for (const double r : fit.residual_mm) {
-    sum += sign * r;
-    squares += r * r;
-    sign = -sign;
-  }
-  const auto n = static_cast<double>(fit.residual_mm.size());
-  const double half_mm = std::abs(sum) / n;
-  const double explained = n * half_mm * half_mm / squares;  // share; n times it is chi-squared
-  if (explained < alternate_share || n * explained < six_sigma) return "";
-  return fmt::format(
-      "odd and even rows of {} differ by {:.3g} µm all through: two recordings are interleaved, or "
-      "two sensors are in one column. Give each a file",
-      stream.source, 2.0 * half_mm / mm_per_um);
+std::string column_objection(const ProbeStream& stream) {
+  if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
+  for (const auto& check :
+       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point})
+    if (std::string why = check(stream); !why.empty()) return why;
+  return "";
 }
 
 }  // namespace trueaxis

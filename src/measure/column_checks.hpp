@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// A run of readings in which X_M stays the same while C turns by 60° and more, longer than chance
+/// makes once in 1000 streams whose neighbours repeat as often as these; empty: there is none.
+/// A limit of the sensor that is met again and again is saturation, which the diagnosis handles.
+std::string stuck_probe(const ProbeStream& stream);
+
+/// Rows that repeat the row before, or a probe that is read more slowly than C; empty: neither.
+std::string repeated_rows(const ProbeStream& stream);
+
+/// X_M that grows by the same amount from row to row; empty: it does not.
+std::string counts_rows(const ProbeStream& stream);
+
+/// A column that is larger than any lathe; empty: none is.
+std::string no_such_size(const ProbeStream& stream);
+
+/// Two values and more of a column that are a power of ten off both neighbours; empty: none are.
+std::string lost_decimal_point(const ProbeStream& stream);
+
+/// What of the columns alone speaks against a stream that was read from a file; empty: nothing
+/// does.
+std::string column_objection(const ProbeStream& stream);
+
+}  // namespace trueaxis
