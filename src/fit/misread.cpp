@@ -127,7 +127,10 @@ constexpr Misreading misreadings[] = {
        scale_c<2.0>(s);
      }}};
 
-/// RMS of what a fit leaves; if there is no surface at all, of the readings about their mean.
+std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
+
+}  // namespace
+
 double left_mm(const ProbeStream& stream, const FitResult& fit) {
   if (!fit.residual_mm.empty()) return fit.rms_mm;
   const auto n = static_cast<double>(stream.size());
@@ -136,10 +139,6 @@ double left_mm(const ProbeStream& stream, const FitResult& fit) {
   for (const double reading : stream.reading_mm) squares += (reading - mean) * (reading - mean);
   return std::sqrt(squares / n);
 }
-
-std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
-
-}  // namespace
 
 std::string turns_text(const ProbeStream& stream) {
   const Extent c = range_of(stream.c_rad);

@@ -21,6 +21,9 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
 /// empty: no such reading of the stream does.
 std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, const Refit& refit);
 
+/// RMS of what a fit leaves; if there is no surface at all, of the readings about their mean.
+double left_mm(const ProbeStream& stream, const FitResult& fit);
+
 /// "C from 0° to 14508°, 40.3 revolutions, 1.01 per mm"
 std::string turns_text(const ProbeStream& stream);
 

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "fit/plausible.hpp"
 #include "job/mistakes.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -18,16 +19,6 @@ namespace {
 
 constexpr double far_better = 1.0 / 3.0;  // of the RMS
 constexpr double as_good = 1.2;
-
-/// What a fit leaves; of one that has no surface at all the scatter of the readings.
-double left_mm(const ProbeStream& stream, const FitResult& fit) {
-  if (!fit.residual_mm.empty()) return fit.rms_mm;
-  const auto n = static_cast<double>(stream.size());
-  const double mean = std::accumulate(stream.reading_mm.begin(), stream.reading_mm.end(), 0.0) / n;
-  double squares = 0.0;
-  for (const double reading : stream.reading_mm) squares += (reading - mean) * (reading - mean);
-  return std::sqrt(squares / n);
-}
 
 std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
 
