@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/advise.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "calibrate/uncertain.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -62,7 +63,7 @@ double distance(const Regression& regression, const std::vector<Term>& terms,
   VectorXd size(static_cast<Index>(finding.parameters.size()));
   for (Index k = 0; k < size.size(); ++k)
     size[k] = finding.parameters[static_cast<std::size_t>(k)].estimate.value;
-  const VectorXd mu = a.back.completeOrthogonalDecomposition().solve(size);
+  const VectorXd mu = linear::least_squares(a.back, size);
   const MatrixXd& all = regression.products();
   const VectorXd cross = all.block(b.first, a.first, b.rank, a.rank) * mu;
   const double left = mu.squaredNorm() - (b.rank > 0 ? cross.squaredNorm() : 0.0);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/read_out.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "calibrate/total_uncertainty.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
@@ -78,8 +79,7 @@ double covariance_scale(const Problem& problem, const Solution& solution, Calibr
 void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
               const Solution& solution, Calibration& out) {
   const double scale = covariance_scale(problem, solution, out);
-  const MatrixXd normal = solution.jacobian.transpose() * solution.jacobian;
-  const MatrixXd inverse = scale * normal.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd inverse = scale * linear::pseudo_inverse(linear::gram(solution.jacobian));
   const auto& kept = solution.determined.kept;
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const Unknown& one = unknowns[kept[i]];

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/determined.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -21,10 +23,9 @@ class Basis {
  public:
   Basis(const MatrixXd& first, Index room) : q_(first.rows(), first.cols() + room) {
     if (first.cols() == 0) return;
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(first);
-    qr.setThreshold(rank_of_places);
-    size_ = qr.rank();
-    q_.leftCols(size_) = qr.householderQ() * MatrixXd::Identity(first.rows(), size_);
+    const MatrixXd basis = linear::orthonormal_basis(first, rank_of_places);
+    size_ = basis.cols();
+    q_.leftCols(size_) = basis;
   }
   VectorXd beside(VectorXd v) const {
     for (int twice = 0; twice < 2; ++twice)
@@ -52,7 +53,7 @@ void explain(Held& held, const MatrixXd& unknowns, const MatrixXd& places,
   MatrixXd all(unknowns.rows(), places.cols() + static_cast<Index>(kept.size()));
   all << places, columns(unknowns, kept);
   const VectorXd column = unknowns.col(static_cast<Index>(held.unknown));
-  const VectorXd share = all.completeOrthogonalDecomposition().solve(column);
+  const VectorXd share = linear::least_squares(all, column);
   const double least = std::max(tells, takes_part * column.norm());
   held.places = (places * share.head(places.cols())).norm() >= least;
   for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -63,9 +64,9 @@ void explain(Held& held, const MatrixXd& unknowns, const MatrixXd& places,
 
 /// The direction of least effect among the kept ones: its σ, and its members.
 double weakest(const MatrixXd& beside_places, VectorXd& direction) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(beside_places.transpose() * beside_places);
-  direction = eigen.eigenvectors().col(0);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
+  const linear::Spectrum of = linear::spectrum(linear::gram(beside_places));
+  direction = of.vectors.col(0);
+  return std::sqrt(std::max(0.0, of.values[0]));
 }
 
 }  // namespace

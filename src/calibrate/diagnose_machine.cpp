@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
@@ -11,6 +11,7 @@
 #include "calibrate/remarks.hpp"
 #include "calibrate/tip_fit.hpp"
 #include "calibrate/total_uncertainty.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
@@ -30,15 +31,13 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   for (const std::size_t t : search.found) {
     const MatrixXd& own = search.terms[t].columns;
     columns.conservativeResize(Eigen::NoChange, columns.cols() + own.cols());
-    columns.rightCols(own.cols()) = problem.weights.asDiagonal() * own;
+    columns.rightCols(own.cols()) = linear::scaled_rows(problem.weights, own);
   }
   const VectorXd& readings = fit.solution.residuals;
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr(columns);
-  const VectorXd x = qr.solve(readings);
+  const auto [x, inverse, rank] = linear::shortest_solution(columns, readings);
   const VectorXd left = readings - columns * x;
-  const double freedom = static_cast<double>(columns.rows() - qr.rank());
+  const double freedom = static_cast<double>(columns.rows() - rank);
   const double variance = left.squaredNorm() / freedom;
-  const MatrixXd inverse = qr.pseudoInverse();
   const auto& kept = fit.solution.determined.kept;
   out.errors = fit.given;
   for (std::size_t k = 0; k < kept.size(); ++k) {
@@ -51,8 +50,8 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
     term.function = scaled(term.function, value);
     out.errors.terms.push_back(std::move(term));
   }
-  state_covariance(fit, search.terms, search.found, variance * inverse * inverse.transpose(),
-                   out.errors);
+  state_covariance(fit, search.terms, search.found,
+                   linear::product_transposed(variance * inverse, inverse), out.errors);
   const VectorXd sigma = problem.weights.cwiseInverse();
   const auto n = static_cast<double>(problem.equations);
   out.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);

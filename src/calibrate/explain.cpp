@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/explain.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_f.hpp>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -52,7 +54,7 @@ Class class_of(const Regression& regression, const std::vector<Term>& terms,
   const auto& own = regression.block(set[at]);
   const MatrixXd G = left.products.block(own.first, own.first, own.rank, own.rank);
   const VectorXd c = left.right.segment(own.first, own.rank);
-  const VectorXd a = G.completeOrthogonalDecomposition().solve(c);
+  const VectorXd a = linear::least_squares(G, c);
   const double own_gain = c.dot(a), variance = (left.rss - own_gain) / left.freedom;
   const double named = criterion_of(left, own_gain, own.rank);
   Class out;
@@ -108,13 +110,12 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const Regression::Beside left = regression.beside(others);
   const MatrixXd G = left.products.block(block.first, block.first, block.rank, block.rank);
   const VectorXd c = left.right.segment(block.first, block.rank);
-  const VectorXd a = G.completeOrthogonalDecomposition().solve(c);
+  const VectorXd a = linear::least_squares(G, c);
   const double variance = (regression.rss() - regression.gain(set)) /
                           (regression.freedom() - static_cast<double>(regression.rank(set)));
   const VectorXd value = block.back * a;
-  const MatrixXd covariance = variance * block.back *
-                              G.completeOrthogonalDecomposition().pseudoInverse() *
-                              block.back.transpose();
+  const MatrixXd covariance = linear::product_transposed(
+      linear::product(variance * block.back, linear::pseudo_inverse(G)), block.back);
   out.covariance.assign(covariance.data(), covariance.data() + covariance.size());
   for (Index k = 0; k < value.size(); ++k)
     out.parameters.push_back(

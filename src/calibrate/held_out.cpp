@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/explain.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -37,8 +38,8 @@ HeldOutRms held_out(const Problem& problem, const MatrixXd& columns, const Vecto
   HeldOutRms out;
   const std::vector<std::size_t> block_of_row = blocks_of(problem, out.blocks);
   if (out.blocks < 2) return out;
-  const MatrixXd normal = columns.transpose() * columns;
-  const VectorXd right = columns.transpose() * readings;
+  const MatrixXd normal = linear::gram(columns);
+  const VectorXd right = linear::transposed_product(columns, readings);
   std::vector<double> mean_square;
   double sum = 0.0;
   for (std::size_t block = 0; block < out.blocks; ++block) {
@@ -52,8 +53,9 @@ HeldOutRms held_out(const Problem& problem, const MatrixXd& columns, const Vecto
     }
     const MatrixXd own = columns(held, Eigen::all);
     const VectorXd read = readings(held);
-    const MatrixXd rest = normal - own.transpose() * own;
-    const VectorXd x = rest.completeOrthogonalDecomposition().solve(right - own.transpose() * read);
+    const MatrixXd rest = normal - linear::gram(own);
+    const VectorXd x =
+        linear::least_squares(rest, VectorXd(right - linear::transposed_product(own, read)));
     // Over σ here; mm by the mean σ of the block.
     const double n = static_cast<double>(held.size());
     mean_square.push_back((read - own * x).squaredNorm() / n * sigma2 / n);

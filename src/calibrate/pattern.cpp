@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -92,7 +94,7 @@ struct Orthonormal {
   MatrixXd basis;
   /// Whether they leave less than a hundredth of functions.
   bool make(const MatrixXd& values) const {
-    const MatrixXd left = values - basis * (basis.transpose() * values);
+    const MatrixXd left = linear::beside(basis, values);
     return left.squaredNorm() < 0.01 * values.squaredNorm();
   }
 };
@@ -107,9 +109,7 @@ Orthonormal effects_of_axis(const Problem& problem, const Axis& axis, int highes
       functions.emplace_back(legendre(n, axis.range.low, axis.range.high));
   }
   const MatrixXd values = of_axis(problem, axis, "", std::move(functions)).values;
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(values);
-  qr.setThreshold(1e-9);
-  return {qr.householderQ() * MatrixXd::Identity(values.rows(), qr.rank())};
+  return {linear::orthonormal_basis(values, 1e-9)};
 }
 
 }  // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/pattern_scan.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/search.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -85,9 +86,9 @@ void PatternScan::add(std::size_t unit, const std::vector<std::size_t>& function
   const MatrixXd with_base = folded(unit, base_);
   for (const std::size_t f : functions) {
     const MatrixXd& w = functions_[f].values;
-    const MatrixXd cross = with_base.transpose() * w;
-    const MatrixXd whole = w.transpose() * square.asDiagonal() * w;
-    MatrixXd left = whole - cross.transpose() * cross;
+    const MatrixXd cross = linear::transposed_product(with_base, w);
+    const MatrixXd whole = linear::transposed_product(linear::scaled_rows(square, w), w);
+    MatrixXd left = whole - linear::gram(cross);
     if (left.trace() > least_part * whole.trace()) entries_.push_back({unit, f, std::move(left)});
   }
 }
@@ -97,31 +98,30 @@ std::vector<std::size_t> PatternScan::best(const MatrixXd& beside, const VectorX
   MatrixXd columns(beside.rows(), beside.cols() + 1);
   Index rank = 0;
   if (beside.cols() > 0) {
-    Eigen::ColPivHouseholderQR<MatrixXd> qr(beside);
-    qr.setThreshold(1e-6);
-    rank = qr.rank();
-    columns.leftCols(rank) = qr.householderQ() * MatrixXd::Identity(beside.rows(), rank);
+    const MatrixXd basis = linear::orthonormal_basis(beside, 1e-6);
+    rank = basis.cols();
+    columns.leftCols(rank) = basis;
   }
   const MatrixXd q = columns.leftCols(rank);
   columns.conservativeResize(Eigen::NoChange, rank + 1);
-  columns.col(rank) = residuals - q * (q.transpose() * residuals);
+  columns.col(rank) = linear::beside(q, residuals);
   std::vector<std::pair<double, std::size_t>> scores;
   MatrixXd fold;
   std::size_t folded_unit = static_cast<std::size_t>(-1);
   for (std::size_t e = 0; e < entries_.size(); ++e) {
     const Entry& entry = entries_[e];
     if (entry.unit != folded_unit) fold = folded(folded_unit = entry.unit, columns);
-    const MatrixXd products = fold.transpose() * functions_[entry.function].values;
+    const MatrixXd products = linear::transposed_product(fold, functions_[entry.function].values);
     const MatrixXd cross = products.topRows(rank);
-    const MatrixXd left = entry.products - cross.transpose() * cross;
+    const MatrixXd left = entry.products - linear::gram(cross);
     const VectorXd right = products.row(rank).transpose();
     // To orthonormal columns: what others take up wholly is left out by its share.
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(left);
+    const linear::Spectrum of = linear::spectrum(left);
     double gain = 0.0;
     for (Index k = 0; k < left.rows(); ++k) {
-      if (!(eigen.eigenvalues()[k] > least_part * entry.products.trace())) continue;
-      const double along = eigen.eigenvectors().col(k).dot(right);
-      gain += along * along / eigen.eigenvalues()[k];
+      if (!(of.values[k] > least_part * entry.products.trace())) continue;
+      const double along = of.vectors.col(k).dot(right);
+      gain += along * along / of.values[k];
     }
     // Of two alike (orders that the positions alias) the first stands.
     const double score = 2.0 * static_cast<double>(left.rows()) - gain;

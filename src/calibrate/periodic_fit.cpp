@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/periodic_fit.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <complex>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -53,11 +54,11 @@ PeriodicFit::Result PeriodicFit::with(const std::vector<int>& orders, double per
       design(i, smooth + 2 * static_cast<Index>(k) + 1) = power.imag();
     }
   }
-  const Eigen::Map<const VectorXd> y(value_.data(), n);
-  const Eigen::LDLT<MatrixXd> normal(design.transpose() * design);
-  const VectorXd x = normal.solve(design.transpose() * y);
+  const VectorXd y = Eigen::Map<const VectorXd>(value_.data(), n);
+  const MatrixXd normal = linear::gram(design);
+  const VectorXd x = linear::solve_normal(normal, linear::transposed_product(design, y));
   const VectorXd residuals = y - design * x;
-  const MatrixXd inverse = normal.solve(MatrixXd::Identity(columns, columns));
+  const MatrixXd inverse = linear::inverse_of_normal(normal);
   Result out;
   out.rss = residuals.squaredNorm();
   out.freedom = static_cast<double>(n - columns);

@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis::calibrate_detail {
 namespace {
 
@@ -33,7 +35,7 @@ double refine(std::span<const Sight> sights, Vector3d& centre) {
       right += g * r;
       square += r * r;
     }
-    const Vector3d move = normal.ldlt().solve(right);
+    const Vector3d move = linear::solve_normal(normal, right);
     centre += move;
     if (move.norm() < 1e-10) break;
   }

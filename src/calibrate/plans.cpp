@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/plans.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <ranges>
 
 #include "machine/screw.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -106,7 +107,7 @@ class Planner {
           moved.axes[k] += 1.0;
           slope.col(static_cast<Eigen::Index>(k)) = apart(moved) - one.apart - off;
         }
-        const Vector3d move = slope.partialPivLu().solve(off);
+        const Vector3d move = linear::solve(slope, off);
         for (std::size_t k = 0; k < 3; ++k) one.axes[k] -= move[static_cast<Eigen::Index>(k)];
       }
     return list;

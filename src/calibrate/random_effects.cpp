@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/random_effects.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -49,9 +51,9 @@ class Regressor {
     Index at = fixed_;
     for (const RandomGroup& group : groups)
       for (const double share : group.shares) unit_[at++] = group.size * std::sqrt(share);
-    all = all * unit_.asDiagonal();
-    products_ = all.transpose() * all;
-    right_ = all.transpose() * residuals;
+    all = linear::scaled_columns(all, unit_);
+    products_ = linear::gram(all);
+    right_ = linear::transposed_product(all, residuals);
     square_ = residuals.squaredNorm();
     eliminate_fixed();
   }
@@ -62,17 +64,18 @@ class Regressor {
       if (improve() < settled) break;
     }
     set_scale();
-    MatrixXd normal = scale_.asDiagonal() * products_ * scale_.asDiagonal();
+    MatrixXd normal = linear::scaled_both(products_, scale_);
     normal /= variance_;
     normal.diagonal().tail(random_).array() += 1.0;
-    const Eigen::LLT<MatrixXd> factors(normal);
-    const MatrixXd inverse = factors.solve(MatrixXd::Identity(normal.rows(), normal.cols()));
+    const linear::Cholesky factors(normal);
+    const MatrixXd inverse = factors.inverse();
     const VectorXd back = scale_.cwiseProduct(unit_);
-    const VectorXd x = back.cwiseProduct(factors.solve(scale_.cwiseProduct(right_) / variance_));
+    const VectorXd x =
+        back.cwiseProduct(factors.solve(VectorXd(scale_.cwiseProduct(right_) / variance_)));
     RandomEffects out;
     out.fixed = x.head(fixed_);
     out.random = x.tail(random_);
-    out.covariance = back.asDiagonal() * inverse * back.asDiagonal();
+    out.covariance = linear::scaled_both(inverse, back);
     for (const double one : logs_) out.times.push_back(std::exp(one));
     out.times_all = std::exp(common_);
     out.variance = variance_;
@@ -82,12 +85,14 @@ class Regressor {
  private:
   /// The fixed ones are free at any size of the random ones: their Schur complement stays.
   void eliminate_fixed() {
-    const Eigen::LLT<MatrixXd> factors(products_.topLeftCorner(fixed_, fixed_));
-    const MatrixXd cross = factors.matrixL().solve(products_.topRightCorner(fixed_, random_));
-    const VectorXd along = factors.matrixL().solve(right_.head(fixed_));
+    const linear::Cholesky factors(products_.topLeftCorner(fixed_, fixed_));
+    const MatrixXd lower = factors.lower();
+    const MatrixXd cross =
+        linear::solve_lower(lower, MatrixXd(products_.topRightCorner(fixed_, random_)));
+    const VectorXd along = linear::solve_lower(lower, VectorXd(right_.head(fixed_)));
     beside_ = products_.bottomRightCorner(random_, random_);
-    beside_.noalias() -= cross.transpose() * cross;
-    right_beside_ = right_.tail(random_) - cross.transpose() * along;
+    beside_ -= linear::gram(cross);
+    right_beside_ = right_.tail(random_) - linear::transposed_product(cross, along);
     square_beside_ = square_ - along.squaredNorm();
   }
 
@@ -104,20 +109,19 @@ class Regressor {
   void solve_random() {
     set_scale();
     const auto scale = scale_.tail(random_);
-    MatrixXd normal = scale.asDiagonal() * beside_ * scale.asDiagonal();
+    MatrixXd normal = linear::scaled_both(beside_, scale);
     normal /= variance_;
     normal.diagonal().array() += 1.0;
-    const Eigen::LLT<MatrixXd> factors(normal);
-    mean_ = factors.solve(scale.cwiseProduct(right_beside_) / variance_);
+    const linear::Cholesky factors(normal);
+    mean_ = factors.solve(VectorXd(scale.cwiseProduct(right_beside_) / variance_));
     // Of the inverse L⁻ᵀL⁻¹ the diagonal alone: columns of L⁻¹, which begin at their own row.
     constexpr Index columns = 16;
-    const MatrixXd lower = factors.matrixL();
+    const MatrixXd lower = factors.lower();
     variances_.resize(random_);
     for (Index j = 0; j < random_; j += columns) {
       const Index left = random_ - j, some = std::min(columns, left);
-      const MatrixXd part = lower.bottomRightCorner(left, left)
-                                .triangularView<Eigen::Lower>()
-                                .solve(MatrixXd::Identity(left, some));
+      const MatrixXd part = linear::solve_lower(lower.bottomRightCorner(left, left),
+                                                MatrixXd(MatrixXd::Identity(left, some)));
       variances_.segment(j, some) = part.colwise().squaredNorm().transpose();
     }
   }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/regression.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -17,10 +19,10 @@ constexpr double same = 1e-4;  // of an orthonormal column: what others leave of
 /// G⁻¹ c with what stays below `same` left out.
 VectorXd solved(const MatrixXd& products, const VectorXd& right) {
   if (products.rows() == 0) return right;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(products);
-  const VectorXd inverse =
-      (eigen.eigenvalues().array() > same).select(eigen.eigenvalues().cwiseInverse(), 0.0);
-  return eigen.eigenvectors() * (inverse.asDiagonal() * (eigen.eigenvectors().transpose() * right));
+  const linear::Spectrum of = linear::spectrum(products);
+  const VectorXd inverse = (of.values.array() > same).select(of.values.cwiseInverse(), 0.0);
+  const VectorXd along = linear::transposed_product(of.vectors, right);
+  return of.vectors * VectorXd(inverse.cwiseProduct(along));
 }
 
 }  // namespace
@@ -42,48 +44,46 @@ double gain_of(const MatrixXd& products, const VectorXd& right) {
 Regression::Regression(const std::vector<Term>& terms, const MatrixXd& base,
                        const VectorXd& weights, double largest_length_mm,
                        double largest_angle_rad) {
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(base);
-  qr.setThreshold(rank_of_base);
-  basis_ = qr.householderQ() * MatrixXd::Identity(base.rows(), qr.rank());
-  freedom_ = static_cast<double>(base.rows() - qr.rank());
+  basis_ = linear::orthonormal_basis(base, rank_of_base);
+  freedom_ = static_cast<double>(base.rows() - basis_.cols());
   Index all = 0;
   for (const Term& term : terms) all += term.columns.cols();
   MatrixXd columns(base.rows(), all);
   all = 0;
   for (const Term& term : terms) {
-    columns.middleCols(all, term.columns.cols()) = weights.asDiagonal() * term.columns;
+    columns.middleCols(all, term.columns.cols()) = linear::scaled_rows(weights, term.columns);
     all += term.columns.cols();
   }
-  for (int twice = 0; twice < 2; ++twice) columns -= basis_ * (basis_.transpose() * columns);
+  for (int twice = 0; twice < 2; ++twice) columns = linear::beside(basis_, columns);
   orthonormal_.resize(base.rows(), all);
   Index from = 0, to = 0;
   for (const Term& term : terms) {
     const Index q = term.columns.cols();
-    const auto own = columns.middleCols(from, q);
+    const MatrixXd own = columns.middleCols(from, q);
     const double largest = term.angle ? largest_angle_rad : largest_length_mm;
-    const MatrixXd gram = own.transpose() * own;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
+    const MatrixXd gram = linear::gram(own);
+    const linear::Spectrum of = linear::spectrum(gram);
     Block block{to, 0, MatrixXd::Zero(q, q), gram.trace() / static_cast<double>(q),
-                std::max(0.0, eigen.eigenvalues()[0])};
+                std::max(0.0, of.values[0])};
     for (Index k = 0; k < q; ++k) {
-      const double value = eigen.eigenvalues()[k];
+      const double value = of.values[k];
       if (!(value * largest * largest >= 1.0)) continue;
-      block.back.col(block.rank) = eigen.eigenvectors().col(k) / std::sqrt(value);
+      block.back.col(block.rank) = of.vectors.col(k) / std::sqrt(value);
       ++block.rank;
     }
     block.back.conservativeResize(q, block.rank);
-    orthonormal_.middleCols(to, block.rank) = own * block.back;
+    orthonormal_.middleCols(to, block.rank) = linear::product(own, block.back);
     to += block.rank;
     from += q;
     blocks_.push_back(std::move(block));
   }
   orthonormal_.conservativeResize(base.rows(), to);
-  products_ = orthonormal_.transpose() * orthonormal_;
+  products_ = linear::gram(orthonormal_);
 }
 
 void Regression::take(const VectorXd& residuals) {
-  residuals_ = residuals - basis_ * (basis_.transpose() * residuals);
-  right_ = orthonormal_.transpose() * residuals_;
+  residuals_ = linear::beside(basis_, residuals);
+  right_ = linear::transposed_product(orthonormal_, residuals_);
   rss_ = residuals_.squaredNorm();
 }
 
@@ -116,14 +116,14 @@ Regression::Beside Regression::beside(const Set& others) const {
   if (others.empty()) return out;
   const auto columns = columns_of(others);
   const MatrixXd cross = products_(columns, Eigen::all);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(MatrixXd(products_(columns, columns)));
-  const VectorXd root = (eigen.eigenvalues().array() > same)
-                            .select(eigen.eigenvalues().cwiseSqrt().cwiseInverse(), 0.0);
-  const MatrixXd half = root.asDiagonal() * eigen.eigenvectors().transpose();
-  const MatrixXd whitened = half * cross;
-  const VectorXd along = half * right_(columns);
-  out.products.noalias() -= whitened.transpose() * whitened;
-  out.right -= whitened.transpose() * along;
+  const linear::Spectrum of = linear::spectrum(products_(columns, columns));
+  const VectorXd root =
+      (of.values.array() > same).select(of.values.cwiseSqrt().cwiseInverse(), 0.0);
+  const MatrixXd half = linear::scaled_rows(root, of.vectors.transpose());
+  const MatrixXd whitened = linear::product(half, cross);
+  const VectorXd along = half * VectorXd(right_(columns));
+  out.products -= linear::gram(whitened);
+  out.right -= linear::transposed_product(whitened, along);
   out.rss -= along.squaredNorm();
   return out;
 }

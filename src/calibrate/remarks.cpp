@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -28,7 +30,7 @@ MatrixXd waves(const VectorXd& position, int order) {
 
 /// Whether every column that is there lies in those of `basis`.
 bool within(const MatrixXd& columns, const MatrixXd& basis) {
-  const MatrixXd left = columns - basis * basis.completeOrthogonalDecomposition().solve(columns);
+  const MatrixXd left = columns - linear::product(basis, linear::least_squares(basis, columns));
   bool any = false;
   for (Index j = 0; j < columns.cols(); ++j) {
     const double whole = columns.col(j).squaredNorm();
@@ -82,7 +84,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
   const auto& own = regression.block(set[at]);
   const VectorXd c = left.right.segment(own.first, own.rank);
   const MatrixXd G = left.products.block(own.first, own.first, own.rank, own.rank);
-  const VectorXd a = G.completeOrthogonalDecomposition().solve(c);
+  const VectorXd a = linear::least_squares(G, c);
   const double whole = a.dot(G * a);
   const double near = told_apart * told_apart * (left.rss - c.dot(a)) / left.freedom;
   const auto listed = finding.members();
@@ -113,7 +115,7 @@ std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
       const VectorXd cross = left.products(at_columns, Eigen::seqN(own.first, own.rank)) * a;
       const double rest = whole - gain_of(products, cross);
       if (rest >= near) continue;
-      const VectorXd share = products.completeOrthogonalDecomposition().solve(cross);
+      const VectorXd share = linear::least_squares(products, cross);
       bool plausible = true;
       Index from = 0;
       for (const std::size_t t : pair) {
@@ -139,9 +141,8 @@ double independent_tests(const Regression& regression, const std::vector<Term>& 
       columns.push_back(regression.block(t).first + k);
   if (columns.empty()) return 0.0;
   const MatrixXd products = regression.products()(columns, columns);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(products, Eigen::EigenvaluesOnly);
   double sum = 0.0;
-  for (const double value : eigen.eigenvalues())
+  for (const double value : linear::eigenvalues(products))
     if (value > 1e-9) sum += (value >= 1.0 ? 1.0 : 0.0) + value - std::floor(value);
   return sum;
 }
@@ -150,7 +151,7 @@ void add_checks(const TipFit& fit, const Regression& regression, const Regressio
                 bool timed, MachineDiagnosis& out) {
   const MatrixXd columns = regression.columns(found);
   VectorXd left = regression.residuals();
-  if (columns.cols() > 0) left -= columns * columns.completeOrthogonalDecomposition().solve(left);
+  if (columns.cols() > 0) left -= columns * linear::least_squares(columns, left);
   const double freedom = regression.freedom() - static_cast<double>(regression.rank(found));
   const double sigma = std::sqrt(left.squaredNorm() / freedom);
   MachineCheck noise{"noise", false, "no noise is stated: the residuals give it"};

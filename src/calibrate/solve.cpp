@@ -5,8 +5,10 @@
 #include <ceres/problem.h>
 #include <ceres/solver.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -82,7 +84,7 @@ std::string minimise(Chain& chain, VectorXd& at) {
 }  // namespace
 
 void weigh(const Problem& problem, MatrixXd& columns) {
-  columns = problem.weights.asDiagonal() * columns;
+  columns = linear::scaled_rows(problem.weights, columns);
 }
 
 MatrixXd weighted_jacobian(const Problem& problem, const ErrorModel& errors,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/total_uncertainty.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "calibrate/plausible_errors.hpp"
 #include "calibrate/random_effects.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -46,9 +47,8 @@ struct Given {
     }
     root.resize(static_cast<Index>(components.size()), static_cast<Index>(components.size()));
     if (!components.empty()) {
-      const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(
-          MatrixXd(matrix(of_components, of_components)));
-      root = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+      const linear::Spectrum of = linear::spectrum(matrix(of_components, of_components));
+      root = linear::scaled_columns(of.vectors, of.values.cwiseMax(0.0).cwiseSqrt());
     }
     const MatrixXd rest = matrix(of_others, of_others);
     others.matrix.assign(rest.data(), rest.data() + rest.size());
@@ -78,7 +78,7 @@ class Together {
     MatrixXd columns = amount_columns(fit.problem, geometry, amounts_);
     weigh(fit.problem, columns);
     const auto known = given_.root.cols();
-    columns.leftCols(known) = (columns.leftCols(known) * given_.root).eval();
+    columns.leftCols(known) = linear::product(columns.leftCols(known), given_.root);
     effects_ = regress(fit.solution.residuals, fit.solution.jacobian, columns, groups(),
                        fit.problem.noise_stated);
     give_back_units();
@@ -124,17 +124,15 @@ class Together {
     mean_.resize(back.rows());
     mean_ << effects_.fixed, effects_.random;
     mean_ = back * mean_;
-    covariance_ = back * effects_.covariance * back.transpose();
+    covariance_ = linear::propagated(back, effects_.covariance);
     for (Index k = 0; k < kept(); ++k)
       mean_[k] += fit_.solution.unknowns[static_cast<Index>(
           fit_.solution.determined.kept[static_cast<std::size_t>(k)])];
   }
 
   void write_parameters(Calibration& out) const {
-    const MatrixXd& J = fit_.solution.jacobian;
     const MatrixXd noise =
-        effects_.variance *
-        MatrixXd(J.transpose() * J).completeOrthogonalDecomposition().pseudoInverse();
+        effects_.variance * linear::pseudo_inverse(linear::gram(fit_.solution.jacobian));
     out.covariance.clear();
     for (Index k = 0; k < kept(); ++k) {
       CalibratedParameter& one = out.parameters[static_cast<std::size_t>(k)];

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/uncertain.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -52,12 +54,9 @@ std::vector<double> covariance_of(const TipFit& fit, const Problem& problem,
                                      static_cast<std::size_t>(axis - axes.begin()), one.unit));
   }
   const MatrixXd places = base.rightCols(problem.places);
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(places);
-  const MatrixXd q = qr.householderQ() * MatrixXd::Identity(places.rows(), qr.rank());
-  columns -= q * (q.transpose() * columns);
-  const MatrixXd normal =
-      columns.transpose() * columns / variance + MatrixXd::Identity(count, count);
-  const MatrixXd inverse = normal.ldlt().solve(MatrixXd::Identity(count, count));
+  columns = linear::beside(linear::orthonormal_basis(places), columns);
+  const MatrixXd normal = linear::gram(columns) / variance + MatrixXd::Identity(count, count);
+  const MatrixXd inverse = linear::inverse_of_normal(normal);
   std::vector<double> out;
   for (Index i = 0; i < count; ++i)
     for (Index j = 0; j < count; ++j)
