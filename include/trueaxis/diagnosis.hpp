@@ -175,6 +175,10 @@ struct Diagnosis {
   std::vector<double> residual_before_mm, residual_after_mm;  ///< one per reading
   std::vector<SpectrumBin> spectrum;
 
+  std::span<const Effect> own_effects = {};  ///< as in the options; they outlive this
+
+  /// The entry of an id, of the catalogue or of one's own; nullptr: none has it.
+  const Effect* entry(std::string_view id) const;
   /// The finding that is a slip of the part: the axes are then those of before, and the part stands
   /// there no longer. nullptr: there is none.
   const Finding* slip() const;

@@ -11,6 +11,7 @@
 #include "trueaxis/correction.hpp"         // target axis, correction table, actuator
 #include "trueaxis/diagnosis.hpp"          // what the ideal surface misses
 #include "trueaxis/effect.hpp"             // the catalogue of effects
+#include "trueaxis/effect_term.hpp"        // the terms that it knows, and columns of them
 #include "trueaxis/error.hpp"              // InputError, ContractViolation
 #include "trueaxis/fit.hpp"                // association of a surface
 #include "trueaxis/fixture.hpp"            // a part on six locators, on its datums

@@ -128,6 +128,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
     expects(find_effect(own.id) == nullptr, "an effect of one's own has an id of its own");
   Diagnosis out;
   out.false_alarm = options.false_alarm;
+  out.own_effects = options.own_effects;
   const int threads = threads_beside(stream.size(), options.threads);
   DistinctValues indicated;
   for_each_index(2, threads, [&](std::size_t k) {
@@ -179,7 +180,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });
-  if (const std::string why = implausible_size(out.findings); !why.empty())
+  if (const std::string why = implausible_size(out); !why.empty())
     for (FitResult* fit : {&out.baseline, &out.named, &out.extended}) refuse(*fit, why);
   if (out.slip())
     out.remarks.push_back("the part slipped: the axis is that of the part as it now stands");
@@ -195,6 +196,8 @@ std::vector<std::string> Finding::members() const {
 bool Finding::may_be(std::string_view id) const {
   return id == effect() || std::ranges::find(rivals, id, &Rival::effect) != rivals.end();
 }
+
+const Effect* Diagnosis::entry(std::string_view id) const { return find_effect(id, own_effects); }
 
 const Finding* Diagnosis::slip() const {
   const auto found = std::ranges::find_if(

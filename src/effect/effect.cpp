@@ -140,16 +140,37 @@ std::span<const Effect> effect_catalogue() {
           entries::probe_response, entries::encoder_and_time, entries::checks}) {
       for (Effect& effect : family()) list.push_back(std::move(effect));
     }
-    return list;
+    return with_mutual_confounders(std::move(list));
   }();
   return all;
 }
 
-const Effect* find_effect(std::string_view id) {
-  for (const Effect& effect : effect_catalogue()) {
-    if (effect.id == id) return &effect;
-  }
+const Effect* find_effect(std::string_view id, std::span<const Effect> own) {
+  for (const std::span<const Effect> some : {effect_catalogue(), own})
+    for (const Effect& effect : some)
+      if (effect.id == id) return &effect;
   return nullptr;
+}
+
+const Effect& entry_of(Check check) {
+  return *std::ranges::find(effect_catalogue(), check, &Effect::check);
+}
+
+std::vector<Effect> with_mutual_confounders(std::vector<Effect> entries) {
+  const auto names = [](const Effect& one, const Effect& other) {
+    return std::ranges::find(one.confounders, other.id) != one.confounders.end();
+  };
+  std::vector<std::vector<std::string_view>> mutual;
+  for (const Effect& one : entries) {
+    for (const std::string_view id : one.confounders)
+      expects(std::ranges::find(entries, id, &Effect::id) != entries.end(),
+              "a confounder is an entry of the same catalogue");
+    std::vector<std::string_view>& ids = mutual.emplace_back();
+    for (const Effect& other : entries)
+      if (names(one, other) || names(other, one)) ids.push_back(other.id);
+  }
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].confounders = std::move(mutual[i]);
+  return entries;
 }
 
 const EffectParameter* parameter_for(const Effect& effect, std::string_view name) {

@@ -14,6 +14,8 @@ std::vector<Effect> checks() {
                       {"width", "rad", 0.01, 1, "its width"},
                       {"depth", "mm", 0.01, 10, "its depth"}},
        .signature = "fixed to the part, all harmonics",
+       .consequence =
+           "its readings are left out: probe where the surface is whole if too few are left",
        .absorbed_by =
            "missing sectors turn part of an ovality into eccentricity (60 deg: 50 %) unless 2 "
            "and 3 undulations are fitted with the axis",
@@ -26,6 +28,7 @@ std::vector<Effect> checks() {
        .formula = "clipped at a limit",
        .parameters = {{"limit", "mm", 0, 0, "lower or upper"}},
        .signature = "flat extremes; clipped readings are dropped and counted",
+       .consequence = "bring the part within the sensor's range",
        .source = "inspection of measured data",
        .check = Check::saturation},
       {.id = "probe.quantisation",
@@ -35,6 +38,7 @@ std::vector<Effect> checks() {
        .formula = "rounded to whole steps q: variance q^2/12",
        .parameters = {{"step", "mm", 1e-5, 0.01, "q"}},
        .signature = "a discrete histogram",
+       .consequence = "write the readings with more digits",
        .source = "JCGM 100 (GUM) F.2.2.1",
        .check = Check::quantisation},
       {.id = "probe.incidence_noise",
@@ -44,6 +48,7 @@ std::vector<Effect> checks() {
        .formula = "sigma^2 = sigma0^2 (1 + b tan^2 i)",
        .parameters = {{"sigma", "mm", 1e-4, 0.02, "sigma0"}, {"incidence", "1", 0, 100, "b"}},
        .signature = "a variance with 2 undulations per revolution, the mean unchanged",
+       .consequence = "every uncertainty holds it: probe a lesser eccentricity for less of it",
        .source = "inspection of measured data",
        .check = Check::incidence_noise},
       {.id = "probe.correlated_noise",
@@ -53,6 +58,7 @@ std::vector<Effect> checks() {
        .formula = "AR(p), 1/f",
        .parameters = {{"autocorrelation", "1", 0.2, 0.95, "rho of neighbouring readings"}},
        .signature = "residuals that are autocorrelated: every uncertainty and test is widened",
+       .consequence = "every uncertainty holds it: more readings a turn gain little",
        .source = "Box and Jenkins, Time Series Analysis",
        .check = Check::correlated_noise},
       {.id = "probe.stated_noise",
@@ -63,6 +69,7 @@ std::vector<Effect> checks() {
        .parameters = {{"ratio", "1", 0, 0, "stated over shown"}},
        .signature = "too large a stated value widens every u of the ideal surface; too small a one "
                     "means that more than the sensor's noise is in the readings",
+       .consequence = "state the noise that a stationary capture shows",
        .source = "JCGM 100 (GUM) 4.3.7",
        .check = Check::stated_noise},
       {.id = "probe.outliers",
@@ -72,6 +79,7 @@ std::vector<Effect> checks() {
        .formula = "sparse, one-sided or not",
        .parameters = {{"fraction", "1", 1e-3, 0.05, "of all readings"}},
        .signature = "few readings far off, in clusters: counted and listed, never called a form",
+       .consequence = "they are left out: clean the part, and probe again if there are many",
        .source = "Huber, Robust Statistics",
        .check = Check::outliers},
   };

@@ -25,8 +25,7 @@ std::vector<Effect> part_face() {
        .parameters = {{"amplitude", "mm", 1e-3, 0.03, "a at the outer end"},
                       {"phase", "rad", 0, 0, "phi, twice the direction in the part"}},
        .signature = "2 undulations per revolution that grow as the square of the radius",
-       .confounders = {"part.face_lobes", "spindle.face_tilt", "spindle.axial_synchronous",
-                       "encoder.eccentricity", "probe.nonlinearity"},
+       .consequence = "clamp with less force, or leave the face as it is: the axis is right",
        .separations =
            {{"RC", "the saddle turns with the part, a motion of the spindle does not"},
             {"RE",
@@ -45,8 +44,8 @@ std::vector<Effect> part_face() {
                       {"order", "1", 2, 12, "n, undulations per revolution"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "n undulations per revolution, fixed to the part",
-       .confounders = {"spindle.axial_synchronous", "spindle.face_tilt", "part.face_saddle",
-                       "encoder.eccentricity", "probe.nonlinearity"},
+       .consequence = "the face's own form: nothing to do for its direction",
+       .confounders = {"part.face_saddle"},
        .separations =
            {{"RC", "the lobes turn with the part, those of the spindle do not"},
             {"RE", "beyond the axis lobes of odd order read with the opposite sign at the same C"}},
@@ -62,7 +61,7 @@ std::vector<Effect> part_face() {
        .parameters = {{"amplitude", "mm", 1e-3, 0.02,
                        "a: change of Z over half of the radii probed", "amplitude_1"}},
        .signature = "no undulation around, linear in the radius",
-       .confounders = {"slide.xz_squareness", "slide.x_straightness", "thermal.drift"},
+       .consequence = "the face's own form: nothing to do for its direction",
        .separations = {{"RE",
                         "beyond the axis a cone rises again, a slide out of square goes on "
                         "falling"},
@@ -80,7 +79,7 @@ std::vector<Effect> part_face() {
                       {"amplitude", "mm", 1e-3, 0.02, "a", "amplitude_2"},
                       {"cubic", "mm", 0, 0.01, "b", "amplitude_3"}},
        .signature = "no undulation around, curved along the radius",
-       .confounders = {"slide.x_straightness", "thermal.drift", "probe.nonlinearity"},
+       .consequence = "the face's own form: nothing to do for its direction",
        .absorbed_by = "the height of the face, where one radius is probed",
        .separations =
            {{"RE", "on the other side of the axis a dish is mirrored, the bend of a slide goes on"},
@@ -99,8 +98,8 @@ std::vector<Effect> part_face() {
                       {"feed", "mm", 0.05, 0.5, "f, per revolution of the cut", "period_mm"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "a spiral: probed with a lead p outwards it has the order p/f + 1",
-       .confounders = {"part.feed_marks", "part.waviness", "spindle.axial_asynchronous",
-                       "environment.vibration"},
+       .consequence = "the finish of the face: nothing to do",
+       .confounders = {"part.feed_marks", "part.waviness"},
        .separations = {{"RC", "the spiral turns with the part"},
                        {"RZ", "on the way back its order is -p/f + 1"},
                        {"2W", "at another speed its period stays, that of a vibration changes"}},
@@ -122,14 +121,15 @@ std::vector<Effect> part_face() {
                       {"onset", "s", 0, 0, "t0; the number of the reading where there are no times",
                        "onset_s"}},
        .signature = "height or tilt of the face step at an instant",
-       .confounders = {"thermal.drift"},
+       .consequence = "seat the part against its stop and probe again",
        .separations = {{"RZ", "probed again, the first radii show the new face"},
                        {"DW", "a dwell after the step shows the new face at one radius"}},
        .source = "kinematics of a step",
        .needs = {.stream = face},
        .typical = {{&TermShape::onset_s, {0.5}, ShapeValues::In::instant}},
        .search = {.when = When::scanned, .forms = {{{0}}, {{1, 2}}, {{}}}, .tests = 64},
-       .refinement = Refinement{&TermShape::onset_s, By::duration}},
+       .refinement = Refinement{&TermShape::onset_s, By::duration},
+       .names_in_lathe = {{"onset", "time"}}},
   };
 }
 
@@ -144,7 +144,7 @@ std::vector<Effect> spindle_axial() {
        .parameters = {{"amplitude", "mm", 5e-4, 0.01, "a"}, {"phase", "rad", 0, 0, "phi"}},
        .signature = "1 undulation per revolution, the same at every radius; that of a tilted face "
                     "grows with the radius",
-       .confounders = {"probe.height", "probe.tilt"},
+       .consequence = "thrust face or nut of the spindle not square: have it serviced",
        .absorbed_by = "the tilt of the face, where one radius is probed",
        .separations =
            {{"RE", "beyond the axis it reads the same, a tilt of the face with the opposite sign"},
@@ -161,8 +161,8 @@ std::vector<Effect> spindle_axial() {
                       {"order", "1", 0.35, 15, "kappa"},
                       {"phase", "rad", 0, 0, "phi"}},
        .signature = "a fractional order that stays the same at another speed",
-       .confounders = {"environment.vibration", "part.waviness", "part.feed_marks",
-                       "part.face_spiral"},
+       .consequence = "thrust bearing of the spindle: have it serviced if it grows",
+       .confounders = {"part.feed_marks", "part.waviness", "part.face_spiral"},
        .separations =
            {{"2W", "at another speed the order stays; a vibration keeps its frequency instead"},
             {"RZ",
@@ -184,14 +184,16 @@ std::vector<Effect> spindle_axial() {
                       {"axial", "mm", 5e-4, 0.01, "b: axial motion of the order"},
                       {"axial_phase", "rad", 0, 0, "psi"}},
        .signature = "n undulations per revolution that grow with X",
-       .confounders = {"part.face_lobes", "part.face_saddle", "spindle.axial_synchronous"},
+       .consequence = "spindle bearings: have the spindle serviced if it grows",
+       .confounders = {"part.face_saddle", "part.face_lobes", "spindle.axial_synchronous"},
        .absorbed_by = "the tilt of the face, for n = 1",
        .separations = {{"RC", "re-indexed, the motion stays with C"},
                        {"RE", "beyond the axis it has the opposite sign"}},
        .source = "ISO 230-7 (face error motion: axial motion and tilt times the radius)",
        .needs = {.length = true, .stream = face},
        .search = {.when = When::told_apart, .forms = {{{0, 1}}, {.degrees = 1}}},
-       .size_spread = 1.5},
+       .size_spread = 1.5,
+       .motion_beside = "spindle.axial_synchronous"},
   };
 }
 
@@ -205,7 +207,8 @@ std::vector<Effect> slide_face() {
        .formula = "Z + beta (X - X_mid)",
        .parameters = {{"slope", "rad", 1e-5, 1e-4, "beta: 3-30 um per 300 mm"}},
        .signature = "no undulation around, linear in X",
-       .confounders = {"part.face_cone", "slide.x_straightness", "thermal.drift"},
+       .consequence = "align the cross slide: every face becomes a cone",
+       .confounders = {"part.face_cone"},
        .separations = {{"RE", "beyond the axis it goes on falling, a cone rises again"},
                        {"MS", "a master face shows it without a form of the part"}},
        .source = "ISO 230-1, ISO 13041-1 (squareness of X and spindle)",
@@ -218,8 +221,8 @@ std::vector<Effect> slide_face() {
        .formula = "Z + sum of a_l P_l(u), u along X; a_1 only together with higher l",
        .parameters = {{"amplitude", "mm", 1e-3, 0.02, "a_l"}, {"degree", "1", 2, 5, "highest l"}},
        .signature = "no undulation around, curved in X, fixed to the machine",
-       .confounders = {"part.face_crown", "part.face_cone", "slide.xz_squareness", "thermal.drift",
-                       "probe.nonlinearity"},
+       .consequence = "guideways of X: compensate EZX",
+       .confounders = {"part.face_cone", "part.face_crown", "slide.xz_squareness"},
        .separations = {{"RE",
                         "beyond the axis it goes on, a form of the part is mirrored; what is even "
                         "about the axis stays open"},

@@ -178,7 +178,7 @@ std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
       if (share.probability >= listed || share.effect.empty() || share.instead_of.empty() ||
           out_mm <= far_out * tolerance_mm)
         continue;
-      const Effect* effect = find_effect(share.effect);
+      const Effect* effect = result.diagnoses[i]->entry(share.effect);
       if (!effect || effect->separations.empty()) continue;
       const Separation& tells = effect->separations.front();
       const auto plan =

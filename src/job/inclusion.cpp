@@ -11,8 +11,8 @@
 namespace trueaxis {
 namespace {
 
-bool repeats(std::string_view id) {
-  const Effect* effect = find_effect(id);
+bool repeats(const Diagnosis& diagnosis, std::string_view id) {
+  const Effect* effect = diagnosis.entry(id);
   return effect && effect->repeats_at_tool;
 }
 
@@ -22,11 +22,11 @@ struct ForbiddenCause {
   double probability = 0.0;  ///< of all of them
 };
 
-ForbiddenCause forbidden_cause(const Finding& finding) {
+ForbiddenCause forbidden_cause(const Diagnosis& diagnosis, const Finding& finding) {
   ForbiddenCause out;
-  if (!repeats(finding.effect())) out = {finding.effect(), finding.probability};
+  if (!repeats(diagnosis, finding.effect())) out = {finding.effect(), finding.probability};
   for (const Rival& rival : finding.rivals) {  // the most probable first
-    if (repeats(rival.effect)) continue;
+    if (repeats(diagnosis, rival.effect)) continue;
     if (out.effect.empty()) out.effect = rival.effect;
     out.probability += rival.probability;
   }
@@ -37,7 +37,7 @@ ForbiddenCause forbidden_cause(const Finding& finding) {
 /// little better than the whole order beside it, so chance keeps it in the class with a small
 /// probability: what may be copied by mistake is what a go may be wrong by.
 std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
-  const ForbiddenCause other = forbidden_cause(finding);
+  const ForbiddenCause other = forbidden_cause(diagnosis, finding);
   if (other.probability > nonconformity_risk) {
     return fmt::format(
         "the data cannot tell it from {} (class {}), which must not be copied into the cut; the "
@@ -56,7 +56,7 @@ std::string objection(const JobResult& result, const Diagnosis& diagnosis, const
   const auto [low, high] = std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
-  if (finding.effect().starts_with("slide.") && outside)
+  if (finding.term.effect->frame == Frame::machine && outside)
     return "the length to be cut reaches beyond the one that was probed";
   return "";
 }
@@ -99,7 +99,8 @@ std::vector<RepeatingMotion> included_motions(JobResult& result) {
           inclusion.why = "another reference shows it already";
         } else {
           inclusion.included = true;
-          if (const ForbiddenCause other = forbidden_cause(finding); !other.effect.empty())
+          if (const ForbiddenCause other = forbidden_cause(diagnosis, finding);
+              !other.effect.empty())
             inclusion.why =
                 fmt::format("the probability that it is {}, which should not be, is {:.2g}",
                             other.effect, other.probability);

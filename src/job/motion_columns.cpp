@@ -33,7 +33,11 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
     const std::vector<double>& linear = finding->term.linear;
     const std::vector<double>& covariance = finding->term.covariance;
     const std::size_t count = linear.size();
-    MotionColumns made{finding, contribution(point, {&whole, 1}, linear), {}, {}};
+    MotionColumns made{finding,
+                       is_of(*diagnosed.diagnosis, *finding),
+                       contribution(point, {&whole, 1}, linear),
+                       {},
+                       {}};
     std::vector<double> u(count, 0.0);
     for (std::size_t j = 0; j < count && !covariance.empty(); ++j)
       u[j] = std::sqrt(std::max(0.0, covariance[j * count + j]));
@@ -52,12 +56,10 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
   return out;
 }
 
-FindingIsOf is_of(const Finding& finding) {
+FindingIsOf is_of(const Diagnosis& diagnosis, const Finding& finding) {
   bool part = false, motion = false;
-  for (const std::string& id : finding.members()) {
-    const Effect* effect = id == finding.effect() ? finding.term.effect : find_effect(id);
-    (is_form(effect) ? part : motion) = true;
-  }
+  for (const std::string& id : finding.members())
+    (is_form(diagnosis.entry(id)) ? part : motion) = true;
   return part && motion ? FindingIsOf::open : part ? FindingIsOf::part : FindingIsOf::motion;
 }
 

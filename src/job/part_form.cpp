@@ -60,7 +60,7 @@ class Question {
 
   static void add(const PartReadings& of, bool open, bool is_datum, std::vector<TakenOff>& off) {
     for (const MotionColumns& one : of.columns())
-      if (open || is_of(*one.finding) == FindingIsOf::motion)
+      if (open || one.of == FindingIsOf::motion)
         off.push_back({one.columns_mm, one.correlation, is_datum});
   }
 
@@ -81,7 +81,7 @@ std::array<double, 2> band_of(const FormTask& task, int carried) {
 std::vector<std::string> ids_of(const PartReadings& readings, FindingIsOf what) {
   std::vector<std::string> out;
   for (const MotionColumns& one : readings.columns())
-    if (is_of(*one.finding) == what) out.push_back(one.finding->effect());
+    if (one.of == what) out.push_back(one.finding->effect());
   return out;
 }
 

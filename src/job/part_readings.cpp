@@ -22,7 +22,7 @@ PartReadings::PartReadings(const DiagnosedStream& given, double ball_mm) : strea
   std::vector<bool> left_out(stream_.size(), false);
   std::vector<const Finding*> found;
   for (const Finding& finding : given.diagnosis->findings)
-    if (is_of(finding) != FindingIsOf::part) found.push_back(&finding);
+    if (is_of(*given.diagnosis, finding) != FindingIsOf::part) found.push_back(&finding);
   columns_ = motion_columns(given, found, ball_mm);
   for (const Rejected& one : given.diagnosis->noise.masked)
     if (one.row >= 1 && one.row <= left_out.size()) left_out[one.row - 1] = true;
@@ -41,7 +41,7 @@ PartReadings::PartReadings(const DiagnosedStream& given, double ball_mm) : strea
 ProbeStream PartReadings::less(bool open) const {
   ProbeStream out = stream_;
   for (const MotionColumns& one : columns_)
-    if (open || is_of(*one.finding) == FindingIsOf::motion)
+    if (open || one.of == FindingIsOf::motion)
       for (std::size_t i = 0; i < out.size(); ++i) out.reading_mm[i] -= one.sum_mm[i];
   return out;
 }

@@ -90,7 +90,7 @@ std::string most_open(const Diagnosis& diagnosis, const Covariance& noise) {
       std::ranges::find(diagnosis.not_observable, most->effect, &NotObservable::effect);
   const bool told = hidden != diagnosis.not_observable.end() && hidden->separate_with &&
                     !hidden->separate_with->plan.empty();
-  const Effect* effect = find_effect(most->effect);
+  const Effect* effect = diagnosis.entry(most->effect);
   const std::string_view key = effect ? effect->stated_as : "";
   return fmt::format(
       "no number of readings proves it: {}, which these passes do not show, leaves {:.2g} µm of "

@@ -15,8 +15,8 @@ namespace {
 
 constexpr const char* remedy = ": clamp it again and probe again";
 
-bool is_slip(std::string_view id) {
-  const Effect* effect = find_effect(id);
+bool is_slip(const Diagnosis& diagnosis, std::string_view id) {
+  const Effect* effect = diagnosis.entry(id);
   return effect && is_step(effect->term);
 }
 
@@ -69,9 +69,9 @@ std::string named(const Finding& finding, double k) {
 }
 
 /// As a member of the class of another name; empty: it is none.
-std::string possible(const Finding& finding) {
+std::string possible(const Diagnosis& diagnosis, const Finding& finding) {
   for (const Rival& rival : finding.rivals) {
-    if (!is_slip(rival.effect)) continue;
+    if (!is_slip(diagnosis, rival.effect)) continue;
     return fmt::format(
         "the part may have slipped in the chuck, which the data cannot tell from {} "
         "(probability of the slip {:.2g})",
@@ -89,7 +89,9 @@ bool is_sure_slip(const Diagnosis& diagnosis) {
                           [](const FitParameter& p) { return !p.estimate.determined(); }))
     return false;
   return std::ranges::none_of(diagnosis.findings, [&](const Finding& finding) {
-    return &finding != slip && std::ranges::any_of(finding.members(), is_slip);
+    return &finding != slip && std::ranges::any_of(finding.members(), [&](const std::string& id) {
+      return is_slip(diagnosis, id);
+    });
   });
 }
 
@@ -101,7 +103,7 @@ std::string slip_objection(const JobResult& result) {
     if (const Finding* slip = diagnosis.slip())
       return of_reference(result, i) + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
     for (const Finding& finding : diagnosis.findings) {
-      const std::string maybe = possible(finding);
+      const std::string maybe = possible(diagnosis, finding);
       if (perhaps.empty() && !maybe.empty()) perhaps = of_reference(result, i) + maybe + remedy;
     }
   }

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "diagnose/files/axes_text.hpp"
-#include "diagnose/files/consequences.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
@@ -89,17 +88,12 @@ Json titles_of(const Diagnosis& diagnosis) {
   return titles;
 }
 
-/// What was seen, finding by finding, and what follows from each cause.
+/// What was seen, finding by finding.
 void add_words(Json& data, const Diagnosis& diagnosis) {
   const double k = diagnosis.baseline.coverage_factor;
   data["seen"] = {{"findings", Json::array()}, {"unexplained", Json::array()}};
-  data["consequences"] = Json::object();
-  for (const Finding& finding : diagnosis.findings) {
+  for (const Finding& finding : diagnosis.findings)
     data["seen"]["findings"].push_back(seen_text(finding, k));
-    for (const std::string& id : finding.members())
-      if (const std::string_view what = consequence_of(id); !what.empty())
-        data["consequences"][id] = std::string(what);
-  }
   for (const Unexplained& pattern : diagnosis.unexplained)
     data["seen"]["unexplained"].push_back(seen_text(pattern, k));
 }

@@ -51,7 +51,8 @@ void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
   if (diagnosis.extended.status != FitStatus::converged)
     warnings.add(diagnosis.extended.message, name);
   for (const QualityCheck& check : diagnosis.checks)
-    if (check.found && check.effect != "probe.correlated_noise") warnings.add(check.text, name);
+    if (check.found && check.effect != entry_of(Check::correlated_noise).id)
+      warnings.add(check.text, name);
 }
 
 /// What the diagnosis asks to be measured next, and what it would tell. With what probability the

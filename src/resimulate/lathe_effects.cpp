@@ -17,18 +17,6 @@ using LatheEffect = virtual_lathe::Effect;
 using LatheEffects = std::vector<LatheEffect>;
 using Parameters = std::map<std::string, double>;
 
-/// A parameter that the lathe calls by another name than the catalogue, without its unit. No id: of
-/// every effect.
-struct Renamed {
-  std::string_view id, lathe, catalogue;
-};
-constexpr Renamed renamed[] = {
-    {"", "reference", "reference_x"},    {"part.bow", "sagitta", "amplitude"},
-    {"part.bow", "direction", "phase"},  {"part.slip", "time", "onset"},
-    {"part.seat_slip", "time", "onset"}, {"probe.pretravel", "phase", "lobing_phase"},
-    {"probe.tilt", "angle", "tilt"},
-};
-
 /// The lathe's name without the unit that ends it.
 std::string_view without_unit(std::string_view name) {
   for (const std::string_view unit : {"_mm_per_rev", "_mm_per_s", "_mm", "_rad", "_hz", "_s"}) {
@@ -37,12 +25,10 @@ std::string_view without_unit(std::string_view name) {
   return name;
 }
 
-std::string catalogue_name(std::string_view id, std::string_view lathe_name) {
+std::string catalogue_name(const Effect& effect, std::string_view lathe_name) {
   const std::string_view bare = without_unit(lathe_name);
-  for (const Renamed& r : renamed) {
-    if (r.lathe == bare && (r.id.empty() || r.id == id)) return std::string(r.catalogue);
-  }
-  return std::string(bare);
+  const auto renamed = std::ranges::find(effect.names_in_lathe, bare, &NameInLathe::in_lathe);
+  return std::string(renamed == effect.names_in_lathe.end() ? bare : renamed->name);
 }
 
 /// The catalogue's parameters of a term, inside units, and what the frame gives.
@@ -61,10 +47,10 @@ Parameters values_in(const TermValue& term, const LatheFrame& frame) {
 }
 
 /// Every parameter of the lathe's effect that has a value.
-LatheEffect by_name(const std::string& id, const Parameters& values) {
-  LatheEffect effect{id, {}};
-  for (const auto& p : virtual_lathe::find_effect_kind(id).parameters) {
-    const auto found = values.find(catalogue_name(id, p.name));
+LatheEffect by_name(const Effect& entry, const Parameters& values) {
+  LatheEffect effect{std::string(entry.id), {}};
+  for (const auto& p : virtual_lathe::find_effect_kind(entry.id).parameters) {
+    const auto found = values.find(catalogue_name(entry, p.name));
     if (found != values.end()) effect.parameters[std::string(p.name)] = found->second;
   }
   virtual_lathe::validate(effect);
@@ -72,20 +58,21 @@ LatheEffect by_name(const std::string& id, const Parameters& values) {
 }
 
 /// The lathe has one phase for amplitude and growth.
-LatheEffects roundness(const std::string& id, const Parameters& values) {
+LatheEffects growing(const Effect& entry, const Parameters& values) {
   Parameters growth = values;
   growth["amplitude"] = 0.0;
   growth["phase"] = values.at("growth_phase");
-  LatheEffect constant = by_name(id, values);
+  LatheEffect constant = by_name(entry, values);
   constant.parameters.erase("growth_mm");
-  return {constant, by_name(id, growth)};
+  return {constant, by_name(entry, growth)};
 }
 
 /// In the lathe a tilt is about a bearing; the motion beside it is another effect.
-LatheEffects tilt(const std::string& id, const Parameters& values, const std::string& beside,
-                  const std::string& motion) {
-  return {by_name(id, values),
-          {beside,
+LatheEffects tilt(const Effect& entry, const Parameters& values) {
+  const auto cosine = linear_parameters(entry.term, {}).at(2).name;
+  const std::string motion = cosine.substr(0, cosine.rfind('_'));
+  return {by_name(entry, values),
+          {std::string(entry.motion_beside),
            {{"order", values.at("order")},
             {"amplitude_mm", values.at(motion)},
             {"phase_rad", values.at(motion + "_phase")}}}};
@@ -107,34 +94,35 @@ LatheEffects chuck_lobing(const TermValue& term) {
 }
 
 /// A degree each.
-LatheEffects straightness(const std::string& id, const TermValue& term) {
+LatheEffects straightness(const TermValue& term, int first) {
   LatheEffects list;
-  const int first = std::get<PolynomialInZ>(term.effect->term).first;
   for (std::size_t j = 0; j < term.linear.size(); ++j) {
-    list.push_back({id,
+    list.push_back({term.id(),
                     {{"degree", static_cast<double>(first) + static_cast<double>(j)},
                      {"amplitude_mm", term.linear[j]}}});
   }
   return list;
 }
 
+/// The kind of the term says what the lathe has apart.
 LatheEffects of_effect(TermValue term, const LatheFrame& frame) {
+  const Effect& entry = *term.effect;
   const std::string id = term.id();
   const auto known = virtual_lathe::effect_kinds();
   if (std::ranges::find(known, id, &virtual_lathe::EffectKind::id) == known.end())
     throw InputError("diagnosis", "the virtual lathe has no `" + id + "`");
-  if (term.linear.size() != linear_parameters(term.effect->term, term.shape).size())
+  if (term.linear.size() != linear_parameters(entry.term, term.shape).size())
     throw InputError("diagnosis", "the term of " + id + " is not fitted");
   term.free.clear();  // those that were not free are 0
-  if (id == "part.roundness" || id == "part.face_lobes")
-    return roundness(id, values_in(term, frame));
-  if (id == "part.chuck_lobing") return chuck_lobing(term);
-  if (id == "slide.z_straightness" || id == "slide.x_straightness") return straightness(id, term);
-  if (id == "spindle.tilt_synchronous")
-    return tilt(id, values_in(term, frame), "spindle.radial_synchronous", "radial");
-  if (id == "spindle.face_tilt")
-    return tilt(id, values_in(term, frame), "spindle.axial_synchronous", "axial");
-  return {by_name(id, values_in(term, frame))};
+  if (const auto* curve = std::get_if<PolynomialInZ>(&entry.term); curve && curve->last == 0)
+    return straightness(term, curve->first);
+  const auto* harmonic = std::get_if<Harmonic>(&entry.term);
+  const auto envelope = harmonic ? harmonic->envelope : Harmonic::Envelope::constant;
+  if (envelope == Harmonic::Envelope::jaws) return chuck_lobing(term);
+  const Parameters values = values_in(term, frame);
+  if (envelope == Harmonic::Envelope::growing) return growing(entry, values);
+  if (envelope == Harmonic::Envelope::lever) return tilt(entry, values);
+  return {by_name(entry, values)};
 }
 
 LatheEffect of_pattern(const TermValue& term, const LatheFrame& frame) {

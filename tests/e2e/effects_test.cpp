@@ -29,8 +29,9 @@ TEST(EffectsCommand, ExplainsEachWithAllThatTheEntrySays) {
     const auto says = [&](std::string_view text) {
       EXPECT_NE(page.output.find(text), std::string::npos) << effect.id << ": " << text;
     };
-    for (const std::string_view text : {effect.title, effect.formula, effect.signature,
-                                        effect.absorbed_by, to_string(effect.frame), effect.source})
+    for (const std::string_view text :
+         {effect.title, effect.formula, effect.signature, effect.consequence, effect.absorbed_by,
+          to_string(effect.frame), effect.source})
       says(text);
     for (const std::string_view id : effect.confounders) says(id);
     for (const EffectParameter& parameter : effect.parameters) says(parameter.meaning);

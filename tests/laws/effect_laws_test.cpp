@@ -41,7 +41,7 @@ TEST(EffectLaws, EntriesExplainThemselves) {
     SCOPED_TRACE(effect.id);
     EXPECT_TRUE(families.contains(effect.id.substr(0, effect.id.find('.'))));
     for (const std::string_view text :
-         {effect.title, effect.formula, effect.signature, effect.source}) {
+         {effect.title, effect.formula, effect.signature, effect.consequence, effect.source}) {
       EXPECT_FALSE(text.empty());
     }
     EXPECT_FALSE(effect.parameters.empty());
@@ -53,10 +53,11 @@ TEST(EffectLaws, EntriesExplainThemselves) {
       EXPECT_FALSE(parameter.meaning.empty()) << parameter.name;
     }
     EXPECT_EQ(std::holds_alternative<std::monostate>(effect.term), effect.check.has_value());
-    if (effect.check) continue;
-    EXPECT_NE(effect.slot, Slot::noise);
-    EXPECT_FALSE(effect.confounders.empty());
-    EXPECT_FALSE(effect.separations.empty());
+    EXPECT_EQ(effect.confounders.empty(), effect.check.has_value());
+    EXPECT_EQ(effect.separations.empty(), effect.check.has_value());
+    if (!effect.check) {
+      EXPECT_NE(effect.slot, Slot::noise);
+    }
   }
 }
 
@@ -73,10 +74,57 @@ TEST(EffectLaws, ConfusionIsMutualAndNeverWithACheck) {
   }
 }
 
+TEST(EffectLaws, AConfusionIsStatedOnceAndKnownToBoth) {
+  const std::vector<Effect> list = with_mutual_confounders({
+      {.id = "a.first"},
+      {.id = "a.second", .confounders = {"a.first"}},
+      {.id = "a.third", .confounders = {"a.second", "a.first"}},
+  });
+  using Ids = std::vector<std::string_view>;
+  EXPECT_EQ(list[0].confounders, (Ids{"a.second", "a.third"}));
+  EXPECT_EQ(list[1].confounders, (Ids{"a.first", "a.third"}));
+  EXPECT_EQ(list[2].confounders, (Ids{"a.first", "a.second"}));
+  EXPECT_THROW(with_mutual_confounders({{.id = "a.first", .confounders = {"a.frist"}}}),
+               ContractViolation);
+}
+
+TEST(EffectLaws, ChecksAndOwnEffectsAreFoundToo) {
+  for (const Effect& effect : effect_catalogue()) {
+    if (effect.check) {
+      EXPECT_EQ(&entry_of(*effect.check), &effect);
+    }
+  }
+  const Effect own{.id = "own.form"};
+  EXPECT_EQ(find_effect(own.id), nullptr);
+  EXPECT_EQ(find_effect(own.id, {&own, 1}), &own);
+  EXPECT_EQ(find_effect("part.bow", {&own, 1}), find_effect("part.bow"));
+}
+
+// What the virtual lathe has apart is told by its name; a law of the lathe plays every entry.
+TEST(EffectLaws, NamesInTheLatheAreOfWhatBothHave) {
+  for (const Effect& effect : effect_catalogue()) {
+    SCOPED_TRACE(effect.id);
+    for (const NameInLathe& name : effect.names_in_lathe) {
+      const auto& parameters = virtual_lathe::find_effect_kind(effect.id).parameters;
+      EXPECT_TRUE(std::ranges::any_of(parameters, [&](const auto& p) {
+        return p.name.starts_with(std::string(name.in_lathe) + "_") || p.name == name.in_lathe;
+      })) << name.in_lathe;
+    }
+    const auto* harmonic = std::get_if<Harmonic>(&effect.term);
+    const bool lever = harmonic && harmonic->envelope == Harmonic::Envelope::lever;
+    ASSERT_EQ(lever, !effect.motion_beside.empty());
+    if (lever) {
+      EXPECT_NO_THROW(virtual_lathe::find_effect_kind(effect.motion_beside));
+    }
+  }
+}
+
 // What a diagnosis does with an entry is about parameters that its term has.
 TEST(EffectLaws, SearchesFitTheirTerms) {
+  std::size_t causes = 0;
   for (const Effect& effect : effect_catalogue()) {
     if (effect.check) continue;
+    ++causes;
     SCOPED_TRACE(effect.id);
     TermShape shape;
     shape.degree = std::max(shape.degree, effect.search.highest_degree);
@@ -119,6 +167,7 @@ TEST(EffectLaws, SearchesFitTheirTerms) {
       EXPECT_EQ(find_effect(twin)->second_order_twin, effect.id);
     }
   }
+  EXPECT_EQ(causes + 7, effect_catalogue().size());  // as many checks as Check has
 }
 
 TEST(EffectLaws, SeparatorsAreKnownAndAllUsed) {

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
+#include "diagnose/files/diagnosis_json.hpp"
+#include "diagnose/files/diagnosis_screen.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -21,6 +24,7 @@ const Effect five_at_the_ends{
     .title = "five undulations towards both ends",
     .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, Port::normal, 5.0},
     .parameters = {{"amplitude", "mm", 1e-3, 0.02, "at the ends"}},
+    .consequence = "grind both ends again",
     .needs = {.length = true}};
 const Effect three_starts{.id = "own.three_starts",
                           .title = "a spiral of three starts",
@@ -80,6 +84,13 @@ TEST(OwnEffect, IsFoundByItsEntry) {
   EXPECT_NEAR(parameter_of(found, "amplitude")->value, amplitude_mm, tolerance);
   EXPECT_NEAR(parameter_of(found, "phase")->value * rad_per_deg, phase_rad,
               tolerance / amplitude_mm);
+
+  const std::string named = "five undulations towards both ends: grind both ends again";
+  EXPECT_NE(diagnosis_screen(known).find(named), std::string::npos) << diagnosis_screen(known);
+  const auto json = nlohmann::json::parse(diagnosis_json(known));
+  EXPECT_EQ(json.at("findings").at(0).at("effect"), five_at_the_ends.id);
+  EXPECT_EQ(json.at("consequences").at(std::string(five_at_the_ends.id)),
+            five_at_the_ends.consequence);
 
   const Diagnosis unknown = diagnosed(stream, {});
   EXPECT_EQ(finding_with(unknown, std::string(five_at_the_ends.id)), nullptr);

@@ -7,6 +7,7 @@
 
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
+#include "diagnose/files/seen.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/job_results.hpp"
 #include "support/diagnosis_example.hpp"
@@ -102,9 +103,28 @@ TEST(DiagnosisJson, TermAndFrameRebuildTheModel) {
             example::wander_mm);
 }
 
+/// Every cause that a finding may have, the named one and its rivals, of the catalogue or one's
+/// own.
+TEST(DiagnosisJson, EveryCauseHasItsConsequence) {
+  const Effect own{.id = "own.form", .title = "a form of its own", .consequence = "turn it again"};
+  Diagnosis d = example::cone_diagnosis();
+  d.own_effects = {&own, 1};
+  d.findings.front().rivals.push_back({"own.form", 0.1, 0.1, 0.1, false});
+  const json told = written(d).at("consequences");
+  for (const char* id : {"part.roundness", "spindle.radial_synchronous"})
+    EXPECT_EQ(told.at(id), find_effect(id)->consequence) << id;
+  EXPECT_EQ(told.at("own.form"), "turn it again");
+  const auto lines = cause_lines(d, d.findings.front(), 9);
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines.back(), "a form of its own (0.10): turn it again [own.form]");
+  EXPECT_NE(lines.front().find(find_effect("part.roundness")->consequence), std::string::npos);
+}
+
 TEST(DiagnosisJson, EveryTermOfTheCatalogueCanBeWritten) {
+  std::size_t terms = 0;
   for (const Effect& effect : effect_catalogue()) {
     if (effect.check) continue;
+    ++terms;
     Diagnosis d;
     Finding finding;
     finding.term.effect = &effect;
@@ -114,6 +134,7 @@ TEST(DiagnosisJson, EveryTermOfTheCatalogueCanBeWritten) {
     EXPECT_EQ(term.at("linear").size(), finding.term.linear.size()) << effect.id;
     EXPECT_EQ(term.at("shape").size(), shape_parameters(effect.term).size()) << effect.id;
   }
+  EXPECT_GE(terms, 40u);
 }
 
 /// Numbers that no default has, by the reader that stands beside the writer.

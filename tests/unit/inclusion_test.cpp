@@ -79,6 +79,24 @@ TEST(Inclusion, AToolBesideTheProbesDirectionIsRefused) {
   EXPECT_TRUE(result.inclusions.at(0).refused);
 }
 
+// A slide's path is known where it was probed; a motion of the spindle is the same everywhere.
+TEST(Inclusion, AMotionOfTheMachineIsFollowedWithinTheProbedLength) {
+  for (const bool beyond : {false, true}) {
+    for (const char* id : {"slide.z_straightness", "spindle.radial_synchronous"}) {
+      Finding finding = spindle_lobes();
+      finding.term.effect = find_effect(id);
+      JobResult result = asked(finding);
+      result.job.include = {id};
+      const Diagnosis& diagnosis = *result.diagnoses.front();
+      result.job.target->z_start_mm = diagnosis.z_mid_mm;
+      result.job.target->z_end_mm = diagnosis.z_mid_mm + (beyond ? 2.0 : 1.0) * diagnosis.z_half_mm;
+      const bool refused = beyond && finding.term.effect->frame == Frame::machine;
+      EXPECT_EQ(included_motions(result).empty(), refused) << id;
+      EXPECT_EQ(result.inclusions.at(0).refused, refused) << id;
+    }
+  }
+}
+
 /// The spindle carries the part towards the probe by m(C): a tool at X cuts the radius X − m on the
 /// probe's side and X + m on the other. With the motion followed the part gets the radius of the
 /// programmed profile, whatever the angle.

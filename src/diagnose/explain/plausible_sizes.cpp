@@ -27,10 +27,10 @@ double largest_mm(const Effect& effect) {
 }
 
 /// The largest of a class; 0: one of it may have any size.
-double largest_of_class_mm(const Finding& finding) {
+double largest_of_class_mm(const Diagnosis& diagnosis, const Finding& finding) {
   double largest = 0.0;
   for (const std::string& id : finding.members()) {
-    const Effect* effect = id == finding.effect() ? finding.term.effect : find_effect(id);
+    const Effect* effect = diagnosis.entry(id);
     const double own = effect && !is_step(effect->term) ? largest_mm(*effect) : 0.0;
     if (!(own > 0.0)) return 0.0;
     largest = std::max(largest, own);
@@ -40,10 +40,10 @@ double largest_of_class_mm(const Finding& finding) {
 
 }  // namespace
 
-std::string implausible_size(std::span<const Finding> findings) {
-  for (const Finding& finding : findings) {
+std::string implausible_size(const Diagnosis& diagnosis) {
+  for (const Finding& finding : diagnosis.findings) {
     const double amplitude_mm = std::numbers::sqrt2 * finding.rms_mm;
-    const double most_mm = largest_of_class_mm(finding);
+    const double most_mm = largest_of_class_mm(diagnosis, finding);
     if (!(most_mm > 0.0) || amplitude_mm <= beyond * most_mm) continue;
     return fmt::format(
         "the readings hold a regular pattern of {:.3g} µm that could only be {} ({}), which is at "

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
 #include <string>
 
 #include "trueaxis/diagnosis.hpp"
@@ -10,6 +9,6 @@ namespace trueaxis::diagnose_detail {
 
 /// A finding that is more than 20 times as large as the largest size of every cause in its class;
 /// empty: there is none. A cause whose size is no length is taken to be possible, and so is a slip.
-std::string implausible_size(std::span<const Finding> findings);
+std::string implausible_size(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis::diagnose_detail

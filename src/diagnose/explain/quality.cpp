@@ -198,8 +198,7 @@ std::string rows_text(const std::vector<Rejected>& masked, const std::vector<dou
 }
 
 QualityCheck result(Check check, bool found, std::string text) {
-  const auto entry = std::ranges::find(effect_catalogue(), check, &Effect::check);
-  return {std::string(entry->id), found, std::move(text)};
+  return {std::string(entry_of(check).id), found, std::move(text)};
 }
 
 /// Readings at the very extreme, more than noise puts there.

@@ -57,6 +57,16 @@ Json finding_object(const Finding& finding) {
   return json;
 }
 
+/// What follows from each cause that a finding may have.
+Json consequences_object(const Diagnosis& d) {
+  Json json = Json::object();
+  for (const Finding& finding : d.findings)
+    for (const std::string& id : finding.members())
+      if (const Effect* effect = d.entry(id); effect && !effect->consequence.empty())
+        json[id] = effect->consequence;
+  return json;
+}
+
 Json unexplained_object(const Unexplained& u) {
   Json json = unexplained_summary(u);
   json["p_value"] = number(u.p_value);
@@ -200,6 +210,7 @@ Json diagnosis_object(const Diagnosis& d) {
   json["shares"] = list_of(d.shares, share_object);
   json["u_frame"] = {{"z_mid", length(d.z_mid_mm)}, {"z_half", length(d.z_half_mm)}};
   json["findings"] = list_of(d.findings, finding_object);
+  json["consequences"] = consequences_object(d);
   json["unexplained"] = list_of(d.unexplained, unexplained_object);
   json["not_observable"] = list_of(d.not_observable, not_observable_object);
   json["remarks"] = d.remarks;

@@ -140,8 +140,14 @@ std::string advice_text(const Diagnosis& d) {
                    "\"cylinder\"; this reading of it needs no other measurement");
   const std::string next = next_text(d.next);
   text += next.empty() ? "\nNext measurement\n  none: there is nothing to tell apart\n" : next;
-  const bool either = std::ranges::any_of(d.findings, [](const Finding& finding) {
-    return finding.may_be("part.roundness") && finding.may_be("spindle.radial_synchronous");
+  const bool either = std::ranges::any_of(d.findings, [&](const Finding& finding) {
+    bool form = false, motion = false;
+    for (const std::string& id : finding.members()) {
+      const Effect* effect = d.entry(id);
+      form = form || (effect && effect->separated_as == SeparatedAs::form);
+      motion = motion || (effect && effect->separated_as == SeparatedAs::motion);
+    }
+    return form && motion;
   });
   if (either)
     text += '\n' + wrapped("",

@@ -82,6 +82,7 @@ Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) 
     throw InputError("diagnosis", std::string("is no ") + diagnosis_schema +
                                       ": write one with 'trueaxis diagnose --json'");
   Diagnosis d;
+  d.own_effects = own_effects;
   d.verdict = verdict_from(json.at("verdict"));
   d.baseline = fit_from_object(json.at("baseline"));
   d.named = fit_from_object(json.at("named"));

@@ -52,7 +52,7 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
             (finding.cosmetic
                  ? ""
                  : "; " + finding_axis_bias(finding, k, d.baseline.surface == SurfaceKind::plane)));
-    for (const std::string& cause : cause_lines(finding, most_causes))
+    for (const std::string& cause : cause_lines(d, finding, most_causes))
       text += line("       - ", cause);
   }
   for (const Unexplained& pattern : d.unexplained) {
@@ -66,11 +66,9 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
 
 std::string excluded_screen(const Diagnosis& d) {
   std::string text;
-  for (const Check check : {Check::outliers, Check::interruption}) {
-    const auto entry = std::ranges::find(effect_catalogue(), check, &Effect::check);
+  for (const Check check : {Check::outliers, Check::interruption})
     for (const QualityCheck& one : d.checks)
-      if (one.found && one.effect == entry->id) text += line("check  ", one.text);
-  }
+      if (one.found && one.effect == entry_of(check).id) text += line("check  ", one.text);
   return text;
 }
 

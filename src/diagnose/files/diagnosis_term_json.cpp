@@ -152,8 +152,7 @@ Json term_object(const TermValue& term) {
 TermValue effect_term_from(const std::string& id, const Json& json,
                            std::span<const Effect> own_effects) {
   TermValue term;
-  const auto own = std::ranges::find(own_effects, id, &Effect::id);
-  term.effect = own != own_effects.end() ? &*own : find_effect(id);
+  term.effect = find_effect(id, own_effects);
   if (term.effect == nullptr)
     throw InputError("diagnosis", "the catalogue has no `" + id +
                                       "`: what names an effect of a program's own is read by that "

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "base/never.hpp"
-#include "diagnose/files/consequences.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/effect.hpp"
@@ -134,15 +133,14 @@ std::string seen_text(const Unexplained& pattern, double k) {
          plus_minus(pattern.amplitude, k, 1.0 / mm_per_um, "µm") + ": of no known cause";
 }
 
-std::vector<std::string> cause_lines(const Finding& finding, std::size_t most) {
+std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& finding,
+                                     std::size_t most) {
   std::vector<std::string> lines;
   const auto add = [&](const std::string& id, double chance) {
-    const auto catalogue = effect_catalogue();
-    const auto effect = std::ranges::find(catalogue, id, &Effect::id);
-    std::string line = effect == catalogue.end() ? id : short_title(*effect);
+    const Effect* effect = diagnosis.entry(id);
+    std::string line = effect ? short_title(*effect) : id;
     if (std::isfinite(chance) && !finding.rivals.empty()) line += " (" + probability(chance) + ")";
-    if (const auto consequence = consequence_of(id); !consequence.empty())
-      line += ": " + std::string(consequence);
+    if (effect && !effect->consequence.empty()) line += ": " + std::string(effect->consequence);
     lines.push_back(line + " [" + id + "]");
   };
   add(finding.effect(), finding.probability);

@@ -18,6 +18,7 @@ std::string seen_text(const Unexplained& pattern, double coverage_factor);
 
 /// The causes of a finding with their chance and what follows: one line each, "roundness of the
 /// part (0.44): nothing to do for the axis [part.roundness]"; at most `most`, then how many more.
-std::vector<std::string> cause_lines(const Finding& finding, std::size_t most);
+std::vector<std::string> cause_lines(const Diagnosis& diagnosis, const Finding& finding,
+                                     std::size_t most);
 
 }  // namespace trueaxis

@@ -53,6 +53,7 @@ Json effect_object(const Effect& effect) {
             {"parameters", parameters},
             {"scenario_keys", scenario_keys_json(effect.id)},
             {"signature", effect.signature},
+            {"consequence", effect.consequence},
             {"confounders", effect.confounders},
             {"absorbed_by", effect.absorbed_by},
             {"separations", separations}};

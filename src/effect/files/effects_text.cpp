@@ -152,6 +152,7 @@ void section(std::string& out, const Effect& e) {
             (possible.empty() ? "" : ", " + possible));
   }
   row(out, "signature", cell(e.signature));
+  row(out, "consequence", cell(e.consequence));
   std::string others;
   for (const std::string_view id : e.confounders) others += (others.empty() ? "" : ", ") + link(id);
   row(out, "confused with", others);
@@ -206,6 +207,7 @@ std::string effect_text(const Effect& effect) {
   }
   out += scenario_keys_text(effect.id);
   out += line("signature", effect.signature);
+  out += line("consequence", effect.consequence);
   out += line("confused with", format("{}", fmt::join(effect.confounders, ", ")));
   out += line("absorbed by", effect.absorbed_by);
   for (const Separation& separation : effect.separations) {
