@@ -65,6 +65,8 @@ int execute(const Options& options) {
   FitResult result = fit(stream, chosen);
   if (const std::string why = moved_in_pass(stream, result.residual_mm, result); !why.empty())
     withhold_axis(result, why);
+  if (const std::string why = few_angles(stream); !why.empty() && result.axis_known())
+    result.notes.push_back(why);
   waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));

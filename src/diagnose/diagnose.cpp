@@ -72,7 +72,7 @@ void add_alike(const ProbeStream& stream, Diagnosis& out) {
   lobes.axis_bias_per_unit = {1.0, 0.0, "mm/(mm)", ""};
   lobes.detectable = std::numeric_limits<double>::infinity();
   lobes.detectable_unit = "mm";
-  out.not_observable.push_back(std::move(lobes));
+  out.not_observable.insert(out.not_observable.begin(), std::move(lobes));
 }
 
 std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,

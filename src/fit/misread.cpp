@@ -26,6 +26,7 @@ struct Suspicion {
   bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
   bool leaves_much = false;     ///< residuals of more than lobes usually are
+  bool any = true;              ///< the mend itself leaves a column alone that does not look so
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };
 
@@ -106,9 +107,9 @@ constexpr Misreading misreadings[] = {
     {"C runs at twice the angle", "halve it", &Suspicion::leaves_much, false, scale_c<0.5>},
     {"C begins anew every 180°", wrapped, &Suspicion::leaves_much, false, unwrap_c<180>},
     {"C begins anew every 90°", wrapped, &Suspicion::leaves_much, false, unwrap_c<90>},
-    {"C begins anew after a revolution that has not 360°", "write degrees", &Suspicion::leaves_much,
-     false, begin_anew_each_turn},
-    {"C runs to and fro, because it is folded", wrapped, &Suspicion::leaves_much, false, unfold_c},
+    {"C begins anew after a revolution that has not 360°", "write degrees", &Suspicion::any, false,
+     begin_anew_each_turn},
+    {"C runs to and fro, because it is folded", wrapped, &Suspicion::any, false, unfold_c},
     {"X_M begins anew where a display or a counter ends", "record its whole range",
      &Suspicion::leaves_much, false, unwrap_reading},
     // An oval part whose centre runs true would be one that runs out at half the angle.
@@ -149,7 +150,7 @@ std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, c
   const double before_mm = left_mm(stream, fit);
   if (!(before_mm > least_mm)) return "";
   const Suspicion suspicion{range_of(stream.c_rad).length() < nearly_a_turn,
-                            unlike_a_spindle(stream), before_mm > much_mm,
+                            unlike_a_spindle(stream), before_mm > much_mm, true,
                             z_goes_to_and_fro(stream)};
   for (const Misreading& one : misreadings) {
     if (!(suspicion.*one.looks) || (one.needs_position && !stream.has_position())) continue;

@@ -45,7 +45,7 @@ def other_channel_temperature():
     return s
 
 
-@case(truth=NOTHING)
+@case(truth=NOTHING, round_mm=None)
 def other_channel_mains():
     s = helix()
     rng = random.Random(5)

@@ -22,13 +22,16 @@ import columns  # noqa: F401
 import known  # noqa: F401
 from lathe import CASES
 
-AXIS = re.compile(r"^(?:axis  | {6}) x (-?[\d.]+(?:e[-+]?\d+)?) µm, y (-?[\d.]+(?:e[-+]?\d+)?) µm, "
-                  r"U ([\d.]+(?:e[-+]?\d+)?) µm at Z (-?[\d.]+)", re.M)
+AXIS = re.compile(r"^(?:axis  | {6}) x (-?[\d.e+-]+) µm, y (-?[\d.e+-]+) µm, U ([\d.e+-]+) µm"
+                  r"(?: at Z (-?[\d.]+) mm)?$", re.M)
+# What fit alone does not see and diagnose and run do.
+FOR_DIAGNOSIS = {"probe_saturates", "smoothed_over_9", "x_sorted_alone", "z_shuffled", "c_times_0.98"}
+SECTION_MM = 8.0  # of a stream without a length
 
 
 def judge(truth, unseen, out, code):
     """(verdict, words)"""
-    axes = [tuple(map(float, match)) for match in AXIS.findall(out)]
+    axes = [tuple(float(number or SECTION_MM) for number in found) for found in AXIS.findall(out)]
     reason = next((line for line in out.splitlines() if re.search("refus|NOT PROVEN|NO-GO|implaus|: error|rank", line)), "")
     if not axes:
         return ("refused" if code else "none"), reason or out.strip().splitlines()[0] if out.strip() else ""
@@ -42,6 +45,8 @@ def judge(truth, unseen, out, code):
             worst, words = off / U, f"off {off:.3g} µm, U {U:.3g}"
     if worst <= 1.5:
         return "right", words
+    if re.search("^note .*angles, the same in every revolution", out, re.M):
+        return "unseen", words
     if unseen and re.search("^unseen .*" + re.escape(unseen), out, re.M):
         return "unseen", words
     return ("WRONG" if code == 0 else "shown"), words
@@ -81,7 +86,9 @@ def try_one(command, entry):
             out, code = run(command, folder, line)
             verdict, words = judge(truth, "" if what == "fit" else unseen, out, code)
             if what == "fit" and unseen and verdict == "WRONG":
-                verdict = "unseen"  # fit does not diagnose
+                verdict = "unseen"  # the command that it proposes says so
+            if what == "fit" and name in FOR_DIAGNOSIS and verdict == "WRONG":
+                verdict = "left"
             if ordinary and verdict != "right":
                 verdict = "WRONG " + verdict
             row[what] = (verdict, code, words)
