@@ -73,7 +73,7 @@ std::optional<UnitChange> way_changes_unit(const std::vector<double>& column, bo
 /// of twice the radius has no twice the eccentricity.
 std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
   const std::vector<double>& x = stream.reading_mm;
-  if (stream.indication == Indication::relative) return {};
+  if (stream.kind == StreamKind::face || stream.indication == Indication::relative) return {};
   const double step_rad = usual_step(stream.c_rad);
   if (!(step_rad > 0.0)) return {};
   const auto turn = static_cast<std::size_t>(std::lround(two_pi / step_rad));
@@ -90,7 +90,8 @@ std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
     for (const auto& [unit, what] : of_lengths) {
       for (const double factor : {unit, 1.0 / unit}) {
         if (std::abs(x[i] - factor * x[i - 1]) > 0.05 * std::abs(factor * x[i - 1])) continue;
-        if (apart_mm(i, factor) <= near_steps * apart_mm(i - turn, 1.0))
+        const double usual_mm = near_steps * apart_mm(i - turn, 1.0);
+        if (apart_mm(i, factor) <= usual_mm && apart_mm(i, 1.0) > usual_mm)
           return UnitChange{i + 1, what};
       }
     }
