@@ -16,8 +16,10 @@
 #include "cli/waiting.hpp"
 #include "fit/files/fit_files.hpp"
 #include "fit/files/fit_screen.hpp"
+#include "fit/moved.hpp"
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
+#include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/one_surface.hpp"
 #include "report/stream_report.hpp"
@@ -60,7 +62,11 @@ int execute(const Options& options) {
                                 counted(stream.size(), "reading") + " of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
   const FitOptions chosen = options.association.chosen();
-  const FitResult result = fit(stream, chosen);
+  FitResult result = fit(stream, chosen);
+  if (const std::string why = moved_in_pass(stream, result.residual_mm, result); !why.empty())
+    withhold_axis(result, why);
+  if (const std::string why = few_angles(stream); !why.empty() && result.axis_known())
+    result.notes.push_back(why);
   waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/threads.hpp"
 #include "diagnose/advise/advise.hpp"
@@ -15,6 +16,7 @@
 #include "diagnose/explain/plausible_sizes.hpp"
 #include "diagnose/explain/quality.hpp"
 #include "fit/plausible.hpp"
+#include "measure/angles_alike.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 
@@ -55,6 +57,22 @@ void add_advice(const IdealModel& ideal, const RelinearisedFit& refit, const Mod
   }
   out.next = std::move(advice.next);
   out.plans = std::move(advice.plans);
+}
+
+/// Lobes that even angles see as eccentricity (Eq. 315).
+void add_alike(const ProbeStream& stream, Diagnosis& out) {
+  const auto angles = stream.kind == StreamKind::lateral ? angles_alike(stream) : std::nullopt;
+  if (!angles) return;
+  NotObservable lobes;
+  lobes.effect = "part.roundness";
+  lobes.why = fmt::format(
+      "{0} even angles see lobes of the orders {1} and {2} as eccentricity: 1 µm of them moves the "
+      "axis by 1 µm",
+      *angles, *angles - 1, *angles + 1);
+  lobes.axis_bias_per_unit = {1.0, 0.0, "mm/(mm)", ""};
+  lobes.detectable = std::numeric_limits<double>::infinity();
+  lobes.detectable_unit = "mm";
+  out.not_observable.insert(out.not_observable.begin(), std::move(lobes));
 }
 
 std::vector<std::string> remarks_on(const Problem& problem, const Joint& joint,
@@ -177,6 +195,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   const LinearisationPoint& point = refit->problem().point;
   out.z_mid_mm = point.z_mid_mm, out.z_half_mm = point.z_half_mm;
   add_advice(ideal, *refit, search.model, explanation.ambiguous, hidden, out);
+  add_alike(stream, out);
   std::ranges::stable_sort(out.findings, [](const Finding& a, const Finding& b) {
     return a.axis_shift.value > b.axis_shift.value;
   });

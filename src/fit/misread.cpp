@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "fit/mend_columns.hpp"
 #include "fit/plausible.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -25,6 +26,7 @@ struct Suspicion {
   bool c_stands = false;        ///< C hardly turns
   bool unlike_spindle = false;  ///< C does not turn as a spindle does
   bool leaves_much = false;     ///< residuals of more than lobes usually are
+  bool any = true;              ///< the mend itself leaves a column alone that does not look so
   bool z_to_and_fro = false;    ///< X runs along while Z goes to and fro with every revolution
 };
 
@@ -73,19 +75,6 @@ void scale_c(ProbeStream& stream) {
   for (double& c : stream.c_rad) c *= Factor;
 }
 
-/// An angle that begins anew after `Period` degrees, made continuous.
-template <int Period>
-void unwrap_c(ProbeStream& stream) {
-  double added = 0.0, before = stream.c_rad.front();
-  const double period = Period * rad_per_deg;
-  for (double& c : stream.c_rad) {
-    const double step = c - before;
-    before = c;
-    added -= period * std::round(step / period);
-    c += added;
-  }
-}
-
 /// A column of lengths that holds degrees, and the other way round.
 void exchange_with_c(std::vector<double>& length_mm, std::vector<double>& c_rad) {
   for (std::size_t i = 0; i < c_rad.size(); ++i) {
@@ -118,14 +107,23 @@ constexpr Misreading misreadings[] = {
     {"C runs at twice the angle", "halve it", &Suspicion::leaves_much, false, scale_c<0.5>},
     {"C begins anew every 180°", wrapped, &Suspicion::leaves_much, false, unwrap_c<180>},
     {"C begins anew every 90°", wrapped, &Suspicion::leaves_much, false, unwrap_c<90>},
+    {"C begins anew after a revolution that has not 360°", "write degrees", &Suspicion::any, false,
+     begin_anew_each_turn},
+    {"C runs to and fro, because it is folded", wrapped, &Suspicion::any, false, unfold_c},
+    {"X_M begins anew where a display or a counter ends", "record its whole range",
+     &Suspicion::leaves_much, false, unwrap_reading},
     // An oval part whose centre runs true would be one that runs out at half the angle.
     {"C runs at half the angle (or the part is oval and runs true)", "double it",
      &Suspicion::leaves_much, false, scale_c<2.0>, by_far_better},
     {"C runs at half the angle and begins anew every revolution", wrapped, &Suspicion::leaves_much,
-     false, [](ProbeStream& s) {
+     false,
+     [](ProbeStream& s) {
        unwrap_c<180>(s);
        scale_c<2.0>(s);
-     }}};
+     }},
+    {"X_M repeats at another angle than a revolution of C: C has another unit, or X_M is no "
+     "probe's",
+     "check both columns", &Suspicion::leaves_much, false, turn_as_reading_does}};
 
 std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
 
@@ -152,13 +150,15 @@ std::string likely_misreading(const ProbeStream& stream, const FitResult& fit, c
   const double before_mm = left_mm(stream, fit);
   if (!(before_mm > least_mm)) return "";
   const Suspicion suspicion{range_of(stream.c_rad).length() < nearly_a_turn,
-                            unlike_a_spindle(stream), before_mm > much_mm,
+                            unlike_a_spindle(stream), before_mm > much_mm, true,
                             z_goes_to_and_fro(stream)};
   for (const Misreading& one : misreadings) {
     if (!(suspicion.*one.looks) || (one.needs_position && !stream.has_position())) continue;
     ProbeStream right = stream;
     one.mend(right);
-    if (!turns_around(right) || z_goes_to_and_fro(right)) continue;
+    const bool same = right.c_rad == stream.c_rad && right.reading_mm == stream.reading_mm &&
+                      right.position_mm == stream.position_mm;
+    if (same || !turns_around(right) || z_goes_to_and_fro(right)) continue;
     const FitResult again = refit(right, fit.surface);
     if (again.status != FitStatus::converged || !(again.rms_mm < one.better * before_mm) ||
         again.points < 2 * again.parameters.size() + 10)

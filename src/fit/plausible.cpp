@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
@@ -19,9 +21,12 @@ constexpr double alternate_share = 0.2;  // of the residuals' square
 constexpr double six_sigma = 36.0;
 constexpr double most_scatter_mm = 0.1;   // of single readings; dirty probes show 0.02
 constexpr double more_than_stated = 3.0;  // a noise that is stated may be exceeded by as much
-constexpr double other_is_far_better = 1.0 / 3.0;  // of the RMS
-constexpr double mostly_scatter = 0.7;             // of the residuals' RMS
-constexpr double dense_step_rad = two_pi / 36.0;   // neighbours meet the same form
+constexpr double other_is_far_better = 1.0 / 3.0;              // of the RMS
+constexpr double mostly_scatter = 0.7;                         // of the residuals' RMS
+constexpr double sphere_leaves_mm = 0.01, sphere_share = 0.1;  // of the RMS
+constexpr double flattest_noise = 1.8;                         // kurtosis of a uniform distribution
+constexpr double least_for_kurtosis = 100.0, many_digits = 10.0, white_sds = 4.0;
+constexpr double dense_step_rad = two_pi / 36.0;  // neighbours meet the same form
 
 double largest_radius_mm(const ProbeStream& stream) {
   if (stream.kind == StreamKind::face)
@@ -115,6 +120,71 @@ std::string alternate_rows(const ProbeStream& stream, const FitResult& fit) {
       stream.source, 2.0 * half_mm / mm_per_um);
 }
 
+/// A sphere fits far better: any line through its centre is an axis of it; empty: none does.
+std::string is_sphere(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
+  if (fit.surface != SurfaceKind::cone && fit.surface != SurfaceKind::cylinder) return "";
+  if (fit.rms_mm < sphere_leaves_mm || stream.indication == Indication::relative ||
+      list_set_ups(stream).size() > 1)
+    return "";
+  const FitResult sphere = refit(stream, SurfaceKind::sphere);
+  if (sphere.status != FitStatus::converged || !(sphere.rms_mm < sphere_share * fit.rms_mm))
+    return "";
+  return fmt::format(
+      "the readings are those of a sphere of radius {:.6g} mm, not of a cone or cylinder, and a "
+      "sphere has no axis: `trueaxis fit {} --surface sphere` finds its centre, and a job takes "
+      "none",
+      sphere.parameter("radius").value, stream.source);
+}
+
+/// Correlation of what is left in the order of `rows`, from one to the next.
+double neighbours_correlate(const std::vector<double>& left_mm,
+                            const std::vector<std::size_t>& rows) {
+  double products = 0.0, squares = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double r = left_mm[rows[i]];
+    squares += r * r;
+    if (i > 0) products += r * left_mm[rows[i - 1]];
+  }
+  return squares > 0.0 ? products / squares : 0.0;
+}
+
+/// Residuals that are white in time and in angle and yet have the distribution of a sine, with a
+/// kurtosis of 1.5, below the 1.8 of the flattest noise: X_M and C are not of the same instants.
+/// Empty: they are like noise, or form.
+std::string unlike_noise(const ProbeStream& stream, const FitResult& fit) {
+  const std::vector<double>& left_mm = fit.residual_mm;
+  const auto n = static_cast<double>(left_mm.size());
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < stream.size(); ++i)
+    if (const double step = std::abs(stream.reading_mm[i] - stream.reading_mm[i - 1]); step > 0.0)
+      steps.push_back(step);
+  if (n < least_for_kurtosis || steps.empty() ||
+      fit.rms_mm < many_digits * *std::ranges::min_element(steps))
+    return "";
+  double second = 0.0, fourth = 0.0, eighth = 0.0;
+  for (const double r : left_mm) {
+    const double r2 = r * r;
+    second += r2 / n;
+    fourth += r2 * r2 / n;
+    eighth += r2 * r2 * r2 * r2 / n;
+  }
+  const double kurtosis = fourth / (second * second);
+  const double u = std::sqrt((eighth - fourth * fourth) / n) / (second * second);
+  if (!(kurtosis + 3.0 * u < flattest_noise)) return "";
+  std::vector<std::size_t> rows(left_mm.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  const double in_time = neighbours_correlate(left_mm, rows);
+  std::ranges::sort(rows, {},
+                    [&](std::size_t i) { return std::remainder(stream.c_rad[i], two_pi); });
+  const double in_angle = neighbours_correlate(left_mm, rows);
+  if (std::max(std::abs(in_time), std::abs(in_angle)) * std::sqrt(n) > white_sds) return "";
+  return fmt::format(
+      "what the surface leaves ({:.3g} µm RMS) has no order in time and none in angle, but the "
+      "distribution of a sine: X_M and C of a row are not of the same instant (a column was sorted "
+      "or shuffled), or X_M is another channel",
+      fit.rms_mm / mm_per_um);
+}
+
 }  // namespace
 
 std::string implausible(const ProbeStream& stream, const FitResult& fit, const Refit& refit) {
@@ -123,9 +193,10 @@ std::string implausible(const ProbeStream& stream, const FitResult& fit, const R
   if (std::string why = alternate_rows(stream, fit); !why.empty()) return why;
   if (std::string why = likely_misreading(stream, fit, refit); !why.empty()) return why;
   // Who fills a stream in a program knows its units: a model may have any scale.
-  return stream.x_convention && fit.status == FitStatus::converged
-             ? out_of_proportion(stream, fit, refit)
-             : "";
+  if (!stream.x_convention || fit.status != FitStatus::converged) return "";
+  if (std::string why = is_sphere(stream, fit, refit); !why.empty()) return why;
+  if (std::string why = unlike_noise(stream, fit); !why.empty()) return why;
+  return out_of_proportion(stream, fit, refit);
 }
 
 void refuse(FitResult& fit, const std::string& why) {

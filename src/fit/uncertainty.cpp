@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "math/statistics.hpp"
+#include "measure/turn_centres.hpp"
 
 namespace trueaxis {
 namespace {
@@ -57,6 +58,57 @@ Eigen::VectorXd projected(const Surface& surface, std::span<const double> workin
          sums;
 }
 
+/// By how much the centres of single turns scatter beyond what their readings tell (Eq. 313), in
+/// the clamping where they do so most.
+double spread_of_turns(const JointModel& model, const std::vector<double>& residual_mm,
+                       double clip_mm) {
+  double most = 1.0;
+  for (const JointPart& part : model.parts()) {
+    const ProbeStream& stream = part.prepared->source();
+    std::vector<double> left_mm(stream.size());
+    for (std::size_t i = 0; i < left_mm.size(); ++i)
+      left_mm[i] = std::clamp(residual_mm[part.rows.empty() ? i : part.rows[i]], -clip_mm, clip_mm);
+    most = std::max(most,
+                    centres_spread(turn_centres(stream, left_mm), part.surface->parameter_count()));
+  }
+  return most;
+}
+
+/// Variance of C: residuals then scatter where the reading changes with C, r² = σ² + σ_C² (dX/dC)².
+/// 0: they do not, by 4 standard deviations. The slope is that of the readings' first harmonic.
+double variance_of_angle(const JointModel& model, const std::vector<double>& residual_mm) {
+  double found = 0.0;
+  for (const JointPart& part : model.parts()) {
+    const PreparedStream& stream = *part.prepared;
+    const auto n = static_cast<double>(stream.size());
+    const auto for_each = [&](auto use) {
+      for (std::size_t b = 0; b < stream.blocks(); ++b)
+        for (std::size_t i = 0; i < stream.filled(b); ++i)
+          use(stream.block(b), i, b * block_size + i);
+    };
+    double mean_mm = 0.0, cosine = 0.0, sine = 0.0;
+    for_each([&](const ReadingBlock& at, std::size_t i, std::size_t) {
+      mean_mm += at.reading_mm[i] / n;
+    });
+    for_each([&](const ReadingBlock& at, std::size_t i, std::size_t) {
+      cosine += 2.0 / n * (at.reading_mm[i] - mean_mm) * at.cos_c[i];
+      sine += 2.0 / n * (at.reading_mm[i] - mean_mm) * at.sin_c[i];
+    });
+    double s = 0.0, ss = 0.0, r = 0.0, rr = 0.0, rs = 0.0;
+    for_each([&](const ReadingBlock& at, std::size_t i, std::size_t row) {
+      const double slope = sine * at.cos_c[i] - cosine * at.sin_c[i];
+      const double left = residual_mm[part.rows.empty() ? row : part.rows[row]];
+      const double s2 = slope * slope, r2 = left * left;
+      s += s2 / n, ss += s2 * s2 / n, r += r2 / n, rr += r2 * r2 / n, rs += r2 * s2 / n;
+    });
+    const double variance = ss - s * s, scatter = rr - r * r, common = rs - r * s;
+    if (variance > 0.0 && scatter > 0.0 &&
+        common * std::sqrt(n) > correlation_sds * std::sqrt(variance * scatter))
+      found = std::max(found, common / variance);
+  }
+  return found;
+}
+
 }  // namespace
 
 bool noise_disagrees(double stated_mm, double shown_mm, double redundancy) {
@@ -98,6 +150,7 @@ ReadingNoise estimate_noise(const JointModel& model, const Association& associat
     noise.loss_factor =
         k * k * psi2 / redundancy / (mean * mean) / (association.scale_mm * association.scale_mm);
   }
+  noise.angle_rad2 = variance_of_angle(model, residual);
   const double clip = 3.0 * (robust ? association.scale_mm : noise.sigma_mm);
   noise.autocorrelation =
       std::isfinite(clip) && clip > 0.0 ? neighbour_correlation(residual, clip) : 0.0;
@@ -105,6 +158,8 @@ ReadingNoise estimate_noise(const JointModel& model, const Association& associat
     const double rho = std::min(noise.autocorrelation, 0.99);
     noise.u_factor = std::sqrt((1.0 + rho) / (1.0 - rho));
     noise.correlated = find_correlated_noise(model, association, clip);
+    if (!noise.correlated)
+      noise.u_factor = std::max(noise.u_factor, spread_of_turns(model, residual, clip));
   }
   return noise;
 }
@@ -194,8 +249,11 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
       {"noise of the readings", 'A', sigma * sigma * noise.loss_factor * inverse}};
   if (noise.correlated)
     sources.front().covariance = sources.front().covariance * noise.correlated->jtcj * inverse;
-  if (options.influences.empty()) return sources;
-  for (const Influence& influence : options.influences) {
+  std::vector<Influence> influences = options.influences;
+  // Eccentricity at scattered angles is read smaller by σ_C²/2 (Fuller 1987), as by a gain.
+  if (noise.angle_rad2 > 0.0)
+    influences.push_back({Influence::Kind::probe_gain, 0.5 * noise.angle_rad2});
+  for (const Influence& influence : influences) {
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(determination.inverse.rows());
     if (influence.kind == Influence::Kind::ball_radius) {
       const JointPart& part = model.parts().front();
@@ -213,7 +271,9 @@ std::vector<Source> budget_sources(const JointModel& model, const Association& a
       shift = determination.inverse * shift;
     }
     shift *= influence.u;
-    sources.push_back({influence_name(influence.kind), 'B', shift * shift.transpose()});
+    const bool said = sources.size() <= options.influences.size();
+    sources.push_back({said ? influence_name(influence.kind) : "noise of C", said ? 'B' : 'A',
+                       shift * shift.transpose()});
   }
   return sources;
 }

@@ -23,6 +23,7 @@ struct ReadingNoise {
   /// By which correlation widens every u, √((1 + ρ)/(1 − ρ)); with `correlated` the most that it
   /// widens the u of a parameter by (see take_in). 1: uncorrelated.
   double u_factor = 1.0;
+  double angle_rad2 = 0.0;   ///< variance of C, where the scatter goes with the slope of X over C
   double loss_factor = 1.0;  ///< variance of the M-estimate over that of least squares
 };
 

@@ -11,6 +11,7 @@
 
 #include "math/statistics.hpp"
 #include "measure/column_checks.hpp"
+#include "measure/turn_centres.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -81,7 +82,12 @@ void check_common(const ProbeStream& stream, Troubles& troubles) {
   if (!all_finite(stream.reading_mm) || !all_finite(stream.c_rad) ||
       !all_finite(stream.position_mm))
     troubles.add("a number is not finite");
-  if (std::string why = repeated_rows(stream); !why.empty()) troubles.add(std::move(why));
+  if (std::string why = column_objection(stream); !why.empty()) troubles.add(std::move(why));
+  troubles.finish();
+  // What hides in the scatter of a reading hides in U of every value.
+  const TurnCentres centres = turn_centres(stream, stream.reading_mm);
+  const auto step = find_centre_step(centres);
+  if (step && step->size_mm > 2.0 * centres.sigma_mm) troubles.add(moved_text(*step));
   troubles.finish();
 }
 

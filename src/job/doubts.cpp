@@ -8,8 +8,11 @@
 #include <optional>
 #include <variant>
 
+#include "fit/moved.hpp"
+#include "job/ends_of_stream.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
+#include "measure/angles_alike.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -89,6 +92,19 @@ bool is_bow(const Finding& finding) {
   const auto* harmonic = std::get_if<Harmonic>(&finding.term.effect->term);
   return harmonic && harmonic->fixed_order == 1.0 &&
          harmonic->envelope == Harmonic::Envelope::parabola;
+}
+
+/// Angles at which a stream was read, to 1°; `most`: as many or more.
+int few_places(const ProbeStream& stream, int most) {
+  std::vector<double> places;
+  for (const double c : stream.c_rad) {
+    const bool known = std::ranges::any_of(places, [&](double place) {
+      return std::abs(std::remainder(c - place, two_pi)) < rad_per_deg;
+    });
+    if (!known) places.push_back(c);
+    if (static_cast<int>(places.size()) >= most) break;
+  }
+  return static_cast<int>(places.size());
 }
 
 }  // namespace
@@ -217,29 +233,26 @@ std::string moves_with_axis(const ProbeStream& stream, const Diagnosis& diagnosi
 }
 
 std::string few_angles(const ProbeStream& stream) {
-  constexpr std::size_t most = 5;
-  constexpr double apart_rad = rad_per_deg;
+  constexpr int enough = 7;  // six see five lobes as eccentricity, the commonest of ground parts
   if (stream.kind == StreamKind::face) return "";
-  std::vector<double> angles;
-  for (const double c : stream.c_rad) {
-    const bool known = std::ranges::any_of(angles, [&](double angle) {
-      return std::abs(std::remainder(c - angle, two_pi)) < apart_rad;
-    });
-    if (!known) angles.push_back(c);
-    if (angles.size() > most) return "";
-  }
+  int angles = few_places(stream, enough);
+  if (const auto alike = angles_alike(stream)) angles = std::min(angles, *alike);
+  if (angles >= enough) return "";
   return fmt::format(
-      "{0} angles, the same in every revolution, cannot tell {1} lobes from an eccentricity: probe "
-      "at "
-      "7 angles or more",
-      angles.size(), angles.size() - 1);
+      "{0} angles, the same in every revolution or nearly so, cannot tell {1} lobes from an "
+      "eccentricity: probe at {2} angles or more",
+      angles, angles - 1, enough);
 }
 
 std::string why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {
   if (diagnosis.slip() && !is_sure_slip(diagnosis))
     return "the part slipped, and where it is now is not known";
-  std::string why = moves_with_axis(stream, diagnosis);
-  return why.empty() ? left_unnamed(diagnosis) : why;
+  for (const std::string& why :
+       {left_out_at_an_end(stream, diagnosis), far_off_at_the_end(diagnosis),
+        moved_in_pass(stream, diagnosis.residual_after_mm, diagnosis.extended),
+        left_unnamed(diagnosis), moves_with_axis(stream, diagnosis), few_angles(stream)})
+    if (!why.empty()) return why;
+  return "";
 }
 
 void withhold_axis(FitResult& fit, const std::string& why) {

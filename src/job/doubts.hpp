@@ -19,8 +19,8 @@ struct OpenAxis {
 std::vector<OpenAxis> open_axes(const JobResult& result);
 
 /// Why the axis of a diagnosed stream is not known, although its fit has one: a slip that is not
-/// sure, what goes with the eccentricity, or what is left unnamed. Empty: nothing speaks against
-/// it.
+/// sure or at an end, what goes with the eccentricity, what is left unnamed, or angles so few that
+/// lobes are no different from it. Every command asks here. Empty: nothing speaks against it.
 std::string why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis);
 
 /// Takes the numbers of the axis out of a fit, and leaves those of its shape.
@@ -42,8 +42,8 @@ std::string improbable_and_far(const JobResult& result, double tolerance_mm);
 /// repeats, revolutions or a standing spindle show of it. Empty: there is none.
 std::string left_unnamed(const Diagnosis& diagnosis);
 
-/// That a lateral stream has at most five angles, the same in every revolution: lobes one more or
-/// one less than that are no different from an eccentricity. Empty: it has more.
+/// That a lateral stream has at most six angles, the same in every revolution or nearly so: lobes
+/// one more or one less than that are no different from an eccentricity. Empty: it has more.
 std::string few_angles(const ProbeStream& stream);
 
 /// What the models of the references leave open and a reader of a go must know, a sentence each.

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <vector>
 
-#include "job/references.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
 
@@ -63,57 +62,46 @@ std::size_t far_in_last(const std::vector<bool>& far) {
 
 }  // namespace
 
-std::string left_out_at_an_end(const JobResult& result) {
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    const std::size_t count = result.streams.at(i).size();
-    std::vector<bool> left_out(count, false);
-    const auto mark = [&](const std::vector<Rejected>& rows) {
-      for (const Rejected& r : rows)
-        if (r.row >= 1 && r.row <= count) left_out[r.row - 1] = true;
-    };
-    mark(result.fits[i].rejected);
-    if (result.diagnoses[i]) mark(result.diagnoses[i]->noise.masked);
-    const std::vector<Pass> passes =
-        count > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
-    for (const Pass& pass : passes) {
-      const std::size_t size = pass.end - pass.begin;
-      const std::size_t last =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
-      const std::size_t first =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
-      if (first + last == 0) continue;
-      return fmt::format(
-          "{}most of the {} {} readings of a pass were left out, because they do not lie where the "
-          "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
-          "and probe again, or take that end out of the stream if the surface ends there",
-          of_reference(result, i), last > 0 ? "last" : "first", last > 0 ? last : first);
-    }
+std::string left_out_at_an_end(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  if (stream.size() == 0) return "";
+  std::vector<bool> left_out(stream.size(), false);
+  for (const auto* rows : {&diagnosis.baseline.rejected, &diagnosis.noise.masked})
+    for (const Rejected& r : *rows)
+      if (r.row >= 1 && r.row <= stream.size()) left_out[r.row - 1] = true;
+  for (const Pass& pass : find_passes(stream)) {
+    const std::size_t size = pass.end - pass.begin;
+    const std::size_t last =
+        left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
+    const std::size_t first =
+        left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
+    if (first + last == 0) continue;
+    return fmt::format(
+        "most of the {} {} readings of a pass were left out, because they do not lie where the "
+        "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
+        "and probe again, or take that end out of the stream if the surface ends there",
+        last > 0 ? "last" : "first", last > 0 ? last : first);
   }
   return "";
 }
 
-std::string far_off_at_the_end(const JobResult& result) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    const std::vector<double>& left_mm = result.diagnoses[i]->residual_after_mm;
-    if (left_mm.size() < 4 * least_end) continue;
-    std::vector<double> there;
-    std::ranges::copy_if(left_mm, std::back_inserter(there),
-                         [](double r) { return std::isfinite(r); });
-    const double sigma_mm = mad_sigma(there);
-    for (const double limit : limits) {
-      std::vector<bool> far(left_mm.size());
-      for (std::size_t k = 0; k < left_mm.size(); ++k)
-        far[k] = !std::isfinite(left_mm[k]) || std::abs(left_mm[k]) > limit * sigma_mm;
-      const std::size_t count = far_in_last(far);
-      if (count == 0) continue;
-      return fmt::format(
-          "{}{} of the last {} readings lie more than {:.0f} σ off, as no other {} do: the part "
-          "may "
-          "have slipped there, and stands elsewhere now. Clamp it again and probe again, or take "
-          "that end out of the stream if the surface ends there",
-          of_reference(result, i), count, least_end, limit, least_end);
-    }
+std::string far_off_at_the_end(const Diagnosis& diagnosis) {
+  const std::vector<double>& left_mm = diagnosis.residual_after_mm;
+  if (left_mm.size() < 4 * least_end) return "";
+  std::vector<double> there;
+  std::ranges::copy_if(left_mm, std::back_inserter(there),
+                       [](double r) { return std::isfinite(r); });
+  const double sigma_mm = mad_sigma(there);
+  for (const double limit : limits) {
+    std::vector<bool> far(left_mm.size());
+    for (std::size_t k = 0; k < left_mm.size(); ++k)
+      far[k] = !std::isfinite(left_mm[k]) || std::abs(left_mm[k]) > limit * sigma_mm;
+    const std::size_t count = far_in_last(far);
+    if (count == 0) continue;
+    return fmt::format(
+        "{} of the last {} readings lie more than {:.0f} σ off, as no other {} do: the part may "
+        "have slipped there, and stands elsewhere now. Clamp it again and probe again, or take "
+        "that end out of the stream if the surface ends there",
+        count, least_end, limit, least_end);
   }
   return "";
 }

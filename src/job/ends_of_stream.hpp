@@ -3,19 +3,19 @@
 
 #include <string>
 
-#include "trueaxis/job.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 
 // A slip near an end of a stream leaves too few readings beside it to be a finding, and where it is
 // the last end the part stands elsewhere now.
 
-/// Of the first reference where outliers gather at an end of a pass. Empty: there is none.
-std::string left_out_at_an_end(const JobResult& result);
+/// That outliers gather at an end of a pass. Empty: they do not.
+std::string left_out_at_an_end(const ProbeStream& stream, const Diagnosis& diagnosis);
 
-/// Of the first reference where several of the last eight readings lie farther off than in any
-/// other eight, and than their share elsewhere makes once in a thousand streams. Empty: there is
-/// none.
-std::string far_off_at_the_end(const JobResult& result);
+/// That several of the last eight readings lie farther off than in any other eight, and than their
+/// share elsewhere makes once in a thousand streams. Empty: they do not.
+std::string far_off_at_the_end(const Diagnosis& diagnosis);
 
 }  // namespace trueaxis

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
 #include "trueaxis/units.hpp"
 
@@ -23,24 +22,6 @@ double length_mm(const ProbeStream& stream) {
   return high - low;
 }
 
-/// A job takes no sphere, and a cylinder through one has an axis that leans anywhere.
-void refuse_a_sphere(const ProbeStream& stream, const FitResult& cone) {
-  constexpr double much_better = 0.1;  // of the residuals
-  if (stream.indication == Indication::relative || list_set_ups(stream).size() > 1) return;
-  FitOptions options;
-  options.surface = SurfaceKind::cylinder;
-  const double rms_mm =
-      cone.status == FitStatus::converged ? cone.rms_mm : fit(stream, options).rms_mm;
-  options.surface = SurfaceKind::sphere;
-  const FitResult sphere = fit(stream, options);
-  if (sphere.status == FitStatus::converged && sphere.rms_mm < much_better * rms_mm)
-    throw InputError(stream.source,
-                     fmt::format("the readings are those of a sphere of radius {:.6g} mm, not of a "
-                                 "cone or cylinder: `trueaxis fit {} --surface sphere` finds it, "
-                                 "and a job takes none; say --surface to have it otherwise",
-                                 sphere.parameter("radius").value, stream.source));
-}
-
 }  // namespace
 
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
@@ -51,7 +32,6 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
   FitOptions options;
   options.surface = SurfaceKind::cone;
   const FitResult cone = fit(stream, options);
-  refuse_a_sphere(stream, cone);
   if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, "taken for a cone"};
   if (cone.status != FitStatus::converged)
     return {SurfaceKind::cylinder,

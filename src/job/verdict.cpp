@@ -12,7 +12,6 @@
 #include "job/cut_files.hpp"
 #include "job/datum_doubts.hpp"
 #include "job/doubts.hpp"
-#include "job/ends_of_stream.hpp"
 #include "job/exchanged.hpp"
 #include "job/proof.hpp"
 #include "job/references.hpp"
@@ -160,18 +159,12 @@ Verdict not_proven(Verdict verdict, const std::string& why) {
 /// Why an axis is not proven whatever its U says, with a cut or without; empty: nothing is in
 /// doubt.
 std::string axis_objection(const JobResult& result) {
-  for (const auto& forbids : {datum_objection, left_out_at_an_end, far_off_at_the_end}) {
-    const bool of_cut = forbids == datum_objection;
-    if (of_cut && !result.correction) continue;
-    if (std::string why = forbids(result); !why.empty()) return why;
-  }
+  if (std::string why = result.correction ? datum_objection(result) : ""; !why.empty()) return why;
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
-    const Diagnosis& diagnosis = *result.diagnoses[i];
-    for (const std::string& why :
-         {left_unnamed(diagnosis), moves_with_axis(result.streams.at(i), diagnosis),
-          few_angles(result.streams.at(i))})
-      if (!why.empty()) return of_reference(result, i) + why;
+    if (const std::string why = why_axis_unknown(result.streams.at(i), *result.diagnoses[i]);
+        !why.empty())
+      return of_reference(result, i) + why;
   }
   return "";
 }

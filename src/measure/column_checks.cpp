@@ -14,10 +14,8 @@ namespace trueaxis {
 namespace {
 
 constexpr double shown_angle_rad = two_pi / 6.0;
-constexpr std::size_t shown_run = 8;
 constexpr double rows_by_chance = 1e-3;
-constexpr double near_steps = 3.0;  // median steps within which a value is where it belongs
-constexpr double often = 0.3;       // share of the rows
+constexpr double often = 0.3;  // share of the rows
 constexpr double many_steps = 10.0;
 constexpr double largest_machine_mm = 20e3;
 
@@ -66,11 +64,7 @@ bool lost_its_point(double value, double expected, double step) {
 std::vector<std::size_t> rows_off_by_tens(const std::vector<double>& column) {
   std::vector<std::size_t> rows;
   if (column.size() < shown_run) return rows;
-  std::vector<double> steps;
-  const std::size_t stride = 1 + column.size() / 2000;
-  for (std::size_t i = 1; i < column.size(); i += stride)
-    steps.push_back(std::abs(column[i] - column[i - 1]));
-  const double step = median(std::move(steps));
+  const double step = usual_step(column);
   if (!(step > 0.0)) return rows;
   for (std::size_t i = 1; i + 1 < column.size(); ++i) {
     const double expected = 0.5 * (column[i - 1] + column[i + 1]);
@@ -90,6 +84,13 @@ bool repeats_row(const ProbeStream& stream, std::size_t i) {
 }
 
 }  // namespace
+
+double usual_step(const std::vector<double>& column) {
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < column.size(); i += 1 + column.size() / 2000)
+    steps.push_back(std::abs(column[i] - column[i - 1]));
+  return steps.empty() ? 0.0 : median(std::move(steps));
+}
 
 std::string stuck_probe(const ProbeStream& stream) {
   if (stream.size() < shown_run) return "";
@@ -196,7 +197,7 @@ std::string lost_decimal_point(const ProbeStream& stream) {
 std::string column_objection(const ProbeStream& stream) {
   if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
   for (const auto& check :
-       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point})
+       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point, unit_changes})
     if (std::string why = check(stream); !why.empty()) return why;
   return "";
 }

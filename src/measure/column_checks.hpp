@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
+
+inline constexpr std::size_t shown_run = 8;  ///< readings that show a pattern
+inline constexpr double near_steps = 3.0;    ///< steps within which a value is where it belongs
+
+/// Median of the steps from row to row; 0: a column of one row.
+double usual_step(const std::vector<double>& column);
 
 /// A run of readings in which X_M stays the same while C turns by 60° and more, longer than chance
 /// makes once in 1000 streams whose neighbours repeat as often as these; empty: there is none.
@@ -23,6 +31,10 @@ std::string no_such_size(const ProbeStream& stream);
 
 /// Two values and more of a column that are a power of ten off both neighbours; empty: none are.
 std::string lost_decimal_point(const ProbeStream& stream);
+
+/// A column that goes on in another unit from one row on: 25.4 or a power of ten times as large,
+/// X_M twice as large or of the other sign, C in radians, all that follows too. Empty: none does.
+std::string unit_changes(const ProbeStream& stream);
 
 /// What of the columns alone speaks against a stream that was read from a file; empty: nothing
 /// does.

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "math/statistics.hpp"
+#include "measure/column_checks.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -35,6 +36,10 @@ double mean_of(const std::vector<double>& column) {
 /// Collects what is wrong with the streams, and what they must have in common.
 class StreamChecks {
  public:
+  void columns(const ProbeStream& stream) {
+    if (std::string why = column_objection(stream); !why.empty()) add(stream, std::move(why));
+  }
+
   void one_place(const ProbeStream& stream) {
     if (!stream.has_position()) return;
     const bool face = stream.kind == StreamKind::face;
@@ -195,6 +200,7 @@ std::vector<RunReadings> take_runs(std::span<const ProbeStream> streams) {
   StreamChecks checks;
   std::vector<RunReadings> runs;
   for (const ProbeStream& stream : streams) {
+    checks.columns(stream);
     checks.one_place(stream);
     checks.one_speed(stream);
     for (const SetUp& set_up : list_set_ups(stream)) {

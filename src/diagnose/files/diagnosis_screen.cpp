@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "diagnose/files/diagnosis_screen.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_screen.hpp"
@@ -64,6 +65,32 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
   return text;
 }
 
+std::string unseen_screen(const Diagnosis& d) {
+  constexpr std::size_t most = 4;
+  const FitResult& fit = d.extended;
+  if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return "";
+  const double U_mm = fit.coverage_factor * std::min(fit.axis.u_at(fit.position_min_mm),
+                                                     fit.axis.u_at(fit.position_max_mm));
+  std::vector<std::string> sizes;
+  for (const NotObservable& n : d.not_observable) {
+    const double per_unit = n.axis_bias_per_unit.value, size = U_mm / per_unit;
+    if (!is_never(n.detectable, n.detectable_unit) || !std::isfinite(per_unit) ||
+        is_never(size, n.detectable_unit) || sizes.size() == most)
+      continue;
+    const bool milli = n.detectable_unit == "s" && size < 1.0;
+    const std::string unit = milli ? "ms" : n.detectable_unit;
+    sizes.push_back((n.detectable_unit == "mm" ? um(size)
+                     : unit == "1"             ? fmt::format("{:.2g}", size)
+                                   : fmt::format("{:.2g} {}", milli ? 1e3 * size : size, unit)) +
+                    " of " + n.effect);
+  }
+  return sizes.empty()
+             ? ""
+             : line("unseen ", fmt::format("{} would move the axis by U, and no size of it "
+                                           "shows in these readings",
+                                           fmt::join(sizes, ", or ")));
+}
+
 std::string excluded_screen(const Diagnosis& d) {
   std::string text;
   for (const Check check : {Check::outliers, Check::interruption})
@@ -76,7 +103,7 @@ std::string diagnosis_screen(const Diagnosis& d) {
   if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
   std::string text = line("", verdict_line(d));
   for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
-  text += findings_screen(d, most_findings) + axis_screen(d.extended);
+  text += findings_screen(d, most_findings) + axis_screen(d.extended) + unseen_screen(d);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += line("check  ", check.text + " [" + check.effect + "]");
   const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));

@@ -117,6 +117,26 @@ void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
   }
 }
 
+/// `spindle_rpm` is signed like C: if C and t always turn against it, one of them is mirrored, and so
+/// is y of the axis.
+void refuse_mistaken_sense(const CsvHeader& header, const ProbeStream& stream,
+                           CsvDiagnostics& diagnostics) {
+  if (!stream.spindle_rpm || *stream.spindle_rpm == 0.0) return;
+  const double sense = *stream.spindle_rpm;
+  double with_rad = 0.0, against_rad = 0.0;
+  for (std::size_t i = 1; i < stream.size(); ++i) {
+    const double turned_rad = stream.c_rad[i] - stream.c_rad[i - 1];
+    (turned_rad * sense > 0.0 ? with_rad : against_rad) += std::abs(turned_rad);
+  }
+  if (with_rad > 0.0 || against_rad < two_pi) return;
+  diagnostics.add(header.line, header.find(CsvRole::angle)->character,
+                  fmt::format("C {} all through, and spindle_rpm {:.4g} says that it {}: the axis "
+                              "would be mirrored if C has the wrong sign. Correct C, or write "
+                              "'# spindle_rpm: {:.4g}'",
+                              sense > 0.0 ? "falls" : "grows", sense,
+                              sense > 0.0 ? "grows" : "falls", -sense));
+}
+
 }  // namespace
 
 bool csv_is_wrapped(const std::vector<double>& c, double turn) {
@@ -176,6 +196,7 @@ void csv_finish(const CsvHeader& header, const CsvMetadataReader& metadata,
   stream.ball_radius_mm = known.ball_radius_mm;
   stream.spindle_rpm = known.spindle_rpm;
   refuse_mistaken_unit(header, stream, diagnostics);
+  refuse_mistaken_sense(header, stream, diagnostics);
   stream.metadata = metadata.metadata;
   take_set_ups(header, known, stream, diagnostics);
 }

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fit/moved.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/turn_centres.hpp"
+
+namespace trueaxis {
+namespace {
+
+/// U of the axis at the end where it is larger; of a plane what its tilt makes there.
+double U_of_axis_mm(const FitResult& fit) {
+  const double outer_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
+  const auto& covariance = fit.axis.covariance;
+  const double u_mm =
+      fit.surface == SurfaceKind::plane
+          ? outer_mm * std::sqrt(covariance[10] + covariance[15])
+          : std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
+  return fit.coverage_factor * u_mm;
+}
+
+}  // namespace
+
+std::string moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
+                          const FitResult& fit) {
+  if (!fit.axis_known() || left_mm.size() != stream.size()) return "";
+  const auto step = find_centre_step(turn_centres(stream, left_mm));
+  return step && step->size_mm > U_of_axis_mm(fit) ? moved_text(*step) : "";
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "trueaxis/probe_stream.hpp"
+
+namespace trueaxis {
+
+/// Where the centre of one turn, or of a few if a turn has few readings, lies: the cosine and sine
+/// of its values.
+struct TurnCentre {
+  std::size_t begin = 0, end = 0;  ///< readings [begin, end)
+  int run = 0;                     ///< turns of one sense that follow upon each other
+  double position_mm = 0.0;        ///< mean of Z (of X of a face)
+  double x_mm = 0.0, y_mm = 0.0;
+};
+
+struct TurnCentres {
+  std::vector<TurnCentre> list;
+  double sigma_mm = 0.0;  ///< by which the values of a turn scatter about it
+  double u_mm = 0.0;      ///< of x and of y of one that follows
+};
+
+/// The centres of all turns of `value_mm`, one a reading: what a fit leaves, or the readings.
+/// Values that are not finite do not count. Lobes move none of them, and count in u.
+TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> value_mm);
+
+/// By how much the centres scatter beyond their u, √(χ²/ν) (Birge 1932); 1 if chance does so once
+/// in 1000 streams. Eq. 313.
+/// @param lines what a fit took out of the centres: parameters
+double centres_spread(const TurnCentres& centres, std::size_t parameters);
+
+/// A part that moved at one reading.
+struct CentreStep {
+  std::size_t reading = 0;  ///< the first after it, to a turn
+  double size_mm = 0.0;
+};
+
+/// The step after which the centres lie on another line, where it explains three quarters of their
+/// scatter about one line, and more than a bend with as many parameters does (Eq. 314). None: the
+/// centres lie on one line, or on a curve.
+std::optional<CentreStep> find_centre_step(const TurnCentres& centres);
+
+/// What it says to a user, and what to do.
+std::string moved_text(const CentreStep& step);
+
+}  // namespace trueaxis
