@@ -102,14 +102,17 @@ TEST_F(WholePath, ItsPiecesStayWithinTheToleranceAndTurnNothing) {
     const BcTrunnion bc(folder_);
     const auto was = PlainControl(pocket).moves;
     double largest = 0.0;
+    std::ptrdiff_t pieces = 0;
     for (const PlainMove& piece : PlainControl(read_text(folder_ / "out.nc")).moves) {
       if (piece.rapid) continue;
+      ++pieces;
       // The block that the piece is of is the nearest.
       double least = 1e9;
       for (const PlainMove& block : was)
         if (!block.rapid) least = std::min(least, bc.off_mm(block, piece.from, piece.to));
       largest = std::max(largest, least);
     }
+    EXPECT_GT(pieces, std::ranges::count(was, false, &PlainMove::rapid));
     EXPECT_LE(largest, 1.01 * 0.4e-3) << seed;
     EXPECT_GT(result("r.json").at("blocks").at("inserted"), 0);
   }
@@ -126,10 +129,12 @@ TEST_F(WholePath, ArcsToo) {
     const BcTrunnion bc(folder_);
     const auto was = PlainControl(corners).moves;
     double before = 0.0, after = 0.0;
+    std::ptrdiff_t chords = 0;
     for (const PlainMove& block : was)
       if (!block.rapid) before = std::max(before, bc.off_mm(block, block.from, block.to));
     for (const PlainMove& chord : PlainControl(read_text(folder_ / "out.nc")).moves) {
       if (chord.rapid) continue;
+      ++chords;
       for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         AxisPositions q;
         for (std::size_t k = 0; k < axis_count; ++k)
@@ -142,6 +147,7 @@ TEST_F(WholePath, ArcsToo) {
         after = std::max(after, least);
       }
     }
+    EXPECT_GE(chords, std::ranges::count(was, false, &PlainMove::rapid));
     EXPECT_LT(after, 1e-3 + 1.01 * value_of(result("r.json").at("whole_path").at("after")));
     EXPECT_LT(after, before);
   }

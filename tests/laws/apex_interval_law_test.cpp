@@ -90,6 +90,11 @@ TEST_P(ApexInterval, HoldsTheApex) {
       for (std::size_t j = 0; j < expected.size(); ++j)
         inside[result.parameters[j].name] += holds(result.parameters[j].estimate, expected[j]);
     }
+    // As many are told from a cylinder as a normal law has beyond the threshold.
+    EXPECT_GE(count,
+              quantile(boost::math::binomial(static_cast<double>(streams), 1.0 - not_told - within),
+                       level));
+    EXPECT_EQ(inside.size(), expected.size());
     std::cout << noise.name << ", " << away << " u, seeds " << first_seed << " on, " << count
               << " told:";
     for (const auto& [name, hits] : inside) {

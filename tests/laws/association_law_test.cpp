@@ -124,6 +124,7 @@ double imbalance(const AssociatedFeature& of, const std::vector<Point3>& points)
 }
 
 TEST(AssociationLaw, ContactsAreInEquilibriumAndNoPointIsBeyond) {
+  int compared = 0;
   for (const Element element : all_elements) {
     for (const Criterion criterion : extremes) {
       if (!association_objection(element, criterion).empty()) continue;
@@ -150,12 +151,15 @@ TEST(AssociationLaw, ContactsAreInEquilibriumAndNoPointIsBeyond) {
         if (criterion != Criterion::minimum_zone) {  // the size is that of the points it rests on
           EXPECT_NEAR(criterion == Criterion::maximum_inscribed ? low : high, 0.0, 1e-12);
         }
+        ++compared;
       }
     }
   }
+  EXPECT_EQ(compared, 6 * (7 + 2 * 4));  // seeds; zones of all, sizes of those that have one
 }
 
 TEST(AssociationLaw, TheSameElementInAnotherFrameUnitAndOrder) {
+  int compared = 0;
   for (const Element element : all_elements) {
     for (std::size_t c = 0; c < criterion_names.size(); ++c) {
       const auto criterion = static_cast<Criterion>(c);
@@ -192,12 +196,15 @@ TEST(AssociationLaw, TheSameElementInAnotherFrameUnitAndOrder) {
         if (std::isfinite(a.feature.half_angle_rad)) {
           EXPECT_NEAR(b.feature.half_angle_rad, a.feature.half_angle_rad, 1e-10);
         }
+        ++compared;
       }
     }
   }
+  EXPECT_EQ(compared, 3 * (7 + 7 + 2 * 4 + 6));  // scales; Gaussian, zones, sizes, one side
 }
 
 TEST(AssociationLaw, ExactPointsGiveTheElementBack) {
+  int compared = 0;
   for (const Element element : all_elements) {
     for (std::size_t c = 0; c < criterion_names.size(); ++c) {
       const auto criterion = static_cast<Criterion>(c);
@@ -209,8 +216,10 @@ TEST(AssociationLaw, ExactPointsGiveTheElementBack) {
       const AssociatedFeature got = associate(points, element, criterion);
       ASSERT_EQ(got.status, AssociationStatus::converged) << got.why;
       EXPECT_LE(got.zone_mm, 1e-12);  // a hundred roundings of 100 mm
+      ++compared;
     }
   }
+  EXPECT_EQ(compared, 7 + 7 + 2 * 4 + 6);
 }
 
 /// All that a best circle of the plane may rest on: its centre is equally far from two pairs.

@@ -57,6 +57,7 @@ TEST_P(AxisBiasLaw, LatheGoesToTheProjectionAsTheSizeGoesToZero) {
 // What rounds grows as the uncertainty does.
 TEST_P(AxisBiasLaw, TheExtendedModelHasNoFirstOrderLeft) {
   const Scenario scenario = reference(GetParam());
+  int separable = 0;
   for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
     SCOPED_TRACE(one.effect + " " + one.form);
     const AxisBiasRow row = axis_bias_of(scenario, one);
@@ -73,7 +74,10 @@ TEST_P(AxisBiasLaw, TheExtendedModelHasNoFirstOrderLeft) {
     EXPECT_LE(row.extended, 0.01 * std::max(row.predicted, 1e-3 / one.edge) + contacts);
     // A model with more to fit knows the axis less; 1 % for the axis' own place in the basis.
     EXPECT_GE(row.u_ratio, 0.99);
+    ++separable;
   }
+  // What goes around otherwise than once is no axis: of each part many effects are such.
+  EXPECT_GE(separable, 10);
 }
 
 // A gauge whose nominal radius is off by 0.137 mm (a whole period of the cyclic case) misses the
@@ -179,14 +183,17 @@ TEST(AxisBiasGeometry, FiguresOfTheCatalogue) {
                  {"probe.ball_radius", "", 1e-7},
                  {"part.bow", "from the lower end", 5e-3},
                  {"part.slip", "radial, at two thirds", 5e-3}};
+  std::size_t compared = 0;
   for (const AxisBiasCase& one : axis_bias_cases(scenario)) {
     for (const auto& figure : figures) {
       if (one.effect != figure.effect || one.form != figure.form) continue;
       ASSERT_TRUE(one.stated.has_value()) << one.effect;
       EXPECT_NEAR(axis_bias_of(scenario, one).limit, *one.stated, figure.half_a_digit)
           << one.effect;
+      ++compared;
     }
   }
+  EXPECT_EQ(compared, std::size(figures));
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ TEST_P(CorrelatedNoise, IsWithinU) {
         count({"radius_mid", result.parameter("radius_mid")},
               c.radius_mm + std::tan(c.half_angle_rad()) * beyond_mm);
       }
+      EXPECT_EQ(inside.size(), expected.size() + (surface == "cone" ? 1 : 0));
       std::cout << noise.name << ", " << surface << (two_passes ? ", two passes" : ", one pass")
                 << ", seeds " << first_seed << " on:";
       for (const auto& [name, hits] : inside) {

@@ -149,6 +149,7 @@ TEST(MachineCompensationLaw, WithoutErrorsNothingMoves) {
 // Δq is linear in all errors; its difference from the exact change is of second order, so that
 // errors of half the size leave a quarter (an eighth of the rest: 5 % at 50 µrad).
 TEST(MachineCompensationLaw, DifferentialIsProportionalAndAQuarterIsLeft) {
+  std::size_t compensated = 0, of_second_order = 0;
   for (const Layout& layout : layouts()) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
       AxisPositions full{}, half{};
@@ -167,14 +168,18 @@ TEST(MachineCompensationLaw, DifferentialIsProportionalAndAQuarterIsLeft) {
       }
       for (std::size_t k = 0; k < axis_count; ++k)
         EXPECT_NEAR(half[k], 0.5 * full[k], 3e-13) << layout.name << " seed " << seed;
+      compensated += full != AxisPositions{} && half != AxisPositions{};
       // Where the second order stands above rounding and the change is no part of a turn.
       const double turn = std::max({std::fabs(full[3]), std::fabs(full[4]), std::fabs(full[5])});
       if (left[0] > 1e-8 && turn < 1e-3) {
         EXPECT_NEAR(left[1] / left[0], 0.25, 0.05) << layout.name << " seed " << seed;
         EXPECT_LT(left[0], 0.05 * size) << layout.name << " seed " << seed;
+        ++of_second_order;
       }
     }
   }
+  EXPECT_GE(compensated, 5 * layouts().size());  // of ten draws each, the pole left out
+  EXPECT_GE(of_second_order, layouts().size());
 }
 
 // Six axes: of all rotary positions with this direction the result has the least rotary change. The

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <regex>
+#include <set>
 
 #include "associate/files/association_files.hpp"
 #include "form/files/form_qif.hpp"
@@ -178,10 +179,24 @@ PointText points_near(Element element) {
   return out;
 }
 
-class QifElement : public ::testing::TestWithParam<Element> {};
+/// What QIF 3.0 has of each element beside its place: the child that says its direction, its sizes.
+struct Written {
+  Element element;
+  std::string direction;
+  std::set<std::string> sizes;
+};
+const Written written[] = {{Element::line, "Direction", {}},
+                           {Element::circle, "Normal", {"Diameter"}},
+                           {Element::plane, "Normal", {}},
+                           {Element::sphere, "", {"Diameter"}},
+                           {Element::cylinder, "Direction", {"Diameter"}},
+                           {Element::cone, "Direction", {"Diameter", "HalfAngle"}},
+                           {Element::torus, "AxisVector", {"MajorDiameter", "MinorDiameter"}}};
+
+class QifElement : public ::testing::TestWithParam<Written> {};
 
 TEST_P(QifElement, IsAMeasuredFeatureWithItsPlaceAndSize) {
-  const Element element = GetParam();
+  const Element element = GetParam().element;
   const PointText points = points_near(element);
   const AssociatedFeature of = associate(points.points_mm, element, Criterion::gaussian);
   ASSERT_EQ(of.status, AssociationStatus::converged) << of.why;
@@ -200,11 +215,14 @@ TEST_P(QifElement, IsAMeasuredFeatureWithItsPlaceAndSize) {
     expect_near(vector(at), of.feature.point_mm);
     EXPECT_NEAR(number(at.attribute("yCombinedUncertainty")), of.u.point_mm[1], last_digit);
   }
-  for (const char* direction : {"Direction", "Normal", "AxisVector"})
+  for (const char* direction : {"Direction", "Normal", "AxisVector"}) {
+    ASSERT_EQ(!place.child(direction).empty(), GetParam().direction == direction) << direction;
     if (place.child(direction)) {
       expect_near(vector(place.child(direction)), of.feature.direction);
     }
+  }
   const auto expect = [&](const char* name, double value, double u) {
+    ASSERT_EQ(!feature.child(name).empty(), GetParam().sizes.contains(name)) << name;
     if (!feature.child(name)) return;
     EXPECT_NEAR(number(feature.child(name)), value, last_digit) << name;
     EXPECT_NEAR(number(feature.child(name).attribute("combinedUncertainty")), u, last_digit)
@@ -217,19 +235,16 @@ TEST_P(QifElement, IsAMeasuredFeatureWithItsPlaceAndSize) {
   if (feature.child("Form")) {
     EXPECT_NEAR(number(feature.child("Form")), of.zone_mm, last_digit);
   }
+  EXPECT_EQ(!feature.child("HalfAngle").empty(), element == Element::cone);
   if (element == Element::cone) {  // degrees; 1 µm over 24 mm is 0.0024°
     EXPECT_NEAR(number(feature.child("HalfAngle")), std::atan(0.2) * 180.0 / std::numbers::pi,
                 0.01);
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, QifElement,
-                         ::testing::Values(Element::line, Element::circle, Element::plane,
-                                           Element::sphere, Element::cylinder, Element::cone,
-                                           Element::torus),
-                         [](const auto& one) {
-                           return element_names[static_cast<std::size_t>(one.param)];
-                         });
+INSTANTIATE_TEST_SUITE_P(All, QifElement, ::testing::ValuesIn(written), [](const auto& one) {
+  return element_names[static_cast<std::size_t>(one.param.element)];
+});
 
 TEST(Qif, ACylinderBeginsAtItsFirstPointAndEndsAtItsLast) {
   const PointText points = points_near(Element::cylinder);

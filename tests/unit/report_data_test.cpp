@@ -288,8 +288,23 @@ TEST(ReportData, EmptyPartsStayQuiet) {
   JobResult result = example::cone_job(100);
   result.correction->rows = {};
   result.streams.front() = {};
-  EXPECT_NO_THROW(render_report(result));
-  EXPECT_NO_THROW(render_report(JobResult{}));
+  const json data = report_data(result);
+  EXPECT_EQ(data["correction"]["turns"], json::array());
+  EXPECT_FALSE(data["correction"].contains("map"));
+  const json& readings = data["references"].at(0)["readings"];
+  EXPECT_EQ(readings["count"], 0);
+  EXPECT_TRUE(readings["histogram"].is_null());
+  EXPECT_EQ(readings["sections"], json::array());
+  const json nothing = report_data(JobResult{});
+  EXPECT_EQ(nothing["references"], json::array());
+  EXPECT_FALSE(nothing.contains("correction"));
+  for (const JobResult& one : {result, JobResult{}}) {
+    const std::string page = render_report(one);
+    EXPECT_NE(page.find(escape_html(one.verdict.line)), std::string::npos);
+    EXPECT_EQ(count(page, "<html"), 1u);
+    EXPECT_EQ(count(page, "</html>"), 1u);
+    EXPECT_EQ(count(page, ">nan"), 0u);
+  }
 }
 
 TEST(Thinning, CellsAreMeansAndBlanks) {

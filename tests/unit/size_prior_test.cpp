@@ -45,6 +45,7 @@ Weighed weighed(double gram, double a_hat, double median, double spread) {
 // Nine scales a spread apart stand for the integral over all: 2 ln of their sum is off by tenths
 // where the data choose one scale, and by what the tail is heavier beyond three spreads.
 TEST(SizePrior, TheMarginalLikelihoodIsTheIntegral) {
+  int compared = 0;
   for (const double spread : {1.0, 1.4}) {
     for (const double a_hat : {0.0, 0.05, 0.2, 1.0, 3.0, 8.0}) {
       for (const double gram : {1e-2, 1.0, 1e2, 1e4}) {
@@ -52,9 +53,11 @@ TEST(SizePrior, TheMarginalLikelihoodIsTheIntegral) {
         EXPECT_NEAR(weighed(gram, a_hat, 0.5, spread).criterion,
                     by_quadrature(gram, a_hat, 0.5, spread), 0.5)
             << "a " << a_hat << ", gram " << gram << ", spread " << spread;
+        ++compared;
       }
     }
   }
+  EXPECT_EQ(compared, 2 * (3 * 4 + 3 + 2 + 2));  // spreads; of each a those within
 }
 
 TEST(SizePrior, WhatTheDataDoNotDetermineShrinksAndWhatTheyDoStays) {
