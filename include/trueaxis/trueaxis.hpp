@@ -8,7 +8,9 @@
 #include "trueaxis/association.hpp"        // an element through Cartesian points
 #include "trueaxis/calibration.hpp"        // errors of a machine from measurements on it
 #include "trueaxis/compensation.hpp"       // a program rewritten for a machine with errors
+#include "trueaxis/control_table.hpp"      // a correction in the forms that controls read
 #include "trueaxis/correction.hpp"         // target axis, correction table, actuator
+#include "trueaxis/datum_axis.hpp"         // the axis of a datum by another association
 #include "trueaxis/diagnosis.hpp"          // what the ideal surface misses
 #include "trueaxis/effect.hpp"             // the catalogue of effects
 #include "trueaxis/effect_term.hpp"        // the terms that it knows, and columns of them
@@ -22,6 +24,7 @@
 #include "trueaxis/machine_job.hpp"        // measurements in, errors, verdict and program out
 #include "trueaxis/part_form.hpp"          // form without what is not of the part
 #include "trueaxis/probe_stream.hpp"       // the readings
+#include "trueaxis/program_harm.hpp"       // what a diagnosis of a machine means on a program
 #include "trueaxis/resimulation.hpp"       // the diagnosed part measured again
 #include "trueaxis/spindle.hpp"            // part and spindle separated
 #include "trueaxis/study.hpp"              // repeats against the Cramér-Rao bound

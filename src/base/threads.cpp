@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -34,7 +35,11 @@ void for_each_index_with(std::size_t count, int threads, const std::function<Ind
     }
   };
   std::vector<std::thread> helpers;
-  for (std::size_t t = threads_for(threads, count); t > 1; --t) helpers.emplace_back(loop);
+  try {
+    for (std::size_t t = threads_for(threads, count); t > 1; --t) helpers.emplace_back(loop);
+  } catch (const std::system_error&) {
+    // The system gives no more threads: those that run do the work.
+  }
   loop();
   for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);

@@ -36,12 +36,12 @@ struct Options {
   bool force = false, verbose = false, check = false;
 };
 
-std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program) {
-  std::vector<CompensationInput> inputs{
-      {options.program, content_hash(program)},
-      {options.machine.machine, content_hash(read_file(options.machine.machine))}};
-  for (const std::string& path : options.machine.errors)
-    inputs.push_back({path, content_hash(read_file(path))});
+std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program,
+                                         const MachineFile& machine, const ErrorsOfFiles& errors) {
+  std::vector<CompensationInput> inputs{{options.program, content_hash(program)},
+                                        {options.machine.machine, machine.hash}};
+  for (std::size_t i = 0; i < errors.hashes.size(); ++i)
+    inputs.push_back({options.machine.errors[i], errors.hashes[i]});
   return inputs;
 }
 
@@ -72,7 +72,7 @@ int execute(const Options& options) {
   }
   of_files = options.machine.read_errors_of(machine);
   const MachineModel model(machine.machine, of_files.errors);
-  const std::vector<CompensationInput> inputs = inputs_of(options, text);
+  const std::vector<CompensationInput> inputs = inputs_of(options, text, machine, of_files);
   CompensationOptions task = options.compensation;
   if (options.method == "differential") task.method = CompensationMethod::differential;
   if (options.rotary == "all") task.rotary = RotaryUse::all;

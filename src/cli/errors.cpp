@@ -65,7 +65,7 @@ int execute(const Options& options) {
   if (options.format == "toml" && !options.output_sign.empty())
     throw CLI::ValidationError("--output-sign", "is of --format etalon or isg");
   const MachineFile file = options.machine.read_machine();
-  const auto [errors, remarks] = options.machine.read_errors_of(file);
+  const auto [errors, hashes, remarks] = options.machine.read_errors_of(file);
   const AxisPositions at = positions_of(options.at, file.machine);
   Outputs outputs(options.force);
   outputs.reads(options.machine.machine);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/form.hpp"
 
-#include <charconv>
 #include <iostream>
 #include <memory>
 
 #include "associate/files/association_files.hpp"
+#include "base/number.hpp"
 #include "cli/commands.hpp"
 #include "cli/form_tolerance.hpp"
 #include "cli/guarded.hpp"
@@ -39,8 +39,7 @@ void parse_band(const std::string& text, FormOptions& form) {
   };
   const auto number = [&](std::string_view part) {
     double value = 0.0;
-    const auto [end, wrong] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (wrong != std::errc{} || end != part.data() + part.size()) refuse();
+    if (!parse_number(part, value)) refuse();
     return value;
   };
   const std::size_t dash = text.find('-');

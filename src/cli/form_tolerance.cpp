@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <sstream>
 
+#include "base/number.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/error.hpp"
 
@@ -39,10 +39,8 @@ std::vector<FormTolerance> parse_form_tolerances(const std::string& text) {
   for (std::string part; std::getline(parts, part, ',');) {
     const std::size_t equals = part.find('=');
     double um = 0.0;
-    const char* end = part.data() + part.size();
-    const char* from = equals == std::string::npos ? end : part.data() + equals + 1;
-    const auto [stop, wrong] = std::from_chars(from, end, um);
-    if (equals == 0 || wrong != std::errc{} || stop != end || !(um > 0.0) || !std::isfinite(um))
+    if (equals == 0 || equals == std::string::npos ||
+        !parse_number(std::string_view(part).substr(equals + 1), um) || !(um > 0.0))
       throw CLI::ValidationError("--tolerance-um", part + " is no tolerance such as RONt=2");
     list.push_back({part.substr(0, equals), um * mm_per_um});
   }

@@ -95,10 +95,9 @@ MachineJobResult as_job(const MachineDiagnosed& run, const Read& read,
   job.data = read.data;
   job.false_alarm = run.false_alarm;
   job.name = read.file.machine.name;
-  job.inputs.push_back(
-      {"machine", run.machine.machine, content_hash(read_file(run.machine.machine))});
-  for (const std::string& path : run.machine.errors)
-    job.inputs.push_back({"errors known before", path, content_hash(read_file(path))});
+  job.inputs.push_back({"machine", run.machine.machine, read.file.hash});
+  for (std::size_t i = 0; i < run.machine.errors.size(); ++i)
+    job.inputs.push_back({"errors known before", run.machine.errors[i], read.given.hashes[i]});
   for (const MachineMeasurement& one : read.data) {
     job.inputs.push_back({"measurement", one.source, one.input_hash});
     job.path += (job.path.empty() ? "" : ", ") + one.source;

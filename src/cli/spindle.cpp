@@ -2,12 +2,12 @@
 #include "trueaxis/spindle.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "base/number.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -49,12 +49,11 @@ struct Options {
 
 /// "2-100"; empty where it is no range of orders from 2 to 1000.
 std::optional<OrderRange> parse_orders(const std::string& text) {
-  OrderRange range;
-  const char *begin = text.data(), *end = begin + text.size();
-  const auto [dash, wrong] = std::from_chars(begin, end, range.low);
-  if (wrong != std::errc{} || dash == end || *dash != '-') return std::nullopt;
-  const auto [stop, also_wrong] = std::from_chars(dash + 1, end, range.high);
-  if (also_wrong != std::errc{} || stop != end) return std::nullopt;
+  const std::size_t dash = text.find('-');
+  if (dash == std::string::npos) return std::nullopt;
+  const std::string_view whole = text;
+  const OrderRange range{whole_number<int>(whole.substr(0, dash)).value_or(0),
+                         whole_number<int>(whole.substr(dash + 1)).value_or(0)};
   if (range.low < 2 || range.high < range.low || range.high > 1000) return std::nullopt;
   return range;
 }

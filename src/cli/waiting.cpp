@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <system_error>
 #include <utility>
 
 #include "format/text_layout.hpp"
@@ -34,7 +35,12 @@ std::string cut_to(std::string text, std::size_t to) {
 }  // namespace
 
 Waiting::Waiting(std::string doing) : doing_(std::move(doing)) {
-  if (::isatty(STDERR_FILENO) == 1) thread_ = std::thread([this] { show(); });
+  if (::isatty(STDERR_FILENO) != 1) return;
+  try {
+    thread_ = std::thread([this] { show(); });
+  } catch (const std::system_error&) {
+    // Without a thread nothing is shown, and the work goes on.
+  }
 }
 
 void Waiting::show() {

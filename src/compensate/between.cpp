@@ -233,8 +233,9 @@ std::vector<nc::AxisValues> BlockPath::split(double tolerance_mm, double& deviat
     for (const double one : deviations_mm)
       asked += std::sqrt((must_be_equal ? deviation_mm : one) / tolerance_mm);
     // Deviations of pieces of another size are a guess: a little more in each round.
-    const auto count = static_cast<std::size_t>(std::ceil((1.0 + 0.01 * i) * asked));
-    if (count > most_pieces) break;
+    const double pieces_asked = std::ceil((1.0 + 0.01 * i) * asked);
+    if (!(pieces_asked <= static_cast<double>(most_pieces))) break;
+    const auto count = static_cast<std::size_t>(pieces_asked);
     ends = must_be_equal ? equal(count) : evened(ends, deviations_mm, count);
     Tally of_pieces;
     Pieces pieces = cut(ends, 0.9 * tolerance_mm, of_pieces);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "form/exchange.hpp"
@@ -75,17 +76,15 @@ std::vector<std::vector<std::size_t>> by_position(const ProbeStream& stream) {
 
 /// Whole turns of C from the first reading on; what is left at the end is no section.
 std::vector<std::vector<std::size_t>> by_turns(const ProbeStream& stream) {
-  std::vector<std::vector<std::size_t>> turns;
+  std::map<double, std::vector<std::size_t>> by_turn;  // of a C that jumps far, few of many turns
   const double from = stream.c_rad.front();
-  for (std::size_t i = 0; i < stream.size(); ++i) {
-    const auto turn = static_cast<std::size_t>(std::abs(stream.c_rad[i] - from) / two_pi + 1e-9);
-    if (turn >= turns.size()) turns.resize(turn + 1);
-    turns[turn].push_back(i);
-  }
+  for (std::size_t i = 0; i < stream.size(); ++i)
+    by_turn[std::floor(std::abs(stream.c_rad[i] - from) / two_pi + 1e-9)].push_back(i);
   const double whole = std::abs(stream.c_rad.back() - from) / two_pi;
   const double step = whole / static_cast<double>(stream.size() - 1);
-  if (whole + step + 1e-6 < static_cast<double>(turns.size())) turns.pop_back();
-  std::erase_if(turns, [](const auto& turn) { return turn.empty(); });
+  if (whole + step + 1e-6 < by_turn.rbegin()->first + 1.0) by_turn.erase(by_turn.rbegin()->first);
+  std::vector<std::vector<std::size_t>> turns;
+  for (auto& [turn, readings] : by_turn) turns.push_back(std::move(readings));
   return turns;
 }
 

@@ -6,35 +6,53 @@
 #include <unistd.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iostream>
-#include <iterator>
 
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
-constexpr std::uintmax_t largest_at_once = std::uintmax_t{1} << 33;
+namespace {
+
+[[noreturn]] void cannot_be_read(const std::string& path) {
+  throw InputError(path, std::string("cannot be read (") + std::strerror(errno) +
+                             "): name a file that can be read");
+}
+
+}  // namespace
+
+ByteSource::ByteSource(const std::string& path) : path_(path) {
+  if (path == "-") return;
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::is_directory(status)) throw InputError(path, "is a folder: name a file");
+  own_.reset(std::fopen(path.c_str(), "rbe"));
+  if (!own_) cannot_be_read(path);
+  if (!std::filesystem::is_regular_file(status)) return;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error) size_ = size;
+}
+
+std::size_t ByteSource::read(char* to, std::size_t room) {
+  std::FILE* const file = own_ ? own_.get() : stdin;
+  const std::size_t got = std::fread(to, 1, room, file);
+  if (std::ferror(file) != 0) cannot_be_read(path_);
+  return got;
+}
 
 std::string read_file(const std::string& path) {
-  if (path == "-") return {std::istreambuf_iterator<char>(std::cin), {}};
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error))
-    throw InputError(path, "is a folder: name a file");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw InputError(path, std::string("cannot be read (") + std::strerror(errno) + ")");
-  std::string text;
-  std::error_code no_size;  // of a pipe; and what has one may have more by now
-  if (const auto size = std::filesystem::file_size(path, no_size);
-      !no_size && size < largest_at_once) {
-    text.resize(size);
-    in.read(text.data(), static_cast<std::streamsize>(size));
-    text.resize(static_cast<std::size_t>(in.gcount()));
+  constexpr std::size_t largest_at_once = std::size_t{1} << 33U, more = std::size_t{1} << 20U;
+  ByteSource source(path);
+  std::string text(std::min(source.size(), largest_at_once) + 1, '\0');  // a byte shows the end
+  std::size_t filled = 0;
+  while (const std::size_t got = source.read(text.data() + filled, text.size() - filled)) {
+    filled += got;
+    if (filled == text.size()) text.resize(filled + std::max(filled / 2, more));
   }
-  text.append(std::istreambuf_iterator<char>(in), {});
+  text.resize(filled);
   return text;
 }
 

@@ -3,13 +3,33 @@
 
 #include <sys/types.h>
 
+#include <cstdio>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace trueaxis {
 
-/// The whole file, or standard input for "-". @throws InputError when it cannot be read.
+/// An open file, or standard input for "-", read from its beginning to its end.
+/// @throws InputError where it cannot be opened, and where reading it fails on the way
+class ByteSource {
+ public:
+  explicit ByteSource(const std::string& path);
+  /// Up to `room` bytes; 0 at the end.
+  std::size_t read(char* to, std::size_t room);
+  std::size_t size() const { return size_; }  ///< 0 where it is not known
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> own_;  ///< none: standard input
+  std::size_t size_ = 0;
+};
+
+/// The whole file, or standard input for "-". @throws InputError as ByteSource does
 std::string read_file(const std::string& path);
 
 /// "xxh3-64:<16 hex digits>" of `bytes`.

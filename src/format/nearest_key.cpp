@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "base/edit_distance.hpp"
-#include "format/toml_units.hpp"
+#include "format/units.hpp"
 
 namespace trueaxis {
 namespace {

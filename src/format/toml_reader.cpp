@@ -14,8 +14,8 @@
 
 #include "format/file.hpp"
 #include "format/nearest_key.hpp"
-#include "format/toml_units.hpp"
 #include "format/toml_words.hpp"
+#include "format/units.hpp"
 
 namespace trueaxis {
 

@@ -10,12 +10,21 @@ namespace trueaxis {
 inline constexpr std::size_t most_numbers = std::size_t{1} << 28U;
 inline constexpr std::size_t most_bytes = 8 * most_numbers;
 
-/// rows x columns where that is no more than `most_numbers`. @throws InputError
-std::size_t number_count(const std::string& path, const std::string& name, std::size_t rows,
-                         std::size_t columns);
+/// What is left of `most_numbers` for the arrays of one file.
+class NumberBudget {
+ public:
+  explicit NumberBudget(const std::string& path) : path_(path) {}
+  /// rows x columns, taken from what is left. @throws InputError if it is more
+  std::size_t take(const std::string& name, std::size_t rows, std::size_t columns);
+
+ private:
+  const std::string& path_;
+  std::size_t left_ = most_numbers;
+};
 
 // Each reads its format; is_… has seen to it that the bytes begin as one.
-NumberArray read_npy(const std::string& path, const std::string& name, std::string_view bytes);
+NumberArray read_npy(const std::string& path, const std::string& name, std::string_view bytes,
+                     NumberBudget& budget);
 NumberFile read_npz(const std::string& path, const std::string& bytes);
 NumberFile read_hdf5(const std::string& path, const std::string& bytes);
 NumberFile read_matlab(const std::string& path, const std::string& bytes);

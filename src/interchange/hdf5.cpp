@@ -63,7 +63,7 @@ std::string elsewhere(hid_t set) {
 
 class Hdf5 {
  public:
-  explicit Hdf5(const std::string& path) : path_(path) {
+  explicit Hdf5(const std::string& path) : path_(path), budget_(path) {
     file_.kind = "an HDF5 file";
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what is wrong is said by this project
   }
@@ -88,7 +88,7 @@ class Hdf5 {
   }
 
  private:
-  NumberArray data_set(hid_t file, const std::string& name) const {
+  NumberArray data_set(hid_t file, const std::string& name) {
     NumberArray array;
     array.name = name;
     const auto fail = [&](const std::string& why) {
@@ -117,7 +117,7 @@ class Hdf5 {
     array.columns = extent[1];
     array.unit = text_attribute(set, "units");
     if (array.unit.empty()) array.unit = text_attribute(set, "unit");
-    array.values.resize(number_count(path_, name, array.rows, array.columns));
+    array.values.resize(budget_.take(name, array.rows, array.columns));
     if (!array.values.empty() &&
         H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0)
       fail("cannot be read: it is cut off, its check sum does not agree, or a filter is missing");
@@ -125,6 +125,7 @@ class Hdf5 {
   }
 
   const std::string& path_;
+  NumberBudget budget_;
   NumberFile file_;
   std::vector<std::string> names_;
 };

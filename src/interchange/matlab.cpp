@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <matio.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <stdexcept>
 
 #include "interchange/formats.hpp"
 #include "trueaxis/error.hpp"
@@ -63,7 +66,27 @@ bool copy_numbers(const matvar_t& of, NumberArray& to) {
   }
 }
 
-NumberArray variable(const std::string& path, mat_t* file, matvar_t& of) {
+/// A file of these bytes in memory: the library reads files only, and what was hashed is read.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::string_view bytes) : descriptor_(::memfd_create("matlab", MFD_CLOEXEC)) {
+    while (descriptor_ >= 0 && !bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written <= 0) break;
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    if (!bytes.empty()) throw std::runtime_error("no memory for a copy of a MATLAB file");
+  }
+  ~MemoryFile() { ::close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
+
+NumberArray variable(const std::string& path, mat_t* file, matvar_t& of, NumberBudget& budget) {
   NumberArray array;
   array.name = of.name == nullptr ? "" : of.name;
   const bool numbers = of.class_type >= MAT_C_DOUBLE && of.class_type <= MAT_C_UINT64;
@@ -78,7 +101,7 @@ NumberArray variable(const std::string& path, mat_t* file, matvar_t& of) {
   if (!array.unusable.empty()) return array;
   array.rows = of.dims[0];
   array.columns = of.dims[1];
-  const std::size_t count = number_count(path, array.name, array.rows, array.columns);
+  const std::size_t count = budget.take(array.name, array.rows, array.columns);
   if (count > 0 && (Mat_VarReadDataAll(file, &of) != 0 || of.data == nullptr ||
                     of.nbytes != count * static_cast<std::size_t>(of.data_size)))
     throw InputError(path, "its variable " + array.name + " cannot be read: copy the file again");
@@ -93,7 +116,7 @@ NumberFile read_matlab_hdf5(const std::string& path, const std::string& bytes) {
   NumberFile file = read_hdf5(path, bytes);
   file.kind = "a MATLAB file";
   for (NumberArray& array : file.arrays) {
-    if (!array.unusable.empty()) continue;
+    if (!array.unusable.empty() || array.values.empty()) continue;
     NumberArray turned = array;
     std::swap(turned.rows, turned.columns);
     turned.values.clear();
@@ -110,17 +133,18 @@ NumberFile read_matlab_hdf5(const std::string& path, const std::string& bytes) {
 
 NumberFile read_matlab(const std::string& path, const std::string& bytes) {
   if (bytes.compare(0, 10, "MATLAB 7.3") == 0) return read_matlab_hdf5(path, bytes);
-  if (path == "-") throw InputError(path, "is a MATLAB file, which is read by its name: give that");
   if (bytes.compare(0, 10, "MATLAB 5.0") == 0) expect_whole(path, bytes);
   Mat_LogInitFunc("", [](int, char*) {});  // what is wrong is said by this project
-  const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY),
+  const MemoryFile copy(bytes);
+  const std::unique_ptr<mat_t, int (*)(mat_t*)> file(Mat_Open(copy.path().c_str(), MAT_ACC_RDONLY),
                                                      &Mat_Close);
   if (!file) throw InputError(path, "is no whole MATLAB file: copy it again");
   NumberFile out{.kind = "a MATLAB file", .arrays = {}};
+  NumberBudget budget(path);
   using Variable = std::unique_ptr<matvar_t, void (*)(matvar_t*)>;
   for (Variable next(Mat_VarReadNextInfo(file.get()), &Mat_VarFree); next;
        next.reset(Mat_VarReadNextInfo(file.get())))
-    out.arrays.push_back(variable(path, file.get(), *next));
+    out.arrays.push_back(variable(path, file.get(), *next, budget));
   return out;
 }
 

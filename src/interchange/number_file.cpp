@@ -46,13 +46,14 @@ bool may_be_number_file(std::string_view head) {
          head.starts_with(matlab_magic);
 }
 
-std::size_t number_count(const std::string& path, const std::string& name, std::size_t rows,
-                         std::size_t columns) {
+std::size_t NumberBudget::take(const std::string& name, std::size_t rows, std::size_t columns) {
   if (rows == 0 || columns == 0) return 0;
-  if (rows > most_numbers / columns)
-    throw InputError(path, (name.empty() ? "it" : "its array " + name) + " would be " +
-                               std::to_string(rows) + " x " + std::to_string(columns) +
-                               " numbers, more than is read of one file (2 GiB)");
+  if (rows > left_ / columns)
+    throw InputError(path_, (name.empty() ? "it" : "its array " + name) + " would be " +
+                                std::to_string(rows) + " x " + std::to_string(columns) +
+                                " numbers, more than is read of one file (2 GiB)" +
+                                (left_ < most_numbers ? " with the arrays before it" : ""));
+  left_ -= rows * columns;
   return rows * columns;
 }
 
@@ -61,7 +62,8 @@ NumberFile read_number_file(const std::string& path, const std::string& bytes) {
   switch (kind_of(bytes)) {
     case Kind::npy: {
       file = {.kind = "a NumPy array", .arrays = {}};
-      file.arrays.push_back(read_npy(path, "", bytes));
+      NumberBudget budget(path);
+      file.arrays.push_back(read_npy(path, "", bytes, budget));
       break;
     }
     case Kind::npz:
@@ -79,6 +81,8 @@ NumberFile read_number_file(const std::string& path, const std::string& bytes) {
     case Kind::none:
       expects(false, "a file that is_number_file() knows");
   }
+  for (NumberArray& array : file.arrays)
+    if (array.unusable.empty() && array.values.empty()) array.unusable = "no numbers";
   if (std::ranges::none_of(file.arrays, [](const auto& a) { return a.unusable.empty(); }))
     throw InputError(path,
                      file.arrays.empty()

@@ -82,8 +82,12 @@ double number_at(const char* bytes, const Field& field) {
 
 class Npy {
  public:
-  Npy(const std::string& path, const std::string& name, std::string_view bytes)
-      : path_(path), whose_(name.empty() ? "" : "its array " + name + " "), bytes_(bytes) {}
+  Npy(const std::string& path, const std::string& name, std::string_view bytes,
+      NumberBudget& budget)
+      : path_(path),
+        budget_(budget),
+        whose_(name.empty() ? "" : "its array " + name + " "),
+        bytes_(bytes) {}
 
   NumberArray read(const std::string& name) {
     NumberArray array;
@@ -101,7 +105,7 @@ class Npy {
     array.rows = shape.empty() ? 1 : shape[0];
     const std::size_t across = shape.size() == 2 ? shape[1] : 1;
     array.columns = across * fields_.size();
-    const std::size_t count = number_count(path_, name, array.rows, array.columns);
+    const std::size_t count = budget_.take(name, array.rows, array.columns);
     std::size_t row_bytes = 0;
     for (const Field& field : fields_) {
       row_bytes += field.size;
@@ -110,6 +114,7 @@ class Npy {
     if (bytes_.size() != array.rows * across * row_bytes)
       fail("has " + std::to_string(bytes_.size()) + " bytes of numbers and its header says " +
            std::to_string(array.rows * across * row_bytes) + ": it was cut off or changed");
+    if (count == 0) return array;  // of (10^18, 0) there is no row to walk through
     array.values.reserve(count);
     const bool fortran = value_of(header_, "'fortran_order'").starts_with("True");
     for (std::size_t row = 0; row < array.rows; ++row)
@@ -192,6 +197,7 @@ class Npy {
   }
 
   const std::string& path_;
+  NumberBudget& budget_;
   std::string whose_, unusable_;
   std::string_view bytes_, header_;
   std::vector<Field> fields_;
@@ -199,17 +205,20 @@ class Npy {
 
 }  // namespace
 
-NumberArray read_npy(const std::string& path, const std::string& name, std::string_view bytes) {
+NumberArray read_npy(const std::string& path, const std::string& name, std::string_view bytes,
+                     NumberBudget& budget) {
   static_assert(std::endian::native == std::endian::little);
-  return Npy(path, name, bytes).read(name);
+  return Npy(path, name, bytes, budget).read(name);
 }
 
 NumberFile read_npz(const std::string& path, const std::string& bytes) {
   ZipArchive archive(path, bytes);
   NumberFile file{.kind = "an archive of NumPy arrays", .arrays = {}};
+  NumberBudget budget(path);
   for (const std::string& name : archive.names())
     if (name.ends_with(".npy"))
-      file.arrays.push_back(read_npy(path, name.substr(0, name.size() - 4), archive.member(name)));
+      file.arrays.push_back(
+          read_npy(path, name.substr(0, name.size() - 4), archive.member(name), budget));
   return file;
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <pugixml.hpp>
 
+#include "base/number.hpp"
 #include "interchange/formats.hpp"
 #include "interchange/x3p.hpp"
 #include "interchange/zip_archive.hpp"
@@ -21,6 +22,13 @@ struct Axis {
   double increment = 1.0, offset = 0.0;
   std::size_t size() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
+
+/// As XML allows a number to stand.
+std::string_view within_blanks(std::string_view text) {
+  constexpr std::string_view blanks = " \t\r\n";
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  return text.substr(0, text.find_last_not_of(blanks) + 1);
+}
 
 template <class T>
 double number(const char* at) {
@@ -46,7 +54,6 @@ class X3p {
     read_size();
     NumberArray points{.name = "points", .unit = "m", .rows = 0, .columns = 3};
     points.names = {"x", "y", "z"};
-    points.values.reserve(3 * count_);
     const pugi::xml_node record = root_.child("Record3");
     if (const pugi::xml_node list = record.child("DataList"))
       read_list(list, points);
@@ -82,10 +89,9 @@ class X3p {
 
   double real(const pugi::xml_node& node, double otherwise) const {
     if (!node) return otherwise;
-    char* end = nullptr;
+    double value = 0.0;
     const char* text = node.text().get();
-    const double value = std::strtod(text, &end);
-    if (end == text || !std::isfinite(value))
+    if (!parse_number(within_blanks(text), value))
       fail(std::string("main.xml: ") + node.name() + " '" + text + "' is no finite number");
     return value;
   }
@@ -151,9 +157,8 @@ class X3p {
       if (axes_[0].incremental || axes_[1].incremental)
         fail("main.xml: a list of points has absolute axes, a matrix incremental ones");
     }
-    count_ = number_count(path_, "points", number_count(path_, "points", size_[0], size_[1]),
-                          3 * size_[2]) /
-             3;
+    NumberBudget budget(path_), of_layer(path_);
+    count_ = budget.take("points", of_layer.take("points", size_[0], size_[1]), 3 * size_[2]) / 3;
   }
 
   /// One point of the numbers that stand in the file.
@@ -181,19 +186,20 @@ class X3p {
   void read_list(const pugi::xml_node& list, NumberArray& points) {
     std::size_t index = 0;
     for (const pugi::xml_node datum : list.children("Datum")) {
-      const char* text = datum.text().get();
+      std::string_view text = datum.text().get();
       std::array<double, 3> stored{};
-      if (*text == '\0') stored[2] = std::nan("");  // the standard's mark of an invalid point
-      const std::size_t first = *text == '\0' ? 3 : 0;
-      for (std::size_t i = first; i < 3; ++i) {
+      const bool invalid = text.empty();  // the standard's mark
+      if (invalid) stored[2] = std::nan("");
+      for (std::size_t i = 0; i < 3 && !invalid; ++i) {
         if (axes_[i].incremental) continue;
-        char* end = nullptr;
-        stored[i] = std::strtod(text, &end);
-        const bool last = i == 2;
-        if (end == text || *end != (last ? '\0' : ';') || std::isinf(stored[i]))
+        const std::size_t end = i == 2 ? text.size() : std::min(text.find(';'), text.size());
+        const std::string_view part = within_blanks(text.substr(0, end));
+        if (part == "NaN")
+          stored[i] = std::nan("");
+        else if (!parse_number(part, stored[i]) || (i != 2 && end == text.size()))
           fail("main.xml: Datum " + std::to_string(index + 1) + " '" + datum.text().get() +
                "' is no point of these axes");
-        text = last ? end : end + 1;
+        text.remove_prefix(std::min(end + 1, text.size()));
       }
       if (index < count_) add(index, stored, points);
       ++index;

@@ -7,13 +7,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <exception>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "mpi/own_share.hpp"
 #include "study/sweep/files/sweep_journal.hpp"
 
 namespace trueaxis::mpi {
@@ -51,48 +51,6 @@ std::optional<std::pair<BlockResult, int>> arrived() {
   return std::pair(decode(bytes), status.MPI_SOURCE);
 }
 
-/// The blocks that rank 0 runs itself.
-class OwnShare {
- public:
-  OwnShare(const Sweep& sweep, const std::vector<Block>& blocks, std::atomic<std::size_t>& next)
-      : blocks_(blocks), next_(next), thread_([this, &sweep] { work(sweep); }) {}
-  ~OwnShare() {
-    next_ = blocks_.size();
-    thread_.join();
-  }
-  OwnShare(const OwnShare&) = delete;
-  OwnShare& operator=(const OwnShare&) = delete;
-
-  /// What is done since the last call. @throws what a block threw.
-  std::vector<BlockResult> take() {
-    const std::lock_guard lock(mutex_);
-    if (failure_) std::rethrow_exception(failure_);
-    return std::exchange(done_, {});
-  }
-
- private:
-  void work(const Sweep& sweep) {
-    Worker worker(sweep);
-    try {
-      for (std::size_t i = next_++; i < blocks_.size(); i = next_++) {
-        BlockResult result = worker.run(blocks_[i]);
-        const std::lock_guard lock(mutex_);
-        done_.push_back(std::move(result));
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      failure_ = std::current_exception();
-    }
-  }
-
-  const std::vector<Block>& blocks_;
-  std::atomic<std::size_t>& next_;
-  std::mutex mutex_;
-  std::vector<BlockResult> done_;
-  std::exception_ptr failure_;
-  std::thread thread_;
-};
-
 }  // namespace
 
 void distribute(const Sweep& sweep, const std::vector<Block>& blocks,
@@ -105,7 +63,12 @@ void distribute(const Sweep& sweep, const std::vector<Block>& blocks,
   for (int ahead = 0; ahead < blocks_ahead; ++ahead) {
     for (int rank = 1; rank < rank_count(); ++rank) hand_out(rank);
   }
-  OwnShare own(sweep, blocks, next);
+  OwnShare own(
+      [&sweep] {
+        const auto worker = std::make_shared<Worker>(sweep);
+        return [worker](const Block& block) { return worker->run(block); };
+      },
+      blocks, next);
   for (std::size_t done = 0; done < blocks.size();) {
     bool anything = false;
     for (BlockResult& result : own.take()) {

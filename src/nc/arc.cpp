@@ -11,6 +11,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 // What a program's rounded numbers may leave between the two radii of an arc.
 constexpr double largest_radius_gap_mm = 0.01;
+// More is a slip of a unit: a circle of 10 m takes 2e5 of them to within a nanometre.
+constexpr double most_chords_of_arc = 1e6;
 
 struct Point {
   double u = 0.0, v = 0.0;
@@ -74,11 +76,17 @@ std::vector<AxisValues> chords_of(const Arc& arc, double tolerance_mm, std::stri
   const double nothing = 1e-9;
   while (turn <= nothing) turn += 2.0 * pi;
   while (turn > 2.0 * pi + nothing) turn -= 2.0 * pi;
-  // Height of a chord's arc over it: r (1 - cos(step / 2)).
+  // Height of a chord's arc over it: r (1 - cos(step / 2)) = 2 r sin²(step / 4).
   const double radius = std::max(r0, r1);
-  const double cosine = std::max(1.0 - tolerance_mm / radius, std::cos(0.25 * pi));
-  const auto count = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(turn / (2.0 * std::acos(cosine)) - nothing)));
+  const double sine = std::min(std::sqrt(0.5 * tolerance_mm / radius), std::sin(0.125 * pi));
+  const double chords = std::max(1.0, std::ceil(turn / (4.0 * std::asin(sine)) - nothing));
+  if (!(chords <= most_chords_of_arc)) {
+    trouble = "the arc of radius " + std::to_string(radius) +
+              " mm takes more than 1000000 chords at this tolerance: correct R or the centre, or "
+              "raise the tolerance";
+    return {};
+  }
+  const auto count = static_cast<std::size_t>(chords);
   std::vector<AxisValues> points;
   for (std::size_t i = 1; i < count; ++i) {
     const double s = static_cast<double>(i) / static_cast<double>(count);

@@ -13,6 +13,8 @@
 namespace trueaxis::nc {
 namespace {
 
+constexpr std::size_t most_chords = 10'000'000;  // of a program: a gigabyte of moves
+
 /// Takes the blocks of a program one by one, as a control does.
 class Reader {
  public:
@@ -280,7 +282,13 @@ class Reader {
     if (const Word* radius = block_.word('R')) arc.radius_mm = factor * radius->number;
     std::string trouble;
     made.inserted = true;
-    for (const AxisValues& point : chords_of(arc, *options_.arc_tolerance_mm, trouble)) {
+    const auto points = chords_of(arc, *options_.arc_tolerance_mm, trouble);
+    chords_ += points.size();
+    if (chords_ > most_chords)
+      return complain_once(first, told_chords_,
+                           "the arcs up to here take more than 10000000 chords: raise their "
+                           "tolerance, or cut the program in parts");
+    for (const AxisValues& point : points) {
       made.words = point;
       made.continues = continues_;
       program_.moves.push_back(made);
@@ -344,7 +352,8 @@ class Reader {
   CycleWords cycle_;
   AxisSet known_ = 0, told_ = 0;
   std::string unknown_since_;
-  bool continues_ = false, told_motion_ = false, told_incremental_ = false;
+  std::size_t chords_ = 0;
+  bool continues_ = false, told_motion_ = false, told_incremental_ = false, told_chords_ = false;
 };
 
 }  // namespace

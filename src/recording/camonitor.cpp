@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/counted.hpp"
-#include "measure/files/stream_csv_text.hpp"
+#include "format/csv_text.hpp"
 #include "recording/column_names.hpp"
 #include "recording/instant.hpp"
 #include "recording/recording.hpp"
@@ -24,11 +24,8 @@ using Channels = std::map<std::string, std::vector<Sample>, std::less<>>;
 
 /// "PV date time value": false for any other line.
 bool read_sample(std::string_view line, std::size_t number, Channels& channels) {
-  std::array<std::string_view, 4> field;
-  std::vector<CsvField> fields;
-  csv_split(line, ' ', fields);
-  if (fields.size() < 4) return false;
-  for (std::size_t k = 0; k < 4; ++k) field[k] = fields[k].text;
+  const auto field = csv_fields(line, ' ');
+  if (field.size() < 4) return false;
   const auto time_s = instant_s(std::string(field[1]) + " " + std::string(field[2]));
   double value = 0.0;
   if (!time_s || !recorded_number(field[3], '.', value)) return false;

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 
-#include "measure/files/stream_csv_number.hpp"
-#include "recording/folded.hpp"
+#include "format/csv_text.hpp"
+#include "format/folded.hpp"
+#include "format/units.hpp"
 #include "recording/header_words.hpp"
 
 namespace trueaxis {
@@ -49,11 +50,11 @@ std::optional<NamedRole> role_of(const HeaderName& name) {
   }
 }
 
-CsvQuantity quantity_of(RecordedRole role) {
-  return role == RecordedRole::c                                     ? CsvQuantity::angle
-         : role == RecordedRole::t                                   ? CsvQuantity::time
-         : role == RecordedRole::pass || role == RecordedRole::setup ? CsvQuantity::count
-                                                                     : CsvQuantity::length;
+UnitKind quantity_of(RecordedRole role) {
+  return role == RecordedRole::c                                     ? UnitKind::angle
+         : role == RecordedRole::t                                   ? UnitKind::time
+         : role == RecordedRole::pass || role == RecordedRole::setup ? UnitKind::count
+                                                                     : UnitKind::length;
 }
 
 }  // namespace
@@ -87,20 +88,20 @@ const char* word_of(RecordedRole role) {
 
 std::optional<std::string> stream_unit(RecordedRole role, std::string_view unit,
                                        std::string_view language) {
-  const CsvQuantity quantity = quantity_of(role);
+  const UnitKind quantity = quantity_of(role);
   std::string_view text = csv_trimmed(unit);
-  if (quantity == CsvQuantity::count)
+  if (quantity == UnitKind::count)
     return text.empty() ? std::optional(std::string()) : std::nullopt;
   std::string dia;
   if (const std::size_t blank = text.rfind(' '); blank != std::string_view::npos) {
     const auto last = read_header_name(text.substr(blank + 1));
-    if (quantity == CsvQuantity::length && last && last->meaning == HeaderMeaning::diameter) {
+    if (quantity == UnitKind::length && last && last->meaning == HeaderMeaning::diameter) {
       text = text.substr(0, blank);
       dia = " dia";
     }
   }
   const auto known = unit_of_word(text, language);
-  return known && csv_find_unit(quantity, *known) ? std::optional(*known + dia) : std::nullopt;
+  return known && find_unit(quantity, *known) ? std::optional(*known + dia) : std::nullopt;
 }
 
 const char* default_unit(RecordedRole role) {

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
-#include "measure/files/stream_csv_text.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "recording/column_names.hpp"
 
 namespace trueaxis {
@@ -24,12 +24,9 @@ std::optional<std::size_t> find_column(const Recording& recording, const std::st
     if (recording.columns[k].whole == name) return k;
   for (std::size_t k = 0; k < recording.columns.size(); ++k)
     if (!name.empty() && recording.columns[k].name == name) return k;
-  std::size_t number = 0;
-  const auto [stop, error] = std::from_chars(name.data(), name.data() + name.size(), number);
-  if (error != std::errc{} || stop != name.data() + name.size() || number == 0 ||
-      number > recording.columns.size())
-    return {};
-  return number - 1;
+  const auto number = whole_number<std::size_t>(name).value_or(0);
+  return number > 0 && number <= recording.columns.size() ? std::optional(number - 1)
+                                                          : std::nullopt;
 }
 
 /// The language that the header is in, where a name is of one alone: "Winkel", "Durchmesser".
@@ -152,7 +149,7 @@ std::vector<TakenColumn> as_named(const Recording& recording, std::vector<std::s
 }  // namespace
 
 bool is_probe_log(const Recording& recording) {
-  if (recording.columns.size() != 9 || recording.rows() == 0) return false;
+  if (recording.columns.size() != 9 || recording.rows() == 0 || recording.of_numbers) return false;
   for (std::size_t k = 0; k < 9; ++k) {
     const std::string_view cell = recording.cell(0, k);
     if (!recording.columns[k].whole.empty() || cell.size() < 8 || cell[cell.size() - 7] != '.')

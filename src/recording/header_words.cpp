@@ -5,8 +5,8 @@
 #include <set>
 #include <vector>
 
-#include "measure/files/stream_csv_text.hpp"
-#include "recording/folded.hpp"
+#include "format/csv_text.hpp"
+#include "format/folded.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -102,34 +102,6 @@ constexpr HeaderWords header_words[] = {
     {"ja", filler, "軸 主軸 測定 測定値 値 実際 の"},
 };
 
-struct UnitWords {
-  std::string_view language;  ///< the words count in headers of this language alone; empty: in all
-  std::string_view unit;      ///< as a stream writes it
-  std::string_view words;
-};
-constexpr UnitWords unit_words[] = {
-    {"", "mm",
-     "mm millimeter millimeters millimetre millimetres millimètre millimètres millimetro "
-     "millimetri milímetro milímetros milimetr milimetry ミリ"},
-    {"", "um",
-     "um µm μm micron microns micrometer micrometers micrometre micrometres mikrometer "
-     "micromètre micromètres micrometro micrometri micrómetro micrómetros"},
-    {"", "m", "m meter metre mètre metro metros metri"},
-    {"", "in",
-     "in inch inches \" zoll pouce pouces pollice pollici pulgada pulgadas polegada "
-     "polegadas palec palce インチ"},
-    {"", "deg",
-     "° º deg degree degrees degré degrés grado gradi grados grau graus stopień stopnie "
-     "stopni stupeň stupně 度"},
-    {"de", "deg", "grad winkelgrad altgrad"},
-    {"", "rad", "rad radian radians radiant radiante radianti radián radianes radiano radianos"},
-    {"", "rev", "rev turn turns umdrehung umdrehungen tour tours giri vueltas"},
-    {"", "s",
-     "s sec secs sek second seconds sekunde sekunden seconde secondes secondo secondi "
-     "segundo segundos sekunda sekundy 秒"},
-    {"", "ms", "ms msec millisecond milliseconds millisekunde millisekunden ミリ秒"},
-};
-
 struct Entry {
   HeaderMeaning meaning;
   std::set<std::string_view> languages;  ///< empty: all
@@ -139,11 +111,11 @@ struct Entry {
 const std::map<std::string, Entry, std::less<>>& words_known() {
   static const auto known = [] {
     std::map<std::string, Entry, std::less<>> map;
-    std::vector<CsvField> words;
+    std::vector<std::string_view> words;
     for (const HeaderWords& line : header_words) {
       csv_split(line.words, ' ', words);
-      for (const CsvField& word : words) {
-        Entry& entry = map.try_emplace(folded(word.text), Entry{line.meaning, {}}).first->second;
+      for (const std::string_view word : words) {
+        Entry& entry = map.try_emplace(folded(word), Entry{line.meaning, {}}).first->second;
         expects(entry.meaning == line.meaning, "a word of a header means one thing");
         if (!line.language.empty()) entry.languages.insert(line.language);
       }
@@ -239,28 +211,5 @@ std::optional<HeaderName> read_header_name(std::string_view name) {
     if (!reader.take_parts(token)) return {};
   return reader.name();
 }
-
-std::optional<std::string> unit_of_word(std::string_view word, std::string_view language) {
-  word = csv_trimmed(word);
-  if (word.size() > 2 && word.ends_with('.')) word.remove_suffix(1);
-  const std::string key = folded(word);
-  if (word.size() == 1 && key != word) return {};  // "M" and "S" are no units
-  static const auto known = [] {
-    std::map<std::string, UnitWords, std::less<>> map;
-    std::vector<CsvField> words;
-    for (const UnitWords& line : unit_words) {
-      csv_split(line.words, ' ', words);
-      for (const CsvField& one : words) map.try_emplace(folded(one.text), line);
-    }
-    return map;
-  }();
-  const auto found = known.find(key);
-  if (found == known.end()) return {};
-  const UnitWords& line = found->second;
-  if (!line.language.empty() && language != "*" && language != line.language) return {};
-  return std::string(line.unit);
-}
-
-bool is_unit_word(std::string_view word) { return unit_of_word(word, "*").has_value(); }
 
 }  // namespace trueaxis

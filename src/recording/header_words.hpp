@@ -34,11 +34,4 @@ struct HeaderName {
 /// in the table (header_words.cpp), or two contradict each other.
 std::optional<HeaderName> read_header_name(std::string_view name);
 
-/// A unit as a stream writes it ("mm", "deg", "s"): of "Zoll", "µm", "°", "secondes". `language`
-/// is that of the header: "Grad" is a degree in German alone. Nothing for any other word.
-std::optional<std::string> unit_of_word(std::string_view word, std::string_view language = "");
-
-/// Whether a word is a unit in any language.
-bool is_unit_word(std::string_view word);
-
 }  // namespace trueaxis

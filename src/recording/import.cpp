@@ -5,16 +5,15 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 
+#include "format/csv_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "interchange/number_file.hpp"
 #include "measure/files/stream_csv_header.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "recording/column_names.hpp"
 #include "recording/columns.hpp"
 #include "recording/recording.hpp"
@@ -45,7 +44,10 @@ std::string listed(const Recording& recording) {
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     const std::string& whole = recording.columns[k].whole;
     text += (k == 0 ? "" : ", ") + std::to_string(k + 1) + " " +
-            (whole.empty() ? csv_quoted(recording.cell(0, k)) + " …" : whole);
+            (whole.empty() ? csv_quoted(recording.of_numbers ? recording.written(0, k)
+                                                             : recording.cell(0, k)) +
+                                 " …"
+                           : whole);
   }
   return text;
 }
@@ -185,9 +187,7 @@ std::string head_of_file(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return {};
   std::string head(16, '\0');
-  std::ifstream in(path, std::ios::binary);
-  in.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(in.gcount()));
+  head.resize(ByteSource(path).read(head.data(), head.size()));
   return head;
 }
 
@@ -206,7 +206,7 @@ bool is_own_header(const RecordedText& text) {
 }
 
 ImportedRecording import_text(const std::string& bytes, const std::string& path,
-                              const RecordingOptions& options) {
+                              const RecordingOptions& options, bool with_text = false) {
   const bool numbers = is_number_file(bytes);
   if (bytes.starts_with("PK\x03\x04") && !numbers)
     throw InputError(path, "is a workbook or another packed file: save its sheet as CSV");
@@ -260,37 +260,44 @@ ImportedRecording import_text(const std::string& bytes, const std::string& path,
   out.notes = recording.notes;
   out.notes.insert(out.notes.end(), rows.notes.begin(), rows.notes.end());
   describe(recording, taken, *diameter, out.notes);
-  out.text = "## schema: trueaxis.stream/1\n";
-  for (const std::string& note : out.notes) out.text += "## " + note + "\n";
+  std::string head = "## schema: trueaxis.stream/1\n";
+  for (const std::string& note : out.notes) head += "## " + note + "\n";
   const bool convention_stated = std::ranges::any_of(
       recording.metadata,
       [](const std::string& line) { return line.find("x_convention") != std::string::npos; });
-  if (!*diameter && !convention_stated) out.text += "# x_convention: radius\n";
-  if (options.read.indication == Indication::relative) out.text += "# reading: relative\n";
+  if (!*diameter && !convention_stated) head += "# x_convention: radius\n";
+  if (options.read.indication == Indication::relative) head += "# reading: relative\n";
   if (options.read.nominal_radius_mm)
-    out.text += fmt::format("# nominal_radius: {} mm\n", *options.read.nominal_radius_mm);
+    head += fmt::format("# nominal_radius: {} mm\n", *options.read.nominal_radius_mm);
   for (const std::string& line : recording.metadata)
-    if (line.find("schema:") == std::string::npos) out.text += line + "\n";
-  out.text += rows.header + "\n";
-  const auto head = static_cast<std::size_t>(std::ranges::count(out.text, '\n'));
-  for (const std::string& row : rows.rows) out.text += row + "\n";
+    if (line.find("schema:") == std::string::npos) head += line + "\n";
+  head += rows.header + "\n";
+  const auto head_lines = static_cast<std::size_t>(std::ranges::count(head, '\n'));
+  const auto text_of = [&](std::size_t k) { return row_text(recording, rows, k); };
   StreamReadOptions read = options.read;
   read.diameter.reset();
   // Rows that are wrong are left out here: what is wrong between the others is said as well.
   std::vector<Diagnostic> wrong = thrown_by([&] { diagnostics.throw_if_any(); });
   const auto line_of = [&](std::size_t line) {
-    return line > head && line - head <= rows.lines.size() ? rows.lines[line - head - 1] : 0;
+    const std::size_t row = line - head_lines;
+    return line > head_lines && row <= rows.lines.size() ? rows.lines[row - 1] : 0;
   };
   if (wrong.empty() || 2 * rows.rows.size() > recording.rows())
-    std::ranges::copy(
-        thrown_by([&] { out.stream = read_stream_csv_text(out.text, path, read, line_of); }),
-        std::back_inserter(wrong));
+    std::ranges::copy(thrown_by([&] {
+                        out.stream =
+                            read_stream_rows(head, rows.numbers, text_of, path, read, line_of);
+                      }),
+                      std::back_inserter(wrong));
   std::ranges::stable_sort(wrong, {}, &Diagnostic::line);
   if (!wrong.empty()) {
     const std::string remedy = rows.invalid.remedy(
         path, options.read, recording_words(options.columns, options.skip), rows.rows.size());
     if (!remedy.empty()) wrong.push_back({path, 0, 0, remedy});
     throw InputError(std::move(wrong));
+  }
+  if (with_text) {
+    out.text = std::move(head);
+    for (std::size_t k = 0; k < rows.rows.size(); ++k) out.text += text_of(k) + "\n";
   }
   out.stream.read_as = out.notes;
   out.stream.input_hash = content_hash(bytes);
@@ -307,15 +314,15 @@ bool is_read_once(const std::string& path) {
 }  // namespace
 
 ImportedRecording import_recording(const std::string& path, const RecordingOptions& options) {
-  return import_text(read_file(path), path, options);
+  return import_text(read_file(path), path, options, true);
 }
 
 ProbeStream read_recording(const std::string& path, const RecordingOptions& options) {
-  if (options.says_anything()) return import_recording(path, options).stream;
-  const bool once = is_read_once(path);
-  std::string bytes = once ? read_file(path) : "";
+  const bool once = is_read_once(path), said = options.says_anything();
+  std::string bytes = once || said ? read_file(path) : "";
+  if (said) return import_text(bytes, path, options).stream;
   if (may_be_number_file(once ? bytes : head_of_file(path)))
-    return (once ? import_text(bytes, path, options) : import_recording(path, options)).stream;
+    return import_text(once ? bytes : read_file(path), path, options).stream;
   try {
     return once ? read_stream_csv_text(bytes, path, options.read)
                 : read_stream_csv(path, options.read);

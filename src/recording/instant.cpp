@@ -27,7 +27,7 @@ std::optional<double> instant_s(std::string_view text) {
   if (date_end != std::string_view::npos) {
     const auto year = number_before(text, '-'), month = number_before(text, '-');
     const auto day = number_before(text, text[text.find_first_of(" T")]);
-    if (!year || !month || !day) return {};
+    if (!year || !month || !day || *year > 9999 || *month > 12 || *day > 31) return {};
     const std::chrono::year_month_day date{std::chrono::year(*year),
                                            std::chrono::month(static_cast<unsigned>(*month)),
                                            std::chrono::day(static_cast<unsigned>(*day))};

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "interchange/number_file.hpp"
 #include "recording/recording.hpp"
@@ -36,11 +35,8 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes) {
   }
   for (std::size_t row = 0; row < longest; ++row) {
     out.lines.push_back(row + 1);
-    for (const NumberColumn& column : columns) {
-      const double value = column.array->at(row, column.column);
-      out.made.push_back(std::isfinite(value) ? fmt::format("{}", value) : "not finite");
-      out.cells.push_back(out.made.back());
-    }
+    for (const NumberColumn& column : columns)
+      out.numbers.push_back(column.array->at(row, column.column));
   }
   if (columns.size() > 64)
     out.unclear.push_back(

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 
-#include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_text.hpp"
-#include "recording/folded.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
+#include "format/folded.hpp"
+#include "format/units.hpp"
 #include "recording/header_words.hpp"
 #include "recording/recording.hpp"
 
@@ -50,17 +53,28 @@ RecordedText::RecordedText(const std::string& bytes) {
 }
 
 bool recorded_number(std::string_view cell, char decimal, double& value) {
-  if (cell.empty()) return false;
   std::array<char, 64> point;
   if (decimal == ',' && cell.size() <= point.size()) {
     if (cell.find('.') != std::string_view::npos) return false;
     std::ranges::replace_copy(cell, point.begin(), ',', '.');
     cell = {point.data(), cell.size()};
   }
-  std::errc error{};
-  const char* end = cell.data() + cell.size();
-  return csv_number(cell.data(), end, value, error) == end && error == std::errc{} &&
-         std::isfinite(value);
+  return parse_number(cell, value);
+}
+
+bool Recording::number(std::size_t row, std::size_t column, double& value) const {
+  if (!of_numbers) return recorded_number(cell(row, column), decimal, value);
+  value = numbers[row * columns.size() + column];
+  return std::isfinite(value);
+}
+
+std::string Recording::written(std::size_t row, std::size_t column) const {
+  double value = 0.0;
+  if (of_numbers && number(row, column, value)) return fmt::format("{}", value);
+  std::string text(cell(row, column));
+  if (text.starts_with('+')) text.erase(0, 1);
+  std::ranges::replace(text, ',', '.');
+  return text;
 }
 
 RecordedColumn recorded_column(std::string_view field) {

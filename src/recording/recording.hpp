@@ -36,7 +36,8 @@ struct Recording {
   std::string
       producer;  ///< what it was recognised as: "a table with semicolons and decimal commas"
   std::vector<RecordedColumn> columns;
-  std::vector<std::string_view> cells;  ///< row by row, columns.size() each
+  std::vector<std::string_view> cells;  ///< row by row, columns.size() each; of a text
+  std::vector<double> numbers;          ///< the same of a binary file
   std::vector<std::size_t> lines;       ///< of each row, 1-based
   char decimal = '.';
   bool of_numbers = false;            ///< a binary file: a row is its line, a unit must be said
@@ -48,9 +49,14 @@ struct Recording {
   std::vector<Diagnostic> wrong;      ///< rows that do not fit; no file named
 
   std::size_t rows() const { return lines.size(); }
+  /// As it stands in a text; of a binary file what is said of a number that is not finite.
   std::string_view cell(std::size_t row, std::size_t column) const {
-    return cells[row * columns.size() + column];
+    return of_numbers ? "not finite" : cells[row * columns.size() + column];
   }
+  /// The number of a cell; false where it is none, or not finite.
+  bool number(std::size_t row, std::size_t column, double& value) const;
+  /// A cell as a stream writes it: the digits of a text with a decimal point.
+  std::string written(std::size_t row, std::size_t column) const;
 };
 
 /// A cell read as a number, its decimal comma a point. False where it is none.

@@ -6,10 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
-#include "measure/files/stream_csv_number.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 #include "recording/column_names.hpp"
 #include "recording/instant.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -33,11 +37,8 @@ std::string header_of(const std::vector<TakenColumn>& taken, bool diameter) {
   return header;
 }
 
-/// A number of the file as a stream writes it: the same digits, a decimal point.
-std::string with_point(std::string_view cell) {
-  std::string text(cell.starts_with('+') ? cell.substr(1) : cell);
-  std::ranges::replace(text, ',', '.');
-  return text;
+bool is_instant(const Recording& recording, const TakenColumn& column) {
+  return column.role == RecordedRole::t && !recording.columns[column.column].is_number;
 }
 
 /// Why a cell is no number, and what to do.
@@ -70,9 +71,8 @@ class RowMaker {
   /// Rows of which no value stands in a cell that is needed.
   const CsvInvalidRows& invalid() const { return invalid_; }
 
-  /// False where a cell is wrong.
-  bool row(std::size_t i, std::string& out) {
-    out.clear();
+  /// False where a cell is wrong; the numbers of a good row are appended.
+  bool row(std::size_t i, std::vector<double>& out) {
     if (const auto field = without_value(i)) {
       invalid_.add(recording_.lines[i], *field);
       if (drop_invalid_) return false;
@@ -87,67 +87,53 @@ class RowMaker {
         good = wrong(i, *find(taken_, RecordedRole::x), "X is 0 beside Y: the point has no side",
                      "zero");
     }
+    const std::size_t before = out.size();
     for (const TakenColumn& column : taken_) {
       if (column.role == RecordedRole::y) continue;
-      if (!out.empty()) out += ',';
+      double value = 0.0;
       if (points_ && good && column.role == RecordedRole::x) {
         const double scale = diameter_ ? 2.0 : 1.0;
-        csv_append(out, scale * std::copysign(std::hypot(x / scale, y), x));
+        value = scale * std::copysign(std::hypot(x / scale, y), x);
       } else if (points_ && good && column.role == RecordedRole::c) {
-        const double turn = csv_find_unit(CsvQuantity::angle, column.unit)->turn;
-        csv_append(out, c + std::atan(y / (diameter_ ? 0.5 * x : x)) * turn / two_pi);
+        const double turn = find_unit(UnitKind::angle, column.unit)->turn;
+        value = c + std::atan(y / (diameter_ ? 0.5 * x : x)) * turn / two_pi;
       } else {
-        double value = 0.0;
-        const bool fine = number(i, column, value);
-        good = good && fine;
-        if (fine) append(out, i, column, value);
+        good = number(i, column, value) && good;
       }
+      out.push_back(value);
     }
+    if (!good) out.resize(before);
     return good;
   }
 
  private:
-  bool is_instant(const TakenColumn& column) const {
-    return column.role == RecordedRole::t && !recording_.columns[column.column].is_number;
-  }
-
   /// The first cell that holds no value, where all that are wrong are such.
   std::optional<std::string_view> without_value(std::size_t i) const {
     std::optional<std::string_view> first;
     for (const TakenColumn& column : taken_) {
-      const std::string_view cell = recording_.cell(i, column.column);
       double value = 0.0;
-      if (is_instant(column) ? instant_s(cell).has_value()
-                             : recorded_number(cell, recording_.decimal, value))
+      if (is_instant(recording_, column) ? instant_s(recording_.cell(i, column.column)).has_value()
+                                         : recording_.number(i, column.column, value))
         continue;
+      const std::string_view cell = recording_.cell(i, column.column);
       if (!csv_is_no_value(cell)) return {};
       if (!first) first = cell;
     }
     return first;
   }
 
-  void append(std::string& out, std::size_t i, const TakenColumn& column, double value) const {
-    const std::string_view cell = recording_.cell(i, column.column);
-    if (is_instant(column)) {
-      out += fmt::format("{:.9g}", value);
-    } else {
-      out += with_point(cell);
-    }
-  }
-
   bool number(std::size_t i, const TakenColumn& column, double& value) {
     const std::string_view cell = recording_.cell(i, column.column);
     const std::string name = word_of(column.role);
-    if (is_instant(column)) {
+    if (is_instant(recording_, column)) {
       const auto at_s = instant_s(cell);
       if (!at_s)
         return wrong(i, column, "t: " + csv_quoted(cell) + " is no time of day: write 13:55:48.325",
                      "instant");
       if (first_s_ != first_s_) first_s_ = *at_s;
-      value = *at_s - first_s_;
-      return true;
+      return parse_number(fmt::format("{:.9g}", *at_s - first_s_), value);  // as it is written
     }
-    if (recorded_number(cell, recording_.decimal, value)) return true;
+    if (recording_.number(i, column.column, value)) return true;
     if (cell.empty())
       return wrong(i, column, name + " is empty: write a number or remove the row",
                    name + " empty");
@@ -186,8 +172,7 @@ void drop_y_of_zeros(const Recording& recording, std::vector<TakenColumn>& taken
   if (y == nullptr) return;
   for (std::size_t i = 0; i < recording.rows(); ++i) {
     double value = 0.0;
-    if (!recorded_number(recording.cell(i, y->column), recording.decimal, value) || value != 0.0)
-      return;
+    if (!recording.number(i, y->column, value) || value != 0.0) return;
   }
   std::erase_if(taken, [](const TakenColumn& column) { return column.role == RecordedRole::y; });
 }
@@ -212,10 +197,9 @@ StreamRows stream_rows(const Recording& recording, const RecordedText& text,
   }
   out.header = header_of(taken, diameter);
   RowMaker maker(recording, text, taken, diameter, drop_invalid, diagnostics);
-  std::string row;
   for (std::size_t i = 0; i < recording.rows(); ++i) {
-    if (!maker.row(i, row)) continue;
-    out.rows.push_back(row);
+    if (!maker.row(i, out.numbers)) continue;
+    out.rows.push_back(i);
     out.lines.push_back(recording.lines[i]);
   }
   out.invalid = maker.invalid();
@@ -225,7 +209,28 @@ StreamRows stream_rows(const Recording& recording, const RecordedText& text,
         !many.empty())
       diagnostics.add(0, 0, many);
   }
+  out.taken = std::move(taken);
   return out;
+}
+
+std::string row_text(const Recording& recording, const StreamRows& rows, std::size_t k) {
+  const bool points = find(rows.taken, RecordedRole::y) != nullptr;
+  std::string text;
+  std::size_t at = k * static_cast<std::size_t>(std::ranges::count_if(rows.taken, [](auto& column) {
+                     return column.role != RecordedRole::y;
+                   }));
+  for (const TakenColumn& column : rows.taken) {
+    if (column.role == RecordedRole::y) continue;
+    if (!text.empty()) text += ',';
+    const double value = rows.numbers[at++];
+    if (is_instant(recording, column))
+      text += fmt::format("{:.9g}", value);
+    else if (points && (column.role == RecordedRole::x || column.role == RecordedRole::c))
+      append_exact(text, value);
+    else
+      text += recording.written(rows.rows[k], column.column);
+  }
+  return text;
 }
 
 }  // namespace trueaxis

@@ -5,20 +5,22 @@
 #include <string>
 #include <vector>
 
+#include "format/csv_text.hpp"
 #include "measure/files/stream_csv_invalid.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "recording/columns.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
 
-/// The rows of a stream, as text with decimal points, made of the columns that were taken.
+/// The rows of a stream, made of the columns that were taken: those of which every cell is good.
 struct StreamRows {
   std::string header;              ///< "X_M[mm dia],C[deg],Z[mm]"
-  std::vector<std::string> rows;   ///< without line ends; those of which every cell is good
+  std::vector<double> numbers;     ///< row by row, in the order of the header
+  std::vector<std::size_t> rows;   ///< of the recording, each
   std::vector<std::size_t> lines;  ///< of the file, of each row
   std::vector<std::string> notes;
-  CsvInvalidRows invalid;  ///< that hold no value in a column that was taken
+  std::vector<TakenColumn> taken;  ///< in the order of the header
+  CsvInvalidRows invalid;          ///< that hold no value in a column that was taken
 };
 
 /// What is no number goes to `diagnostics`, one place and a count of each kind. Where there is a
@@ -28,5 +30,8 @@ struct StreamRows {
 StreamRows stream_rows(const Recording& recording, const RecordedText& text,
                        std::vector<TakenColumn> taken, bool diameter, bool drop_invalid,
                        CsvDiagnostics& diagnostics);
+
+/// Row `k` as a stream writes it, with the digits that stand in a text.
+std::string row_text(const Recording& recording, const StreamRows& rows, std::size_t k);
 
 }  // namespace trueaxis

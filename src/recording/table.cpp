@@ -5,8 +5,9 @@
 #include <map>
 #include <optional>
 
-#include "measure/files/stream_csv_text.hpp"
-#include "recording/folded.hpp"
+#include "format/csv_text.hpp"
+#include "format/folded.hpp"
+#include "format/units.hpp"
 #include "recording/header_words.hpp"
 #include "recording/recording.hpp"
 
@@ -21,38 +22,8 @@ struct Layout {
   std::size_t fields = 0;  ///< that most of them have
 };
 
-/// The fields of a line; a field in quotes may hold the separator, and "" in it is a quote.
 void split(std::string_view line, char separator, std::vector<std::string_view>& fields) {
-  fields.clear();
-  const auto blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };
-  std::size_t at = 0;
-  const auto skip = [&] {
-    while (at < line.size() && blank(line[at])) ++at;
-  };
-  if (separator == ' ') skip();
-  if (at == line.size() && separator == ' ') return;
-  while (true) {
-    skip();
-    std::size_t begin = at, end = at;
-    if (at < line.size() && line[at] == '"') {
-      begin = ++at;
-      while (at < line.size() && (line[at] != '"' || line.substr(at).starts_with("\"\"")))
-        at += line[at] == '"' ? 2 : 1;
-      end = std::min(at, line.size());
-      at = line.find(separator, end);
-    } else {
-      at = separator == ' ' ? line.find_first_of(" \t", at) : line.find(separator, at);
-      end = std::min(at, line.size());
-    }
-    const std::string_view field = csv_trimmed(line.substr(begin, end - begin));
-    fields.push_back(field.empty() ? line.substr(begin, 0) : field);  // of an empty one the place
-    if (at == std::string_view::npos) return;
-    ++at;
-    if (separator == ' ') {
-      skip();
-      if (at >= line.size()) return;
-    }
-  }
+  csv_split(line, separator, fields, CsvKeep::quotes);
 }
 
 bool is_number(std::string_view field, char decimal) {
@@ -221,10 +192,6 @@ bool may_part_thousands(const Recording& recording) {
   return any;
 }
 
-std::size_t byte_of(std::string_view line, std::string_view field) {
-  return static_cast<std::size_t>(field.data() - line.data());
-}
-
 const char* name_of(char separator) {
   return separator == ';'    ? "semicolons"
          : separator == '\t' ? "tabs"
@@ -274,7 +241,7 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
     if (std::any_of(fields.begin() + static_cast<std::ptrdiff_t>(std::min(columns, fields.size())),
                     fields.end(), [](std::string_view field) { return !field.empty(); }))
       out.wrong.push_back(
-          {"", i + 1, csv_character(text.lines[i], byte_of(text.lines[i], fields[columns])),
+          {"", i + 1, csv_character(text.lines[i], fields[columns]),
            fmt::format("the row has {} fields, the table {} columns: write one field "
                        "per column",
                        fields.size(), columns)});

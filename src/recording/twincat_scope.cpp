@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <map>
 #include <optional>
 
-#include "measure/files/stream_csv_text.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
@@ -16,22 +16,16 @@ namespace {
 constexpr double s_per_tick = 1e-7;  // 100 ns
 
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
-  std::vector<std::string_view> fields;
-  for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t stop = std::min(line.find(separator, at), line.size());
-    fields.push_back(csv_trimmed(line.substr(at, stop - at)));
-    at = stop + 1;
-  }
+  auto fields = csv_fields(line, separator);
   while (fields.size() > 1 && fields.back().empty()) fields.pop_back();
   return fields;
 }
 
-/// A whole number of ticks, some 1.3e17 of them since 1601: more than a double tells apart.
-std::optional<std::int64_t> ticks_in(std::string_view field) {
-  std::int64_t ticks = 0;
-  const char* end = field.data() + field.size();
-  const auto [stop, error] = std::from_chars(field.data(), end, ticks);
-  return error == std::errc{} && stop == end ? std::optional(ticks) : std::nullopt;
+/// Seconds from one count of ticks to another; there are some 1.3e17 since 1601, more than a double
+/// tells apart, and what a file says may lie anywhere.
+double seconds_between(std::int64_t from, std::int64_t to) {
+  const auto a = static_cast<std::uint64_t>(from), b = static_cast<std::uint64_t>(to);
+  return s_per_tick * (to < from ? -static_cast<double>(a - b) : static_cast<double>(b - a));
 }
 
 /// The number in a field of a keyed row, `otherwise` where the row or the field is not there; with
@@ -68,7 +62,7 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
   std::size_t first = head;
   for (; first < text.lines.size(); ++first) {
     const auto fields = fields_of(text.lines[first], separator);
-    if (fields.size() > 1 && ticks_in(fields[0])) break;
+    if (fields.size() > 1 && whole_number<std::int64_t>(fields[0])) break;
     if (fields.size() > 1) keyed[std::string(fields[0])] = fields;
   }
   const auto names = keyed.find("Name");
@@ -98,7 +92,7 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
   for (std::size_t i = first; i < text.lines.size(); ++i) {
     auto fields = fields_of(text.lines[i], separator);
     if (fields.size() == 1 && fields[0].empty()) continue;
-    const auto ticks = ticks_in(fields[0]);
+    const auto ticks = whole_number<std::int64_t>(fields[0]);
     if (!ticks || fields.size() > columns) {
       out.wrong.push_back({"", i + 1, 0,
                            ticks && separator == ','
@@ -110,8 +104,8 @@ bool read_twincat_scope(const RecordedText& text, Recording& out) {
     if (out.lines.empty()) start_ticks = *ticks;
     fields.resize(columns);
     out.lines.push_back(i + 1);
-    out.cells.push_back(out.made.emplace_back(
-        fmt::format("{:.17g}", static_cast<double>(*ticks - start_ticks) * s_per_tick)));
+    out.cells.push_back(
+        out.made.emplace_back(fmt::format("{:.17g}", seconds_between(start_ticks, *ticks))));
     for (std::size_t k = 1; k < columns; ++k) {
       const double scale = scales[k], offset = offsets[k];
       double value = 0.0;

@@ -5,7 +5,8 @@
 #include <cctype>
 
 #include "base/counted.hpp"
-#include "measure/files/stream_csv_number.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
@@ -37,7 +38,7 @@ std::vector<Word> words_of(std::string_view line) {
     std::errc error{};
     const char* begin = line.data() + at;
     const char* end = line.data() + line.size();
-    const char* stop = csv_number(begin, end, value, error);
+    const char* stop = read_number(begin, end, value, error);
     if (stop == begin) return {};
     words.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(letter))),
                      {begin, static_cast<std::size_t>(stop - begin)}});

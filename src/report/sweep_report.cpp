@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
+#include "base/number.hpp"
 #include "report/page.hpp"
 #include "study/bound/quantities.hpp"
 
@@ -20,9 +19,7 @@ using nlohmann::json;
 /// The number that a label is, NaN for a word.
 double number_of(const std::string& label) {
   double value = 0.0;
-  const char* end = label.data() + label.size();
-  const auto [stop, error] = std::from_chars(label.data(), end, value);
-  return error == std::errc{} && stop == end ? value : std::numeric_limits<double>::quiet_NaN();
+  return parse_number(label, value) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 json axes_data(const Sweep& sweep) {
@@ -122,8 +119,8 @@ json sweep_data(const Sweep& sweep, const Summary& summary) {
 }  // namespace
 
 double to_six_digits(double value) {
-  if (!std::isfinite(value)) return value;
-  return std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr);
+  parse_number(fmt::format("{:.6g}", value), value);  // what is not finite stays
+  return value;
 }
 
 std::string render_sweep_report(const study::Sweep& sweep, const study::Summary& summary,

@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "base/number.hpp"
 #include "studies/published/likelihood_profile.hpp"
 #include "studies/published/printed_run.hpp"
 #include "study/bound/quantities.hpp"
@@ -103,11 +104,9 @@ std::vector<double> levels(const Sweep& sweep, std::size_t axis) {
 /// What a label of 1 is in the path's unit; 1 where the labels are words.
 double unit_of(const GridAxis& axis) {
   const AxisPoint& first = axis.points.front();
-  const char* end = first.label.data() + first.label.size();
   double label = 0.0;
-  const auto [stop, error] = std::from_chars(first.label.data(), end, label);
-  return error == std::errc{} && stop == end && label > 0.0 ? first.settings.front().value / label
-                                                            : 1.0;
+  return parse_number(first.label, label) && label > 0.0 ? first.settings.front().value / label
+                                                         : 1.0;
 }
 
 UnknownLevel level_of(const Table& table, const Understood& one, std::size_t row) {

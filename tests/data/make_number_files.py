@@ -138,6 +138,9 @@ whole[where + 40] ^= 0x10
 put("changed.h5", bytes(whole))
 put("elsewhere.h5", hdf5(lambda file: file.create_dataset(
     "cloud", (n, 3), "<f8", external=[("/dev/zero", 0, h5py.h5f.UNLIMITED)])))
+# Four data sets that say they hold 1 GiB of zeros each, in two kilobytes
+put("sparse.h5", hdf5(lambda file: [file.create_dataset(k, (2 ** 27, 1), "<f8", chunks=(2 ** 20, 1))
+                                    for k in "abcd"]))
 
 # X3P, written after the schema of ISO 25178-72 with the standard library alone
 xml = """<?xml version="1.0" encoding="UTF-8"?>

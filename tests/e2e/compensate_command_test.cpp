@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <regex>
 #include <sstream>
+#include <thread>
 
 #include "support/command_fixture.hpp"
 #include "support/nc_programs.hpp"
@@ -27,6 +30,22 @@ class CompensateCommand : public CommandTest {
     return command("compensate " + name + " " + options);
   }
 };
+
+// A pipe is read once.
+TEST_F(CompensateCommand, TheHashOfAMachineIsThatOfTheBytesThatWereRead) {
+  const std::string errors = " --errors " + five_axis_data + "trunnion_ac_errors.toml -o out.nc ";
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  std::thread writer([&] { std::ofstream(folder_ / "pipe") << read_text(machine); });
+  const CommandStreams piped =
+      compensate("p.nc", hole, "--machine pipe" + errors + "--json piped.json");
+  writer.join();
+  ASSERT_EQ(piped.exit_code, 0) << piped.err;
+  ASSERT_EQ(
+      command("compensate p.nc --machine " + machine + errors + "--json r.json --force").exit_code,
+      0);
+  EXPECT_EQ(result("piped.json").at("inputs")[1].at("hash"),
+            result("r.json").at("inputs")[1].at("hash"));
+}
 
 // The numbers of the worked example, docs/nc.md and docs/machine.md: machine, errors and results
 // were worked out by hand there.

@@ -117,6 +117,17 @@ TEST(FormWhole, AHelixIsCutIntoTurns) {
   EXPECT_NE(result.notes.front().find("helix"), std::string::npos);
 }
 
+// C that jumps by many turns takes memory for the turns that are there alone.
+TEST(FormWhole, AJumpOfManyTurnsIsNoTurnsWithoutReadings) {
+  ProbeStream stream;
+  for (int i = 0; i < 360 * 6; ++i) {
+    stream.c_rad.push_back(two_pi * (i / 360.0 + (i < 360 * 3 ? 0.0 : 1e12)));
+    stream.position_mm.push_back(0.5 * i / 360.0);
+    stream.reading_mm.push_back(20.0);
+  }
+  EXPECT_LE(assess_form(stream, quick()).sections.size(), 7U);
+}
+
 // Over one turn Z is C: a tilt takes two lobes in, and a roundness would come out too small.
 TEST(FormWhole, OneTurnOfAHelixIsRefused) {
   ProbeStream stream;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "nc/arc.hpp"
 #include "nc/program.hpp"
 #include "support/nc_programs.hpp"
 #include "trueaxis/error.hpp"
@@ -190,6 +191,42 @@ TEST(NcReader, ChordsStayWithinTheArcTolerance) {
   const double s = static_cast<double>(middle) / static_cast<double>(helix.moves.size() - 1);
   EXPECT_NEAR(helix.moves[middle].words[2], 6.0 * s, 1e-12);
   EXPECT_NEAR(helix.moves[middle].words[5], 90.0 * s * rad_per_deg, 1e-12);
+}
+
+/// Height of a chord's arc over it: 2 r sin²(step/4), which has no difference of nearly equal
+/// numbers in it.
+TEST(NcReader, ChordsOfAFineToleranceStayWithinItToo) {
+  for (const double tolerance_mm : {1e-10, 1.3e-10, 1.7e-10, 2.3e-10}) {
+    const double radius_mm = 10.0;
+    std::string trouble;
+    Arc arc{.from = {radius_mm}, .to = {radius_mm}, .clockwise = false};
+    arc.centre_mm[0] = -radius_mm;
+    const double chords = 1.0 + static_cast<double>(chords_of(arc, tolerance_mm, trouble).size());
+    EXPECT_EQ(trouble, "");
+    const auto height_mm = [&](double count) {
+      const double sine = std::sin(0.25 * two_pi / count);
+      return 2.0 * radius_mm * sine * sine;
+    };
+    EXPECT_LE(height_mm(chords), tolerance_mm * (1.0 + 1e-9));
+    EXPECT_GT(height_mm(chords - 1.0), tolerance_mm * (1.0 - 1e-9));
+  }
+}
+
+TEST(NcReader, AnArcOfMoreChordsThanAProgramHoldsIsRefused) {
+  const Arc arc{.from = {}, .to = {100.0}, .clockwise = false, .radius_mm = 1e9};
+  Arc round{.from = {1e9}, .to = {1e9}};
+  round.centre_mm[0] = -1e9;
+  for (const double tolerance_mm : {1e-4, 1e-8, 1e-300}) {
+    std::string trouble;
+    EXPECT_TRUE(chords_of(round, tolerance_mm, trouble).empty());
+    EXPECT_NE(trouble.find("more than 1000000 chords"), std::string::npos) << tolerance_mm;
+  }
+  std::string trouble;
+  EXPECT_LE(chords_of(arc, 1e-4, trouble).size(), 1U);  // a straight line, nearly
+  EXPECT_EQ(trouble, "");
+  ReadOptions options = xyzac();
+  options.arc_tolerance_mm = 1e-8;
+  EXPECT_EQ(places("G0 X0 Y0 Z0 A0 C0\nG2 I-100000000 F100\n", options), "2:4");
 }
 
 TEST(NcReader, ArcsThatAreNone) {

@@ -3,6 +3,7 @@
 // formulas are repeated here.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include "associate/files/association_files.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
+#include "interchange/formats.hpp"
 #include "interchange/number_file.hpp"
 #include "recording/import.hpp"
 #include "support/places.hpp"
@@ -166,6 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"complex.npy", "complex numbers"}, Wrong{"cube.npy", "3 dimensions"},
         Wrong{"objects.npy", "Python objects"}, Wrong{"cut.npy", "cut off"},
         Wrong{"huge.npy", "more than is read of one file"},
+        Wrong{"sparse.h5", "with the arrays before it"},
         Wrong{"points_lying.npy", "a point is a row"},
         Wrong{"points_nan.npy", ":4:2: y is no finite number"},
         Wrong{"points.npy", "names no array", "mm", "P"},
@@ -181,6 +184,47 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"other_xml.x3p", "the MD5 sum of main.xml", ""},
         Wrong{"too_many.x3p", "main.xml says 25 points", ""},
         Wrong{"endless.x3p", "is no count of points", ""}));
+
+/// A NumPy file of a header alone.
+std::string npy_of_shape(const std::string& shape) {
+  const std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': " + shape + ", }\n";
+  return std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header;
+}
+
+TEST(NumberFiles, AnArrayWithoutANumberIsNoTableHoweverLongItSaysItIs) {
+  for (const char* shape : {"(1000000000000000000, 0)", "(0, 1000000000000000000)", "(0, 3)"}) {
+    const std::string said = refusal([&] { read_number_file("empty.npy", npy_of_shape(shape)); });
+    EXPECT_NE(said.find("(no numbers)"), std::string::npos) << shape << ": " << said;
+  }
+}
+
+TEST(NumberFiles, WhatAFileMayHoldIsSharedByItsArrays) {
+  const std::string path = "many";
+  NumberBudget budget(path);
+  EXPECT_EQ(budget.take("a", most_numbers / 2, 1), most_numbers / 2);
+  EXPECT_EQ(budget.take("b", 0, ~std::size_t{0}), 0U);
+  EXPECT_EQ(budget.take("c", 1, most_numbers / 2 - 1), most_numbers / 2 - 1);
+  EXPECT_THROW(budget.take("d", 1, 2), InputError);
+  EXPECT_EQ(budget.take("e", 1, 1), 1U);
+}
+
+TEST(NumberFiles, AMatlabFileIsReadFromTheBytesThatWereHashed) {
+  const std::string bytes = read_file(made("stream.mat"));
+  // By another name, such as that of standard input, or of a file that was changed since.
+  for (const std::string& path : {std::string("-"), made("points.npy")}) {
+    const NumberFile file = read_number_file(path, bytes);
+    const auto x = std::ranges::find(file.arrays, "X", &NumberArray::name);
+    ASSERT_NE(x, file.arrays.end()) << path;
+    ASSERT_EQ(x->rows, count);
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_NEAR(x->values[i], 20.0 + 0.05 * std::cos(turn(i)), rounding_mm);
+  }
+}
+
+TEST(NumberFiles, AFileThatCannotBeReadOnIsNoShortFile) {
+  const std::string said = refusal([] { read_file("/proc/self/mem"); });  // address 0
+  EXPECT_NE(said.find("cannot be read (Input/output error)"), std::string::npos) << said;
+}
 
 TEST(NumberFiles, APackedFileThatIsNoneOfThemIsLeftToOthers) {
   EXPECT_FALSE(is_number_file("PK\x03\x04 a workbook"));

@@ -323,6 +323,17 @@ TEST_F(RecordingFormats, AScaleWithADecimalCommaIsReadBesideWholeNumbers) {
   EXPECT_NEAR(stream.c_rad[2] * deg_per_rad, 180.0, 1e-9);
 }
 
+// Ticks are whole numbers of 64 bits, and what a file says of them may be any.
+TEST_F(RecordingFormats, TicksFarApartAreAsManySeconds) {
+  const ProbeStream stream = read_recording(
+      put("Name;Lathe;\nStarttime of export;1;x;y\n\nName;X;C;Z;\nUnit;mm;°;mm;\n"
+          "-9000000000000000000;40;0;1;\n0;41;90;2;\n9000000000000000000;42;180;3;\n"),
+      said("X=X,C=C,Z=Z,t=1", false));
+  ASSERT_EQ(stream.size(), 3U);
+  EXPECT_DOUBLE_EQ(stream.time_s[1] - stream.time_s[0], 9e11);
+  EXPECT_DOUBLE_EQ(stream.time_s[2] - stream.time_s[0], 18e11);
+}
+
 TEST_F(RecordingFormats, AStreamOfItsOwnKeepsItsMessages) {
   const std::string message = what_is_said(put("X_M[mm],C[deg],Z[mm]\n40,0,1\n41,abc,2\n"));
   EXPECT_NE(message.find(":3:4: C: 'abc' is not a number"), std::string::npos) << message;

@@ -241,6 +241,10 @@ TEST(SimulateCut, TableReaderUnwrapsInTheSenseOfTheCut) {
     EXPECT_EQ(error.diagnostics()[0].line, 4u);
     EXPECT_EQ(error.diagnostics()[0].column, 6u);
   }
+  for (const char* revolution : {"1e30", "-1e300", "0.5"})  // no whole number that fits
+    EXPECT_THROW(parse_cut_table(head + "0,0,0,0,0\n" + revolution + ",-1,10,0,0\n", "t", 1),
+                 InputError)
+        << revolution;
   EXPECT_THROW(parse_cut_table("", "t.csv", 1), InputError);
 }
 

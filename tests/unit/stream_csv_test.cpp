@@ -11,8 +11,8 @@
 #include <random>
 #include <string>
 
+#include "base/number.hpp"
 #include "format/file.hpp"
-#include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "support/places.hpp"
 #include "trueaxis/error.hpp"
@@ -305,7 +305,7 @@ TEST_F(StreamCsv, RowsAcrossChunksAreWhole) {
 void expect_exact(const std::string& text) {
   double value = 0.0;
   std::errc error{};
-  const char* end = csv_number(text.data(), text.data() + text.size(), value, error);
+  const char* end = read_number(text.data(), text.data() + text.size(), value, error);
   ASSERT_EQ(end, text.data() + text.size()) << text;
   ASSERT_EQ(error, std::errc{}) << text;
   const double wanted = std::strtod(text.c_str(), nullptr);
@@ -340,7 +340,7 @@ TEST(CsvNumber, RefusesWhatIsNone) {
   for (const std::string text : {"", "-", "+", ".", "-.", "+-1", "--1", "e5", "x", " 1"}) {
     double value = 0.0;
     std::errc error{};
-    EXPECT_EQ(csv_number(text.data(), text.data() + text.size(), value, error), text.data())
+    EXPECT_EQ(read_number(text.data(), text.data() + text.size(), value, error), text.data())
         << text;
   }
 }

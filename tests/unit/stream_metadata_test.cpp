@@ -70,9 +70,9 @@ TEST(StreamMetadata, WhatLooksLikeAKeyIsRefusedWithItsSpelling) {
 
 TEST(StreamMetadata, UnitsAndConventionsOfTheFileAreRefused) {
   for (const char* line :
-       {"units: inch", "unit = mm", "Einheiten: Zoll", "inch", "all lengths in inch.", "diameter",
-        "X_M is a diameter", "X: diameter", "C = rad", "diameter: 80", "Radius: 40 mm",
-        "X_M in mm, C in deg", "values are radii", "units mm"}) {
+       {"units: inch", "unit = mm", "Einheiten: Zoll", "pulgadas", "degrés:", "inch",
+        "all lengths in inch.", "diameter", "X_M is a diameter", "X: diameter", "C = rad",
+        "diameter: 80", "Radius: 40 mm", "X_M in mm, C in deg", "values are radii", "units mm"}) {
     SCOPED_TRACE(line);
     EXPECT_THROW(read(std::string("# ") + line + "\nX_M,C\n1,0\n2,90\n"), InputError);
     EXPECT_THROW(read(std::string("X_M,C # ") + line + "\n1,0\n2,90\n"), InputError);
@@ -91,6 +91,7 @@ TEST(StreamMetadata, ProseIsFree) {
                            "noise: low today",
                            "side A of the part",
                            "Side: A",
+                           "meter: Mitutoyo 543",
                            "the radius of the ball is on the drawing",
                            "diameter of the part 80 mm by drawing",
                            "part: cone",

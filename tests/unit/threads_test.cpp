@@ -2,11 +2,18 @@
 #include "base/threads.hpp"
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include <atomic>
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
 #include <vector>
+
+#include "mpi/own_share.hpp"
 
 namespace trueaxis::testing {
 namespace {
@@ -51,6 +58,44 @@ TEST(Threads, EachMakesItsOwn) {
   });
   EXPECT_EQ(made, 3U);
   EXPECT_EQ(done, 100U);
+}
+
+/// The system gives no thread whose stack is half of all addresses.
+TEST(Threads, WhereTheSystemGivesNoMoreTheOthersDoTheWork) {
+  pthread_attr_t usual, huge;
+  ASSERT_EQ(pthread_getattr_default_np(&usual), 0);
+  ASSERT_EQ(pthread_attr_init(&huge), 0);
+  ASSERT_EQ(pthread_attr_setstacksize(&huge, std::size_t{1} << 46U), 0);
+  ASSERT_EQ(pthread_setattr_default_np(&huge), 0);
+  EXPECT_THROW(std::thread([] {}).join(), std::system_error);
+  std::atomic<std::size_t> done = 0;
+  for_each_index(100, 4, [&](std::size_t) { ++done; });
+  EXPECT_EQ(done, 100U);
+  ASSERT_EQ(pthread_setattr_default_np(&usual), 0);
+  pthread_attr_destroy(&huge);
+  pthread_attr_destroy(&usual);
+}
+
+/// The thread of rank 0 hands on what is thrown, by a block or by what makes its worker.
+TEST(Threads, OfTheOwnShareOfASweepWhatIsThrownIsHandedOn) {
+  const std::vector<study::Block> blocks(3);
+  const auto first_thrown = [&](std::function<mpi::OwnShare::Run()> make) {
+    std::atomic<std::size_t> next = 0;
+    mpi::OwnShare share(std::move(make), blocks, next);
+    try {
+      while (true) share.take();
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(first_thrown([]() -> mpi::OwnShare::Run { throw std::runtime_error("no worker"); }),
+            "no worker");
+  EXPECT_EQ(first_thrown([]() -> mpi::OwnShare::Run {
+              return [](const study::Block&) -> study::BlockResult {
+                throw std::runtime_error("no block");
+              };
+            }),
+            "no block");
 }
 
 }  // namespace

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "associate/files/association_files.hpp"
+#include "format/csv_text.hpp"
 #include "format/file.hpp"
+#include "format/units.hpp"
 #include "interchange/number_file.hpp"
-#include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -59,10 +59,10 @@ class Chooser {
     for (const NumberColumn& axis : axes) {
       const std::string& told = axis.array->unit;
       if (told.empty()) continue;
-      if (!csv_find_unit(CsvQuantity::length, told))
+      if (!find_unit(UnitKind::length, told))
         throw InputError(path_, csv_quoted(told) + " of " + axis.array->name +
                                     " is no unit of length: write " +
-                                    csv_known_units(CsvQuantity::length));
+                                    known_units(UnitKind::length));
       if (unit.empty()) unit = told;
       if (of(unit) != of(told))
         throw InputError(path_, "its unit is " + csv_quoted(told) + ", and " + csv_quoted(unit) +
@@ -80,9 +80,7 @@ class Chooser {
   static std::string last_name(const std::string& name) {
     return name.substr(name.find_last_of("/.") + 1);
   }
-  static double of(const std::string& unit) {
-    return csv_find_unit(CsvQuantity::length, unit)->factor;
-  }
+  static double of(const std::string& unit) { return find_unit(UnitKind::length, unit)->factor; }
   static Axes across(const NumberArray& array) {
     Axes axes;
     for (std::size_t i = 0; i < 3; ++i) axes[i] = {&array, i, array.name};
@@ -171,7 +169,6 @@ PointText points_of_numbers(const std::string& path, const std::string& bytes,
     out.points_mm.push_back(point);
     out.lines.push_back(axes[0].array->numbers.empty() ? row + 1 : axes[0].array->numbers[row]);
   }
-  if (rows == 0) wrong.add(0, 0, "has no points");
   wrong.throw_if_any();
   return out;
 }

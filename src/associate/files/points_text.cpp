@@ -4,10 +4,11 @@
 #include <optional>
 
 #include "associate/files/association_files.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "format/file.hpp"
+#include "format/units.hpp"
 #include "interchange/number_file.hpp"
-#include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -16,24 +17,23 @@ constexpr std::size_t most_places = 20;
 
 /// Fields between blanks, tabs or commas; a comma may have blanks beside it, two commas have an
 /// empty field between them. Blanks inside and before [brackets] do not separate.
-void split(std::string_view line, std::vector<CsvField>& fields) {
+void split(std::string_view line, std::vector<std::string_view>& fields) {
   const bool commas = line.find(',') != std::string_view::npos;
   csv_split(line, commas ? ',' : ' ', fields);
 }
 
 /// "x[um]": the unit of the column, "" where it has none; nothing where the text is no such column.
 std::optional<std::string_view> unit_of_column(std::string_view text, char name) {
-  if (text.empty() || std::tolower(static_cast<unsigned char>(text[0])) != name) return {};
-  text = csv_trimmed(text.substr(1));
-  if (text.empty()) return "";
-  if (!text.starts_with('[') || !text.ends_with(']')) return {};
-  return csv_trimmed(text.substr(1, text.size() - 2));
+  const auto [written, unit] = name_with_unit(text);
+  if (written.size() != 1 || std::tolower(static_cast<unsigned char>(written[0])) != name)
+    return {};
+  return unit.value_or("");
 }
 
 class Reader {
  public:
   Reader(const std::string& path, const std::string& unit) : wrong_(path, most_places) {
-    if (!unit.empty()) said_ = csv_find_unit(CsvQuantity::length, unit);
+    if (!unit.empty()) said_ = find_unit(UnitKind::length, unit);
     if (said_) factor_ = said_->factor;
   }
 
@@ -41,7 +41,7 @@ class Reader {
     text = csv_without_comment(text);
     if (csv_trimmed(text).empty()) return;
     split(text, fields_);
-    if (first_ && !csv_starts_number(fields_.front().text) && header(text, number)) return;
+    if (first_ && !starts_number(fields_.front()) && header(text, number)) return;
     first_ = false;
     if (fields_.size() != 3)
       return wrong_.add(number, 0,
@@ -65,20 +65,16 @@ class Reader {
 
  private:
   bool coordinate(std::string_view line, std::size_t number, std::size_t i, double& value) {
-    const std::string_view text = fields_[i].text;
-    std::errc error{};
-    const char* end = text.data() + text.size();
-    const bool whole =
-        !text.empty() && csv_number(text.data(), end, value, error) == end && error == std::errc{};
-    if (whole && std::isfinite(value)) {
+    const std::string_view text = fields_[i];
+    if (parse_number(text, value)) {
       value *= factor_;
       if (std::abs(value) <= largest_coordinate_mm) return true;
-      wrong_.add(number, csv_character(line, fields_[i].byte),
+      wrong_.add(number, csv_character(line, fields_[i]),
                  csv_quoted(text) + " is more than 1e12 mm: look at the unit", "large");
       return false;
     }
-    wrong_.add(number, csv_character(line, fields_[i].byte),
-               csv_quoted(text) + " is no finite number", "number");
+    wrong_.add(number, csv_character(line, fields_[i]), csv_quoted(text) + " is no finite number",
+               "number");
     return false;
   }
 
@@ -86,17 +82,17 @@ class Reader {
   bool header(std::string_view line, std::size_t number) {
     first_ = false;
     if (fields_.size() != 3) return false;
-    std::optional<CsvUnit> unit;
+    std::optional<Unit> unit;
     for (std::size_t i = 0; i < 3; ++i) {
-      const auto name = unit_of_column(fields_[i].text, "xyz"[i]);
+      const auto name = unit_of_column(fields_[i], "xyz"[i]);
       if (!name) return false;
       if (name->empty()) continue;
-      const std::size_t column = csv_character(line, fields_[i].byte);
-      const auto found = csv_find_unit(CsvQuantity::length, *name);
+      const std::size_t column = csv_character(line, fields_[i]);
+      const auto found = find_unit(UnitKind::length, *name);
       if (!found)
-        wrong_.add(number, column,
-                   csv_quoted(*name) + " is no unit of length: write " +
-                       csv_known_units(CsvQuantity::length));
+        wrong_.add(
+            number, column,
+            csv_quoted(*name) + " is no unit of length: write " + known_units(UnitKind::length));
       else if (said_ && found->factor != said_->factor)
         wrong_.add(number, column,
                    csv_quoted(*name) + " is not the unit that --unit says: leave one of them out");
@@ -110,10 +106,10 @@ class Reader {
   }
 
   CsvDiagnostics wrong_;
-  std::optional<CsvUnit> said_;
+  std::optional<Unit> said_;
   double factor_ = 1.0;
   bool first_ = true;
-  std::vector<CsvField> fields_;
+  std::vector<std::string_view> fields_;
 };
 
 }  // namespace
@@ -124,12 +120,7 @@ PointText read_points(const std::string& path, const std::string& unit, const st
   if (!array.empty()) throw InputError(path, "is a text of points: leave out --array");
   PointText out{.source = path, .hash = content_hash(content), .points_mm = {}, .lines = {}};
   Reader reader(path, unit);
-  std::size_t number = 0;
-  for (std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < content.size();) {
-    const std::size_t end = std::min(content.find('\n', at), content.size());
-    reader.line(std::string_view(content).substr(at, end - at), ++number, out);
-    at = end + 1;
-  }
+  for_each_line(content, [&](auto line, std::size_t number) { reader.line(line, number, out); });
   reader.finish(out);
   return out;
 }

@@ -3,9 +3,10 @@
 
 #include <cmath>
 
+#include "base/number.hpp"
 #include "calibrate/files/measurement_header.hpp"
+#include "format/csv_text.hpp"
 #include "format/file.hpp"
-#include "measure/files/stream_csv_number.hpp"
 
 namespace trueaxis {
 namespace {
@@ -14,11 +15,11 @@ using Role = MeasurementRole;
 constexpr std::size_t most_listed = 50;
 
 /// A finite number below 1e9, whole where it counts; else what is wrong.
-std::string read_number(const MeasurementColumn& column, std::string_view text, double& value) {
+std::string take_number(const MeasurementColumn& column, std::string_view text, double& value) {
   if (text.empty()) return column.name + " is empty: write a number or remove the row";
   std::errc error{};
   const char* const end = text.data() + text.size();
-  if (csv_number(text.data(), end, value, error) != end)
+  if (read_number(text.data(), end, value, error) != end)
     return column.name + ": " + csv_quoted(text) + " is not a number";
   if (error != std::errc{} || !(std::abs(value) < 1e9))
     return column.name + ": " + csv_quoted(text) +
@@ -48,11 +49,11 @@ class Rows {
     begin();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       double value = 0.0;
-      std::string why = read_number(columns[k], fields_[k].text, value);
+      std::string why = take_number(columns[k], fields_[k], value);
       value *= columns[k].factor;
       if (why.empty()) why = put(columns[k], value);
       if (why.empty()) continue;
-      diagnostics_.add(number, csv_character(line, fields_[k].byte), std::move(why));
+      diagnostics_.add(number, csv_character(line, fields_[k]), std::move(why));
     }
   }
 
@@ -106,7 +107,7 @@ class Rows {
 
   MachineMeasurement& out_;
   CsvDiagnostics& diagnostics_;
-  std::vector<CsvField> fields_;
+  std::vector<std::string_view> fields_;
 };
 
 /// Whether what was said before the header is enough to read it.
@@ -154,33 +155,28 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
   MeasurementMetadata metadata;
   Rows rows(out, diagnostics);
   bool header = false;
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line(text.data() + at, end - at);
-    at = end + 1;
-    ++number;
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+  std::size_t last = 0;
+  for_each_line(text, [&](std::string_view line, std::size_t number) {
+    if (header && rows.columns.empty()) return;
+    last = number;
     const std::string_view content = csv_without_comment(line);
     if (csv_trimmed(content).empty()) {
       if (content.size() < line.size() && !header)
         take_measurement_comment(line, number, metadata, diagnostics);
-      continue;
+      return;
     }
     if (!header) {
       header = true;
       if (take_metadata(metadata, machine, number, out, diagnostics))
         rows.columns = measurement_columns(content, number, metadata, machine, diagnostics);
-      if (rows.columns.empty()) break;
     } else {
       rows.row(content, number);
     }
-  }
+  });
   if (!header)
     diagnostics.add(0, 0, "has no header and no rows");
   else if (!diagnostics.any() && out.rows() == 0)
-    diagnostics.add(number, 0, "has no rows");
+    diagnostics.add(last, 0, "has no rows");
   diagnostics.throw_if_any();
   return out;
 }

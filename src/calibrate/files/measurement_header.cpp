@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "measure/files/stream_csv_number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -15,36 +16,33 @@ struct Known {
   std::string name;
   Role role;
   std::size_t index;
-  CsvQuantity quantity;
+  UnitKind quantity;
   bool needed;
 };
 
-CsvQuantity of_axis(AxisName axis) {
-  return is_rotary(axis) ? CsvQuantity::angle : CsvQuantity::length;
-}
+UnitKind of_axis(AxisName axis) { return is_rotary(axis) ? UnitKind::angle : UnitKind::length; }
 
 std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Machine& machine) {
   const MeasurementKind kind = *metadata.kind;
   if (kind == MeasurementKind::axis) {
-    const CsvQuantity quantity = of_axis(metadata.axis.value_or(AxisName::X));
+    const UnitKind quantity = of_axis(metadata.axis.value_or(AxisName::X));
     return {{"command", Role::command, 0, quantity, true},
             {"actual", Role::actual, 0, quantity, true},
-            {"t", Role::time, 0, CsvQuantity::time, false}};
+            {"t", Role::time, 0, UnitKind::time, false}};
   }
   const bool array = kind == MeasurementKind::array;
-  std::vector<Known> known{{"setup", Role::setup, 0, CsvQuantity::count, !array},
-                           {"ball", Role::ball, 0, CsvQuantity::count, true}};
+  std::vector<Known> known{{"setup", Role::setup, 0, UnitKind::count, !array},
+                           {"ball", Role::ball, 0, UnitKind::count, true}};
   for (const MachineAxis& axis : machine.axes)  // an array's rotary axes stand at 0 unless said
     known.push_back({std::string(1, letter_of(axis.name)), Role::axis, index_of(axis.name),
                      of_axis(axis.name), !array || !is_rotary(axis.name)});
   if (kind == MeasurementKind::ball)
     for (std::size_t i = 0; i < 3; ++i)
-      known.push_back({std::string("d") + "XYZ"[i], Role::deviation, i, CsvQuantity::length, true});
-  if (kind == MeasurementKind::bar)
-    known.push_back({"L", Role::length, 0, CsvQuantity::length, true});
-  if (array) known.push_back({"s", Role::along, 0, CsvQuantity::length, true});
-  known.push_back({"tool_length", Role::tool_length, 0, CsvQuantity::length, false});
-  known.push_back({"t", Role::time, 0, CsvQuantity::time, false});
+      known.push_back({std::string("d") + "XYZ"[i], Role::deviation, i, UnitKind::length, true});
+  if (kind == MeasurementKind::bar) known.push_back({"L", Role::length, 0, UnitKind::length, true});
+  if (array) known.push_back({"s", Role::along, 0, UnitKind::length, true});
+  known.push_back({"tool_length", Role::tool_length, 0, UnitKind::length, false});
+  known.push_back({"t", Role::time, 0, UnitKind::time, false});
   return known;
 }
 
@@ -70,14 +68,14 @@ std::string take(std::string_view field, const std::vector<Known>& known,
   column.index = found->index;
   column.name = name;
   const bool unit_there = bracket != std::string_view::npos;
-  if (found->quantity == CsvQuantity::count)
+  if (found->quantity == UnitKind::count)
     return unit_there ? name + " is a number without a unit: write " + name : "";
   const std::string give =
-      std::string(": write it in brackets, one of ") + csv_known_units(found->quantity);
+      std::string(": write it in brackets, one of ") + known_units(found->quantity);
   if (!unit_there) return name + " has no unit" + give;
   const std::string_view unit =
       csv_trimmed(field.substr(bracket + 1, field.find(']') - bracket - 1));
-  const auto factor = csv_find_unit(found->quantity, unit);
+  const auto factor = find_unit(found->quantity, unit);
   if (!factor || field.back() != ']') return csv_quoted(unit) + " is no unit of " + name + give;
   column.factor = factor->factor;
   return "";
@@ -90,21 +88,20 @@ std::vector<MeasurementColumn> measurement_columns(std::string_view line, std::s
                                                    const Machine& machine,
                                                    CsvDiagnostics& diagnostics) {
   const std::vector<Known> known = known_columns(metadata, machine);
-  std::vector<CsvField> fields;
-  csv_split(line, ',', fields);
+  const auto fields = csv_fields(line, ',');
   std::vector<MeasurementColumn> columns;
   bool good = true;
   const auto wrong = [&](std::size_t column, std::string message) {
     diagnostics.add(number, column, std::move(message));
     good = false;
   };
-  for (const CsvField& field : fields) {
+  for (const std::string_view field : fields) {
     MeasurementColumn column;
-    std::string why = take(field.text, known, column);
+    std::string why = take(field, known, column);
     if (why.empty() &&
         std::ranges::find(columns, column.name, &MeasurementColumn::name) != columns.end())
       why = column.name + " is there twice: keep one";
-    if (!why.empty()) wrong(csv_character(line, field.byte), std::move(why));
+    if (!why.empty()) wrong(csv_character(line, field), std::move(why));
     columns.push_back(std::move(column));
   }
   for (const Known& one : known) {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/files/stream_csv_text.hpp"
+#include "format/csv_text.hpp"
 #include "trueaxis/calibration.hpp"
 
 namespace trueaxis {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <charconv>
 
 #include "base/edit_distance.hpp"
+#include "base/number.hpp"
 #include "calibrate/files/measurement_header.hpp"
-#include "measure/files/stream_csv_number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -20,12 +21,12 @@ std::string take_kind(std::string_view value, MeasurementMetadata& metadata) {
 }
 
 std::string take_noise(std::string_view value, MeasurementMetadata& metadata) {
-  for (const CsvQuantity quantity : {CsvQuantity::length, CsvQuantity::angle}) {
-    const auto noise = csv_quantity(value, quantity);
+  for (const UnitKind quantity : {UnitKind::length, UnitKind::angle}) {
+    const auto noise = quantity_in(value, quantity);
     if (!noise) continue;
     if (!(*noise > 0.0)) return "noise must be more than 0: the standard deviation of a read-out";
     metadata.noise = noise;
-    metadata.noise_is_angle = quantity == CsvQuantity::angle;
+    metadata.noise_is_angle = quantity == UnitKind::angle;
     return "";
   }
   return csv_quoted(value) + " is no noise: write a number and its unit, such as 1 um";
@@ -40,10 +41,9 @@ std::string take_axis(std::string_view value, MeasurementMetadata& metadata) {
 }
 
 std::string take_gear_ratio(std::string_view value, MeasurementMetadata& metadata) {
-  int ratio = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), ratio);
+  const auto ratio = whole_number<int>(value);
   constexpr int most = 10000;
-  if (error != std::errc{} || end != value.data() + value.size() || ratio < 2 || ratio > most)
+  if (!ratio || *ratio < 2 || *ratio > most)
     return csv_quoted(value) +
            " is no gear ratio: write how often the gear turns in a turn of the axis, 2 to 10000";
   metadata.gear_ratio = ratio;

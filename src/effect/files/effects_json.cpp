@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "effect/files/effects_files.hpp"
 #include "format/json.hpp"
-#include "format/toml_units.hpp"
+#include "format/units.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

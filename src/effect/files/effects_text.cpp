@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "effect/files/effects_files.hpp"
-#include "format/toml_units.hpp"
+#include "format/units.hpp"
 #include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"

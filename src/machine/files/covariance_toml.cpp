@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "format/units.hpp"
 #include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
 #include "machine/uncertainty.hpp"
@@ -149,13 +150,11 @@ void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
                      ErrorModel& errors) {
   auto table = root.maybe_table("covariance");
   if (!table) return;
-  const double length = table->required_choice<double>(
-      "length", {{"um", 1e-3}, {"mm", 1.0}, {"m", 1e3}, {"in", mm_per_inch}});
-  const double angle = table->required_choice<double>("angle", {{"urad", 1e-6},
-                                                                {"mrad", 1e-3},
-                                                                {"rad", 1.0},
-                                                                {"deg", rad_per_deg},
-                                                                {"arcsec", rad_per_deg / 3600.0}});
+  const auto length = table->required_choice<double>(
+      "length", {unit_choice("um"), unit_choice("mm"), unit_choice("m"), unit_choice("in")});
+  const auto angle = table->required_choice<double>(
+      "angle", {unit_choice("urad"), unit_choice("mrad"), unit_choice("rad"), unit_choice("deg"),
+                unit_choice("arcsec")});
   ErrorCovariance covariance;
   covariance.amounts = read_amounts(*table, machine);
   const auto n = static_cast<Index>(covariance.amounts.size());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "machine/files/etalon.hpp"
@@ -15,14 +16,16 @@
 namespace trueaxis {
 namespace {
 
-ErrorModel read_one(const std::string& path, const Machine& machine, const ErrorsFiles& said) {
-  if (is_errors_toml(path)) return read_errors_toml(path, machine, said.large_errors);
+ErrorModel read_one(std::string_view content, const std::string& path, const Machine& machine,
+                    const ErrorsFiles& said) {
+  if (is_errors_toml(path)) return parse_errors_toml(content, path, machine, said.large_errors);
   if (!said.foreign_sign)
     throw InputError(path,
                      "does not say the sign of its component errors: give --sign moving_part or "
                      "--sign tool_minus_workpiece");
-  return path.ends_with(".csv") ? read_isg_csv(path, machine, *said.foreign_sign, said.large_errors)
-                                : read_etalon(path, machine, *said.foreign_sign, said.large_errors);
+  return path.ends_with(".csv")
+             ? read_isg_csv(content, path, machine, *said.foreign_sign, said.large_errors)
+             : read_etalon(content, path, machine, *said.foreign_sign, said.large_errors);
 }
 
 bool has_components(const ErrorModel& errors) {
@@ -38,13 +41,15 @@ bool is_errors_toml(const std::string& path) {
 
 ErrorsOfFiles read_errors_files(std::span<const std::string> paths, const MachineFile& machine,
                                 const ErrorsFiles& said) {
-  ErrorsOfFiles out{machine.parameter_errors, {}};
+  ErrorsOfFiles out{machine.parameter_errors, {}, {}};
   ErrorModel& all = out.errors;
   std::vector<Diagnostic> wrong;
   std::string of_components;
   for (const std::string& path : paths) {
     try {
-      const ErrorModel one = read_one(path, machine.machine, said);
+      const std::string content = read_file(path);
+      const ErrorModel one = read_one(content, path, machine.machine, said);
+      out.hashes.push_back(content_hash(content));
       all.terms.insert(all.terms.end(), one.terms.begin(), one.terms.end());
       add_covariance(all.covariance, one.covariance);
       if (auto remark = machine_not_said(path, one, machine.machine); !remark.empty())

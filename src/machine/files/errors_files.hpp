@@ -21,6 +21,7 @@ bool is_errors_toml(const std::string& path);
 
 struct ErrorsOfFiles {
   ErrorModel errors;
+  std::vector<std::string> hashes;   ///< of each file, of the bytes that were read
   std::vector<std::string> remarks;  ///< what the files do not say, such as their machine
 };
 

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 
-#include "format/toml_units.hpp"
+#include "format/file.hpp"
+#include "format/units.hpp"
 #include "machine/files/covariance_toml.hpp"
 #include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
@@ -148,7 +149,12 @@ void read_reference(TomlTable& root, const Machine& machine, ErrorModel& errors)
 }  // namespace
 
 ErrorModel read_errors_toml(const std::string& path, const Machine& machine, bool large_errors) {
-  TomlDocument document(path);
+  return parse_errors_toml(read_file(path), path, machine, large_errors);
+}
+
+ErrorModel parse_errors_toml(std::string_view content, const std::string& path,
+                             const Machine& machine, bool large_errors) {
+  TomlDocument document(content, path);
   TomlTable root = document.root();
   ErrorModel errors;
   root.required_choice<int>("schema", {{"trueaxis.errors/1", 1}});

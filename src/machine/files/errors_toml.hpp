@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "trueaxis/machine.hpp"
@@ -14,6 +15,9 @@ namespace trueaxis {
 /// @throws InputError with every diagnostic: file, line, column, what to do.
 ErrorModel read_errors_toml(const std::string& path, const Machine& machine,
                             bool large_errors = false);
+/// The same of what the file holds.
+ErrorModel parse_errors_toml(std::string_view content, const std::string& path,
+                             const Machine& machine, bool large_errors = false);
 
 /// What `read_errors_toml` reads back. `of`: the machine that it will say the errors are of; errors
 /// of a workpiece alone are of none.

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
-#include "format/file.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
 #include "machine/files/number_table.hpp"
@@ -17,12 +17,6 @@
 namespace trueaxis {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// Reads line by line; what a block is of is known from its heading.
 class EtalonReader {
  public:
@@ -30,9 +24,9 @@ class EtalonReader {
                ErrorModel& errors)
       : path_(path), machine_(machine), large_errors_(large_errors), errors_(errors) {}
 
-  void line(std::string_view text) {
-    ++number_;
-    text = trimmed(text.substr(0, text.find("//")));
+  void line(std::string_view text, std::size_t number) {
+    number_ = number;
+    text = csv_trimmed(text.substr(0, text.find("//")));
     if (text.empty()) return;
     if (in_grid_)
       grid_row(text);
@@ -58,7 +52,7 @@ class EtalonReader {
 
   void heading(std::string_view text) {
     close_block();
-    const std::string name(trimmed(text.substr(1, text.find(']') - 1)));
+    const std::string name(csv_trimmed(text.substr(1, text.find(']') - 1)));
     const std::string trouble =
         text.ends_with(']') ? error_name_trouble(name, machine_) : "is not closed by ]";
     if (!trouble.empty()) complain("the block " + std::string(text) + ' ' + trouble);
@@ -70,9 +64,9 @@ class EtalonReader {
 
   void entry(std::string_view text) {
     const std::size_t equals = text.find('=');
-    const std::string_view key = trimmed(text.substr(0, equals));
+    const std::string_view key = csv_trimmed(text.substr(0, equals));
     const std::string_view value =
-        equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
+        equals == std::string_view::npos ? "" : csv_trimmed(text.substr(equals + 1));
     double constant = 0.0;
     if (!block_open_ || filled_) {
       complain("stands in no block, or a second time in one: begin one with [NAME]");
@@ -91,7 +85,7 @@ class EtalonReader {
 
   void grid_row(std::string_view text) {
     const bool last = text.ends_with('}');
-    if (last) text = trimmed(text.substr(0, text.size() - 1));
+    if (last) text = csv_trimmed(text.substr(0, text.size() - 1));
     const auto fields = fields_of(text);
     double at = 0.0, value = 0.0;
     if (!text.empty()) {
@@ -137,17 +131,12 @@ class EtalonReader {
 
 }  // namespace
 
-ErrorModel read_etalon(const std::string& path, const Machine& machine, ErrorSign sign,
-                       bool large_errors) {
-  const std::string content = read_file(path);
+ErrorModel read_etalon(std::string_view content, const std::string& path, const Machine& machine,
+                       ErrorSign sign, bool large_errors) {
   ErrorModel errors;
   errors.sign = sign;
   EtalonReader reader(path, machine, large_errors, errors);
-  for (std::size_t at = 0; at < content.size();) {
-    const std::size_t end = std::min(content.find('\n', at), content.size());
-    reader.line(std::string_view(content).substr(at, end - at));
-    at = end + 1;
-  }
+  for_each_line(content, [&](auto line, std::size_t number) { reader.line(line, number); });
   reader.finish();
   return errors;
 }

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "format/file.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
 #include "machine/files/number_table.hpp"
@@ -22,27 +23,22 @@ struct Block {
   std::vector<NumberTable::Row> rows;
 };
 
-std::vector<Block> blocks_of(const std::string& path, std::vector<Diagnostic>& wrong) {
-  const std::string content = read_file(path);
+std::vector<Block> blocks_of(std::string_view content, const std::string& path,
+                             std::vector<Diagnostic>& wrong) {
   std::vector<Block> blocks(1);
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < content.size();) {
-    const std::size_t end = std::min(content.find('\n', at), content.size());
-    std::string_view line = std::string_view(content).substr(at, end - at);
-    at = end + 1;
-    ++number;
+  for_each_line(content, [&](std::string_view line, std::size_t number) {
     line = line.substr(0, line.find("//"));
-    if (line.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+    if (csv_trimmed(line).empty()) return;
     const auto fields = fields_of(line);
     if (fields.front().starts_with('#')) {
       if (!blocks.back().header.empty()) blocks.emplace_back();
-      continue;
+      return;
     }
     Block& block = blocks.back();
     if (block.header.empty()) {
       block.header.assign(fields.begin(), fields.end());
       block.header_line = number;
-      continue;
+      return;
     }
     NumberTable::Row row{number, {}};
     double value = 0.0;
@@ -54,7 +50,7 @@ std::vector<Block> blocks_of(const std::string& path, std::vector<Diagnostic>& w
       wrong.push_back({path, number, 0,
                        fmt::format("is no row of {} numbers under its header (line {})",
                                    block.header.size(), block.header_line)});
-  }
+  });
   if (blocks.back().header.empty()) blocks.pop_back();
   return blocks;
 }
@@ -137,12 +133,12 @@ class BlockReader {
 
 }  // namespace
 
-ErrorModel read_isg_csv(const std::string& path, const Machine& machine, ErrorSign sign,
-                        bool large_errors) {
+ErrorModel read_isg_csv(std::string_view content, const std::string& path, const Machine& machine,
+                        ErrorSign sign, bool large_errors) {
   std::vector<Diagnostic> wrong;
   ErrorModel errors;
   errors.sign = sign;
-  for (const Block& block : blocks_of(path, wrong))
+  for (const Block& block : blocks_of(content, path, wrong))
     BlockReader(block, machine, large_errors)
         .read(errors, [&](std::size_t line, const std::string& message) {
           wrong.push_back({path, line, 0, message});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "format/file.hpp"
 #include "machine/files/denavit_hartenberg_toml.hpp"
 #include "machine/files/machine_toml_program.hpp"
 #include "machine/files/toml_parts.hpp"
@@ -70,9 +71,11 @@ void read_chain(TomlTable& root, Machine& machine) {
 }
 
 MachineFile read_machine_toml(const std::string& path) {
-  TomlDocument document(path);
+  const std::string content = read_file(path);
+  TomlDocument document(content, path);
   TomlTable root = document.root();
   MachineFile file;
+  file.hash = content_hash(content);
   file.denavit_hartenberg = root.has("dh");
   if (!file.denavit_hartenberg || root.has("schema"))
     root.required_choice<int>("schema", {{"trueaxis.machine/1", 1}});

@@ -13,6 +13,7 @@ struct MachineFile {
   Machine machine;
   ErrorModel parameter_errors;
   bool denavit_hartenberg = false;
+  std::string hash{};  ///< of the bytes that were read
 };
 
 /// Reads `trueaxis.machine/1` (docs/machine.md), in its zero-position or its D-H form.

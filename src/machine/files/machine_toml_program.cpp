@@ -3,8 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
+#include "base/number.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
@@ -36,9 +35,11 @@ std::string read_words(std::string_view text, const Machine& machine, AxisValues
     }
     const auto axis = axis_of(text.substr(at, 1));
     double value = 0.0;
-    const char* const begin = text.data() + at + 1 + (text.substr(at + 1).starts_with('+') ? 1 : 0);
-    const auto [end, wrong] = std::from_chars(begin, text.data() + text.size(), value);
-    if (!axis || machine.find(*axis) == nullptr || wrong != std::errc{})
+    std::errc wrong{};
+    const char* const begin = text.data() + at + 1;
+    const char* const end = read_number(begin, text.data() + text.size(), value, wrong);
+    if (!axis || machine.find(*axis) == nullptr || end == begin || wrong != std::errc{} ||
+        !std::isfinite(value))
       return "is no list of words of this machine's axes, such as \"X0 Y0 Z100\" (character " +
              std::to_string(at + 1) + ')';
     values[index_of(*axis)] = value * edge_unit(*axis);
@@ -58,11 +59,9 @@ void read_start(TomlTable& program, Machine& machine) {
 
 void read_tools(TomlTable tools, Machine& machine) {
   for (const std::string& key : tools.keys()) {
-    int number = 0;
-    const auto [end, wrong] = std::from_chars(key.data(), key.data() + key.size(), number);
+    const int number = whole_number<int>(key).value_or(-1);
     auto tool = tools.maybe_table(key);
-    if (wrong != std::errc{} || end != key.data() + key.size() || number < 0)
-      tools.complain(key, "is no number of a tool: write [tools.3] for T3");
+    if (number < 0) tools.complain(key, "is no number of a tool: write [tools.3] for T3");
     if (tool) machine.tool_lengths_mm[number] = tool->required_number("length_mm");
   }
 }

@@ -24,11 +24,11 @@ struct NumberTable {
 
 /// What is wrong is added to `wrong`.
 NumberTable read_number_table(const std::string& path, std::vector<Diagnostic>& wrong);
+/// The same of what the file holds.
+NumberTable number_table(std::string_view content, const std::string& path,
+                         std::vector<Diagnostic>& wrong);
 
-/// The fields of a line, without blanks around them.
+/// The fields of a line between commas, semicolons or blanks, without blanks around them.
 std::vector<std::string_view> fields_of(std::string_view line);
-
-/// A finite number that is all of `text`; a sign + is allowed.
-bool parse_number(std::string_view text, double& value);
 
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "format/units.hpp"
 #include "machine/files/number_table.hpp"
 #include "machine/files/toml_parts.hpp"
 
@@ -16,23 +17,6 @@ struct Column {
   double factor = 1.0;
 };
 
-/// Units of a column `X[mm]`: "" is none.
-const struct {
-  std::string_view unit;
-  bool angle;
-  double factor;
-} units[] = {{"mm", false, 1.0},         {"um", false, mm_per_um}, {"m", false, mm_per_m},
-             {"deg", true, rad_per_deg}, {"rad", true, 1.0},       {"mrad", true, 1e-3}};
-
-struct NameAndUnitText {
-  std::string_view name, unit;
-};
-NameAndUnitText split(std::string_view text) {
-  const std::size_t open = text.find('[');
-  if (open == std::string_view::npos || !text.ends_with(']')) return {text, ""};
-  return {text.substr(0, open), text.substr(open + 1, text.size() - open - 2)};
-}
-
 std::string usual(const MachineAxis& axis) {
   return std::string(1, letter_of(axis.name)) + (is_rotary(axis.name) ? "[deg]" : "[mm]");
 }
@@ -42,21 +26,19 @@ std::vector<Column> axis_columns(const NumberTable& table, const Machine& machin
   std::vector<Column> columns;
   std::array<bool, axis_count> there{};
   for (const std::string& text : table.header) {
-    const auto [name, unit] = split(text);
+    const auto [name, unit] = name_with_unit(text);
     const auto axis = axis_of(name);
     if (!axis || machine.find(*axis) == nullptr) {
       complain('"' + text + "\" is no axis of the machine");
       columns.push_back({});
       continue;
     }
-    const auto known = std::ranges::find_if(units, [&, &unit_name = unit](const auto& one) {
-      return one.unit == unit_name && one.angle == is_rotary(*axis);
-    });
-    if (known == std::end(units))
-      complain('"' + text + "\" needs its unit: write " + usual(*machine.find(*axis)));
+    const auto known =
+        find_unit(is_rotary(*axis) ? UnitKind::angle : UnitKind::length, unit.value_or(""));
+    if (!known) complain('"' + text + "\" needs its unit: write " + usual(*machine.find(*axis)));
     if (there[index_of(*axis)]) complain('"' + text + "\" is there twice");
     there[index_of(*axis)] = true;
-    columns.push_back({index_of(*axis), known == std::end(units) ? 1.0 : known->factor});
+    columns.push_back({index_of(*axis), known ? known->factor : 1.0});
   }
   for (const MachineAxis& axis : machine.axes)
     if (!there[index_of(axis.name)])
@@ -100,9 +82,9 @@ std::vector<ToolTarget> read_tool_targets_csv(const std::string& path) {
   std::array<std::size_t, 6> at{};
   at.fill(table.header.size());
   for (std::size_t i = 0; i < table.header.size(); ++i) {
-    const auto [name, unit] = split(table.header[i]);
+    const auto [name, unit] = name_with_unit(table.header[i]);
     const auto known = static_cast<std::size_t>(std::ranges::find(names, name) - names);
-    const bool unit_known = unit.empty() || (known < 3 && unit == "mm");
+    const bool unit_known = !unit || (known < 3 && unit == "mm");
     if (name == "twist") continue;
     if (known == 6 || !unit_known || at[known] != table.header.size())
       complain(table.header_line, '"' + table.header[i] + "\" is none of x,y,z,i,j,k (mm), once");

@@ -4,18 +4,16 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
 
+#include "format/csv_text.hpp"
+#include "format/file.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_rows.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -23,41 +21,6 @@ namespace {
 
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
 constexpr std::size_t longest_line_bytes = std::size_t{1} << 20U;
-
-/// An open file, or standard input for "-".
-class ByteSource {
- public:
-  explicit ByteSource(const std::string& path) : path_(path) {
-    if (path == "-") return;
-    std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
-    if (std::filesystem::is_directory(status)) throw InputError(path, "is a folder: name a file");
-    own_.reset(std::fopen(path.c_str(), "rbe"));
-    if (!own_) fail();
-    if (std::filesystem::is_regular_file(status)) size_ = std::filesystem::file_size(path, error);
-  }
-
-  /// Up to `room` bytes; 0 at the end.
-  std::size_t read(char* to, std::size_t room) {
-    std::FILE* const file = own_ ? own_.get() : stdin;
-    const std::size_t got = std::fread(to, 1, room, file);
-    if (got == 0 && std::ferror(file) != 0) fail();
-    return got;
-  }
-  std::size_t size() const { return size_; }  ///< 0 where it is not known
-
- private:
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
-  [[noreturn]] void fail() const {
-    throw InputError(path_, std::string("cannot be read (") + std::strerror(errno) +
-                                "): name a file that can be read");
-  }
-  std::string path_;
-  std::unique_ptr<std::FILE, Close> own_;  ///< none: standard input
-  std::size_t size_ = 0;
-};
 
 /// Takes whole lines and turns them into metadata, header and rows.
 class LineReader {
@@ -79,6 +42,18 @@ class LineReader {
       p = next;
     }
     return true;
+  }
+
+  /// Rows below the header that are numbers already.
+  void rows(std::span<const double> numbers,
+            const std::function<std::string(std::size_t)>& text_of) {
+    const std::size_t width = header_.columns.size(),
+                      count = width == 0 ? 0 : numbers.size() / width;
+    if (rows_) rows_->reserve(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      ++line_number_;
+      if (!rows_->take(numbers.subspan(k * width, width))) rows_->any_row(text_of(k), line_number_);
+    }
   }
 
   /// Room for the rows of a file of `total_bytes`, judged by those in its first `bytes`.
@@ -211,11 +186,10 @@ ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& op
 }
 
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
-                                 const StreamReadOptions& options,
-                                 std::function<std::size_t(std::size_t)> line_of) {
+                                 const StreamReadOptions& options) {
   ProbeStream stream;
   stream.source = source;
-  CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
+  CsvDiagnostics diagnostics(source, options.max_diagnostics);
   LineReader lines(stream, diagnostics, options);
   StreamingHash hash;
   hash.add(text.data(), text.size());
@@ -226,6 +200,19 @@ ProbeStream read_stream_csv_text(std::string_view text, const std::string& sourc
   }
   lines.finish();
   stream.input_hash = hash.text();
+  return stream;
+}
+
+ProbeStream read_stream_rows(std::string_view head, std::span<const double> numbers,
+                             const std::function<std::string(std::size_t)>& text_of,
+                             const std::string& source, const StreamReadOptions& options,
+                             std::function<std::size_t(std::size_t)> line_of) {
+  ProbeStream stream;
+  stream.source = source;
+  CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
+  LineReader lines(stream, diagnostics, options);
+  if (lines.block(head.data(), head.data() + head.size())) lines.rows(numbers, text_of);
+  lines.finish();
   return stream;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,10 +34,16 @@ std::vector<std::string> words_of(const StreamReadOptions& options);
 /// @throws InputError with every diagnostic (file, line, column, what to do).
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options = {});
 
-/// The same from its text; `source` is the file that it is of, `line_of` the line there of a line
-/// of the text (0: none).
+/// The same from its text; `source` is the file that it is of.
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
-                                 const StreamReadOptions& options = {},
-                                 std::function<std::size_t(std::size_t)> line_of = {});
+                                 const StreamReadOptions& options = {});
+
+/// The same of a head (comments and the line of the columns) and rows of numbers as they would
+/// stand below it; `text_of` is a row's text, for messages, `line_of` the line in the file `source`
+/// of a line of head and rows (0: none).
+ProbeStream read_stream_rows(std::string_view head, std::span<const double> numbers,
+                             const std::function<std::string(std::size_t)>& text_of,
+                             const std::string& source, const StreamReadOptions& options,
+                             std::function<std::size_t(std::size_t)> line_of);
 
 }  // namespace trueaxis

@@ -5,8 +5,10 @@
 #include <vector>
 
 #include "base/edit_distance.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
-#include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -79,11 +81,6 @@ constexpr Known known_keys[] = {
 constexpr std::string_view convention_words[] = {"radius",      "radii",        "diameter",
                                                  "diameters",   "diametre",     "dia",
                                                  "durchmesser", "diametermode", "radiusmode"};
-constexpr std::string_view unit_words[] = {
-    "mm",         "um",          "inch",    "inches",  "millimeter", "millimeters",
-    "millimetre", "millimetres", "micron",  "microns", "micrometer", "micrometre",
-    "deg",        "degree",      "degrees", "rad",     "radian",     "radians",
-    "\xC2\xB5m",  "\xCE\xBCm",   "zoll",    "grad"};
 constexpr std::string_view unit_keys[] = {"unit",       "units",       "einheit",   "einheiten",
                                           "lengthunit", "lengthunits", "angleunit", "angleunits",
                                           "unitlength", "unitangle",   "uom"};
@@ -97,7 +94,7 @@ bool one_of(Words words, std::string_view word) {
 }
 
 /// Small letters and digits only; bytes beyond ASCII stay.
-std::string folded(std::string_view text) {
+std::string letters_of(std::string_view text) {
   std::string out;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
@@ -126,7 +123,7 @@ std::vector<Word> words_of(std::string_view text) {
       continue;
     }
     const std::size_t end = std::min(text.find_first_of(" \t\r,;:=", at), text.size());
-    std::string word = folded(text.substr(at, end - at));
+    std::string word = letters_of(text.substr(at, end - at));
     if (!word.empty()) words.push_back({std::move(word), false, text.substr(start, end - start)});
     at = end;
   }
@@ -141,7 +138,7 @@ bool is_value(const Known& known, std::span<const Word> words) {
   if (!known.values.empty()) return one_of(known.values, words[0].folded);
   const std::string_view first = words[0].written;
   const std::size_t begin = first.find_last_of(" \t\r,;:=");
-  return csv_starts_number(first.substr(begin == std::string_view::npos ? 0 : begin + 1));
+  return starts_number(first.substr(begin == std::string_view::npos ? 0 : begin + 1));
 }
 
 bool looks_like(const Known& known, const std::string& key, const Word& last,
@@ -186,6 +183,13 @@ std::string misspelt(std::span<const Word> words) {
   return "";
 }
 
+/// A length or an angle that no other word of a comment is: "in" and "meter" may be.
+bool says_unit(const std::string& word) {
+  constexpr std::string_view units[] = {"mm", "um", "in", "deg", "rad"};
+  const auto unit = unit_of_word(word, "*");
+  return unit && word != "in" && one_of(units, *unit);
+}
+
 constexpr const char* unit_place =
     " is not read from a comment: the unit of a column stands in the header, as in X_M[in],C[deg]";
 constexpr const char* convention_place =
@@ -195,7 +199,7 @@ constexpr const char* convention_place =
 /// A unit or convention of the whole file: as a key, or a comment of nothing else.
 std::string of_whole_file(std::span<const Word> words, std::string_view text) {
   const Word& first = words.front();
-  const auto is_unit = [](const Word& word) { return one_of(unit_words, word.folded); };
+  const auto is_unit = [](const Word& word) { return says_unit(word.folded); };
   const auto is_convention = [](const Word& word) { return one_of(convention_words, word.folded); };
   const auto is_unit_key = [](const Word& word) { return one_of(unit_keys, word.folded); };
   const std::string free = "; write '##' before free text";

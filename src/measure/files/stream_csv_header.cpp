@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
+
+#include "base/number.hpp"
 
 namespace trueaxis {
 namespace {
@@ -12,19 +13,19 @@ namespace {
 struct KnownColumn {
   const char* name;
   CsvRole role;
-  CsvQuantity quantity;
+  UnitKind quantity;
   const char* unit;
 };
 
 constexpr KnownColumn known_columns[] = {
-    {"X_M", CsvRole::reading, CsvQuantity::length, "mm"},
-    {"Z_M", CsvRole::reading, CsvQuantity::length, "mm"},
-    {"C", CsvRole::angle, CsvQuantity::angle, "deg"},
-    {"Z", CsvRole::position, CsvQuantity::length, "mm"},
-    {"X", CsvRole::position, CsvQuantity::length, "mm"},
-    {"t", CsvRole::time, CsvQuantity::time, "s"},
-    {"pass", CsvRole::pass, CsvQuantity::count, ""},
-    {"setup", CsvRole::setup, CsvQuantity::count, ""},
+    {"X_M", CsvRole::reading, UnitKind::length, "mm"},
+    {"Z_M", CsvRole::reading, UnitKind::length, "mm"},
+    {"C", CsvRole::angle, UnitKind::angle, "deg"},
+    {"Z", CsvRole::position, UnitKind::length, "mm"},
+    {"X", CsvRole::position, UnitKind::length, "mm"},
+    {"t", CsvRole::time, UnitKind::time, "s"},
+    {"pass", CsvRole::pass, UnitKind::count, ""},
+    {"setup", CsvRole::setup, UnitKind::count, ""},
 };
 
 bool same_name(std::string_view a, std::string_view b) {
@@ -36,21 +37,7 @@ bool same_name(std::string_view a, std::string_view b) {
 /// 2 of "X_M2"; 0 of any other name.
 std::size_t sensor_number(std::string_view name) {
   if (name.size() <= 3 || name.size() > 5 || !same_name(name.substr(0, 3), "X_M")) return 0;
-  std::size_t number = 0;
-  const char* end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data() + 3, end, number);
-  return error == std::errc{} && stop == end ? number : 0;
-}
-
-/// The first of , ; tab outside brackets, else blanks.
-char find_separator(std::string_view line) {
-  bool in_bracket = false;
-  for (const char c : line) {
-    if (c == '[') in_bracket = true;
-    if (c == ']') in_bracket = false;
-    if (!in_bracket && (c == ',' || c == ';' || c == '\t')) return c;
-  }
-  return ' ';
+  return whole_number<std::size_t>(name.substr(3)).value_or(0);
 }
 
 /// The column of a name that is known and not refused.
@@ -65,25 +52,25 @@ class HeaderParser {
   HeaderParser(std::string_view line, CsvHeader& header, CsvDiagnostics& diagnostics)
       : line_(line), header_(header), diagnostics_(diagnostics) {}
 
-  void column(const CsvField& field) {
+  void column(std::string_view field) {
     CsvColumn column;
-    const std::size_t bracket = field.text.find('[');
-    const std::string_view name = csv_trimmed(field.text.substr(0, bracket));
-    column.character = csv_character(line_, field.byte);
+    const std::size_t bracket = field.find('[');
+    const std::string_view name = csv_trimmed(field.substr(0, bracket));
+    column.character = csv_character(line_, field);
     const auto* known = std::ranges::find_if(known_columns, [&](const KnownColumn& candidate) {
       return same_name(candidate.name, name);
     });
-    if (field.text.empty()) {
+    if (field.empty()) {
       add(column, "a column has no name: name it or remove the separator");
     } else if (const std::size_t sensor = sensor_number(name); sensor > 0) {
       column.role = sensor == 1 ? CsvRole::reading : CsvRole::more_reading;
       column.name = "X_M" + std::to_string(sensor);
       column.sensor = sensor;
-      column.unit = *csv_find_unit(CsvQuantity::length, "mm");
+      column.unit = *find_unit(UnitKind::length, "mm");
       if (twice(column)) {
         column.role = CsvRole::unknown;
       } else if (bracket != std::string_view::npos) {
-        unit(column, CsvQuantity::length, field.text.substr(bracket + 1));
+        unit(column, UnitKind::length, field.substr(bracket + 1));
       }
     } else if (known == std::end(known_columns)) {
       add(column,
@@ -92,11 +79,11 @@ class HeaderParser {
     } else {
       column.role = known->role;
       column.name = known->name;
-      column.unit = *csv_find_unit(known->quantity, known->unit);
+      column.unit = *find_unit(known->quantity, known->unit);
       if (twice(column)) {
         column.role = CsvRole::unknown;
       } else if (bracket != std::string_view::npos) {
-        unit(column, known->quantity, field.text.substr(bracket + 1));
+        unit(column, known->quantity, field.substr(bracket + 1));
       }
     }
     header_.columns.push_back(std::move(column));
@@ -113,7 +100,7 @@ class HeaderParser {
     return found;
   }
 
-  void unit(CsvColumn& column, CsvQuantity quantity, std::string_view text) {
+  void unit(CsvColumn& column, UnitKind quantity, std::string_view text) {
     if (text.empty() || text.back() != ']') {
       return add(column, "the unit of " + column.name + " has no closing bracket: write " +
                              column.name + "[unit]");
@@ -128,14 +115,14 @@ class HeaderParser {
     };
     if (column.name.starts_with('X')) column.diameter = drop_word("dia");
     if (column.role == CsvRole::angle) column.running = drop_word("running");
-    if (quantity == CsvQuantity::count) {
+    if (quantity == UnitKind::count) {
       return add(column, column.name + " is a number without unit: write " + column.name);
     }
-    if (const auto found = csv_find_unit(quantity, text)) {
+    if (const auto found = find_unit(quantity, text)) {
       column.unit = *found;
     } else {
       add(column, "unknown unit " + csv_quoted(whole) + " of " + column.name + ": use " +
-                      csv_known_units(quantity));
+                      known_units(quantity));
     }
   }
 
@@ -210,17 +197,16 @@ CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
                            CsvDiagnostics& diagnostics) {
   CsvHeader header;
   header.line = line_number;
-  header.separator = find_separator(csv_trimmed(line));
-  std::vector<CsvField> fields;
-  csv_split(line, header.separator, fields);
-  if (csv_starts_number(fields.front().text)) {
-    diagnostics.add(line_number, csv_character(line, fields.front().byte),
+  header.separator = csv_separator(csv_trimmed(line));
+  const auto fields = csv_fields(line, header.separator);
+  if (starts_number(fields.front())) {
+    diagnostics.add(line_number, csv_character(line, fields.front()),
                     "the header is missing: name the columns in the first line, such as "
                     "X_M[mm],C[deg],Z[mm]");
     return header;
   }
   HeaderParser parser(line, header, diagnostics);
-  for (const CsvField& field : fields) parser.column(field);
+  for (const std::string_view field : fields) parser.column(field);
   check_sensors(header, diagnostics);
   check_kind(header, diagnostics);
   return header;

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "measure/files/stream_csv_number.hpp"
-#include "measure/files/stream_csv_text.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
@@ -20,7 +20,7 @@ struct CsvColumn {
   std::string name;           ///< as we write it: X_M, X_M1, C, Z, t, pass, setup
   std::size_t sensor = 0;     ///< of X_M1, X_M2 …: 1, 2 …
   std::size_t character = 0;  ///< where the header names it
-  CsvUnit unit{};
+  Unit unit{};
   bool diameter = false;  ///< unit says `dia`
   bool running = false;   ///< unit says `running`: C is not unwrapped
 };

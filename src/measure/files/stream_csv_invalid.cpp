@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "base/counted.hpp"
+#include "format/csv_text.hpp"
 #include "format/shell.hpp"
 
 namespace trueaxis {
@@ -21,9 +22,9 @@ bool csv_is_no_value(std::string_view field) {
          small.find_first_of("0123456789") == std::string::npos;
 }
 
-bool csv_is_row_of_no_value(const std::vector<CsvField>& fields, std::size_t columns) {
-  if (columns < 2 || fields.size() != columns || fields.front().text.size() < 3) return false;
-  return std::ranges::all_of(fields.front().text.substr(1), [](char c) {
+bool csv_is_row_of_no_value(const std::vector<std::string_view>& fields, std::size_t columns) {
+  if (columns < 2 || fields.size() != columns || fields.front().size() < 3) return false;
+  return std::ranges::all_of(fields.front().substr(1), [](char c) {
     return std::isupper(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '!' || c == '0' ||
            c == '?';
   });

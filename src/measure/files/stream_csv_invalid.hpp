@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "measure/files/stream_csv.hpp"
-#include "measure/files/stream_csv_text.hpp"
 
 namespace trueaxis {
 
@@ -17,7 +16,7 @@ namespace trueaxis {
 bool csv_is_no_value(std::string_view field);
 
 /// Whether a line that begins with '#' is such a row of a table, not a comment: "#WERT!;12;5".
-bool csv_is_row_of_no_value(const std::vector<CsvField>& fields, std::size_t columns);
+bool csv_is_row_of_no_value(const std::vector<std::string_view>& fields, std::size_t columns);
 
 /// The rows of a file that hold no value somewhere, and that alone is wrong with them.
 class CsvInvalidRows {

@@ -7,9 +7,11 @@
 #include <optional>
 #include <set>
 
-#include "measure/files/stream_csv_number.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
-#include "measure/files/stream_csv_text.hpp"
+#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -33,19 +35,19 @@ std::optional<SetupKey> parse_key(std::string_view key) {
 /// The keys after the number, what may stand there, and where it goes.
 struct Quantity {
   std::string_view what;
-  CsvQuantity quantity;
+  UnitKind quantity;
   double SetUp::*member;
   const char* unit;  ///< as it is written
   const char* wanted;
 };
 constexpr Quantity quantities[] = {
-    {"reindex", CsvQuantity::angle, &SetUp::reindex_rad, " rad",
+    {"reindex", UnitKind::angle, &SetUp::reindex_rad, " rad",
      "an angle in deg, rad or rev, such as 70 deg"},
-    {"z_shift", CsvQuantity::length, &SetUp::z_shift_mm, " mm",
+    {"z_shift", UnitKind::length, &SetUp::z_shift_mm, " mm",
      "a length in mm, um, \xC2\xB5m, m or in, such as 12 mm"},
-    {"x_jog", CsvQuantity::length, &SetUp::x_jog_mm, " mm",
+    {"x_jog", UnitKind::length, &SetUp::x_jog_mm, " mm",
      "a length in mm, um, \xC2\xB5m, m or in, such as 0.1 mm"},
-    {"clamp_force_ratio", CsvQuantity::count, &SetUp::clamp_force_ratio, "",
+    {"clamp_force_ratio", UnitKind::count, &SetUp::clamp_force_ratio, "",
      "the force over that of the first clamping, 0 or more and without unit, such as 0.6"},
 };
 
@@ -60,8 +62,8 @@ std::string lower_case(std::string_view text) {
 std::string unit_trouble(std::string_view value) {
   constexpr double most_turns = 3.0;  // of steps that add up
   constexpr double rounded = 4e-3;    // 1.57, 3.14, 4.71 and 6.28 are quarters of a turn
-  const auto said = csv_number_with_unit(value);
-  const auto unit = csv_find_unit(CsvQuantity::angle, said->unit);
+  const auto said = number_with_unit(value);
+  const auto unit = find_unit(UnitKind::angle, said->unit);
   const double size = std::abs(said->value);
   if (unit->turn != 360.0 && size > most_turns * unit->turn)
     return " is more than three turns, which looks like degrees: write deg";
@@ -80,7 +82,7 @@ bool is_known(std::string_view key) {
 
 std::string not_understood(const std::string& key, std::string_view value, const char* wanted) {
   const bool length = key == "nominal_radius" || key == "sensor_noise" || key == "ball_radius";
-  const auto number = csv_number_with_unit(value);
+  const auto number = number_with_unit(value);
   const bool bare = length && number && number->unit.empty();
   return key + ": " + csv_quoted(value) + (bare ? " has no unit" : " is not understood") +
          ": write " + wanted;
@@ -104,10 +106,10 @@ std::string csv_take_setup(std::string_view key, std::string_view value,
   const bool is_side = parsed->what == "side";
   for (const Quantity& quantity : quantities) {
     if (quantity.what != parsed->what) continue;
-    const auto number = csv_quantity(value, quantity.quantity);
-    if (!number || (quantity.quantity == CsvQuantity::count && *number < 0.0))
+    const auto number = quantity_in(value, quantity.quantity);
+    if (!number || (quantity.quantity == UnitKind::count && *number < 0.0))
       return not_understood(quantity.wanted);
-    if (quantity.quantity == CsvQuantity::angle) {
+    if (quantity.quantity == UnitKind::angle) {
       const std::string trouble = unit_trouble(value);
       if (!trouble.empty()) return std::string(key) + ": " + csv_quoted(value) + trouble;
     }
@@ -139,7 +141,7 @@ void csv_put_setups(const ProbeStream& stream, const std::map<int, SetUp>& state
     for (const Quantity& quantity : quantities) {
       const double value = set_up.*quantity.member;
       if (value != said.*quantity.member)
-        metadata[key(quantity.what)] = csv_text(value) + quantity.unit;
+        metadata[key(quantity.what)] = exact_text(value) + quantity.unit;
     }
     if (set_up.rear != said.rear) metadata[key("side")] = set_up.rear ? "rear" : "front";
   }
@@ -223,15 +225,15 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     if (value != "absolute" && value != "relative") return refuse("absolute or relative");
     known.indication = value == "relative" ? Indication::relative : Indication::absolute;
   } else if (key == "nominal_radius") {
-    const auto radius_mm = csv_quantity(value, CsvQuantity::length);
+    const auto radius_mm = quantity_in(value, UnitKind::length);
     if (!radius_mm || !(*radius_mm > 0.0)) return refuse("a length above zero, such as 14.5 mm");
     known.nominal_radius_mm = radius_mm;
   } else if (key == "sensor_noise") {
-    const auto noise_mm = csv_quantity(value, CsvQuantity::length);
+    const auto noise_mm = quantity_in(value, UnitKind::length);
     if (!noise_mm || *noise_mm < 0.0) return refuse("a standard deviation, such as 2 um");
     known.sensor_noise_mm = noise_mm;
   } else if (key == "ball_radius") {
-    const auto radius_mm = csv_quantity(value, CsvQuantity::length);
+    const auto radius_mm = quantity_in(value, UnitKind::length);
     if (!radius_mm || *radius_mm < 0.0) return refuse("a length, such as 1.5 mm");
     known.ball_radius_mm = radius_mm;
   } else if (key == "sensor_angles") {
@@ -239,7 +241,7 @@ void CsvMetadataReader::known_key(const std::string& key, std::string_view value
     if (!wrong.empty()) return diagnostics_.add(line, column, key + ": " + wrong);
     known.sensor_angles_place = {line, column};
   } else {
-    const auto rpm = csv_number_with_unit(value);
+    const auto rpm = number_with_unit(value);
     if (!rpm || !(rpm->unit.empty() || rpm->unit == "rpm")) {
       return refuse("revolutions per minute, signed like C, such as 60");
     }

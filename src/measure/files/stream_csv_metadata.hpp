@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "format/csv_text.hpp"
 #include "measure/files/stream_csv.hpp"
 #include "measure/files/stream_csv_header.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {

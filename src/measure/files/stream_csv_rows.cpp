@@ -5,7 +5,8 @@
 #include <limits>
 #include <string>
 
-#include "measure/files/stream_csv_number.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -26,7 +27,7 @@ std::string with_point(std::string_view text) {
   double value = 0.0;
   std::errc error{};
   const char* end = point.data() + point.size();
-  return csv_number(point.data(), end, value, error) == end ? point : std::string{};
+  return read_number(point.data(), end, value, error) == end ? point : std::string{};
 }
 
 /// A message without what it quotes and counts: the same for every row with the same mistake.
@@ -110,7 +111,7 @@ const char* CsvRows::fast_row(const char* p, const char* end) {
   for (std::size_t k = 0; k < count; ++k) {
     skip_blanks();
     std::errc error{};
-    const char* stop = csv_number(p, end, row_[k], error);
+    const char* stop = read_number(p, end, row_[k], error);
     if (stop == p || error != std::errc{} || !(std::abs(row_[k]) < largest)) return nullptr;
     if (targets_[k].whole != nullptr && !fits_int(row_[k])) return nullptr;
     p = stop;
@@ -123,13 +124,26 @@ const char* CsvRows::fast_row(const char* p, const char* end) {
     }
   }
   if (*p == '\r') ++p;
-  if (*p != '\n') return nullptr;
-  if (time_at_ < count) {
-    if (row_[time_at_] < last_time_) return nullptr;
+  return *p == '\n' && accept() ? p + 1 : nullptr;
+}
+
+bool CsvRows::take(std::span<const double> row) {
+  if (!all_known_) return false;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    if (!(std::abs(row[k]) < largest)) return false;
+    if (targets_[k].whole != nullptr && !fits_int(row[k])) return false;
+  }
+  row_.assign(row.begin(), row.end());
+  return accept();
+}
+
+bool CsvRows::accept() {
+  if (time_at_ < row_.size()) {
+    if (row_[time_at_] < last_time_) return false;
     last_time_ = row_[time_at_];
   }
   append();
-  return p + 1;
+  return true;
 }
 
 bool CsvRows::field(const Target& target, std::string_view text, double& value,
@@ -141,7 +155,7 @@ bool CsvRows::field(const Target& target, std::string_view text, double& value,
   }
   std::errc error{};
   const char* end = text.data() + text.size();
-  const char* stop = csv_number(text.data(), end, value, error);
+  const char* stop = read_number(text.data(), end, value, error);
   if (stop != end) {
     const std::string point = with_point(text);
     why = point.empty() ? name + ": " + csv_quoted(text) + " is not a number"
@@ -164,8 +178,9 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
   const std::size_t count = targets_.size();
   if (fields_.size() != count) {
     const bool more = fields_.size() > count;
-    const std::size_t end = static_cast<std::size_t>(line.find_last_not_of(" \t") + 1);
-    diagnostics_.add(line_number, csv_character(line, more ? fields_[count].byte : end),
+    const std::string_view where =
+        more ? fields_[count] : line.substr(line.find_last_not_of(" \t") + 1);
+    diagnostics_.add(line_number, csv_character(line, where),
                      "the row has " + std::to_string(fields_.size()) +
                          " fields, the header names " + std::to_string(count) +
                          (fields_.size() == 2 * count && header_.separator == ','
@@ -175,7 +190,7 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
     return;
   }
   struct Mistake {
-    std::size_t byte;
+    std::string_view where;
     std::string why;
   };
   std::vector<Mistake> mistakes;
@@ -184,21 +199,21 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
   for (std::size_t k = 0; k < count; ++k) {
     if (targets_[k].column->role == CsvRole::unknown) continue;
     std::string why;
-    bool fine = field(targets_[k], fields_[k].text, row_[k], why);
+    bool fine = field(targets_[k], fields_[k], row_[k], why);
     if (!fine) {
-      const bool none = csv_is_no_value(fields_[k].text);
-      if (none && mistakes.empty()) no_value = fields_[k].text;
+      const bool none = csv_is_no_value(fields_[k]);
+      if (none && mistakes.empty()) no_value = fields_[k];
       no_values_alone = no_values_alone && none;
     }
     if (fine && k == time_at_) {
       if (row_[k] < last_time_) {
         fine = no_values_alone = false;
-        why = "t falls from " + csv_text(last_time_) + " to " + csv_text(row_[k]) +
+        why = "t falls from " + exact_text(last_time_) + " to " + exact_text(row_[k]) +
               ": sort the rows by time";
       }
       last_time_ = row_[k];
     }
-    if (!fine) mistakes.push_back({fields_[k].byte, std::move(why)});
+    if (!fine) mistakes.push_back({fields_[k], std::move(why)});
   }
   if (mistakes.empty()) {
     if (all_known_) append();
@@ -208,7 +223,7 @@ void CsvRows::any_row(std::string_view line, std::size_t line_number) {
   if (no_values_alone && drop_invalid_) return;
   for (Mistake& mistake : mistakes) {
     const std::string kind = kind_of(mistake.why);
-    diagnostics_.add(line_number, csv_character(line, mistake.byte), std::move(mistake.why), kind);
+    diagnostics_.add(line_number, csv_character(line, mistake.where), std::move(mistake.why), kind);
   }
 }
 

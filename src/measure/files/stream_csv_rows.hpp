@@ -2,12 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "format/csv_text.hpp"
 #include "measure/files/stream_csv_header.hpp"
 #include "measure/files/stream_csv_invalid.hpp"
-#include "measure/files/stream_csv_text.hpp"
 #include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
@@ -25,6 +26,9 @@ class CsvRows {
   /// nullptr with nothing appended. There must be a '\n' before `end`.
   const char* fast_row(const char* p, const char* end);
 
+  /// Takes a row of numbers if nothing about it is unusual.
+  bool take(std::span<const double> row);
+
   /// Reads a row whatever it looks like (no line end, no comment); what is wrong is a diagnostic.
   void any_row(std::string_view line, std::size_t line_number);
 
@@ -41,13 +45,14 @@ class CsvRows {
   };
 
   bool field(const Target& target, std::string_view text, double& value, std::string& why) const;
+  bool accept();  ///< appends row_ unless its time falls
   void append();
 
   const CsvHeader& header_;
   CsvDiagnostics& diagnostics_;
   std::vector<Target> targets_;
   std::vector<double> row_;
-  std::vector<CsvField> fields_;
+  std::vector<std::string_view> fields_;
   std::size_t time_at_;  ///< index of t, or the number of columns
   double last_time_;
   bool all_known_, drop_invalid_;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/files/stream_csv_number.hpp"
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
+#include "format/units.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -46,14 +48,14 @@ std::string csv_take_sensor_angles(std::string_view text, std::vector<double>& a
     while (at < end && (csv_is_blank(*at) || *at == ',' || *at == ';')) ++at;
     double value = 0.0;
     std::errc error{};
-    const char* stop = csv_number(at, end, value, error);
+    const char* stop = read_number(at, end, value, error);
     if (stop == at) break;
     if (error != std::errc{} || !std::isfinite(value)) return not_understood;
     angles_rad.push_back(value);
     at = stop;
   }
   const std::string_view name = csv_trimmed({at, static_cast<std::size_t>(end - at)});
-  const auto unit = csv_find_unit(CsvQuantity::angle, name);
+  const auto unit = find_unit(UnitKind::angle, name);
   if (angles_rad.empty()) return not_understood;
   if (name.empty()) return csv_quoted(text) + " has no unit: " + wanted;
   if (!unit) return not_understood;
@@ -69,7 +71,7 @@ std::string csv_take_sensor_angles(std::string_view text, std::vector<double>& a
 
 std::string csv_sensor_angles_text(std::span<const double> angles_rad) {
   std::string out;
-  for (const double angle : angles_rad) out += (out.empty() ? "" : ", ") + csv_text(angle);
+  for (const double angle : angles_rad) out += (out.empty() ? "" : ", ") + exact_text(angle);
   return out + " rad";
 }
 

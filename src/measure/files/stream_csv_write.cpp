@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.hpp"
+#include "format/csv_text.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
-#include "measure/files/stream_csv_number.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -39,11 +40,11 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
       out.erase(key);
     }
   };
-  const auto length = [](double value_mm) { return csv_text(value_mm) + " mm"; };
+  const auto length = [](double value_mm) { return exact_text(value_mm) + " mm"; };
   set("nominal_radius", stream.nominal_radius_mm, said.known.nominal_radius_mm, length);
   set("sensor_noise", stream.sensor_noise_mm, said.known.sensor_noise_mm, length);
   set("ball_radius", stream.ball_radius_mm, said.known.ball_radius_mm, length);
-  set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, csv_text);
+  set("spindle_rpm", stream.spindle_rpm, said.known.spindle_rpm, exact_text);
   if (stream.sensor_angles_rad != said.known.sensor_angles_rad) {
     out.erase("sensor_angles");
     if (!stream.sensor_angles_rad.empty())
@@ -108,10 +109,10 @@ void write_stream_csv(const ProbeStream& stream, OutputFile& sink) {
   constexpr std::size_t chunk_bytes = std::size_t{1} << 20U;
   const auto add = [&](auto value) {
     text += ',';
-    csv_append(text, value);
+    append_exact(text, value);
   };
   for (std::size_t i = 0; i < stream.size(); ++i) {
-    csv_append(text, reading_factor * stream.reading_mm[i]);
+    append_exact(text, reading_factor * stream.reading_mm[i]);
     for (const auto& column : stream.more_reading_mm) add(reading_factor * column[i]);
     add(stream.c_rad[i]);
     if (stream.has_position()) add(position_factor * stream.position_mm[i]);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "format/csv_text.hpp"
 #include "format/file.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -68,12 +69,8 @@ virtual_lathe::CutTable parse_cut_table(std::string_view content, const std::str
     if (wrong.size() < most_diagnostics) wrong.push_back({path, line, column, std::move(message)});
   };
   bool header = false;
-  for (std::size_t number = 1; !content.empty(); ++number) {
-    const std::size_t end = content.find('\n');
-    std::string_view line = content.substr(0, end);
-    content.remove_prefix(end == std::string_view::npos ? content.size() : end + 1);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.empty() || line.front() == '#') continue;
+  for_each_line(content, [&](std::string_view line, std::size_t number) {
+    if (line.empty() || line.front() == '#') return;
     if (!header) {
       header = true;
       table.face = line == face_header;
@@ -83,10 +80,12 @@ virtual_lathe::CutTable parse_cut_table(std::string_view content, const std::str
                              face_header));
     } else if (const Row row = parse_row(line); row.wrong_column != 0) {
       complain(number, row.wrong_column, "is no number, or the row has not five columns");
+    } else if (std::floor(row.values[0]) != row.values[0] || std::abs(row.values[0]) > 1e9) {
+      complain(number, 1, "is no number of a revolution: write 0, 1, 2");
     } else {
       append(row, sense, table);
     }
-  }
+  });
   if (!header) complain(0, 0, fmt::format("has no header line {}", lateral_header));
   if (wrong.empty() && table.c_rad.size() < 2) complain(0, 0, "has fewer than two rows");
   if (!wrong.empty()) throw InputError(std::move(wrong));

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <sstream>
+
+#include "base/number.hpp"
 
 namespace trueaxis::virtual_machine {
 namespace {
@@ -33,10 +34,8 @@ std::size_t take_words(const std::string& text, BlockWords& block) {
   for (std::size_t at = 0; at < text.size();) {
     const char letter = text[at];
     const std::size_t end = std::min(text.find_first_not_of(of_numbers, at + 1), text.size());
-    const std::string number = text.substr(at + 1, end - at - 1);
-    char* stop = nullptr;
-    const double value = std::strtod(number.c_str(), &stop);
-    const bool is_number = !number.empty() && *stop == '\0';
+    double value = 0.0;
+    const bool is_number = parse_number(std::string_view(text).substr(at + 1, end - at - 1), value);
     if (letter < 'A' || letter > 'Z' || !is_number) return at;
     if (letter == 'G')
       block.g.push_back(value);

@@ -137,13 +137,13 @@ void read_files(TomlDocument& document, const Said& said, MachineJob& job) {
   const auto file = collected(document, [&] { return read_machine_toml(said.machine); });
   if (!file) return;
   job.machine = file->machine;
-  job.inputs.push_back({"machine", said.machine, content_hash(read_file(said.machine))});
+  job.inputs.push_back({"machine", said.machine, file->hash});
   if (const auto known = collected(
           document, [&] { return read_errors_files(said.errors, *file, said.of_errors); })) {
     job.known = known->errors;
     job.remarks_of_known = known->remarks;
-    for (const std::string& path : said.errors)
-      job.inputs.push_back({"errors known before", path, content_hash(read_file(path))});
+    for (std::size_t i = 0; i < said.errors.size(); ++i)
+      job.inputs.push_back({"errors known before", said.errors[i], known->hashes[i]});
   }
   if (!said.data.empty()) read_data(document, said, job);
   if (job.program && !said.program.empty()) read_program_file(document, job);

@@ -22,12 +22,18 @@ std::vector<Vector3> triples(TomlTable& table, const std::string& key) {
 
 /// All combinations of the positions of the axes, the last axis of the chain the fastest; then the
 /// same backwards.
+constexpr std::size_t most_positions = 1'000'000;
+
 std::vector<AxisPositions> read_positions(TomlTable table, const Machine& machine) {
   std::vector<AxisPositions> all{AxisPositions{}};
   for (const MachineAxis& axis : machine.axes) {
     const std::vector<double> at =
         table.numbers(key_of(axis.name), {.low = axis.low, .high = axis.high});
     if (at.empty()) continue;
+    if (all.size() * at.size() > most_positions) {
+      table.complain(key_of(axis.name), "makes more than 1000000 positions: leave some out");
+      break;
+    }
     std::vector<AxisPositions> more;
     for (const AxisPositions& before : all) {
       for (const double position : at) {

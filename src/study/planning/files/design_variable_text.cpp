@@ -2,7 +2,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "format/toml_units.hpp"
+#include "format/units.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "format/nearest_key.hpp"
-#include "format/toml_units.hpp"
+#include "format/units.hpp"
 
 namespace trueaxis {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "measure/files/stream_csv_text.hpp"
+#include "format/csv_text.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -38,34 +38,61 @@ std::string_view csv_trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
 }
 
-void csv_split(std::string_view line, char separator, std::vector<CsvField>& fields) {
+void csv_split(std::string_view line, char separator, std::vector<std::string_view>& fields,
+               CsvKeep keep) {
   fields.clear();
-  const auto push = [&](std::size_t begin, std::size_t end) {
-    while (begin < end && csv_is_blank(line[begin])) ++begin;
-    fields.push_back({csv_trimmed(line.substr(begin, end - begin)), begin});
+  const bool blanks = separator == ' ', quotes = keep == CsvKeep::quotes;
+  const auto is_blank = [&](char c) { return c == ' ' || (c == '\t' && separator != '\t'); };
+  const auto ends_field = [&](char c) { return blanks ? is_blank(c) : c == separator; };
+  std::size_t at = 0;
+  const auto skip_blanks = [&] {
+    while (at < line.size() && is_blank(line[at])) ++at;
   };
-  const std::string_view blanks = " \t";
-  bool in_bracket = false;
-  std::size_t begin = separator == ' ' ? std::min(line.find_first_not_of(blanks), line.size()) : 0;
-  for (std::size_t i = begin; i < line.size(); ++i) {
-    if (line[i] == '[') in_bracket = true;
-    if (line[i] == ']') in_bracket = false;
-    if (in_bracket) continue;
-    if (separator != ' ') {
-      if (line[i] != separator) continue;
-      push(begin, i);
-      begin = i + 1;
-    } else if (csv_is_blank(line[i])) {
-      const std::size_t next = line.find_first_not_of(blanks, i);
-      if (next == std::string_view::npos) break;
-      if (line[next] != '[') {
-        push(begin, i);
-        begin = next;
+  while (true) {
+    skip_blanks();
+    if (blanks && at == line.size()) return;
+    std::size_t begin = at, end = line.size();
+    if (quotes && at < line.size() && line[at] == '"') {
+      begin = ++at;
+      while (at < line.size() && (line[at] != '"' || line.substr(at).starts_with("\"\"")))
+        at += line[at] == '"' ? 2 : 1;
+      end = std::min(at, line.size());
+      at = std::min(line.find(separator, end), line.size());
+    } else {
+      bool in_bracket = false;
+      for (; at < line.size(); ++at) {
+        if (!quotes && line[at] == '[') in_bracket = true;
+        if (line[at] == ']') in_bracket = false;
+        if (in_bracket || !ends_field(line[at])) continue;
+        end = at;
+        if (!blanks) break;
+        skip_blanks();
+        if (quotes || at == line.size() || line[at] != '[') break;
+        end = line.size();
+        --at;
       }
-      i = next - 1;
     }
+    const std::string_view field = csv_trimmed(line.substr(begin, end - begin));
+    fields.push_back(field.empty() ? line.substr(begin, 0) : field);
+    if (at == line.size()) return;
+    if (!blanks || line[at] == separator) ++at;
   }
-  if (separator != ' ' || begin < line.size()) push(begin, line.size());
+}
+
+std::vector<std::string_view> csv_fields(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  csv_split(line, separator, fields);
+  return fields;
+}
+
+char csv_separator(std::string_view line) {
+  bool in_bracket = false;
+  for (const char c : line) {
+    if (c == '[') in_bracket = true;
+    if (c == ']') in_bracket = false;
+    if (!in_bracket && (c == ',' || c == ';' || c == '\t')) return c;
+  }
+  return ' ';
 }
 
 std::string_view csv_without_comment(std::string_view line) {
@@ -79,6 +106,10 @@ std::size_t csv_character(std::string_view line, std::size_t byte) {
   byte = std::min(byte, line.size());
   const auto end = line.begin() + static_cast<std::ptrdiff_t>(byte);
   return 1 + byte - static_cast<std::size_t>(std::count_if(line.begin(), end, is_continuation));
+}
+
+std::size_t csv_character(std::string_view line, std::string_view part) {
+  return csv_character(line, static_cast<std::size_t>(part.data() - line.data()));
 }
 
 std::string csv_utf8(std::string_view text) {

@@ -12,27 +12,47 @@
 
 namespace trueaxis {
 
-/// One field of a line: its text without outer blanks, and the byte of the line where it starts.
-struct CsvField {
-  std::string_view text;
-  std::size_t byte = 0;
-};
-
 inline bool csv_is_blank(char c) { return c == ' ' || c == '\t'; }
 
 /// `text` without blanks and carriage returns at both ends.
 std::string_view csv_trimmed(std::string_view text);
 
-/// Splits a line at `separator`; ' ' stands for runs of blanks. Blanks inside [brackets] and before
-/// a bracket do not separate, so that a header may say X_M [mm dia].
-void csv_split(std::string_view line, char separator, std::vector<CsvField>& fields);
+/// What keeps blanks and separators within a field.
+enum class CsvKeep {
+  brackets,  ///< a unit: X_M [mm dia]; blanks before the bracket do not separate either
+  quotes,    ///< a field that begins with a quote; "" in it is a quote
+};
+
+/// Splits a line at `separator`; ' ' stands for runs of blanks. Every field is without outer blanks
+/// and lies within `line`, an empty one too.
+void csv_split(std::string_view line, char separator, std::vector<std::string_view>& fields,
+               CsvKeep keep = CsvKeep::brackets);
+std::vector<std::string_view> csv_fields(std::string_view line, char separator);
+
+/// The first of , ; tab outside brackets, else blanks.
+char csv_separator(std::string_view line);
+
+/// Calls line(text, number) for the lines of a text, without line ends and byte order mark.
+template <class Line>
+void for_each_line(std::string_view text, Line&& line) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    std::string_view one = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (one.ends_with('\r')) one.remove_suffix(1);
+    line(one, number);
+  }
+}
 
 /// The line up to a comment: a '#' that is first or follows a blank ("#N/A" is a field, no
 /// comment).
 std::string_view csv_without_comment(std::string_view line);
 
-/// 1-based character of a byte of `line` (UTF-8: a multi-byte character counts once).
+/// 1-based character of a byte of `line` (UTF-8: a multi-byte character counts once), or of a part
+/// of it.
 std::size_t csv_character(std::string_view line, std::size_t byte);
+std::size_t csv_character(std::string_view line, std::string_view part);
 
 /// `text` as UTF-8: unchanged where it is that already, else taken as Latin-1.
 std::string csv_utf8(std::string_view text);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "recording/folded.hpp"
+#include "format/folded.hpp"
 
 #include <cctype>
 

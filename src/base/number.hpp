@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace trueaxis {
+
+/// Reads the number at `p`, in any locale; returns where it ends, or `p` where none starts. The
+/// value is the double nearest to the text. `error` is result_out_of_range as in std::from_chars.
+///
+/// Plain decimals of at most 18 digits whose digits stay below 2^53, with at most 22 of them behind
+/// the point, are the quotient of two exact doubles, so one rounding (Clinger 1990). All else goes
+/// to std::from_chars, from the start.
+inline const char* read_number(const char* p, const char* end, double& value, std::errc& error) {
+  static constexpr double powers_of_ten[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,
+                                             1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13,
+                                             1e14, 1e15, 1e16, 1e17, 1e18};
+  constexpr std::uint64_t exact_below = std::uint64_t{1} << 53U;
+  constexpr std::ptrdiff_t most_digits = 18;
+  const char* start = p;
+  const char* at = p;
+  const bool plus = at < end && *at == '+';
+  const bool minus = at < end && *at == '-';
+  if (plus || minus) ++at;
+  std::uint64_t digits = 0;
+  const auto digit = [&] { return at < end ? static_cast<unsigned>(*at) - unsigned{'0'} : 10U; };
+  const char* first = at;
+  for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
+  std::ptrdiff_t count = at - first, behind = 0;
+  if (at < end && *at == '.') {
+    first = ++at;
+    for (unsigned d = digit(); d < 10U; ++at, d = digit()) digits = 10U * digits + d;
+    behind = at - first;
+    count += behind;
+  }
+  const bool exponent = at < end && (*at == 'e' || *at == 'E');
+  if (count > 0 && count <= most_digits && digits < exact_below && !exponent) {
+    const double magnitude = static_cast<double>(digits) / powers_of_ten[behind];
+    value = minus ? -magnitude : magnitude;
+    error = {};
+    return at;
+  }
+  if (plus && (++start == end || *start == '-')) return p;
+  const auto [stop, why] = std::from_chars(start, end, value);
+  error = why;
+  return stop == start ? p : stop;
+}
+
+/// Whether all of `text` is a finite number, which becomes `value`.
+inline bool parse_number(std::string_view text, double& value) {
+  std::errc error{};
+  const char* end = text.data() + text.size();
+  return !text.empty() && read_number(text.data(), end, value, error) == end &&
+         error == std::errc{} && std::isfinite(value);
+}
+
+/// Whether a number starts `text`: its sign, its point, a digit.
+inline bool starts_number(std::string_view text) {
+  if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('.')) text.remove_prefix(1);
+  return !text.empty() && text.front() >= '0' && text.front() <= '9';
+}
+
+/// The whole number that is all of `text`; nothing where it is none, or beyond `Whole`.
+template <class Whole>
+std::optional<Whole> whole_number(std::string_view text) {
+  Whole value{};
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+}
+
+/// The shortest text that reads back as the same number, appended.
+template <class Number>
+void append_exact(std::string& text, Number value) {
+  char digits[32];
+  text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+
+inline std::string exact_text(double value) {
+  std::string text;
+  append_exact(text, value);
+  return text;
+}
+
+}  // namespace trueaxis
