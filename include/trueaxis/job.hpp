@@ -29,6 +29,7 @@ struct StreamReading {
   std::size_t skip_lines = 0;  ///< of another program's file: lines above its table
   /// Of the stream only the readings at these Z, machine frame; none: all of them.
   std::optional<double> z_from_mm{}, z_to_mm{};
+  bool drop_invalid = false;  ///< rows without a value are left out, and listed
 };
 
 /// One reference surface of a job and how its stream is to be read and fitted.

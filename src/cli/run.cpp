@@ -223,12 +223,7 @@ void expect_no_stream_options(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();
     if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
-    throw CLI::ValidationError(
-        name,
-        name == "--drop-invalid"
-            ? "is of a stream alone: trueaxis import STREAM --drop-invalid -o CLEAN.csv writes "
-              "one for the job"
-            : "is of a stream alone: write it into the job");
+    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
   }
 }
 

@@ -71,6 +71,7 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
   reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
   reference.read.columns = table.text("columns", "");
   reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
+  reference.read.drop_invalid = table.flag("drop_invalid", false);
   reference.read.z_from_mm = table.maybe_number("z_from_mm");
   reference.read.z_to_mm = table.maybe_number("z_to_mm");
   if (reference.read.z_from_mm && reference.read.z_to_mm &&

@@ -18,10 +18,11 @@ ZRange range_of_reference(const JobReference& reference) {
 
 ProbeStream read_stream(const JobReference& reference) {
   const StreamReading& said = reference.read;
-  ProbeStream stream = read_recording(
-      reference.stream, {said.columns,
-                         said.skip_lines,
-                         {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}});
+  RecordingOptions options{said.columns,
+                           said.skip_lines,
+                           {said.diameter, SaidBy::job, said.indication, said.nominal_radius_mm}};
+  options.read.drop_invalid = said.drop_invalid;
+  ProbeStream stream = read_recording(reference.stream, options);
   if (!said.z_from_mm && !said.z_to_mm) return stream;
   return within(stream, range_of_reference(reference));
 }
