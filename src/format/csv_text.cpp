@@ -8,6 +8,9 @@
 #include <tuple>
 #include <utility>
 
+#include "format/folded.hpp"
+#include "format/text_layout.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -103,9 +106,7 @@ std::string_view csv_without_comment(std::string_view line) {
 }
 
 std::size_t csv_character(std::string_view line, std::size_t byte) {
-  byte = std::min(byte, line.size());
-  const auto end = line.begin() + static_cast<std::ptrdiff_t>(byte);
-  return 1 + byte - static_cast<std::size_t>(std::count_if(line.begin(), end, is_continuation));
+  return 1 + layout::width(line.substr(0, byte));
 }
 
 std::size_t csv_character(std::string_view line, std::string_view part) {
@@ -121,15 +122,7 @@ std::string csv_utf8(std::string_view text) {
   }
   if (valid) return std::string(text);
   std::string out;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte < 0x80U) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xC0U | (byte >> 6U));
-      out += static_cast<char>(0x80U | (byte & 0x3FU));
-    }
-  }
+  for (const char c : text) append_utf8(out, static_cast<unsigned char>(c));
   return out;
 }
 

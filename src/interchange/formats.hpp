@@ -22,6 +22,10 @@ class NumberBudget {
   std::size_t left_ = most_numbers;
 };
 
+/// The number of `size` bytes at `at`: a floating-point number of kind 'f', a whole one of 'i' or,
+/// without a sign, 'u'.
+double binary_number(const char* at, char kind, std::size_t size);
+
 // Each reads its format; is_… has seen to it that the bytes begin as one.
 NumberArray read_npy(const std::string& path, const std::string& name, std::string_view bytes,
                      NumberBudget& budget);

@@ -3,8 +3,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <cstdint>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -30,40 +28,17 @@ void expect_whole(const std::string& path, const std::string& bytes) {
   }
 }
 
-template <class T>
-void copy(const matvar_t& of, NumberArray& to) {
-  const T* values = static_cast<const T*>(of.data);
-  for (std::size_t row = 0; row < to.rows; ++row)  // MATLAB's order is column by column
+/// Row by row, where MATLAB's order is column by column.
+void copy_numbers(const matvar_t& of, NumberArray& to) {
+  const auto size = static_cast<std::size_t>(of.data_size);
+  const bool real = of.class_type == MAT_C_DOUBLE || of.class_type == MAT_C_SINGLE;
+  // Classes of whole numbers alternate: int8, uint8, int16 …
+  const char kind = real ? 'f' : (of.class_type - MAT_C_INT8) % 2 == 0 ? 'i' : 'u';
+  static_assert(MAT_C_UINT8 == MAT_C_INT8 + 1 && MAT_C_UINT64 == MAT_C_INT8 + 7);
+  for (std::size_t row = 0; row < to.rows; ++row)
     for (std::size_t column = 0; column < to.columns; ++column)
-      to.values.push_back(static_cast<double>(values[column * to.rows + row]));
-}
-
-/// Of the class that the variable has; false for what is no number.
-bool copy_numbers(const matvar_t& of, NumberArray& to) {
-  switch (of.class_type) {
-    case MAT_C_DOUBLE:
-      return copy<double>(of, to), true;
-    case MAT_C_SINGLE:
-      return copy<float>(of, to), true;
-    case MAT_C_INT8:
-      return copy<std::int8_t>(of, to), true;
-    case MAT_C_UINT8:
-      return copy<std::uint8_t>(of, to), true;
-    case MAT_C_INT16:
-      return copy<std::int16_t>(of, to), true;
-    case MAT_C_UINT16:
-      return copy<std::uint16_t>(of, to), true;
-    case MAT_C_INT32:
-      return copy<std::int32_t>(of, to), true;
-    case MAT_C_UINT32:
-      return copy<std::uint32_t>(of, to), true;
-    case MAT_C_INT64:
-      return copy<std::int64_t>(of, to), true;
-    case MAT_C_UINT64:
-      return copy<std::uint64_t>(of, to), true;
-    default:
-      return false;
-  }
+      to.values.push_back(binary_number(
+          static_cast<const char*>(of.data) + (column * to.rows + row) * size, kind, size));
 }
 
 /// A file of these bytes in memory: the library reads files only, and what was hashed is read.

@@ -2,6 +2,8 @@
 #include "interchange/number_file.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 
 #include "interchange/formats.hpp"
 #include "interchange/zip_archive.hpp"
@@ -57,30 +59,35 @@ std::size_t NumberBudget::take(const std::string& name, std::size_t rows, std::s
   return rows * columns;
 }
 
-NumberFile read_number_file(const std::string& path, const std::string& bytes) {
-  NumberFile file;
-  switch (kind_of(bytes)) {
-    case Kind::npy: {
-      file = {.kind = "a NumPy array", .arrays = {}};
-      NumberBudget budget(path);
-      file.arrays.push_back(read_npy(path, "", bytes, budget));
-      break;
-    }
-    case Kind::npz:
-      file = read_npz(path, bytes);
-      break;
-    case Kind::hdf5:
-      file = read_hdf5(path, bytes);
-      break;
-    case Kind::matlab:
-      file = read_matlab(path, bytes);
-      break;
-    case Kind::x3p:
-      file = read_x3p(path, bytes);
-      break;
-    case Kind::none:
-      expects(false, "a file that is_number_file() knows");
+double binary_number(const char* at, char kind, std::size_t size) {
+  const auto as = [at]<class T>(T value) {
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+  };
+  if (kind == 'f') return size == 4 ? as(float{}) : as(double{});
+  const bool sign = kind == 'i';
+  switch (size) {
+    case 1:
+      return sign ? as(std::int8_t{}) : as(std::uint8_t{});
+    case 2:
+      return sign ? as(std::int16_t{}) : as(std::uint16_t{});
+    case 4:
+      return sign ? as(std::int32_t{}) : as(std::uint32_t{});
+    default:
+      return sign ? as(std::int64_t{}) : as(std::uint64_t{});
   }
+}
+
+NumberFile read_number_file(const std::string& path, const std::string& bytes) {
+  const Kind kind = kind_of(bytes);
+  expects(kind != Kind::none, "a file that is_number_file() knows");
+  NumberBudget budget(path);
+  NumberFile file = kind == Kind::npz      ? read_npz(path, bytes)
+                    : kind == Kind::hdf5   ? read_hdf5(path, bytes)
+                    : kind == Kind::matlab ? read_matlab(path, bytes)
+                    : kind == Kind::x3p    ? read_x3p(path, bytes)
+                                           : NumberFile{"a NumPy array", {}, {}};
+  if (kind == Kind::npy) file.arrays.push_back(read_npy(path, "", bytes, budget));
   for (NumberArray& array : file.arrays)
     if (array.unusable.empty() && array.values.empty()) array.unusable = "no numbers";
   if (std::ranges::none_of(file.arrays, [](const auto& a) { return a.unusable.empty(); }))

@@ -3,8 +3,6 @@
 #include <array>
 #include <bit>
 #include <charconv>
-#include <cstdint>
-#include <cstring>
 #include <optional>
 
 #include "interchange/formats.hpp"
@@ -62,22 +60,7 @@ double number_at(const char* bytes, const Field& field) {
   std::array<char, 8> raw{};
   for (std::size_t i = 0; i < field.size; ++i)
     raw[i] = bytes[field.swapped ? field.size - 1 - i : i];
-  const auto as = [&]<class T>(T value) {
-    std::memcpy(&value, raw.data(), sizeof value);
-    return static_cast<double>(value);
-  };
-  if (field.kind == 'f') return field.size == 4 ? as(float{}) : as(double{});
-  const bool whole = field.kind == 'i';
-  switch (field.size) {
-    case 1:
-      return whole ? as(std::int8_t{}) : as(std::uint8_t{});
-    case 2:
-      return whole ? as(std::int16_t{}) : as(std::uint16_t{});
-    case 4:
-      return whole ? as(std::int32_t{}) : as(std::uint32_t{});
-    default:
-      return whole ? as(std::int64_t{}) : as(std::uint64_t{});
-  }
+  return binary_number(raw.data(), field.kind, field.size);
 }
 
 class Npy {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <pugixml.hpp>
 
 #include "base/number.hpp"
@@ -28,13 +26,6 @@ std::string_view within_blanks(std::string_view text) {
   constexpr std::string_view blanks = " \t\r\n";
   text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
   return text.substr(0, text.find_last_not_of(blanks) + 1);
-}
-
-template <class T>
-double number(const char* at) {
-  T value;
-  std::memcpy(&value, at, sizeof value);
-  return static_cast<double>(value);
 }
 
 class X3p {
@@ -224,11 +215,8 @@ class X3p {
       std::array<double, 3> stored{};
       for (std::size_t i = 0; i < 3; ++i) {
         if (axes_[i].incremental) continue;
-        const char type = axes_[i].type;
-        stored[i] = type == 'I'   ? number<std::int16_t>(at)
-                    : type == 'L' ? number<std::int32_t>(at)
-                    : type == 'F' ? number<float>(at)
-                                  : number<double>(at);
+        const bool whole = axes_[i].type == 'I' || axes_[i].type == 'L';
+        stored[i] = binary_number(at, whole ? 'i' : 'f', axes_[i].size());
         at += axes_[i].size();
         if (std::isinf(stored[i]))
           fail(name + ": point " + std::to_string(index + 1) + " is not finite");

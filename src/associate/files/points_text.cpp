@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t most_places = 20;
 
-/// Fields between blanks, tabs or commas; a comma may have blanks beside it, two commas have an
-/// empty field between them. Blanks inside and before [brackets] do not separate.
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  const bool commas = line.find(',') != std::string_view::npos;
-  csv_split(line, commas ? ',' : ' ', fields);
-}
-
 /// "x[um]": the unit of the column, "" where it has none; nothing where the text is no such column.
 std::optional<std::string_view> unit_of_column(std::string_view text, char name) {
   const auto [written, unit] = name_with_unit(text);
@@ -40,7 +33,8 @@ class Reader {
   void line(std::string_view text, std::size_t number, PointText& out) {
     text = csv_without_comment(text);
     if (csv_trimmed(text).empty()) return;
-    split(text, fields_);
+    // Blanks, or commas with blanks beside them.
+    csv_split(text, text.find(',') != std::string_view::npos ? ',' : ' ', fields_);
     if (first_ && !starts_number(fields_.front()) && header(text, number)) return;
     first_ = false;
     if (fields_.size() != 3)

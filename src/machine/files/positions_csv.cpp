@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "machine/files/positions_csv.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 
 #include "format/units.hpp"
 #include "machine/files/number_table.hpp"
@@ -47,9 +49,7 @@ std::vector<Column> axis_columns(const NumberTable& table, const Machine& machin
 }
 
 void append(std::string& text, double value, char behind) {
-  char number[40];
-  const int length = std::snprintf(number, sizeof number, "%.17g%c", value + 0.0, behind);  // no -0
-  text.append(number, static_cast<std::size_t>(length));
+  fmt::format_to(std::back_inserter(text), "{:.17g}{}", value + 0.0, behind);  // no -0
 }
 
 }  // namespace

@@ -170,36 +170,38 @@ void read_lines(ByteSource& source, LineReader& lines, StreamingHash& hash) {
   lines.block(buffer, buffer + kept + 1);
 }
 
+template <class Feed>
+ProbeStream read_from(const std::string& source, const StreamReadOptions& options, Feed&& feed,
+                      std::function<std::size_t(std::size_t)> line_of = {}) {
+  ProbeStream stream;
+  stream.source = source;
+  CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
+  LineReader lines(stream, diagnostics, options);
+  feed(lines);
+  lines.finish();
+  return stream;
+}
+
 }  // namespace
 
 ProbeStream read_stream_csv(const std::string& path, const StreamReadOptions& options) {
   ByteSource source(path);
-  ProbeStream stream;
-  stream.source = path;
-  CsvDiagnostics diagnostics(path, options.max_diagnostics);
-  LineReader lines(stream, diagnostics, options);
   StreamingHash hash;
-  read_lines(source, lines, hash);
-  lines.finish();
+  ProbeStream stream =
+      read_from(path, options, [&](LineReader& lines) { read_lines(source, lines, hash); });
   stream.input_hash = hash.text();
   return stream;
 }
 
 ProbeStream read_stream_csv_text(std::string_view text, const std::string& source,
                                  const StreamReadOptions& options) {
-  ProbeStream stream;
-  stream.source = source;
-  CsvDiagnostics diagnostics(source, options.max_diagnostics);
-  LineReader lines(stream, diagnostics, options);
-  StreamingHash hash;
-  hash.add(text.data(), text.size());
-  const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
-  if (lines.block(text.data(), text.data() + whole) && whole < text.size()) {
+  ProbeStream stream = read_from(source, options, [&](LineReader& lines) {
+    const std::size_t whole = text.rfind('\n') + 1;  // 0 where there is none
+    if (!lines.block(text.data(), text.data() + whole) || whole == text.size()) return;
     const std::string last = std::string(text.substr(whole)) + '\n';
     lines.block(last.data(), last.data() + last.size());
-  }
-  lines.finish();
-  stream.input_hash = hash.text();
+  });
+  stream.input_hash = content_hash(text);
   return stream;
 }
 
@@ -207,13 +209,10 @@ ProbeStream read_stream_rows(std::string_view head, std::span<const double> numb
                              const std::function<std::string(std::size_t)>& text_of,
                              const std::string& source, const StreamReadOptions& options,
                              std::function<std::size_t(std::size_t)> line_of) {
-  ProbeStream stream;
-  stream.source = source;
-  CsvDiagnostics diagnostics(source, options.max_diagnostics, std::move(line_of));
-  LineReader lines(stream, diagnostics, options);
-  if (lines.block(head.data(), head.data() + head.size())) lines.rows(numbers, text_of);
-  lines.finish();
-  return stream;
+  const auto feed = [&](LineReader& lines) {
+    if (lines.block(head.data(), head.data() + head.size())) lines.rows(numbers, text_of);
+  };
+  return read_from(source, options, feed, std::move(line_of));
 }
 
 }  // namespace trueaxis

@@ -62,29 +62,21 @@ class HeaderParser {
     });
     if (field.empty()) {
       add(column, "a column has no name: name it or remove the separator");
-    } else if (const std::size_t sensor = sensor_number(name); sensor > 0) {
-      column.role = sensor == 1 ? CsvRole::reading : CsvRole::more_reading;
-      column.name = "X_M" + std::to_string(sensor);
-      column.sensor = sensor;
-      column.unit = *find_unit(UnitKind::length, "mm");
-      if (twice(column)) {
-        column.role = CsvRole::unknown;
-      } else if (bracket != std::string_view::npos) {
-        unit(column, UnitKind::length, field.substr(bracket + 1));
-      }
-    } else if (known == std::end(known_columns)) {
+    } else if (const std::size_t sensor = sensor_number(name);
+               sensor == 0 && known == std::end(known_columns)) {
       add(column,
           "unknown column " + csv_quoted(name) +
               ": remove it or name it one of X_M, C, Z, t, pass, setup (a face: Z_M, C, X)");
     } else {
-      column.role = known->role;
-      column.name = known->name;
-      column.unit = *find_unit(known->quantity, known->unit);
-      if (twice(column)) {
+      const KnownColumn& is = sensor > 0 ? known_columns[0] : *known;
+      column.role = sensor > 1 ? CsvRole::more_reading : is.role;
+      column.name = sensor > 0 ? "X_M" + std::to_string(sensor) : is.name;
+      column.sensor = sensor;
+      column.unit = find_unit(is.quantity, is.unit).value_or(Unit{});
+      if (twice(column))
         column.role = CsvRole::unknown;
-      } else if (bracket != std::string_view::npos) {
-        unit(column, known->quantity, field.substr(bracket + 1));
-      }
+      else if (bracket != std::string_view::npos)
+        unit(column, is.quantity, field.substr(bracket + 1));
     }
     header_.columns.push_back(std::move(column));
   }

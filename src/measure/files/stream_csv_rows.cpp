@@ -53,36 +53,19 @@ CsvRows::CsvRows(const CsvHeader& header, ProbeStream& stream, CsvDiagnostics& d
       all_known_(true),
       drop_invalid_(drop_invalid) {
   if (header.sensors() > 1) stream.more_reading_mm.resize(header.sensors() - 1);
+  // In the order of the roles.
+  std::vector<double>* const numbers[] = {&stream.reading_mm, nullptr, &stream.c_rad,
+                                          &stream.position_mm, &stream.time_s};
   for (const CsvColumn& column : header.columns) {
-    Target target;
-    target.column = &column;
-    switch (column.role) {
-      case CsvRole::reading:
-        target.numbers = &stream.reading_mm;
-        break;
-      case CsvRole::more_reading:
-        target.numbers = &stream.more_reading_mm[column.sensor - 2];
-        break;
-      case CsvRole::angle:
-        target.numbers = &stream.c_rad;
-        break;
-      case CsvRole::position:
-        target.numbers = &stream.position_mm;
-        break;
-      case CsvRole::time:
-        target.numbers = &stream.time_s;
-        time_at_ = targets_.size();
-        break;
-      case CsvRole::pass:
-        target.whole = &stream.pass;
-        break;
-      case CsvRole::setup:
-        target.whole = &stream.setup;
-        break;
-      case CsvRole::unknown:
-        all_known_ = false;
-        break;
-    }
+    Target target{nullptr, nullptr, &column};
+    if (column.role == CsvRole::more_reading)
+      target.numbers = &stream.more_reading_mm[column.sensor - 2];
+    else if (column.role < CsvRole::pass)
+      target.numbers = numbers[static_cast<std::size_t>(column.role)];
+    else if (column.role != CsvRole::unknown)
+      target.whole = column.role == CsvRole::pass ? &stream.pass : &stream.setup;
+    if (column.role == CsvRole::time) time_at_ = targets_.size();
+    if (column.role == CsvRole::unknown) all_known_ = false;
     targets_.push_back(target);
   }
 }

@@ -86,6 +86,8 @@ def program(include):
                     member = scopes[len(outer):]
                     of = "::".join(member) + "::" if member else ""
                     lines.append(f"{begin}{returned}({of}*one{number})({', '.join(given)}){behind} = &{of}{name};{end}")
+    if not lines:
+        raise SystemExit(f"{include}: no public header declares a function")
     return "#include <trueaxis/trueaxis.hpp>\n" + "\n".join(lines) + f"\nint main() {{}}  // {len(lines)} functions\n"
 
 
