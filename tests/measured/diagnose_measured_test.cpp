@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -89,18 +90,63 @@ double cylinder_held_out(const ProbeStream& stream, const FitOptions& options) {
   return std::sqrt(sum / 60.0);
 }
 
-// Leaving one section out: to 32 µm or better, 31.4 being what lobes of order 2, 3 and 4 that are
-// linear in Z leave. Before: refits linearised about the whole fit err
-// by the squares of what they move, a few 0.1 mm in 76 mm.
+/// RMS of the ideal cylinder's residuals less the least squares of a cylinder nearby and of lobes
+/// that may grow along Z: of one section after the other, from a fit to the other four, and of all
+/// from a fit to all. Columns and solution are this test's own.
+struct Predicted {
+  double held_out_mm, rms_mm;
+};
+Predicted with_lobes(const ProbeStream& stream, const std::vector<double>& residual_mm,
+                     const std::vector<int>& constant, const std::vector<int>& growing) {
+  const auto rows = static_cast<Eigen::Index>(stream.size());
+  Eigen::MatrixXd columns(rows,
+                          static_cast<Eigen::Index>(6 + 2 * constant.size() + 4 * growing.size()));
+  Eigen::VectorXd y(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    const double c = stream.c_rad[row], u = stream.position_mm[row] / 100.0;
+    std::vector<double> x{1.0, u, std::cos(c), std::sin(c), u * std::cos(c), u * std::sin(c)};
+    for (const int n : constant) x.insert(x.end(), {std::cos(n * c), std::sin(n * c)});
+    for (const int n : growing)
+      x.insert(x.end(),
+               {std::cos(n * c), std::sin(n * c), u * std::cos(n * c), u * std::sin(n * c)});
+    for (Eigen::Index j = 0; j < columns.cols(); ++j)
+      columns(i, j) = x[static_cast<std::size_t>(j)];
+    y(i) = residual_mm[row];
+  }
+  const auto solved = [](const auto& a, const auto& b) -> Eigen::VectorXd {
+    return a.completeOrthogonalDecomposition().solve(b);
+  };
+  double sum = 0.0;
+  for (Eigen::Index section = 0; section < rows; section += 12) {
+    Eigen::MatrixXd rest(rows - 12, columns.cols());
+    Eigen::VectorXd of_rest(rows - 12);
+    rest << columns.topRows(section), columns.bottomRows(rows - 12 - section);
+    of_rest << y.head(section), y.tail(rows - 12 - section);
+    const Eigen::VectorXd off =
+        y.segment(section, 12) - columns.middleRows(section, 12) * solved(rest, of_rest);
+    sum += off.squaredNorm();
+  }
+  const Eigen::VectorXd left = y - columns * solved(columns, y);
+  return {std::sqrt(sum / static_cast<double>(rows)),
+          std::sqrt(left.squaredNorm() / static_cast<double>(rows))};
+}
+
+// A section left out is predicted about as well as by lobes of order 2, 3 and 4 that are linear in
+// Z, which is what others found in these data. Before: refits linearised about the whole fit err by
+// the squares of what they move, a few 0.1 mm in 76 mm.
 TEST_F(Tube, PredictsASectionLeftOut) {
   ASSERT_EQ(stream_.size(), 60u);
   const Gain& gain = found_.gain;
   EXPECT_EQ(gain.blocks, "5 blocks, each a section");
   const double before = cylinder_held_out(stream_, options_.fit);
   EXPECT_NEAR(gain.held_out_before_mm.value, before, 0.005 * before);
-  std::cout << "held out " << before << ", " << gain.held_out_after_mm.value << " mm\n";
-  EXPECT_LE(gain.held_out_after_mm.value, 0.032);
-  EXPECT_LE(gain.rms_after_mm, 0.018);  // 17.7 with them
+  const Predicted lobes = with_lobes(stream_, found_.residual_before_mm, {}, {2, 3, 4});
+  std::cout << "held out " << before << ", " << gain.held_out_after_mm.value << " mm, by lobes "
+            << lobes.held_out_mm << "; left " << gain.rms_after_mm << ", by lobes " << lobes.rms_mm
+            << '\n';
+  EXPECT_LE(gain.held_out_after_mm.value, 1.005 * lobes.held_out_mm);
+  EXPECT_LE(gain.rms_after_mm, 1.005 * lobes.rms_mm);
 }
 
 // On twelve even angles no lobe and no taper moves the axis.
@@ -114,8 +160,20 @@ TEST_F(Tube, AxisStaysThatOfTheIdealFit) {
   EXPECT_LE(found_.gain.axis_shift.value, 2.0 * found_.extended.axis.u_at(0.0));
 }
 
-// They lose held out.
+// Beside the lobes that grow along Z an F test of two more columns does not show them, as many as
+// are tried.
 TEST_F(Tube, NoConstantFourOrFiveLobes) {
+  ASSERT_NE(ovality(), nullptr);
+  for (const int order : {4, 5}) {
+    const std::vector<int> beside = order == 4 ? std::vector{2, 3} : std::vector{2, 3, 4};
+    const double freedom = 60.0 - 6.0 - 4.0 * static_cast<double>(beside.size()) - 2.0;
+    const auto rms = [&](const std::vector<int>& constant) {
+      return with_lobes(stream_, found_.residual_before_mm, constant, beside).rms_mm;
+    };
+    const double f = (std::pow(rms({}) / rms({order}), 2) - 1.0) * freedom / 2.0;
+    const double p = cdf(complement(boost::math::fisher_f(2.0, freedom), f));
+    EXPECT_GT(p * found_.effective_hypotheses, found_.false_alarm) << order << ": F " << f;
+  }
   for (const Finding& f : found_.findings) {
     const double order = value(f, "order");
     const bool grows = std::ranges::any_of(f.parameters, [](const FitParameter& p) {
