@@ -10,51 +10,21 @@
 
 #include "trueaxis/effect.hpp"
 #include "trueaxis/fit.hpp"
+#include "trueaxis/inference.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
-/// What a measurement is to be taken for, and what it would do.
-struct Separating {
-  /// Another measurement that does it nearly as well.
-  struct Other {
-    std::string plan, what;
-    double power = 0.0, minutes = 0.0;
-  };
-  std::string plan;           ///< code of a separator: "RC", "2W" …; empty: see why_not
-  std::string what;           ///< in words, with its numbers
-  double power_before = 0.0;  ///< probability of the right name with the data at hand
-  double power = 0.0;         ///< with the measurement added
-  double minutes = 0.0;       ///< it takes, setting up included
-  std::string why_not;        ///< why none of the plans does it
-  std::vector<Other> others;  ///< fastest first
-};
-
-/// A cause that explains a finding as well, or nearly.
-struct Rival {
-  std::string effect;     ///< id
-  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
-  double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
-  double probability = 0.0;       ///< of the rival, among the class
-  bool structural = false;        ///< canonical correlation above 0.999: no amount of data helps
-};
-
 /// A cause found in the data, refitted jointly with the surface and the other findings.
-struct Finding {
-  TermValue term;             ///< of the best explanation: an effect of the catalogue, fitted
-  std::vector<Rival> rivals;  ///< what explains it as well, the most probable first
+struct Finding : NamedFinding {
+  TermValue term;  ///< of the best explanation: an effect of the catalogue, fitted
   std::vector<FitParameter> parameters;  ///< catalogue's names, edge units (mm, deg, s, Hz, 1)
-  std::string alias;                     ///< another order that the sampling cannot tell from it
-  double p_value = 1.0;      ///< family-wise: all hypotheses that were tried are counted
-  double probability = 0.0;  ///< of the named effect among its class
-  double rms_mm = 0.0;       ///< of its contribution to the readings
-  Estimate axis_shift;       ///< mm; largest over Z, of leaving it out
-  bool cosmetic = false;     ///< improves the RMS, not the axis
-  std::optional<Separating> separate_with;  ///< for a class of more than one
+  Estimate axis_shift;                   ///< mm; largest over Z, of leaving it out
+  bool cosmetic = false;                 ///< improves the RMS, not the axis
 
   std::string effect() const { return term.id(); }
   /// The class: every id that explains it as well, the named one first.
-  std::vector<std::string> members() const;
+  std::vector<std::string> members() const { return members_beside(effect()); }
   bool may_be(std::string_view effect) const;  ///< whether the class holds it
 
   /// The estimate of this name. @throws ContractViolation if there is none.
@@ -71,14 +41,9 @@ struct Unexplained {
 };
 
 /// An effect that this plan cannot see at its typical size.
-struct NotObservable {
-  std::string effect;
-  std::string why;              ///< "absorbed by x0, y0 …", "needs a time column" …
+struct NotObservable : UnseenEffect {
   Estimate axis_bias_per_unit;  ///< shift of the axis per unit of the effect's parameter
   Estimate axis_bias_typical;   ///< shift at the largest typical size
-  double detectable = 0.0;  ///< size of the parameter that would be found with power ½; inf: none
-  std::string detectable_unit;
-  std::optional<Separating> separate_with;
 };
 
 /// Noise of one reading as the data show it.
@@ -96,18 +61,6 @@ struct NoiseReport {
   std::vector<Rejected> masked;         ///< readings that were left out, and why
   std::vector<std::string> gaps;        ///< missing sectors or lengths: where
   std::vector<Rejected> interruptions;  ///< keyways, holes: first row of each and its sector
-};
-
-/// A check of the data's quality (probe.saturation …): estimated, handled, never a name for a form.
-struct QualityCheck {
-  std::string effect;  ///< id of the check
-  bool found = false;
-  std::string text;  ///< what was seen, with numbers and what was done
-};
-
-/// An interval of about 95 %.
-struct Interval {
-  double value = 0.0, low = 0.0, high = 0.0;
 };
 
 struct Gain {
@@ -143,8 +96,6 @@ struct AxisShare {
   double probability = 0.0;
   Estimate axis_shift;  ///< mm; largest over Z, from the axis of the named model
 };
-
-enum class DiagnosisVerdict { ideal, effects, unexplained };
 
 /// What the model gets wrong.
 struct Diagnosis {
@@ -197,7 +148,5 @@ struct DiagnoseOptions {
 /// @throws InputError as fit() does; ContractViolation where an effect of one's own has an id of
 /// the catalogue. Numerical outcomes are data: see extended.status.
 Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options);
-
-const char* to_string(DiagnosisVerdict verdict);
 
 }  // namespace trueaxis

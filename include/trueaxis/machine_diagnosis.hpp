@@ -5,21 +5,15 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "trueaxis/calibration.hpp"
+#include "trueaxis/inference.hpp"
 
 /// What the model of a machine gets wrong, from measurements of balls, bars and arrays
-/// (docs/calibration.md). Effects have names such as EXC.harmonic2, reversal.Y, drift.Z, ball.slip.
+/// (docs/calibration.md).
 namespace trueaxis {
-
-/// An effect that explains a finding as well, or nearly.
-struct MachineRival {
-  std::string effect;
-  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
-  double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
-  double probability = 0.0;       ///< among the class
-};
 
 /// A number that says of what form a term is: an order, a degree, a range, a row.
 struct MachineShape {
@@ -28,24 +22,59 @@ struct MachineShape {
   std::string unit;  ///< mm, rad, s or 1
 };
 
-struct MachineFinding {
+/// A component error that is a function of the position of an axis: a column a function. Of its own
+/// axis it is an error of the machine; `of` says another.
+struct ErrorOfPosition {
+  ErrorName error{};
+  std::vector<ErrorFunction> functions;
+  std::optional<AxisName> of{};
+};
+/// + or − half its size along an axis, of a rotary one about it, by the side that it came from.
+struct ErrorOfSense {
+  AxisName axis = AxisName::X;
+};
+/// The tip against the bed along X, Y or Z of M, linear in time.
+struct TipDrift {
+  std::size_t direction = 0;
+};
+/// A ball that stands elsewhere on the workpiece's body from a row on.
+struct BallStep {};
+/// How an effect is computed; monostate: it is not.
+using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, TipDrift, BallStep>;
+
+/// Whether it is an error of the machine as a function of its axes, which programs are corrected
+/// by.
+bool is_machine_error(const MachineTerm& term);
+
+/// An entry of the catalogue of a machine: all that diagnosis, job, report and command know of an
+/// effect.
+struct MachineEffect {
+  std::string id;     ///< EXC.harmonic2, reversal.Y
+  std::string title;  ///< in words
+  MachineTerm term{};
+  std::vector<std::string> parameters{};  ///< a name each column
+  std::string formula{};                  ///< of the term in its parameters
+  std::vector<MachineShape> shape{};
+  std::string unit = "mm";       ///< of its size: mm or rad
+  double low = 0.0, high = 0.0;  ///< 95 % of its sizes lie between; 0: none is known
+  std::string consequence{};     ///< what it means and what to do
+  std::string why_not{};         ///< why these rows cannot show it; empty: they may
+};
+
+struct MachineFinding : NamedFinding {
   std::string effect;                           ///< of the best explanation
-  std::vector<MachineRival> rivals;             ///< the rest of its class, the most probable first
+  MachineTerm term{};                           ///< of its entry; monostate: a pattern
+  std::string consequence;                      ///< likewise
   std::vector<CalibratedParameter> parameters;  ///< cos and sin, legendre, x y z …; mm or rad
   std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
   std::string formula;            ///< of the term in its parameters
   std::vector<MachineShape> shape;
   std::vector<double> covariance;  ///< of `parameters` by rows
-  std::string alias;               ///< orders that these positions cannot tell from it
-  bool likely_order = true;        ///< its order is 95 % likely among them, 1/n² an order n
+  bool likely_order = true;        ///< its order is 95 % likely among its aliases, 1/n² an order n
   std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
   double size = 0.0;                              ///< amplitude, mm or rad
-  double p_value = 1.0;                           ///< family-wise
-  double probability = 0.0;                       ///< of the named effect in its class
-  double rms_mm = 0.0;        ///< of what it does to the readings beside what is always fitted
-  std::string separate_with;  ///< plan that tells the class apart best; empty: none is needed
 
-  std::vector<std::string> members() const;  ///< the class, the named one first
+  std::vector<std::string> members() const { return members_beside(effect); }
 };
 
 struct MachineUnexplained {
@@ -56,21 +85,12 @@ struct MachineUnexplained {
   std::vector<double> covariance;  ///< of `parameters` by rows
 };
 
-/// A check of the data's quality: never a name for an error.
-struct MachineCheck {
-  std::string name;
-  bool found = false;
-  std::string text;
-};
+/// An effect that these rows do not show. What shows it: `separate_with`.
+struct MachineNotObservable : UnseenEffect {
+  std::vector<ErrorTerm> errors;  ///< of size 1; empty: no error of the machine, or not tested
+  double hidden = 0.0;            ///< size that could hide: detectable, the largest plausible
 
-struct MachineNotObservable {
-  std::string effect;
-  std::string why;
-  std::optional<double> detectable;  ///< size found with power ½; none: no size
-  std::string unit;                  ///< mm or rad
-  std::vector<std::string> plans;    ///< those after which it is seen
-  std::vector<ErrorTerm> errors;     ///< of size 1; empty: no error of the machine, or not tested
-  double hidden = 0.0;               ///< size that could hide: detectable, the largest plausible
+  std::vector<std::string> plans() const;  ///< those after which it is seen, the one to take first
 };
 
 /// Where a further measurement goes.
@@ -100,15 +120,8 @@ struct UncertainParameter {
   double prior = 0.0;  ///< mm or rad
 };
 
-struct HeldOut {
-  double value_mm = 0.0, low_mm = 0.0, high_mm = 0.0;  ///< RMS, interval of about 95 %
-};
-
-enum class MachineVerdict { ideal, effects, unexplained };
-const char* to_string(MachineVerdict verdict);
-
 struct MachineDiagnosis {
-  MachineVerdict verdict = MachineVerdict::ideal;
+  DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
   Calibration baseline;                       ///< what is always fitted
   std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
   /// To predict the tip with: given, always fitted and found together; where something is
@@ -118,13 +131,14 @@ struct MachineDiagnosis {
   std::vector<MachineUnexplained> unexplained;
   std::vector<MachineNotObservable> not_observable;
   std::vector<std::string> remarks;  ///< what might be taken for certain and is not
-  std::vector<MachineCheck> checks;
+  std::vector<QualityCheck> checks;
   std::vector<MachinePlan> plans;
-  std::string next_plan;  ///< that shows and separates most a minute; empty: none is needed
+  std::string next_plan;  ///< the one to take next; empty: none is needed
   double noise_mm = 0.0;  ///< σ of one number as the residuals show it
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  HeldOut held_out_before, held_out_after;
-  std::size_t blocks = 0;  ///< of rotary positions, left out in turn
+  Interval held_out_before_mm, held_out_after_mm;  ///< RMS of blocks that were left out
+  Interval held_out_ratio;                         ///< after / before, blocks paired
+  std::size_t blocks = 0;                          ///< of rotary positions, left out in turn
   std::size_t hypotheses = 0;
   double effective_hypotheses = 0.0;  ///< independent tests that those of effects are worth
   double false_alarm = 0.01, threshold = 0.0;               ///< p of one test that is a finding
@@ -141,6 +155,8 @@ struct MachineDiagnoseOptions {
   std::size_t max_findings = 6;
   double typical_length_mm = 0.01, typical_angle_rad = 50e-6;  ///< that must be seen
   bool covariances = false;  ///< of what a program's tip depends on, with every plan
+  /// Effects beside the catalogue that may be found too, ids of their own.
+  std::span<const MachineEffect> own_effects = {};
 };
 
 /// Every effect is tested beside what is always fitted (places, location errors): an exact F test

@@ -17,7 +17,7 @@
 #include "format/json.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
-#include "harm/files/harm_files.hpp"
+#include "job/machine/files/harm_files.hpp"
 #include "machine/files/errors_toml.hpp"
 #include "report/machine_report.hpp"
 #include "trueaxis/error.hpp"

@@ -167,9 +167,7 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
 
   out.findings = std::move(explanation.findings);
   out.unexplained = std::move(explanation.unexplained);
-  out.verdict = !out.unexplained.empty() ? DiagnosisVerdict::unexplained
-                : !out.findings.empty()  ? DiagnosisVerdict::effects
-                                         : DiagnosisVerdict::ideal;
+  out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
   const std::vector<Unobservable> hidden = unobservable_effects(
       refit->problem(), search.model, explanation.ambiguous, refit->joint().sigma_mm);
   const AveragedAxis average = average_axis(refit->problem(), refit->joint(), explanation.ambiguous,
@@ -206,12 +204,6 @@ Diagnosis diagnose(const ProbeStream& stream, const DiagnoseOptions& options) {
   return out;
 }
 
-std::vector<std::string> Finding::members() const {
-  std::vector<std::string> ids{effect()};
-  for (const Rival& rival : rivals) ids.push_back(rival.effect);
-  return ids;
-}
-
 bool Finding::may_be(std::string_view id) const {
   return id == effect() || std::ranges::find(rivals, id, &Rival::effect) != rivals.end();
 }
@@ -222,11 +214,6 @@ const Finding* Diagnosis::slip() const {
   const auto found = std::ranges::find_if(
       findings, [](const Finding& finding) { return is_step(finding.term.effect->term); });
   return found == findings.end() ? nullptr : &*found;
-}
-
-const char* to_string(DiagnosisVerdict verdict) {
-  static constexpr const char* words[] = {"ideal", "effects", "unexplained"};
-  return words[static_cast<std::size_t>(verdict)];
 }
 
 }  // namespace trueaxis

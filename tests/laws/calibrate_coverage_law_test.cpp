@@ -4,7 +4,7 @@
 #include <boost/math/distributions/binomial.hpp>
 #include <iostream>
 
-#include "calibrate/tip_fit.hpp"
+#include "calibrate/estimate/tip_fit.hpp"
 #include "machine/uncertainty.hpp"
 #include "support/shop_machine.hpp"
 

@@ -33,8 +33,8 @@ MachineMeasurement measured(const ErrorModel& truth, const Machine& machine, Dra
 void print(const MachineDiagnosis& d) {
   for (const MachineFinding& f : d.findings) {
     std::cout << f.effect << " p " << f.p_value << " size " << f.size << " prob " << f.probability;
-    for (const MachineRival& r : f.rivals) std::cout << " | " << r.effect << " d " << r.distance;
-    std::cout << " [" << f.separate_with << "]\n";
+    for (const Rival& r : f.rivals) std::cout << " | " << r.effect << " d " << r.distance;
+    std::cout << " [" << (f.separate_with ? f.separate_with->plan : "") << "]\n";
   }
   for (const MachineUnexplained& u : d.unexplained)
     std::cout << "unexplained " << u.pattern << " p " << u.p_value << '\n';
@@ -56,7 +56,7 @@ TEST(DiagnoseMachineLaw, IsSilentWhereNothingIs) {
     const ErrorModel truth = drawn_location_errors(machine, draw);
     const MachineMeasurement data = measured(truth, machine, draw);
     const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
-    if (found.verdict == MachineVerdict::ideal) continue;
+    if (found.verdict == DiagnosisVerdict::ideal) continue;
     ++alarms;
     std::cout << "seed " << seed << ": ";
     print(found);
@@ -113,7 +113,7 @@ TEST(DiagnoseMachineLaw, NamesWhatIsThere) {
     EXPECT_TRUE(may_be(found, one.name)) << one.name;
     EXPECT_EQ(found.findings.size(), 1U) << one.name;
     EXPECT_TRUE(found.unexplained.empty()) << one.name;
-    EXPECT_LT(found.held_out_after.value_mm, found.held_out_before.value_mm);
+    EXPECT_LT(found.held_out_after_mm.value, found.held_out_before_mm.value);
   }
 }
 
@@ -153,7 +153,7 @@ TEST(DiagnoseMachineLaw, CallsTheUnknownUnknown) {
   const MachineMeasurement data = measured(truth, machine, draw);
   const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
   print(found);
-  EXPECT_EQ(found.verdict, MachineVerdict::unexplained);
+  EXPECT_EQ(found.verdict, DiagnosisVerdict::unexplained);
   ASSERT_FALSE(found.unexplained.empty());
   EXPECT_EQ(found.unexplained.front().pattern, "EXC: harmonic 5 of C");
   EXPECT_TRUE(found.findings.empty());
@@ -208,18 +208,18 @@ TEST(DiagnoseMachineLaw, SaysWhatThesePositionsDoNotShow) {
   const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
   for (const MachineNotObservable& one : found.not_observable) {
     std::cout << one.effect << ": " << one.why;
-    if (one.detectable) std::cout << " " << *one.detectable;
-    for (const auto& plan_code : one.plans) std::cout << ' ' << plan_code;
+    std::cout << " " << one.detectable;
+    for (const auto& plan_code : one.plans()) std::cout << ' ' << plan_code;
     std::cout << '\n';
   }
   std::cout << "next " << found.next_plan << '\n';
   EXPECT_TRUE(std::ranges::any_of(found.not_observable, [](const MachineNotObservable& one) {
-    return one.effect == "drift.Z" && one.plans.empty();  // without times no plan of ours helps
+    return one.effect == "drift.Z" && one.plans().empty();  // without times no plan of ours helps
   }));
   // What turns with C and tilts the ball's orbit about a centre of one height is not told from a
   // shift of it: another height tells.
   EXPECT_TRUE(std::ranges::any_of(
-      found.not_observable, [](const MachineNotObservable& one) { return !one.plans.empty(); }));
+      found.not_observable, [](const MachineNotObservable& one) { return !one.plans().empty(); }));
 }
 
 }  // namespace

@@ -5,8 +5,9 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "calibrate/regression.hpp"
-#include "calibrate/tip_fit.hpp"
+#include "calibrate/diagnose/catalogue.hpp"
+#include "calibrate/diagnose/regression.hpp"
+#include "calibrate/estimate/tip_fit.hpp"
 #include "support/ball_bench.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
@@ -24,10 +25,9 @@ struct Tally {
 bool told_beside(const Regression& regression, std::size_t term, const Eigen::VectorXd& mu,
                  const std::vector<std::pair<std::size_t, Eigen::VectorXd>>& others) {
   const auto left = [&](std::size_t a, const Eigen::VectorXd& of_a, std::size_t b) {
-    const auto &one = regression.block(a), &other = regression.block(b);
-    return of_a.squaredNorm() -
-           (regression.products().block(other.first, one.first, other.rank, one.rank) * of_a)
-               .squaredNorm();
+    const Eigen::MatrixXd products =
+        regression.gram()(regression.block(b).columns, regression.block(a).columns);
+    return of_a.squaredNorm() - (products * of_a).squaredNorm();
   };
   return std::ranges::all_of(others, [&](const auto& other) {
     return left(term, mu, other.first) >= 50.0 && left(other.first, other.second, term) >= 50.0;
@@ -54,7 +54,7 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
   Calibration base = of_read_outs(machine, std::span(&data, 1), options);
   const auto fit = fit_tips(machine, std::span(&data, 1), options, false, base);
   const Geometry geometry = geometry_of(fit->problem, base.errors, fit->solution.places);
-  const auto terms = effect_terms(fit->problem, geometry, true);
+  const auto terms = effect_terms(fit->problem, geometry, machine_effects(fit->problem, true));
   const Regression regression(terms, fit->solution.jacobian, fit->problem.weights, 0.1, 0.2e-3);
   std::vector<std::string> put;
   std::vector<std::pair<std::size_t, Eigen::VectorXd>> places;
@@ -62,8 +62,8 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
   while (put.size() < static_cast<std::size_t>(effects)) {
     const auto t = static_cast<std::size_t>(draw.whole(0, static_cast<int>(terms.size()) - 1));
     const auto& block = regression.block(t);
-    if (block.rank == 0 || std::ranges::find(put, terms[t].effect) != put.end()) continue;
-    Eigen::VectorXd mu(block.rank);
+    if (block.columns.empty() || std::ranges::find(put, terms[t].effect) != put.end()) continue;
+    Eigen::VectorXd mu(static_cast<Eigen::Index>(block.columns.size()));
     for (auto& one : mu) one = draw.between(-1.0, 1.0);
     mu *= std::sqrt(draw.between(60.0, 400.0)) / mu.norm();
     if (!told_beside(regression, t, mu, places)) {
@@ -92,7 +92,7 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
   for (const MachineFinding& f : found.findings) {
     ++tally.findings;
     tally.members += f.members().size();
-    for (const MachineRival& r : f.rivals) tally.far += r.distance >= 6.6 ? 1 : 0;
+    for (const Rival& r : f.rivals) tally.far += r.distance >= 6.6 ? 1 : 0;
   }
   if (!all) {
     std::cout << "seed " << seed << ": put";

@@ -45,7 +45,7 @@ bool names(const MachineDiagnosis& found, const char* effect) {
 TEST(DiagnoseMachineUnknownLaw, NamesWhatDoesMoreThanTheUnknown) {
   const MachineDiagnosis large = diagnosed(100e-6, 0.002);
   EXPECT_TRUE(names(large, "EAA.poly2"));
-  EXPECT_EQ(large.verdict, MachineVerdict::unexplained);
+  EXPECT_EQ(large.verdict, DiagnosisVerdict::unexplained);
   const MachineDiagnosis small = diagnosed(10e-6, 0.020);
   EXPECT_FALSE(names(small, "EAA.poly2"));
   EXPECT_TRUE(std::ranges::any_of(small.unexplained, [](const MachineUnexplained& one) {

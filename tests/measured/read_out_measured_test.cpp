@@ -8,7 +8,7 @@
 #include <iostream>
 #include <sstream>
 
-#include "calibrate/read_out.hpp"
+#include "calibrate/estimate/read_out.hpp"
 #include "support/places.hpp"
 
 namespace trueaxis {

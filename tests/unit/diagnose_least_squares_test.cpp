@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "diagnose/search/statistic.hpp"
+#include "infer/significance.hpp"
 #include "support/diagnose_bench.hpp"
 
 namespace trueaxis {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <set>
 
 #include "calibrate/files/edge_json.hpp"
@@ -14,11 +15,12 @@ Json list_of(const std::vector<T>& items, const Write& write) {
   return list;
 }
 
-Json rival_json(const MachineRival& rival) {
+Json rival_json(const Rival& rival) {
   return {{"effect", rival.effect},
           {"distance", number(rival.distance)},
           {"likelihood_ratio", number(rival.likelihood_ratio)},
-          {"probability", number(rival.probability)}};
+          {"probability", number(rival.probability)},
+          {"structural", rival.structural}};
 }
 
 /// The covariance in the units of `linear`.
@@ -62,8 +64,10 @@ Json finding_json(const MachineFinding& finding) {
           {"probability", number(finding.probability)},
           {"rms", with_unit(finding.rms_mm, "mm")},
           {"rivals", list_of(finding.rivals, rival_json)},
-          {"separate_with",
-           finding.separate_with.empty() ? Json(nullptr) : Json(finding.separate_with)}};
+          {"consequence", finding.consequence},
+          {"separate_with", finding.separate_with && !finding.separate_with->plan.empty()
+                                ? Json(finding.separate_with->plan)
+                                : Json(nullptr)}};
 }
 
 Json unexplained_json(const MachineUnexplained& one) {
@@ -75,16 +79,16 @@ Json unexplained_json(const MachineUnexplained& one) {
 
 Json not_observable_json(const MachineNotObservable& one) {
   Json detectable;
-  if (one.detectable)
-    detectable = edge_size(*one.detectable, one.unit);
+  if (std::isfinite(one.detectable))
+    detectable = edge_size(one.detectable, one.detectable_unit);
   else
     detectable = {{"value", nullptr},
-                  {"unit", one.unit == "rad" ? "deg" : "mm"},
+                  {"unit", one.detectable_unit == "rad" ? "deg" : "mm"},
                   {"why", "no size of it would be found"}};
   return {{"effect", one.effect},
           {"why", one.why},
           {"detectable", detectable},
-          {"separate_with", one.plans}};
+          {"separate_with", one.plans()}};
 }
 
 Json plan_json(const MachinePlan& plan) {
@@ -95,11 +99,11 @@ Json plan_json(const MachinePlan& plan) {
           {"separates", plan.separates}};
 }
 
-Json held_out_json(const HeldOut& rms) {
-  return {{"value", number(rms.value_mm)},
-          {"low", number(rms.low_mm)},
-          {"high", number(rms.high_mm)},
-          {"unit", "mm"}};
+Json held_out_json(const Interval& one, const char* unit) {
+  return {{"value", number(one.value)},
+          {"low", number(one.low)},
+          {"high", number(one.high)},
+          {"unit", unit}};
 }
 
 /// Where to go: a table with the columns of a measurement, and where the balls stand.
@@ -134,8 +138,8 @@ Json next_json(const MachineDiagnosis& d, const Machine& machine) {
   return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
 }
 
-Json check_json(const MachineCheck& check) {
-  return {{"effect", check.name}, {"found", check.found}, {"text", check.text}};
+Json check_json(const QualityCheck& check) {
+  return {{"effect", check.effect}, {"found", check.found}, {"text", check.text}};
 }
 
 Json options_json(const MachineDiagnosis& d) {
@@ -178,8 +182,9 @@ Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine)
           {"gain",
            {{"rms_before", with_unit(d.rms_before_mm, "mm")},
             {"rms_after", with_unit(d.rms_after_mm, "mm")},
-            {"held_out_rms_before", held_out_json(d.held_out_before)},
-            {"held_out_rms_after", held_out_json(d.held_out_after)},
+            {"held_out_rms_before", held_out_json(d.held_out_before_mm, "mm")},
+            {"held_out_rms_after", held_out_json(d.held_out_after_mm, "mm")},
+            {"held_out_ratio", held_out_json(d.held_out_ratio, "1")},
             {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
           {"next_measurement", next_json(d, machine)},
           {"plans", list_of(d.plans, plan_json)},

@@ -20,14 +20,16 @@ std::string finding_text(const MachineFinding& finding) {
   std::string text =
       fmt::format("{}: {}, {} in the readings (p {:.2g})\n", finding.effect,
                   size_text(finding.size, unit), layout::um(finding.rms_mm), finding.p_value);
+  text += layout::wrapped("  ", finding.consequence);
   if (finding.rivals.empty()) return text;
   std::string rivals;
-  for (const MachineRival& rival : finding.rivals)
+  for (const Rival& rival : finding.rivals)
     rivals += (rivals.empty() ? "" : ", ") + rival.effect + " (" +
               layout::probability(rival.probability) + ")";
   text += layout::wrapped("  not told from ", rivals);
-  text += finding.separate_with.empty() ? "  none of the plans tells them apart\n"
-                                        : "  plan " + finding.separate_with + " tells them apart\n";
+  const std::string plan = finding.separate_with ? finding.separate_with->plan : "";
+  text += plan.empty() ? "  none of the plans tells them apart\n"
+                       : "  plan " + plan + " tells them apart\n";
   return text;
 }
 
@@ -35,7 +37,7 @@ std::string finding_text(const MachineFinding& finding) {
 std::string not_observable_text(const MachineDiagnosis& d) {
   std::map<std::pair<std::string, std::vector<std::string>>, std::vector<std::string>> alike;
   for (const MachineNotObservable& one : d.not_observable)
-    alike[{one.why, one.plans}].push_back(one.effect);
+    alike[{one.why, one.plans()}].push_back(one.effect);
   std::string text;
   for (const auto& [why, effects] : alike)
     text += layout::wrapped(
@@ -49,20 +51,21 @@ std::string not_observable_text(const MachineDiagnosis& d) {
 }  // namespace
 
 std::string machine_diagnosis_text(const MachineDiagnosis& d) {
-  std::string text =
-      d.verdict == MachineVerdict::ideal     ? "nothing beside the location errors was found\n"
-      : d.verdict == MachineVerdict::effects ? "beside the location errors:\n"
-                                             : "beside the location errors, in part unexplained:\n";
+  std::string text = d.verdict == DiagnosisVerdict::ideal
+                         ? "nothing beside the location errors was found\n"
+                     : d.verdict == DiagnosisVerdict::effects
+                         ? "beside the location errors:\n"
+                         : "beside the location errors, in part unexplained:\n";
   for (const MachineFinding& finding : d.findings) text += finding_text(finding);
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
                         size_text(one.amplitude.value, one.amplitude.unit), one.p_value);
   for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark);
-  for (const MachineCheck& check : d.checks)
+  for (const QualityCheck& check : d.checks)
     if (check.found) text += layout::wrapped("check: ", check.text);
   text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
                       layout::um(d.rms_before_mm), layout::um(d.rms_after_mm),
-                      layout::um(d.held_out_before.value_mm), layout::um(d.held_out_after.value_mm),
+                      layout::um(d.held_out_before_mm.value), layout::um(d.held_out_after_mm.value),
                       d.blocks);
   if (!d.not_observable.empty()) text += "not seen at these positions\n" + not_observable_text(d);
   for (const MachinePlan& plan : d.plans)

@@ -40,11 +40,12 @@ std::string finding_screen(const MachineFinding& finding) {
                                  small(finding.size, unit), um(finding.rms_mm));
   if (finding.rivals.empty()) return text + "\n";
   std::vector<std::string> rivals;
-  for (const MachineRival& rival : finding.rivals)
+  for (const Rival& rival : finding.rivals)
     rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
   return text + "; not told from " + some_of(rivals, most_rivals) +
-         (finding.separate_with.empty() ? ", and no plan tells them apart\n"
-                                        : ", plan " + finding.separate_with + " tells\n");
+         (!finding.separate_with || finding.separate_with->plan.empty()
+              ? ", and no plan tells them apart\n"
+              : ", plan " + finding.separate_with->plan + " tells\n");
 }
 
 std::string read_out_screen(const AxisReadOut& one) {
@@ -100,7 +101,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
                           small(one.amplitude.value, one.amplitude.unit));
   if (shown > most_findings)
     text += fmt::format("       and {} more (--verbose)\n", shown - most_findings);
-  for (const MachineCheck& check : d.checks)
+  for (const QualityCheck& check : d.checks)
     if (check.found) text += "check  " + check.text + "\n";
   std::vector<std::string> hidden;
   for (const MachineNotObservable& one : d.not_observable) hidden.push_back(one.effect);
@@ -111,7 +112,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
 
 std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
   const std::size_t found = d.findings.size(), unexplained = d.unexplained.size();
-  std::string text = d.verdict == MachineVerdict::ideal
+  std::string text = d.verdict == DiagnosisVerdict::ideal
                          ? "IDEAL: nothing was found beside the location errors"
                          : fmt::format("{}: {} error{} found beside the location errors",
                                        unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
@@ -120,7 +121,7 @@ std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
   if (d.blocks > 0 || d.rms_before_mm > 0.0)
     text +=
         fmt::format("; RMS {} -> {}, held out {} -> {}", um(d.rms_before_mm), um(d.rms_after_mm),
-                    um(d.held_out_before.value_mm), um(d.held_out_after.value_mm));
+                    um(d.held_out_before_mm.value), um(d.held_out_after_mm.value));
   return text + "\n" + machine_findings_screen(d);
 }
 

@@ -4,23 +4,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <functional>
 #include <optional>
 
 #include "diagnose/refit/timing.hpp"
 #include "diagnose/search/causes.hpp"
+#include "infer/advice.hpp"
+#include "infer/classes.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double share_of_best = 0.8;  // of the largest rise: among these the fastest is taken
-constexpr double worth_taking = 0.02;
-// d = 4.1: 2 ln L of the true cause over a rival is Gaussian about d² with variance 4 d², so that
-// it is above 7, which tells (confounder_set.cpp), in Φ((d² − 7)/(2 d)) = 89 %.
-constexpr double told_for_sure = 0.98;
-constexpr double found_for_sure = 0.9;
 constexpr double most_off_centre_mm = 2.0;  // that a part is clamped for a question
 constexpr double shape_step = 0.06;         // what a rival may give way in its shape
 
@@ -34,19 +29,6 @@ std::optional<std::size_t> twin_of(const AmbiguousFinding& question) {
   for (std::size_t r = 1; r < question.found.members.size(); ++r)
     if (are_twins(question, r)) return r;
   return std::nullopt;
-}
-
-double phi_half(double d) { return cdf(boost::math::normal(), 0.5 * d); }
-
-/// Probability of the right name against the rivals at these distances, each as often as it is the
-/// cause (Eq. 99).
-double right_name(const std::vector<Rival>& rivals, const std::vector<double>& distances) {
-  double right = 0.0, all = 0.0;
-  for (std::size_t r = 0; r < rivals.size(); ++r) {
-    right += rivals[r].probability * phi_half(distances[r]);
-    all += rivals[r].probability;
-  }
-  return all > 0.0 ? right / all : 1.0;
 }
 
 /// What a set of readings would tell: for every question the distances of its rivals and the
@@ -130,20 +112,12 @@ class Predictor {
         for (std::size_t way = 0; way < ways_[rival]; ++way, ++next)
           taken.insert(taken.end(), places[next].begin(), places[next].end());
         const Projection p = project(gram, taken);
-        double d2 = 0.0;
-        for (std::size_t a = 0; a < places[q.term].size(); ++a) {
-          for (std::size_t b = 0; b < places[q.term].size(); ++b)
-            d2 += sizes_[q.term](static_cast<Eigen::Index>(a)) *
-                  sizes_[q.term](static_cast<Eigen::Index>(b)) *
-                  p.gram(static_cast<Eigen::Index>(places[q.term][a]),
-                         static_cast<Eigen::Index>(places[q.term][b]));
-        }
+        const double d2 = left_of(p, places[q.term], sizes_[q.term]);
         // More readings never tell less, also where a rival was given no way to bend before.
-        const double apart =
-            are_twins(q, r) ? timing_distance(k, plan) : std::sqrt(std::max(0.0, d2)) / sigma_mm_;
+        const double apart = are_twins(q, r) ? timing_distance(k, plan) : std::sqrt(d2) / sigma_mm_;
         distances.push_back(std::max(q.found.rivals[r - 1].distance, apart));
       }
-      out.told.push_back(right_name(q.found.rivals, distances));
+      out.told.push_back(right_name_of(q.found.rivals, distances));
       out.distances.push_back(std::move(distances));
     }
     Columns taken = equations.base();
@@ -176,39 +150,6 @@ class Predictor {
   std::vector<Eigen::VectorXd> sizes_;
 };
 
-Separating nothing_helps(double before, const std::string& why) {
-  return {"", "", before, before, 0.0, why, {}};
-}
-
-/// The plan to take for something that each plan raises from `before` to `after[plan]`: among those
-/// that raise it nearly as much as any, the fastest; none where none makes sure of it.
-Separating choose(const std::vector<CandidateMeasurement>& plans, double before,
-                  const std::vector<double>& after, double sure, const std::string& nothing) {
-  const auto top = std::ranges::max_element(after);
-  const double most = std::max(0.0, (top == after.end() ? before : *top) - before);
-  if (most < worth_taking) return nothing_helps(before, nothing);
-  if (*top < sure) {
-    const CandidateMeasurement& p = plans[static_cast<std::size_t>(top - after.begin())];
-    return nothing_helps(
-        before, fmt::format("{} for sure: the best, {}, raises the probability to {:.2f}", nothing,
-                            p.code, *top));
-  }
-  const CandidateMeasurement* best = nullptr;
-  double power = 0.0;
-  for (std::size_t p = 0; p < plans.size(); ++p) {
-    if (after[p] < sure || after[p] - before < share_of_best * most) continue;
-    if (best && plans[p].minutes >= best->minutes) continue;
-    best = &plans[p], power = after[p];
-  }
-  Separating out{best->code, best->what, before, power, best->minutes, "", {}};
-  for (std::size_t p = 0; p < plans.size(); ++p) {
-    if (&plans[p] == best || after[p] < sure || after[p] - before < share_of_best * most) continue;
-    out.others.push_back({plans[p].code, plans[p].what, after[p], plans[p].minutes});
-  }
-  std::ranges::stable_sort(out.others, {}, &Separating::Other::minutes);
-  return out;
-}
-
 /// The slowest second speed at which delay and lag are told apart; where none of those that the
 /// readings a second allow does it, the least eccentricity at the fastest.
 std::optional<CandidateMeasurement> timing_measurement(const Predictor& predictor,
@@ -222,7 +163,7 @@ std::optional<CandidateMeasurement> timing_measurement(const Predictor& predicto
   };
   const auto tells = [&](const CandidateMeasurement& p) {
     return every_line_meets(p.stream, p.clampings) &&
-           phi_half(predictor.timing_distance(question, p)) >= told_for_sure;
+           right_name(predictor.timing_distance(question, p)) >= told_for_sure;
   };
   const auto least = [&](double low, double high, const auto& plan_of) {
     for (int round = 0; round < 7; ++round) {  // to 1 % of the way
@@ -266,20 +207,13 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
   std::vector<Outlook> after;
   for (const CandidateMeasurement& p : plans) after.push_back(predictor.of(p));
 
-  std::vector<double> gains(plans.size(), 0.0), total_after(plans.size(), 0.0);
-  double weight_sum = 0.0, before_sum = 0.0;
+  std::vector<Measure> measures;
+  for (const CandidateMeasurement& p : plans) measures.push_back({p.code, p.what, p.minutes});
+  Ranking ranking(measures);
   const auto column = [&](auto member, std::size_t k, double before) {
     std::vector<double> values;
     for (const Outlook& o : after) values.push_back(std::max(before, (o.*member)[k]));
     return values;
-  };
-  const auto count = [&](double before, const std::vector<double>& values, double sure,
-                         double weight) {
-    weight_sum += weight, before_sum += weight * before;
-    for (std::size_t p = 0; p < plans.size(); ++p) {
-      if (values[p] >= sure) gains[p] += weight * (values[p] - before);
-      total_after[p] += weight * values[p];
-    }
   };
   bool open = false;
   for (std::size_t k = 0; k < questions.size(); ++k) {
@@ -294,42 +228,33 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
           are_twins(questions[k], r + 1)
               ? predictor.timing_distance(k, measurement_at_hand(stream, problem.point, clampings))
               : rivals[r].distance);
-    const double before = right_name(rivals, distances);
+    const double before = right_name_of(rivals, distances);
     const std::vector<double> values = column(&Outlook::told, k, before);
-    out.questions.push_back(choose(plans, before, values, told_for_sure,
+    out.questions.push_back(choose(measures, before, values, told_for_sure,
                                    "no single measurement of this part tells them apart"));
     open |= !out.questions.back()->plan.empty();
-    if (!out.questions.back()->plan.empty()) count(before, values, told_for_sure, 1.0);
+    if (!out.questions.back()->plan.empty()) ranking.count(before, values, told_for_sure, 1.0);
   }
   for (std::size_t k = 0; k < hidden.size(); ++k) {
     const std::vector<double> values = column(&Outlook::found, k, hidden[k].power);
     const bool master = std::ranges::any_of(hidden[k].typical.hypothesis.effect->separations,
                                             [](const Separation& s) { return s.code == "MS"; });
-    out.hidden.push_back(choose(plans, hidden[k].power, values, found_for_sure,
+    out.hidden.push_back(choose(measures, hidden[k].power, values, found_for_sure,
                                 master ? "no measurement of this part shows it, a master does (MS),"
                                        : "no single measurement of this part shows it"));
     if (!open && !out.hidden.back()->plan.empty())
-      count(hidden[k].power, values, found_for_sure, hidden[k].axis_bias_mm);
+      ranking.count(hidden[k].power, values, found_for_sure, hidden[k].axis_bias_mm);
   }
-  std::vector<std::size_t> order(plans.size());
-  for (std::size_t p = 0; p < order.size(); ++p) order[p] = p;
-  double most = 0.0;
-  for (const double g : gains) most = std::max(most, g);
-  const auto rank = [&](std::size_t p) {
-    return std::pair(gains[p] < share_of_best * most,
-                     gains[p] < share_of_best * most ? -gains[p] : plans[p].minutes);
-  };
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-  for (const std::size_t p : order) {
+  const std::vector<std::size_t> order = ranking.order();
+  for (const std::size_t p : order)
     out.plans.push_back({plans[p].code,
                          plans[p].what,
-                         weight_sum > 0.0 ? before_sum / weight_sum : 0.0,
-                         weight_sum > 0.0 ? total_after[p] / weight_sum : 0.0,
+                         ranking.before(),
+                         ranking.after(p),
                          plans[p].minutes,
                          "",
                          {}});
-  }
-  if (!(most > 0.0) || order.empty()) {
+  if (!ranking.any()) {
     out.next.why_not = questions.empty() && hidden.empty()
                            ? "nothing is left to tell apart"
                            : "no single measurement of this part tells for sure";
@@ -343,7 +268,7 @@ Advice advise(const Problem& problem, const Model& model, const ProbeStream& str
     const std::vector<Candidate>& members = questions[k].found.members;
     for (std::size_t c = 0; c < members.size(); ++c) {
       const std::string id = members[c].hypothesis.id();
-      if (c > 0 && phi_half(after[order[0]].distances[k][c - 1]) < told_for_sure) continue;
+      if (c > 0 && right_name(after[order[0]].distances[k][c - 1]) < told_for_sure) continue;
       if (std::ranges::find(out.next.separates, id) == out.next.separates.end())
         out.next.separates.push_back(id);
     }

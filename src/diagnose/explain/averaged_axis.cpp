@@ -8,7 +8,7 @@
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
 #include "diagnose/search/local_forms.hpp"
-#include "diagnose/search/statistic.hpp"
+#include "infer/significance.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {

@@ -4,44 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <random>
 
-#include "diagnose/search/statistic.hpp"
+#include "infer/cross_validation.hpp"
 #include "math/fourier_sums.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr int resamplings = 999;
-
-struct Block {
-  double before = 0.0, after = 0.0, rows = 0.0;
-};
-
 double root_mean(double sum, double rows) { return rows > 0.0 ? std::sqrt(sum / rows) : 0.0; }
-
-/// Percentiles of a statistic over resampled blocks (block bootstrap, Efron and Tibshirani 1993).
-template <typename Statistic>
-Interval interval(const std::vector<Block>& blocks, Statistic statistic) {
-  const auto sum = [](const std::vector<Block>& list) {
-    Block all;
-    for (const Block& b : list) all.before += b.before, all.after += b.after, all.rows += b.rows;
-    return all;
-  };
-  Interval out;
-  out.value = statistic(sum(blocks));
-  std::mt19937_64 random(20261121);
-  std::vector<double> values;
-  std::vector<Block> drawn(blocks.size());
-  for (int r = 0; r < resamplings; ++r) {
-    for (Block& b : drawn) b = blocks[random() % blocks.size()];
-    values.push_back(statistic(sum(drawn)));
-  }
-  std::ranges::sort(values);
-  out.low = values[static_cast<std::size_t>(0.025 * resamplings)];
-  out.high = values[static_cast<std::size_t>(0.975 * resamplings)];
-  return out;
-}
 
 }  // namespace
 
@@ -57,9 +27,9 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis
   const auto rows = static_cast<double>(equations.count());
   out.rms_before_mm = root_mean(solve(equations.total(), before).rss, rows);
   out.rms_after_mm = root_mean(plain.solution.rss, rows);
-  std::vector<Block> blocks;
+  std::vector<HeldOutBlock> blocks;
   for (std::size_t f = 0; f < equations.folds().size(); ++f) {
-    Block b;
+    HeldOutBlock b;
     for (std::size_t i = problem.mask.fold_begin[f]; i < problem.mask.fold_begin[f + 1]; ++i)
       b.rows += problem.mask.used[i] != 0;
     if (b.rows == 0.0) continue;
@@ -69,12 +39,10 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis
                   : std::max(0.0, held_out(equations.total(), equations.folds()[f], after));
     blocks.push_back(b);
   }
-  out.held_out_before_mm =
-      interval(blocks, [](const Block& b) { return root_mean(b.before, b.rows); });
-  out.held_out_after_mm =
-      interval(blocks, [](const Block& b) { return root_mean(b.after, b.rows); });
-  out.held_out_ratio = interval(
-      blocks, [](const Block& b) { return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0; });
+  const CrossValidated validated = cross_validated(blocks);
+  out.held_out_before_mm = validated.before;
+  out.held_out_after_mm = validated.after;
+  out.held_out_ratio = validated.ratio;
   out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;
 
   const Solution bare = solve(joint.equations.total(), before);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <cmath>
 #include <optional>
 
@@ -92,13 +91,8 @@ std::vector<Typical> typical_effects(const Problem& problem) {
 
 double detection_power(double lambda, std::size_t columns, const Family& family, double level) {
   if (!(lambda > 0.0) || columns == 0) return level;
-  // The statistic with these degrees of freedom that is as improbable as the threshold of two.
-  const double p = std::exp(-0.5 * family.threshold(level));
-  const auto q = static_cast<double>(columns);
-  const boost::math::chi_squared central(q);
-  const double threshold = quantile(complement(central, p));
-  if (lambda > 40.0 * threshold) return 1.0;
-  return cdf(complement(boost::math::non_central_chi_squared(q, lambda), threshold));
+  return infer::detection_power(lambda, static_cast<double>(columns), known_sigma,
+                                family.single_level(level));
 }
 
 double typical_lambda(const Projection& projection, const Columns& columns, double size,

@@ -18,9 +18,6 @@ constexpr std::size_t chunk_rows = 512;
 // written to a nanometre; and columns are linear where the terms are not: about second_order of
 // what the terms take (RMS) is left as their next order.
 constexpr double least_floor_mm = 1e-6, second_order = 5e-4;
-// Of a column's square: the rounding of the Gram matrix (n ε) and of the columns leave nothing to
-// trust below.
-constexpr double undetermined = 1e-11;
 
 using Matrix = Eigen::MatrixXd;
 
@@ -253,89 +250,6 @@ std::size_t NormalEquations::counted(std::size_t begin, std::size_t end) const {
   std::size_t count = 0;
   for (std::size_t i = begin; i < end; ++i) count += mask_->used[i] != 0;
   return count;
-}
-
-Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  Solution out;
-  out.columns = columns;
-  out.coefficients = Eigen::VectorXd::Zero(n);
-  out.inverse = Matrix::Zero(n, n);
-  out.rss = gram(0, 0);
-  if (n == 0) return out;
-  Matrix normal(n, n);
-  Eigen::VectorXd right(n), scale(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
-    right(i) = gram(a, 0);
-    scale(i) = gram(a, a) > 0.0 ? 1.0 / std::sqrt(gram(a, a)) : 0.0;
-    for (Eigen::Index j = 0; j < n; ++j)
-      normal(i, j) = gram(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
-  }
-  const Matrix unit = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(unit);
-  Eigen::VectorXd inverse(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const bool there = eigen.eigenvalues()(i) > undetermined;
-    inverse(i) = there ? 1.0 / eigen.eigenvalues()(i) : 0.0;
-    out.rank += there;
-  }
-  out.inverse = scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
-                eigen.eigenvectors().transpose() * scale.asDiagonal();
-  out.coefficients = out.inverse * right;
-  out.rss = gram(0, 0) - right.dot(out.coefficients);
-  return out;
-}
-
-Projection::Projection(const Eigen::MatrixXd& gram, const Solution& taken)
-    : norm2(gram.diagonal()),
-      rank(taken.rank),
-      whole_(&gram),
-      cross_(static_cast<Eigen::Index>(taken.columns.size()), gram.cols()) {
-  for (Eigen::Index i = 0; i < cross_.rows(); ++i)
-    cross_.row(i) = gram.row(static_cast<Eigen::Index>(taken.columns[static_cast<std::size_t>(i)]));
-  weighted_.noalias() = taken.inverse * cross_;
-  rss = this->gram(0, 0);
-}
-
-Eigen::MatrixXd Projection::gram(const Columns& rows, const Columns& columns) const {
-  Matrix out(rows.size(), columns.size());
-  for (Eigen::Index i = 0; i < out.rows(); ++i) {
-    for (Eigen::Index j = 0; j < out.cols(); ++j)
-      out(i, j) = gram(static_cast<Eigen::Index>(rows[static_cast<std::size_t>(i)]),
-                       static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
-  }
-  return out;
-}
-
-Score score(const Projection& projection, const Columns& columns) {
-  const auto n = static_cast<Eigen::Index>(columns.size());
-  Matrix left(n, n);
-  Eigen::VectorXd right(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto a = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(i)]);
-    const double scale_a = projection.norm2(a) > 0.0 ? 1.0 / std::sqrt(projection.norm2(a)) : 0.0;
-    right(i) = projection.gram(a, 0) * scale_a;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const auto b = static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]);
-      const double scale_b = projection.norm2(b) > 0.0 ? 1.0 / std::sqrt(projection.norm2(b)) : 0.0;
-      left(i, j) = projection.gram(a, b) * scale_a * scale_b;
-    }
-  }
-  Score out;
-  const auto take = [&](double value, double along) {
-    if (value <= 1e-9) return;
-    out.gain += along * along / value;
-    ++out.rank;
-  };
-  if (n == 1) {
-    take(left(0, 0), right(0));
-    return out;
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(left);
-  const Eigen::VectorXd along = eigen.eigenvectors().transpose() * right;
-  for (Eigen::Index i = 0; i < n; ++i) take(eigen.eigenvalues()(i), along(i));
-  return out;
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -12,8 +12,12 @@
 #include "diagnose/geometry/observation_mask.hpp"
 #include "diagnose/regression/gram_sums.hpp"
 #include "diagnose/regression/white_columns.hpp"
+#include "infer/gram.hpp"
 
 namespace trueaxis::diagnose_detail {
+
+using namespace infer;
+
 /// Whether streams of a kind have an effect.
 inline bool is_of(const Effect& effect, const BaseKind& base) {
   return effect.needs.stream.value_or(base.stream()) == base.stream();
@@ -54,8 +58,6 @@ struct Problem {
             threads, most_terms, effects,    rounding_mm};
   }
 };
-
-using Columns = std::vector<std::size_t>;
 
 /// The Gram matrix of [readings | base | hypotheses], whitened, also block by block of readings:
 /// all that tests, refits and held-out predictions need of the data. Column 0 is the deviation of
@@ -133,51 +135,5 @@ class NormalEquations {
 inline std::span<const double> span_of(const Eigen::VectorXd& values) {
   return {values.data(), static_cast<std::size_t>(values.size())};
 }
-
-/// Least squares over some columns: coefficients (0 where a combination is undetermined) and the
-/// inverse of their normal matrix.
-struct Solution {
-  Columns columns;
-  Eigen::VectorXd coefficients;
-  Eigen::MatrixXd inverse;
-  double rss = 0.0;
-  std::size_t rank = 0;
-};
-Solution solve(const Eigen::MatrixXd& gram, const Columns& columns);
-
-/// What is left of every column once some are taken out by least squares. Eq. 58.
-class Projection {
- public:
-  /// @param gram outlives this
-  Projection(const Eigen::MatrixXd& gram, const Columns& taken)
-      : Projection(gram, solve(gram, taken)) {}
-  /// The same by least squares over what is taken, which are those of this matrix.
-  Projection(const Eigen::MatrixXd& gram, const Solution& taken);
-
-  Eigen::VectorXd norm2;  ///< of the columns before
-  double rss = 0.0;       ///< of column 0
-  std::size_t rank = 0;   ///< of what was taken out
-
-  /// An entry of the Schur complement; made where it is asked for.
-  double gram(Eigen::Index i, Eigen::Index j) const {
-    return (*whole_)(i, j) - cross_.col(i).dot(weighted_.col(j));
-  }
-  Eigen::MatrixXd gram(const Columns& rows, const Columns& columns) const;
-
- private:
-  const Eigen::MatrixXd* whole_;
-  Eigen::MatrixXd cross_, weighted_;  ///< of what was taken, and times the inverse of its own
-};
-inline Projection project(const Eigen::MatrixXd& gram, const Columns& taken) {
-  return {gram, taken};
-}
-
-/// What more columns take off the sum of squares.
-struct Score {
-  double gain = 0.0;     ///< decrease of the residual sum of squares
-  std::size_t rank = 0;  ///< columns that are not absorbed
-};
-/// Eq. 59.
-Score score(const Projection& projection, const Columns& columns);
 
 }  // namespace trueaxis::diagnose_detail

@@ -2,38 +2,13 @@
 #include "diagnose/regression/size_prior.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
-using SmallVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 8, 1>;
-
-constexpr double ends_of_range = 3.92;  // widths of a normal law that hold 95 % of it
-constexpr double least_spread = 0.7;    // of ln: no range of a handbook is sharper than that
-constexpr double open_end = 0.05;       // share of the upper end where a range begins at 0
-constexpr double absorbed = 1e-9;       // share of a column below which nothing is left
-constexpr double far = 3.0;             // spreads: sizes beyond are extraordinary
-
-/// Scales in spreads about the median, and their weights: log-normal, with a tail that lets an
-/// extraordinary part be what it is.
-struct Node {
-  double at, weight;
-};
-constexpr std::array<Node, 9> nodes{{{-2.0, 0.054},
-                                     {-1.0, 0.242},
-                                     {0.0, 0.399},
-                                     {1.0, 0.242},
-                                     {2.0, 0.054},
-                                     {3.0, 0.0044},
-                                     {4.5, 1e-4},
-                                     {6.0, 1e-5},
-                                     {8.0, 1e-6}}};
-
 struct Range {
-  double median = 0.0, spread = least_spread;
+  double median = 0.0, spread = spread_of_size(0.0);
 };
 
 Range range_of_size(const EffectParameter* p, const TermShape& shape) {
@@ -42,7 +17,7 @@ Range range_of_size(const EffectParameter* p, const TermShape& shape) {
   const double low = (p->low > 0.0 ? p->low / p->high : open_end) * high;
   const double ratio = low / high;
   if (p->share_of_range > 0.0) high = std::min(high, p->share_of_range * shape.range_mm);
-  return {high * std::sqrt(ratio), std::max(least_spread, -std::log(ratio) / ends_of_range)};
+  return {high * std::sqrt(ratio), spread_of_size(-std::log(ratio))};
 }
 
 }  // namespace
@@ -50,12 +25,12 @@ Range range_of_size(const EffectParameter* p, const TermShape& shape) {
 SizePrior size_prior(const Hypothesis& h) {
   const auto count = static_cast<Eigen::Index>(h.columns());
   const EffectParameter any{};
-  SizePrior out{Eigen::VectorXd::Zero(count), least_spread,
+  SizePrior out{Eigen::VectorXd::Zero(count), spread_of_size(0.0),
                 Eigen::VectorXd::Constant(count, any.least),
                 Eigen::VectorXd::Constant(count, any.most)};
   if (!h.effect && h.smallest_mm > 0.0) {
     out.median.setConstant(std::sqrt(h.smallest_mm * h.largest_mm));
-    out.spread = std::max(least_spread, std::log(h.largest_mm / h.smallest_mm) / ends_of_range);
+    out.spread = spread_of_size(std::log(h.largest_mm / h.smallest_mm));
   }
   if (!h.effect) return out;
   const auto names = linear_parameters(h.effect->term, h.shape);
@@ -76,90 +51,9 @@ SizePrior size_prior(const Hypothesis& h) {
   return out;
 }
 
-bool SizePrior::allows(const Eigen::VectorXd& size) const {
-  return least.size() == 0 ||
-         ((size.array() >= least.array()).all() && (size.array() <= most.array()).all());
-}
-
-Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
-              const Eigen::VectorXd& norm2, double rss, double freedom) {
-  const Eigen::Index n = gram.rows();
-  const double first_variance = rss / std::max(freedom, 1.0);
-  SmallVector scale(n);  // of the coefficients
-  bool known = false;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    known |= prior.median(j) > 0.0;
-    scale(j) = prior.median(j) > 0.0 ? prior.median(j)
-               : norm2(j) > 0.0      ? std::sqrt(first_variance * freedom / norm2(j))
-                                     : 0.0;
-  }
-  const Small scaled = scale.asDiagonal() * gram * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Small> eigen(scaled);
-  const SmallVector along = eigen.eigenvectors().transpose() * (scale.asDiagonal() * right);
-  const double floor = absorbed * (scale.cwiseProduct(scale)).dot(norm2);
-  double gain = 0.0;
-  for (Eigen::Index j = 0; j < n; ++j)
-    if (eigen.eigenvalues()(j) > floor) gain += along(j) * along(j) / eigen.eigenvalues()(j);
-  const double variance =
-      std::max(rss - gain, 1e-12 * rss) / std::max(freedom - static_cast<double>(n), 1.0);
-
-  std::array<double, nodes.size()> criterion{};
-  double best = 1e300;
-  auto count = known ? nodes.size() : 1;
-  while (count > 1 && !prior.allows(prior.scale(nodes[count - 1].at))) --count;
-  const auto factor2 = [&](std::size_t k) {
-    return known ? std::exp(2.0 * prior.spread * nodes[k].at) : 1.0;
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    double shrunk = 0.0, widths = 0.0;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      if (!(eigen.eigenvalues()(j) > floor)) continue;
-      const double value = eigen.eigenvalues()(j) + variance / factor2(k);
-      shrunk += along(j) * along(j) / value;
-      widths += std::log(value * factor2(k) / variance);
-    }
-    criterion[k] = freedom * std::log(std::max(1.0 - shrunk / rss, 1e-12)) + widths;
-    if (known) criterion[k] -= 2.0 * std::log(nodes[k].weight);
-    best = std::min(best, criterion[k]);
-  }
-  Weighed out;
-  double sum = 0.0, inverse2 = 0.0;
-  SmallVector first = SmallVector::Zero(n), second = SmallVector::Zero(n);
-  Small outer = Small::Zero(n, n);
-  for (std::size_t k = 0; k < count; ++k) {
-    const double weight = std::exp(-0.5 * (criterion[k] - best));
-    SmallVector mean = SmallVector::Zero(n);
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const double value = std::max(eigen.eigenvalues()(j), 0.0) + variance / factor2(k);
-      if (eigen.eigenvalues()(j) > floor) mean(j) = along(j) / value;
-      second(j) += weight * variance / value;
-    }
-    first += weight * mean;
-    outer += weight * (mean * mean.transpose());
-    inverse2 += weight / factor2(k);
-    sum += weight;
-  }
-  out.criterion = best - 2.0 * std::log(sum);
-  const SmallVector mean = first / sum;
-  const Small spread = (outer / sum - mean * mean.transpose()) + Small((second / sum).asDiagonal());
-  const Small back = scale.asDiagonal() * Small(eigen.eigenvectors());
-  out.mean = back * mean;
-  out.possible = prior.allows(out.mean);
-  const Eigen::VectorXd most = prior.scale(far);
-  for (Eigen::Index j = 0; j < n; ++j)
-    out.extraordinary |= most(j) > 0.0 && std::abs(out.mean(j)) > most(j);
-  out.covariance = back * spread * back.transpose();
-  out.precision = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < n; ++j)
-    if (scale(j) > 0.0) out.precision(j) = variance * inverse2 / sum / (scale(j) * scale(j));
-  return out;
-}
-
 Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
               std::size_t count) {
-  return weigh(size_prior(hypothesis), projection.gram(own, own), projection.gram(own, {0}),
-               projection.norm2(own), projection.rss,
-               static_cast<double>(count - std::min(count, projection.rank)));
+  return weigh(size_prior(hypothesis), projection, own, count);
 }
 
 }  // namespace trueaxis::diagnose_detail

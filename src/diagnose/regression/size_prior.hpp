@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
-#include <cmath>
-
 #include "diagnose/regression/normal_equations.hpp"
+#include "infer/size_prior.hpp"
 
 namespace trueaxis::diagnose_detail {
 
-/// How large a term may be before the data speak: each coefficient is normal about 0, its scale
-/// log-normal over the sizes that the catalogue calls typical (Eq. 79).
-struct SizePrior {
-  Eigen::VectorXd median;  ///< of the scale of every column, mm, rad, s; 0: no size is known
-  double spread = 1.0;     ///< standard deviation of the logarithm of the scale
-  Eigen::VectorXd least{}, most{};  ///< what a column may be at all; empty: anything
-
-  /// The scale that many spreads above the median; 0: no size is known.
-  Eigen::VectorXd scale(double spreads) const { return std::exp(spreads * spread) * median; }
-
-  bool allows(const Eigen::VectorXd& size) const;
-};
+/// Over the sizes that the catalogue calls typical (Eq. 79).
 SizePrior size_prior(const Hypothesis& hypothesis);
 
-/// What data and prior say of a term beside others.
-struct Weighed {
-  double criterion = 0.0;      ///< −2 ln of the marginal likelihood over that without the term
-  Eigen::VectorXd mean;        ///< of the coefficients
-  Eigen::MatrixXd covariance;  ///< of them
-  Eigen::VectorXd precision;   ///< what the prior adds to the normal matrix where it is largest
-  bool possible = true;        ///< whether the mean is within what the sizes may be
-  bool extraordinary = false;  ///< whether it is beyond three spreads: 1 of 700 is
-};
-
-/// Marginal likelihood and moments of a term's coefficients over the mixture of scales (Eq. 80).
-/// Scales that are not known are those of one reading's information (Kass and Wasserman 1995).
-/// @param gram, right the term's columns and their products with the readings, others taken out
-/// @param norm2 of the columns before that
-/// @param rss sum of squares without the term, of `freedom` degrees of freedom
-Weighed weigh(const SizePrior& prior, const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
-              const Eigen::VectorXd& norm2, double rss, double freedom);
-
-/// The same of a hypothesis whose columns are `own`, beside what the projection took out.
+/// Data and prior of a hypothesis whose columns are `own`, beside what the projection took out.
 /// @param count rows of the equations
 Weighed weigh(const Hypothesis& hypothesis, const Projection& projection, const Columns& own,
               std::size_t count);

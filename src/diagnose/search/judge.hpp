@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
-#include "diagnose/search/statistic.hpp"
+#include "infer/significance.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -19,6 +19,10 @@ struct Candidate {
   bool extraordinary = false;       ///< whether they are beyond what is plausible
   double rss = 0.0, freedom = 0.0;  ///< what is left without it
 };
+
+/// Twice the log of the choice among a hypothesis's kind (Chen and Chen 2008), and what a second
+/// harmonic costs that no jaws make (Eqs. 78, 80a).
+double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficients);
 
 /// ln of its own p-value.
 double log_p_of(const Candidate& candidate);

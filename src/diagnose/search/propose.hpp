@@ -12,7 +12,7 @@
 #include "diagnose/search/local_forms.hpp"
 #include "diagnose/search/scan.hpp"
 #include "diagnose/search/scan_bumps.hpp"
-#include "diagnose/search/statistic.hpp"
+#include "infer/significance.hpp"
 
 namespace trueaxis::diagnose_detail {
 

@@ -11,22 +11,16 @@
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/dictionary.hpp"
+#include "infer/model_criterion.hpp"
+#include "infer/stepwise.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr double catalogue_first = 4.0;  // 2 ln of the odds that a pattern is no new cause
 constexpr double correlation_moved = 0.02;
 constexpr std::size_t fits_kept = 4;
 constexpr std::size_t asked_at_once = 2;  // where the first is exchanged, the next was in vain
 constexpr double hides_a_term = 0.3;      // |φ|: less hardly weakens one
-
-Columns flat(const std::vector<Columns>& places, std::size_t begin, std::size_t end) {
-  Columns out;
-  for (std::size_t t = begin; t < end; ++t)
-    out.insert(out.end(), places[t].begin(), places[t].end());
-  return out;
-}
 
 bool moved(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size()) return true;
@@ -57,14 +51,27 @@ class StepwiseSearch::Engine {
     if (!first_noise_) first_noise_ = first_noise();
     model.phi = *first_noise_;
     model.terms = std::move(first);
-    forward(model, patterns, pattern_was_better);
-    for (int round = 0; round < 3; ++round) {
-      bool changed = backward(model);
-      if (model.terms.size() > 1 || may_split(model, 0)) changed |= swap(model, patterns);
-      if (!changed) break;
-      forward(model, patterns, pattern_was_better);
-    }
-    backward(model);
+    struct Side {
+      Engine& engine;
+      Model& model;
+      bool patterns;
+      bool& pattern_was_better;
+
+      std::size_t size() const { return model.terms.size(); }
+      void forward() { engine.forward(model, patterns, pattern_was_better); }
+      bool exchange() {
+        return (size() > 1 || engine.may_split(model, 0)) && engine.swap(model, patterns);
+      }
+      double log_p(std::size_t i) { return engine.log_p_if_it_stands(model, i); }
+      bool passes(double log_p) const {
+        return model.family.p_value(std::exp(log_p)) < engine.problem_.false_alarm;
+      }
+      void drop(std::size_t i) {
+        model.terms.erase(model.terms.begin() + static_cast<long>(i));
+        engine.renew_noise(model);
+      }
+    } side{*this, model, patterns, pattern_was_better};
+    search_stepwise(side);
     finish(model);
     return model;
   }
@@ -170,12 +177,8 @@ class StepwiseSearch::Engine {
     return out;
   }
 
-  /// The base and all terms but one.
   static Columns besides(const Fitted& f, std::size_t i) {
-    Columns taken = f.equations.base();
-    for (std::size_t t = 0; t < f.places.size(); ++t)
-      if (t != i) taken.insert(taken.end(), f.places[t].begin(), f.places[t].end());
-    return taken;
+    return infer::besides(f.equations.base(), f.places, i);
   }
 
   double term_log_p(const Fitted& f, std::size_t i) const {
@@ -208,70 +211,24 @@ class StepwiseSearch::Engine {
     return size_prior(f.terms[i]).allows(all.tail(static_cast<Eigen::Index>(f.places[i].size())));
   }
 
-  bool backward(Model& model) {
-    bool changed = false;
-    while (!model.terms.empty()) {
-      const Fitted& f = fitted(model);
-      std::size_t worst = 0;
-      double worst_log_p = -1e300;
-      for (std::size_t i = 0; i < model.terms.size(); ++i) {
-        const bool stands = is_possible(f, i) && predicts(f, i, model.terms[i]);
-        const double log_p = stands ? term_log_p(f, i) : 0.0;
-        if (log_p > worst_log_p) worst_log_p = log_p, worst = i;
-      }
-      if (model.family.p_value(std::exp(worst_log_p)) < problem_.false_alarm) return changed;
-      model.terms.erase(model.terms.begin() + static_cast<long>(worst));
-      renew_noise(model);
-      changed = true;
-    }
-    return changed;
+  /// Beside all others; 0 of a term whose size cannot be or that does not predict.
+  double log_p_if_it_stands(const Model& model, std::size_t i) {
+    const Fitted& f = fitted(model);
+    return is_possible(f, i) && predicts(f, i, model.terms[i]) ? term_log_p(f, i) : 0.0;
   }
 
-  /// ν ln RSS, and what prior and choice of each term cost: what two models with the same noise are
-  /// compared by (Eq. 81).
   double criterion(const Model& model) {
     const Fitted& f = fitted(model);
-    Columns all = f.equations.base();
-    const Columns terms = flat(f.places, 0, f.places.size());
-    all.insert(all.end(), terms.begin(), terms.end());
-    const Solution s = solve(f.equations.total(), all);
-    double sum = static_cast<double>(f.equations.count() - f.equations.base().size()) *
-                 std::log(s.rss / f.equations.total()(0, 0));
-    std::vector<Weighed> sizes;
-    for (std::size_t i = 0; i < model.terms.size(); ++i) {
-      const Hypothesis& h = model.terms[i];
-      const Projection beside = project(f.equations.total(), besides(f, i));
-      const Weighed weighed = weigh(h, beside, f.places[i], f.equations.count());
-      const double gain = score(beside, f.places[i]).gain;
-      if (problem_.resolution.sparse) sum -= shared_width(beside, f.places[i], weighed);
-      sum += weighed.criterion + choice_of(h, weighed.mean) +
-             (h.effect || h.largest_mm > 0.0 ? 0.0 : catalogue_first) -
-             static_cast<double>(f.equations.count() - beside.rank) *
-                 std::log(std::max(1.0 - gain / beside.rss, 1e-12));
-      sizes.push_back(weighed);
-    }
-    if (problem_.resolution.sparse && !model.terms.empty())
-      sum += shared_width(project(f.equations.total(), f.equations.base()), terms, joined(sizes));
-    return sum;
-  }
-
-  /// ln det(G + Λ), Λ what the plausible sizes add: of terms that share their columns the width of
-  /// all together is not the sum of what each has beside the others.
-  static double shared_width(const Projection& beside, const Columns& own, const Weighed& sizes) {
-    Eigen::MatrixXd gram = beside.gram(own, own);
-    gram.diagonal() += sizes.precision;
-    const Eigen::LLT<Eigen::MatrixXd> factor(gram);
-    if (factor.info() != Eigen::Success) return 0.0;
-    return 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-  }
-  static Weighed joined(const std::vector<Weighed>& sizes) {
-    Weighed out;
-    for (const Weighed& w : sizes) {
-      const Eigen::VectorXd before = out.precision;
-      out.precision.resize(before.size() + w.precision.size());
-      out.precision << before, w.precision;
-    }
-    return out;
+    return model_criterion(
+        f.equations.total(), f.equations.base(), f.places, f.equations.count(),
+        [&](std::size_t i, const Projection& beside) {
+          const Hypothesis& h = model.terms[i];
+          Weighed weighed = weigh(h, beside, f.places[i], f.equations.count());
+          weighed.criterion += choice_of(h, weighed.mean);
+          weighed.criterion += h.effect || h.largest_mm > 0.0 ? 0.0 : catalogue_first;
+          return weighed;
+        },
+        problem_.resolution.sparse);
   }
 
   /// The same with what the noise alone takes: models with another noise are compared by it, for
@@ -358,7 +315,7 @@ class StepwiseSearch::Engine {
       best = &*pattern;
     if (best == nullptr || !is_whole(*best)) return false;
     reduced.terms.push_back(best->hypothesis);
-    if (criterion(reduced) > criterion(model) - 0.5) return false;
+    if (criterion(reduced) > criterion(model) - better_by) return false;
     model.terms = std::move(reduced.terms);
     return true;
   }

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/total_uncertainty.hpp"
-#include "calibrate/unknown.hpp"
+#include "calibrate/estimate/total_uncertainty.hpp"
+#include "calibrate/estimate/unknown.hpp"
 #include "machine/uncertainty.hpp"
 
 namespace trueaxis::machine_job {

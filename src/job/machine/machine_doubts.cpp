@@ -24,7 +24,13 @@ std::string beyond_text(const AxisRange& range) {
                      range_text(range.axis, range.measured_low, range.measured_high).substr(2));
 }
 
-bool is_reversal(const MachineFinding& found) { return found.effect.starts_with("reversal."); }
+/// The axis that takes the tip along by what was found and no program corrects.
+std::optional<AxisName> axis_of(const MachineTerm& term) {
+  if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
+  const auto* error = std::get_if<ErrorOfPosition>(&term);
+  if (error != nullptr && error->of) return static_cast<AxisName>(error->error.body);
+  return std::nullopt;
+}
 
 /// Largest motion of the tip by 1 mm or rad of an axis.
 double largest_gain(const MachineModel& model, AxisName axis, const std::vector<Stand>& stands) {
@@ -65,16 +71,16 @@ std::string tool_reservation(const MachineJobResult& result) {
   return "";
 }
 
-std::string rivals_text(const MachineFinding& found, const MachineDiagnosis& diagnosis) {
+std::string rivals_text(const MachineFinding& found) {
   std::vector<std::string> names;
-  for (const MachineRival& rival : found.rivals) names.push_back(rival.effect);
+  for (const Rival& rival : found.rivals) names.push_back(rival.effect);
   const std::size_t more = names.size() > most_named ? names.size() - most_named : 0;
   names.resize(names.size() - more);
   std::string text = fmt::format("{} is not told from {}{}", found.effect, fmt::join(names, ", "),
                                  more > 0 ? fmt::format(" and {} more", more) : "");
-  const auto plan = std::ranges::find(diagnosis.plans, found.separate_with, &MachinePlan::code);
-  if (plan != diagnosis.plans.end())
-    text += fmt::format(" (plan {} tells them apart: {})", plan->code, plan->what);
+  if (found.separate_with && !found.separate_with->plan.empty())
+    text += fmt::format(" (plan {} tells them apart: {})", found.separate_with->plan,
+                        found.separate_with->what);
   return text;
 }
 
@@ -123,22 +129,13 @@ std::string extrapolated(const MachineJobResult& result) {
 std::vector<std::string> machine_reservations(const MachineJobResult& result) {
   std::vector<std::string> all;
   for (const MachineFinding& found : result.diagnosis.findings) {
-    if (!found.rivals.empty()) all.push_back(rivals_text(found, result.diagnosis));
-    if (is_reversal(found))
-      all.push_back(
-          fmt::format("{} was found: a program corrects it for one sense only, so its "
-                      "size is counted with U",
-                      found.effect));
-    if (found.effect == "ball.slip")
-      all.emplace_back("a ball moved on the table while it was measured");
-    if (found.effect.starts_with("drift."))
-      all.push_back(found.effect +
-                    " was found: it goes on while the part is cut, so what it was "
-                    "over the measurement is counted with U");
+    if (!found.rivals.empty()) all.push_back(rivals_text(found));
+    if (!is_machine_error(found.term))
+      all.push_back(fmt::format("{} was found: {}", found.effect, found.consequence));
   }
   all.insert(all.end(), result.diagnosis.remarks.begin(), result.diagnosis.remarks.end());
-  for (const MachineCheck& check : result.diagnosis.checks)
-    if (check.found) all.push_back(check.name + ": " + check.text);
+  for (const QualityCheck& check : result.diagnosis.checks)
+    if (check.found) all.push_back(check.effect + ": " + check.text);
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
     all.push_back(fmt::format("{} of {} that no effect explains, counted with U", one.pattern,
                               um_text(one.amplitude.value)));
@@ -154,10 +151,9 @@ double not_corrected_mm(const MachineJobResult& result, const MachineModel& mode
                         const std::vector<Stand>& stands) {
   double sum = 0.0;
   for (const MachineFinding& found : result.diagnosis.findings) {
-    if (found.effect.starts_with("drift.")) sum += std::abs(found.size);
-    if (!is_reversal(found)) continue;
-    const std::size_t axis = std::string_view("XYZABC").find(found.effect.back());
-    sum += std::abs(found.size) * largest_gain(model, static_cast<AxisName>(axis), stands);
+    if (std::holds_alternative<TipDrift>(found.term)) sum += std::abs(found.size);
+    if (const auto axis = axis_of(found.term))
+      sum += std::abs(found.size) * largest_gain(model, *axis, stands);
   }
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
     sum += std::abs(one.amplitude.value);

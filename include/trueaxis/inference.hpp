@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What every diagnosis states, of a part on a lathe and of a machine alike.
+namespace trueaxis {
+
+/// What a measurement is to be taken for, and what it would do.
+struct Separating {
+  /// Another measurement that does it nearly as well.
+  struct Other {
+    std::string plan, what;
+    double power = 0.0, minutes = 0.0;
+  };
+  std::string plan;           ///< code of a separator: "RC", "2W" …; empty: see why_not
+  std::string what;           ///< in words, with its numbers
+  double power_before = 0.0;  ///< probability of the right name with the data at hand
+  double power = 0.0;         ///< with the measurement added
+  double minutes = 0.0;       ///< it takes, setting up included
+  std::string why_not;        ///< why none of the plans does it
+  std::vector<Other> others;  ///< fastest first
+};
+
+/// A cause that explains a finding as well, or nearly.
+struct Rival {
+  std::string effect;     ///< id
+  double distance = 0.0;  ///< d of the finding's prediction from the rival's best fit, in σ
+  double likelihood_ratio = 0.0;  ///< 2 ln(L_finding/L_rival), parameters paid for
+  double probability = 0.0;       ///< of the rival, among the class
+  bool structural = false;        ///< canonical correlation above 0.999: no amount of data helps
+};
+
+/// A cause that was found, with all that explain the same as well.
+struct NamedFinding {
+  std::vector<Rival> rivals;  ///< the most probable first
+  std::string alias;          ///< another order that the sampling cannot tell from it
+  double p_value = 1.0;       ///< family-wise: all hypotheses that were tried are counted
+  double probability = 0.0;   ///< of the named effect among its class
+  double rms_mm = 0.0;        ///< of its contribution to the readings
+  std::optional<Separating> separate_with;  ///< for a class of more than one
+
+  /// The class: every id that explains it as well, the name first.
+  std::vector<std::string> members_beside(std::string_view name) const;
+};
+
+/// An effect that this plan cannot see at its typical size.
+struct UnseenEffect {
+  std::string effect;       ///< id
+  std::string why;          ///< "absorbed by x0, y0 …", "needs a time column" …
+  double detectable = 0.0;  ///< size of the parameter that would be found with power ½; inf: none
+  std::string detectable_unit;
+  std::optional<Separating> separate_with;
+};
+
+/// A check of the data's quality (probe.saturation …): estimated, handled, never a name for a form.
+struct QualityCheck {
+  std::string effect;  ///< id of the check
+  bool found = false;
+  std::string text;  ///< what was seen, with numbers and what was done
+};
+
+/// An interval of about 95 %.
+struct Interval {
+  double value = 0.0, low = 0.0, high = 0.0;
+};
+
+enum class DiagnosisVerdict { ideal, effects, unexplained };
+const char* to_string(DiagnosisVerdict verdict);
+
+/// @param unexplained whether a pattern is that no effect explains
+DiagnosisVerdict verdict_of(bool found, bool unexplained);
+
+}  // namespace trueaxis

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/diagnose/advise.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "calibrate/diagnose/catalogue.hpp"
+#include "calibrate/diagnose/uncertain.hpp"
+#include "infer/advice.hpp"
+#include "infer/classes.hpp"
+#include "math/linear_algebra.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double weight_of_hidden = 0.1;  // an effect that is merely looked for, beside a class
+
+double typical(const Term& term, const MachineDiagnoseOptions& options) {
+  return term.angle ? options.typical_angle_rad : options.typical_length_mm;
+}
+
+/// An effect that these rows do not show, and the power of finding it at its typical size.
+struct Hidden {
+  std::size_t entry = 0;  ///< of `not_observable`
+  double power = 0.0;
+};
+
+std::vector<Hidden> add_hidden(const Questions& q, const Regression& regression,
+                               const std::vector<MachineEffect>& catalogue,
+                               const std::vector<Term>& terms, MachineDiagnosis& out) {
+  const Detection detection(regression, q.variance, q.search);
+  std::vector<Hidden> hidden;
+  const auto add = [&](MachineNotObservable one, double power) {
+    hidden.push_back({out.not_observable.size(), power});
+    out.not_observable.push_back(std::move(one));
+  };
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const Term& term = terms[t];
+    if (term.pattern || term.is_slip()) continue;
+    const double size = detection.detectable_size(t);
+    if (size <= typical(term, q.options)) continue;
+    const double largest = term.angle ? q.options.calibration.largest_angle_rad
+                                      : q.options.calibration.largest_length_mm;
+    const char* const why = regression.block(t).columns.empty()
+                                ? "what is always fitted takes it up at these positions"
+                                : "these positions show it less than the noise does";
+    // The size that could hide: what is found with power one half, or the largest plausible one.
+    add({{term.effect, why, size, term.angle ? "rad" : "mm", {}},
+         term.errors,
+         std::min(size, largest)},
+        detection.surely(t, typical(term, q.options)));
+  }
+  for (const MachineEffect& effect : catalogue)
+    if (!effect.why_not.empty())
+      add({{effect.id, effect.why_not, std::numeric_limits<double>::infinity(), effect.unit, {}},
+           {},
+           0.0},
+          0.0);
+  return hidden;
+}
+
+/// The effects that matter to the questions, as columns of the data with a plan.
+struct Extended {
+  std::vector<Term> terms;
+  Regression regression;
+  std::vector<double> covariance;
+};
+Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
+                  const std::vector<UncertainParameter>& uncertain) {
+  const Problem problem = make_problem(*q.fit.problem.machine, plan.data, q.fit.given);
+  const Geometry geometry = geometry_of(problem, q.fit.given, problem.start);
+  const bool timed =
+      std::ranges::any_of(problem.rows, [](const Row& row) { return row.time_s > 0.0; });
+  std::vector<MachineEffect> catalogue = machine_effects(problem, timed, q.options.own_effects);
+  std::erase_if(catalogue, [&](const MachineEffect& one) { return !wanted.contains(one.id); });
+  std::vector<Term> terms = effect_terms(problem, geometry, catalogue);
+  const MatrixXd all = weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start);
+  Regression regression(terms, determined_columns(all, q.fit.unknowns.size()), problem.weights,
+                        q.options.calibration.largest_length_mm,
+                        q.options.calibration.largest_angle_rad);
+  return {std::move(terms), std::move(regression),
+          covariance_of(q.fit, problem, geometry, all, uncertain, q.variance)};
+}
+
+/// d of a finding's prediction beside the best fit of an effect, with the data of a plan.
+double distance(const Extended& with, const MachineFinding& finding, const std::string& rival,
+                double variance) {
+  const auto of = [&](const Term& term) { return term.effect == finding.effect; };
+  auto own = std::ranges::find_if(with.terms, [&](const Term& term) {
+    return of(term) && std::ranges::equal(term.shape, finding.shape, {}, &MachineShape::value,
+                                          &MachineShape::value);
+  });
+  if (own == with.terms.end()) own = std::ranges::find_if(with.terms, of);
+  if (own == with.terms.end()) return 0.0;
+  const auto& block = with.regression.block(static_cast<std::size_t>(own - with.terms.begin()));
+  if (block.columns.empty()) return 0.0;
+  VectorXd size(static_cast<Index>(finding.parameters.size()));
+  for (Index k = 0; k < size.size(); ++k)
+    size[k] = finding.parameters[static_cast<std::size_t>(k)].estimate.value;
+  const VectorXd mu = linear::least_squares(block.back, size);
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t t = 0; t < with.terms.size(); ++t)
+    if (with.terms[t].effect == rival)
+      least = std::min(least,
+                       infer::left_of(with.regression.beside({t}), block.columns, mu) / variance);
+  return std::isfinite(least) ? std::sqrt(least) : 0.0;
+}
+
+/// What the data with a plan find of hidden effects, and the probability of the right name of each
+/// finding.
+struct Outlook {
+  std::vector<double> found, told;
+};
+Outlook outlook_of(const Questions& q, const Extended& with, const std::vector<Hidden>& hidden,
+                   const MachineDiagnosis& out) {
+  Outlook outlook;
+  const Detection detection(with.regression, q.variance, q.search);
+  for (const Hidden& one : hidden) {
+    const auto term =
+        std::ranges::find(with.terms, out.not_observable[one.entry].effect, &Term::effect);
+    const double power = term == with.terms.end()
+                             ? 0.0
+                             : detection.surely(static_cast<std::size_t>(term - with.terms.begin()),
+                                                typical(*term, q.options));
+    outlook.found.push_back(std::max(one.power, power));
+  }
+  for (const MachineFinding& finding : out.findings) {
+    std::vector<double> distances;
+    for (const Rival& rival : finding.rivals)
+      distances.push_back(
+          std::max(rival.distance, distance(with, finding, rival.effect, q.variance)));
+    outlook.told.push_back(infer::right_name_of(finding.rivals, distances));
+  }
+  return outlook;
+}
+
+/// Every question with the plan to take for it; the next of all.
+void conclude(const std::vector<Hidden>& hidden, const std::vector<Outlook>& outlooks,
+              MachineDiagnosis& out) {
+  std::vector<infer::Measure> measures;
+  for (const MachinePlan& plan : out.plans)
+    measures.push_back({plan.code, plan.what, plan.minutes});
+  infer::Ranking ranking(measures);
+  const auto after = [&](auto member, std::size_t k) {
+    std::vector<double> values;
+    for (const Outlook& one : outlooks) values.push_back((one.*member)[k]);
+    return values;
+  };
+  for (std::size_t k = 0; k < hidden.size(); ++k) {
+    const std::vector<double> values = after(&Outlook::found, k);
+    MachineNotObservable& entry = out.not_observable[hidden[k].entry];
+    entry.separate_with = infer::choose(measures, hidden[k].power, values, infer::found_for_sure,
+                                        "none of the plans shows it");
+    ranking.count(hidden[k].power, values, infer::found_for_sure, weight_of_hidden);
+    for (std::size_t p = 0; p < values.size(); ++p)
+      if (values[p] >= infer::found_for_sure) out.plans[p].shows.push_back(entry.effect);
+  }
+  for (std::size_t k = 0; k < out.findings.size(); ++k) {
+    MachineFinding& finding = out.findings[k];
+    if (finding.rivals.empty()) continue;
+    std::vector<double> distances;
+    for (const Rival& rival : finding.rivals) distances.push_back(rival.distance);
+    const double before = infer::right_name_of(finding.rivals, distances);
+    const std::vector<double> values = after(&Outlook::told, k);
+    finding.separate_with = infer::choose(measures, before, values, infer::told_for_sure,
+                                          "none of the plans tells them apart");
+    ranking.count(before, values, infer::told_for_sure, 1.0);
+    for (std::size_t p = 0; p < values.size(); ++p)
+      if (values[p] >= infer::told_for_sure) out.plans[p].separates.push_back(finding.effect);
+  }
+  if (ranking.any()) out.next_plan = measures[ranking.order().front()].code;
+}
+
+}  // namespace
+
+MatrixXd determined_columns(const MatrixXd& all, std::size_t unknowns) {
+  const auto count = static_cast<Index>(unknowns), places = all.cols() - count;
+  const Determined determined = determine(all.leftCols(count), all.rightCols(places));
+  MatrixXd base(all.rows(), static_cast<Index>(determined.kept.size()) + places);
+  base << all(Eigen::all, determined.kept), all.rightCols(places);
+  return base;
+}
+
+void advise(const Questions& q, const Regression& regression,
+            const std::vector<MachineEffect>& catalogue, const std::vector<Term>& terms,
+            MachineDiagnosis& out) {
+  const std::vector<Hidden> hidden = add_hidden(q, regression, catalogue, terms, out);
+  std::set<std::string> wanted;
+  for (const MachineNotObservable& one : out.not_observable) wanted.insert(one.effect);
+  for (const MachineFinding& finding : out.findings) {
+    if (finding.rivals.empty()) continue;
+    wanted.insert(finding.effect);
+    for (const Rival& rival : finding.rivals) wanted.insert(rival.effect);
+  }
+  if (q.options.covariances) {
+    const Problem& problem = q.fit.problem;
+    out.uncertain = uncertain_of(q.fit, out, q.options);
+    out.covariance =
+        covariance_of(q.fit, problem, geometry_of(problem, q.fit.given, problem.start),
+                      weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start),
+                      out.uncertain, q.variance);
+  } else if (wanted.empty()) {
+    return;
+  }
+  std::vector<Outlook> outlooks;
+  for (const Plan& plan : plans_for(q.fit.problem, q.data, q.fit.given, q.fit.problem.start)) {
+    Extended with = extended(q, plan, wanted, out.uncertain);
+    outlooks.push_back(outlook_of(q, with, hidden, out));
+    out.plans.push_back(plan.plan);
+    out.plans.back().covariance = std::move(with.covariance);
+  }
+  conclude(hidden, outlooks, out);
+}
+
+}  // namespace trueaxis::calibrate_detail

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/diagnose/catalogue.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/estimate/geometry.hpp"
+#include "calibrate/estimate/plausible_errors.hpp"
+#include "calibrate/estimate/random_effects.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+constexpr int last_order = 4;
+
+/// 95 % of the sizes of component errors lie within this factor of their median (Eq. 210).
+double factor_of_sizes() {
+  const SizeSpread spread;
+  return std::exp(1.96 * std::hypot(std::log(spread.group), std::log(spread.all)));
+}
+
+double plausible_rms(const ErrorName& error, AxisName axis) {
+  const PlausibleSizes sizes;
+  if (is_rotary(axis)) return error.angular() ? sizes.rotary_angle_rad : sizes.rotary_length_mm;
+  return error.angular() ? sizes.linear_angle_rad : sizes.linear_length_mm;
+}
+
+std::string consequence_of(const ErrorName& error, AxisName axis) {
+  const std::string letter(1, letter_of(axis));
+  const bool along = error.direction == error.body;
+  const char* const what = is_rotary(axis) ? (along ? "scale or gear of " : "bearings of ")
+                                           : (along ? "screw or scale of " : "guideway of ");
+  return what + letter + ": compensate " + to_string(error);
+}
+
+/// @param order that the sizes fall off with (Eq. 210)
+MachineEffect component(const ErrorName& error, AxisName axis, const char* kind, int order) {
+  MachineEffect out;
+  out.id = to_string(error) + '.' + kind + std::to_string(order);
+  out.title =
+      to_string(error) + ", " + kind + ' ' + std::to_string(order) + " of " + letter_of(axis);
+  out.term = ErrorOfPosition{error, {}, {}};
+  out.unit = error.angular() ? "rad" : "mm";
+  const double median = plausible_rms(error, axis) / order;
+  out.low = median / factor_of_sizes(), out.high = median * factor_of_sizes();
+  out.consequence = consequence_of(error, axis);
+  return out;
+}
+
+void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& error,
+                     std::vector<MachineEffect>& out) {
+  const bool squareness = !is_rotary(axis) && !error.angular() && error.direction != error.body;
+  const int last = !is_rotary(axis) && error.angular() ? 2 : 3;
+  const char* const unit = is_rotary(axis) ? "rad" : "mm";
+  for (int degree = squareness ? 2 : 1; degree <= last; ++degree) {
+    MachineEffect one = component(error, axis, "poly", degree);
+    std::get<ErrorOfPosition>(one.term).functions = {legendre(degree, range.low, range.high)};
+    one.parameters = {"legendre"};
+    one.formula = "legendre P_degree((2 q - low - high)/(high - low))";
+    one.shape = {{"degree", static_cast<double>(degree), "1"},
+                 {"low", range.low, unit},
+                 {"high", range.high, unit}};
+    out.push_back(std::move(one));
+  }
+}
+
+void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
+  for (int order = 1; order <= last_order; ++order) {
+    MachineEffect one = component(error, axis, "harmonic", order);
+    const auto n = static_cast<double>(order);
+    std::get<ErrorOfPosition>(one.term).functions = {FourierError{{{n, 1.0, 0.0}}, two_pi},
+                                                     FourierError{{{n, 0.0, 1.0}}, two_pi}};
+    one.parameters = {"cos", "sin"};
+    one.formula = "cos cos(order q) + sin sin(order q)";
+    one.shape = {{"order", n, "1"}};
+    out.push_back(std::move(one));
+  }
+}
+
+bool comes_from_both_sides(const Problem& problem, AxisName axis) {
+  bool up = false, down = false;
+  double last = problem.rows.front().axes[index_of(axis)];
+  for (const Row& row : problem.rows) {
+    const double move = row.axes[index_of(axis)] - last;
+    up = up || move > least_move, down = down || move < -least_move;
+    last = row.axes[index_of(axis)];
+  }
+  return up && down;
+}
+
+void add_axis(const Problem& problem, AxisName axis, std::vector<MachineEffect>& out) {
+  const AxisRange range = axis_range(problem, axis);
+  const std::string letter(1, letter_of(axis));
+  const char* const unit = is_rotary(axis) ? "rad" : "mm";
+  if (range.length() < least_range) {
+    MachineEffect any;
+    any.id = "E*" + letter, any.title = "errors of " + letter, any.unit = unit;
+    any.why_not = letter + " does not move in these rows";
+    out.push_back(std::move(any));
+    return;
+  }
+  for (std::size_t direction = 0; direction < 6; ++direction) {
+    const ErrorName error{true, direction, index_of(axis)};
+    if (is_rotary(axis) && range.length() >= whole_turn)
+      add_harmonics(axis, error, out);
+    else
+      add_polynomials(axis, range, error, out);
+  }
+  MachineEffect reversal;
+  reversal.id = "reversal." + letter;
+  reversal.title = "reversal error of " + letter;
+  reversal.term = ErrorOfSense{axis};
+  reversal.parameters = {"size"};
+  reversal.formula = "size/2 where the axis came from below, -size/2 where from above";
+  reversal.unit = unit;
+  reversal.low = is_rotary(axis) ? 2e-6 : 0.5e-3, reversal.high = is_rotary(axis) ? 2e-4 : 0.03;
+  reversal.consequence = "a program corrects it for one sense only, so its size is counted with U";
+  if (!comes_from_both_sides(problem, axis))
+    reversal.why_not = letter + " comes from one side only";
+  out.push_back(std::move(reversal));
+}
+
+void add_drifts(const Problem& problem, bool timed, std::vector<MachineEffect>& out) {
+  const auto [first, last] = std::ranges::minmax(problem.rows, {}, &Row::time_s);
+  for (std::size_t i = 0; i < 3; ++i) {
+    MachineEffect drift;
+    drift.id = std::string("drift.") + "XYZ"[i];
+    drift.title = std::string("drift of the tip along ") + "XYZ"[i];
+    drift.term = TipDrift{i};
+    drift.parameters = {"over_all"};
+    drift.formula = "over_all (t - begin)/(end - begin)";
+    drift.shape = {{"begin", first.time_s, "s"}, {"end", last.time_s, "s"}};
+    drift.unit = "mm";
+    drift.low = 0.5e-3, drift.high = 0.05;
+    drift.consequence =
+        "it goes on while the part is cut, so what it was over the measurement is counted with U";
+    if (!timed || !(last.time_s > first.time_s))
+      drift.why_not = "the rows have no times: measure with a column t";
+    out.push_back(std::move(drift));
+  }
+}
+
+}  // namespace
+
+std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
+                                           std::span<const MachineEffect> own) {
+  std::vector<MachineEffect> out;
+  for (const MachineAxis& axis : problem.machine->axes) add_axis(problem, axis.name, out);
+  add_drifts(problem, timed, out);
+  MachineEffect slip;
+  slip.id = "ball.slip";
+  slip.title = "a step of a ball on the table";
+  slip.term = BallStep{};
+  slip.parameters = {"x", "y", "z"};
+  slip.formula = "(x, y, z) from the row on";
+  slip.unit = "mm";
+  slip.low = 1e-3, slip.high = 0.5;
+  slip.consequence = "a ball moved on the table while it was measured";
+  out.push_back(std::move(slip));
+  out.insert(out.end(), own.begin(), own.end());
+  return out;
+}
+
+}  // namespace trueaxis::calibrate_detail

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Core>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <cmath>
+
+#include "calibrate/diagnose/advise.hpp"
+#include "calibrate/diagnose/catalogue.hpp"
+#include "calibrate/diagnose/explain.hpp"
+#include "calibrate/diagnose/find.hpp"
+#include "calibrate/diagnose/part_of_unknown.hpp"
+#include "calibrate/diagnose/remarks.hpp"
+#include "calibrate/estimate/tip_fit.hpp"
+#include "calibrate/estimate/total_uncertainty.hpp"
+#include "math/linear_algebra.hpp"
+#include "trueaxis/error.hpp"
+#include "trueaxis/machine_diagnosis.hpp"
+
+namespace trueaxis {
+namespace calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Base and found terms fitted together: linear beside the base's solution, whose second order in
+/// effects of 10 µm stays below a nanometre.
+void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
+  const Problem& problem = fit.problem;
+  MatrixXd columns = fit.solution.jacobian;
+  std::vector<FoundColumns> found;
+  for (const std::size_t t : search.found) {
+    const MatrixXd& own = search.terms[t].columns;
+    found.push_back({own.cols(), search.terms[t].errors});
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + own.cols());
+    columns.rightCols(own.cols()) = linear::scaled_rows(problem.weights, own);
+  }
+  const VectorXd& readings = fit.solution.residuals;
+  const auto [x, inverse, rank] = linear::shortest_solution(columns, readings);
+  const VectorXd left = readings - columns * x;
+  const double freedom = static_cast<double>(columns.rows() - rank);
+  const double variance = left.squaredNorm() / freedom;
+  const auto& kept = fit.solution.determined.kept;
+  out.errors = fit.given;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const Unknown& one = fit.unknowns[kept[k]];
+    const auto at = static_cast<Index>(k);
+    const double value = fit.solution.unknowns[static_cast<Index>(kept[k])] + x[at] * one.largest;
+    const double u = std::sqrt(variance) * inverse.row(at).norm() * one.largest;
+    out.extended.push_back({one.name, {value, u, one.unit.name.angular() ? "rad" : "mm", ""}});
+    ErrorTerm term = one.unit;
+    term.function = scaled(term.function, value);
+    out.errors.terms.push_back(std::move(term));
+  }
+  state_covariance(fit, found, linear::product_transposed(variance * inverse, inverse), out.errors);
+  const VectorXd sigma = problem.weights.cwiseInverse();
+  const auto n = static_cast<double>(problem.equations);
+  out.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);
+  out.rms_after_mm = std::sqrt(left.cwiseProduct(sigma).squaredNorm() / n);
+  out.noise_mm = std::sqrt(variance * sigma.squaredNorm() / n);
+  const HeldOut validated = held_out(problem, columns, fit.solution.jacobian.cols(), readings);
+  out.held_out_before_mm = validated.rms.before;
+  out.held_out_after_mm = validated.rms.after;
+  out.held_out_ratio = validated.rms.ratio;
+  out.blocks = validated.blocks;
+}
+
+/// Of a machine that warmed up while it was measured, errors of axes beside a course in time may
+/// be part of that course: they are no errors of the machine as it stands, and are not written.
+void leave_out_what_warms(Found& search) {
+  const bool warms = std::ranges::any_of(search.found, [&](std::size_t t) {
+    return search.terms[t].letters.find('t') != std::string::npos;
+  });
+  if (!warms) return;
+  for (const std::size_t t : search.found) search.terms[t].errors.clear();
+}
+
+void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
+                    MachineDiagnosis& out) {
+  const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
+                        static_cast<double>(fit.problem.equations);
+  std::vector<MachineFinding> all;
+  for (std::size_t at = 0; at < search.found.size(); ++at)
+    all.push_back(finding_of(*search.regression, search.terms, search.found, at, search.options));
+  const std::vector<bool> unknown = parts_of_unknown(search, all);
+  for (std::size_t at = 0; at < search.found.size(); ++at) {
+    MachineFinding found = all[at];
+    found.rms_mm *= to_rms;
+    out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
+    weigh_aliases(fit.problem, search.terms[search.found[at]], found);
+    found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
+    const bool pattern = search.terms[search.found[at]].pattern;
+    if (!unknown[at]) {
+      out.findings.push_back(std::move(found));
+      continue;
+    }
+    double square = 0.0;
+    for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
+    out.unexplained.push_back(
+        {pattern ? found.effect : found.effect + ", which may be part of something unknown",
+         {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
+          found.parameters.front().estimate.unit, ""},
+         found.p_value,
+         found.parameters,
+         found.covariance});
+  }
+  std::ranges::stable_sort(out.findings, {}, &MachineFinding::p_value);
+  std::ranges::stable_sort(out.unexplained, {}, &MachineUnexplained::p_value);
+}
+
+/// Scatter that the stated noise does not explain: χ² of all that is left.
+void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnoseOptions& options,
+                   MachineDiagnosis& out) {
+  if (!fit.problem.noise_stated) return;
+  const infer::Solution all = search.regression->fitted(search.found);
+  const auto freedom = static_cast<double>(search.regression->rows() - all.rank);
+  const double p = infer::Family{1.0 / share_of_scatter}.p_value(
+      cdf(complement(boost::math::chi_squared(freedom), all.rss)));
+  if (p >= options.false_alarm) return;
+  out.unexplained.push_back({"scatter above the noise that is stated",
+                             {out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""},
+                             p,
+                             {},
+                             {}});
+}
+
+}  // namespace
+}  // namespace calibrate_detail
+
+bool is_machine_error(const MachineTerm& term) {
+  const auto* error = std::get_if<ErrorOfPosition>(&term);
+  return error != nullptr && !error->of;
+}
+
+std::vector<std::string> MachineNotObservable::plans() const {
+  std::vector<std::string> codes;
+  if (!separate_with || separate_with->plan.empty()) return codes;
+  codes.push_back(separate_with->plan);
+  for (const Separating::Other& other : separate_with->others) codes.push_back(other.plan);
+  return codes;
+}
+
+MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const MachineMeasurement> data,
+                                  const MachineDiagnoseOptions& options) {
+  using namespace calibrate_detail;
+  MachineDiagnosis out;
+  out.false_alarm = options.false_alarm;
+  out.baseline = of_read_outs(machine, data, options.calibration);
+  const auto fit = fit_tips(machine, data, options.calibration, false, out.baseline);
+  if (!fit)
+    throw InputError(data.front().source,
+                     "is no measurement of balls: give one of kind ball, bar or array as well");
+  const bool timed = std::ranges::none_of(data, [](const MachineMeasurement& file) {
+    return file.kind != MeasurementKind::axis && file.time_s.empty();
+  });
+  const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
+  const std::vector<MachineEffect> catalogue =
+      machine_effects(fit->problem, timed, options.own_effects);
+  Found found = find_terms(*fit, geometry, catalogue, options, timed);
+  leave_out_what_warms(found);
+  out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
+  out.threshold = found.options.effects().single_level(options.false_alarm);
+  fit_jointly(*fit, found, out);
+  state_findings(*fit, found, options.calibration, out);
+  judge_scatter(*fit, found, options, out);
+  // Beside something unknown, names and sizes of the rest are not sure: what a calibration makes of
+  // the readings, which counts what it does not fit, predicts the tip elsewhere better.
+  if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
+  out.effective_hypotheses = independent_tests(*found.regression, found.terms);
+  out.typical_length_mm = options.typical_length_mm;
+  out.typical_angle_rad = options.typical_angle_rad;
+  add_checks(*fit, *found.regression, found.found, timed, out);
+  add_remarks(out);
+  out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
+  advise({*fit, data, options, found.options, found.regression->variance(found.found)},
+         *found.regression, catalogue, found.terms, out);
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/diagnose/find.hpp"
+
+#include <algorithm>
+
+#include "calibrate/diagnose/pattern_scan.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr std::size_t patterns_a_set = 12, most_rounds = 3;
+
+class Finder {
+ public:
+  Finder(const TipFit& fit, const Geometry& geometry, const std::vector<MachineEffect>& catalogue,
+         const MachineDiagnoseOptions& options, bool timed)
+      : fit_(fit), geometry_(geometry), options_(options) {
+    out_.terms = effect_terms(fit.problem, geometry, catalogue);
+    out_.regression = regression_of(out_.terms);
+    out_.options = {options.false_alarm, tests_of(*out_.regression, out_.terms), 1.0,
+                    options.max_findings};
+    search_again();
+    scan_.emplace(fit.problem, geometry, *out_.regression, timed);
+    out_.options.pattern_tests = static_cast<double>(std::max<std::size_t>(1, scan_->size()));
+  }
+
+  Found found() {
+    for (std::size_t round = 0; round < most_rounds && add_patterns(); ++round) search_again();
+    return std::move(out_);
+  }
+
+ private:
+  Regression regression_of(const std::vector<Term>& terms) const {
+    Regression out(terms, fit_.solution.jacobian, fit_.problem.weights,
+                   options_.calibration.largest_length_mm, options_.calibration.largest_angle_rad);
+    out.take(fit_.solution.residuals);
+    return out;
+  }
+
+  void search_again() {
+    out_.found = search(*out_.regression, out_.terms, out_.options);
+    bool moved = false;
+    for (const std::size_t t : Regression::Set(out_.found)) moved = refine(t) || moved;
+    if (!moved) return;
+    out_.regression = regression_of(out_.terms);
+    out_.found = search(*out_.regression, out_.terms, out_.options);
+  }
+
+  /// Places near that of a term, to which it may be moved.
+  std::vector<Term> finer(const Term& term) const {
+    if (scan_ && term.pattern) return scan_->finer(term);
+    std::vector<Term> out;
+    if (!term.is_slip() || term.tests <= 1.0) return out;
+    const auto reach = static_cast<std::size_t>(4.0 * term.tests) + 4;
+    for (std::size_t row = 1; row < fit_.problem.rows.size(); ++row)
+      if (fit_.problem.rows[row].target == term.target && row + reach > term.row &&
+          row < term.row + reach)
+        out.push_back(slip_term(fit_.problem, geometry_, term.of, term.target, row));
+    return out;
+  }
+
+  bool refine(std::size_t at) {
+    std::vector<Term> near = finer(out_.terms[at]);
+    if (near.empty()) return false;
+    Regression::Set others;
+    const std::size_t first = near.size();
+    for (const std::size_t t : out_.found) {
+      if (t == at) continue;
+      others.push_back(near.size());
+      near.push_back(out_.terms[t]);
+    }
+    const Regression regression = regression_of(near);
+    std::size_t best = 0;
+    double most = -1.0;
+    for (std::size_t t = 0; t < first; ++t) {
+      auto with = others;
+      with.push_back(t);
+      if (const double gain = regression.gain(with); gain > most) most = gain, best = t;
+    }
+    out_.terms[at] = std::move(near[best]);
+    return true;
+  }
+
+  /// Whether an effect makes all but a fiftieth of a pattern.
+  bool made_by_effect(const Regression& regression, std::size_t pattern) const {
+    const auto& own = regression.block(pattern);
+    for (std::size_t t = 0; t < out_.terms.size(); ++t) {
+      const auto& effect = regression.block(t);
+      if (out_.terms[t].pattern || own.columns.empty() || effect.columns.empty()) continue;
+      const double part = MatrixXd(regression.gram()(effect.columns, own.columns)).squaredNorm();
+      if (part > 0.98 * static_cast<double>(own.columns.size())) return true;
+    }
+    return false;
+  }
+
+  /// @returns whether one of them passes beside what it was looked for beside
+  bool add_patterns() {
+    const Regression& r = *out_.regression;
+    std::vector<Regression::Set> sets{{}, out_.found};
+    for (std::size_t i = 0; out_.found.size() > 1 && i < out_.found.size(); ++i)
+      sets.push_back(without(out_.found, i));
+    if (out_.found.empty()) sets.pop_back();
+    const std::size_t before = out_.terms.size();
+    std::vector<std::pair<std::size_t, Regression::Set>> looked;
+    for (const Regression::Set& set : sets)
+      for (const std::size_t entry : scan_->best(r.columns(set), r.residuals(), patterns_a_set)) {
+        if (std::ranges::find(taken_, entry) != taken_.end()) continue;
+        taken_.push_back(entry);
+        looked.emplace_back(out_.terms.size(), set);
+        out_.terms.push_back(scan_->term(entry));
+        // One of many more than there are effects.
+        out_.terms.back().tests = out_.options.pattern_tests / out_.options.tests;
+      }
+    if (looked.empty()) return false;
+    Regression wider = regression_of(out_.terms);
+    for (const auto& [term, set] : looked) out_.terms[term].barred = made_by_effect(wider, term);
+    const bool passes = std::ranges::any_of(looked, [&](const auto& one) {
+      const auto& [term, set] = one;
+      return !out_.terms[term].barred &&
+             family_p(out_.options, out_.terms[term], log_p_of(wider, wider.beside(set), term)) <
+                 options_.false_alarm;
+    });
+    if (!passes) {
+      out_.terms.resize(before);
+      return false;
+    }
+    out_.regression = std::move(wider);
+    return true;
+  }
+
+  const TipFit& fit_;
+  const Geometry& geometry_;
+  const MachineDiagnoseOptions& options_;
+  Found out_;
+  std::optional<PatternScan> scan_;
+  std::vector<std::size_t> taken_;
+};
+
+}  // namespace
+
+Found find_terms(const TipFit& fit, const Geometry& geometry,
+                 const std::vector<MachineEffect>& catalogue, const MachineDiagnoseOptions& options,
+                 bool timed) {
+  return Finder(fit, geometry, catalogue, options, timed).found();
+}
+
+}  // namespace trueaxis::calibrate_detail

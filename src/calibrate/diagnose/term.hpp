@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibrate/estimate/geometry.hpp"
+#include "trueaxis/machine_diagnosis.hpp"
+
+namespace trueaxis::calibrate_detail {
+
+/// Where on an axis a local pattern is, that can be moved to its place.
+struct PatternPlace {
+  enum class Kind { bump, step } kind = Kind::bump;
+  std::size_t axis = 0;  ///< of `machine.axes`
+  double at = 0.0, width = 0.0;
+};
+
+/// A hypothesis: columns of the readings, each per mm or rad.
+struct Term {
+  std::shared_ptr<const MachineEffect> of;  ///< of the catalogue; none: a pattern
+  std::string effect;                       ///< its id, or the pattern in words
+  Eigen::MatrixXd columns;
+  std::vector<std::string> parameters;  ///< a name each column
+  std::vector<ErrorTerm> errors;        ///< of which each column is; empty: no error of the machine
+  std::string formula;
+  std::vector<MachineShape> shape;
+  bool angle = false;
+  bool pattern = false;             ///< no effect, only what is left over
+  bool barred = false;              ///< a pattern that an effect makes at these rows
+  double tests = 1.0;               ///< how many places of it were tried
+  double size_median = 0.0;         ///< plausible size of a column's coefficient; 0: none is known
+  double size_spread = 1.0;         ///< of its logarithm
+  std::size_t target = 0, row = 0;  ///< of a step of a ball: of which target, from which row on
+  std::size_t unit = 0;             ///< of a pattern: the column that its functions multiply
+  std::string letters;              ///< of the axes that it is a function of; t: of the time
+  std::optional<PatternPlace> place;  ///< of a local pattern
+
+  bool is_slip() const { return of && std::holds_alternative<BallStep>(of->term); }
+};
+
+/// The terms of every effect of a catalogue that these rows may show.
+std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
+                               const std::vector<MachineEffect>& catalogue);
+
+/// The slip of a target from a row on.
+Term slip_term(const Problem& problem, const Geometry& geometry,
+               std::shared_ptr<const MachineEffect> of, std::size_t target, std::size_t row);
+
+}  // namespace trueaxis::calibrate_detail

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/diagnose/term.hpp"
+#include "infer/size_prior.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr std::size_t slips_a_target = 16;  // tried in the search, then refined
+
+/// The way in which an axis goes first: that in which it is taken to have come before.
+double first_way(const Problem& problem, std::size_t axis) {
+  for (const Row& row : problem.rows) {
+    const double move = row.axes[axis] - problem.rows.front().axes[axis];
+    if (std::abs(move) > least_move) return move > 0.0 ? 0.5 : -0.5;
+  }
+  return 0.0;
+}
+
+/// Columns of every kind of term; a step of a ball has its own terms.
+struct Columns {
+  const Problem& problem;
+  const Geometry& geometry;
+
+  MatrixXd operator()(std::monostate) const { return {}; }
+  MatrixXd operator()(const BallStep&) const { return {}; }
+
+  MatrixXd operator()(const ErrorOfPosition& term) const {
+    MatrixXd out(problem.equations, static_cast<Index>(term.functions.size()));
+    for (std::size_t i = 0; i < term.functions.size(); ++i)
+      out.col(static_cast<Index>(i)) =
+          error_column(problem, geometry, {term.error, term.functions[i], 0.0}, term.of);
+    return out;
+  }
+
+  /// + or − half by the way in which the axis came, which files that follow each other go on with.
+  MatrixXd operator()(const ErrorOfSense& term) const {
+    const std::size_t index = index_of(term.axis), first = is_rotary(term.axis) ? 3 : 0;
+    const auto& axes = problem.machine->axes;
+    const auto axis = std::ranges::find(axes, term.axis, &MachineAxis::name);
+    const auto k = static_cast<std::size_t>(axis - axes.begin());
+    VectorXd own = VectorXd::Zero(problem.equations);
+    for (std::size_t i = 0; i < 3; ++i)
+      own += axis->direction[i] * geometry.unit_errors.col(static_cast<Index>(6 * k + first + i));
+    double way = first_way(problem, index), last = problem.rows.front().axes[index];
+    return times_rows(problem, own, [&](const Row& row) {
+      const double move = row.axes[index] - last;
+      if (std::abs(move) > least_move) way = move > 0.0 ? 0.5 : -0.5;
+      last = row.axes[index];
+      return way;
+    });
+  }
+
+  MatrixXd operator()(const TipDrift& term) const {
+    const auto [first, last] = std::ranges::minmax(problem.rows, {}, &Row::time_s);
+    const double begin = first.time_s, length = last.time_s - first.time_s;
+    return times_rows(problem, geometry.tip_shift.col(static_cast<Index>(term.direction)),
+                      [&](const Row& row) { return (row.time_s - begin) / length - 0.5; });
+  }
+};
+
+Term term_of(std::shared_ptr<const MachineEffect> of) {
+  Term term;
+  term.effect = of->id;
+  term.parameters = of->parameters;
+  term.formula = of->formula;
+  term.shape = of->shape;
+  term.angle = of->unit == "rad";
+  if (of->low > 0.0) {
+    const bool pair = of->parameters.size() == 2;  // cos and sin share their size
+    term.size_median = std::sqrt(of->low * of->high) / (pair ? std::sqrt(2.0) : 1.0);
+    term.size_spread = infer::spread_of_size(std::log(of->high / of->low));
+  }
+  const auto* error = std::get_if<ErrorOfPosition>(&of->term);
+  for (std::size_t i = 0; error != nullptr && !error->of && i < error->functions.size(); ++i)
+    term.errors.push_back({error->error, error->functions[i], 0.0});
+  term.of = std::move(of);
+  return term;
+}
+
+void add_slips(const Problem& problem, const Geometry& geometry,
+               const std::shared_ptr<const MachineEffect>& of, std::vector<Term>& terms) {
+  for (std::size_t t = 0; t < problem.targets.size(); ++t) {
+    std::vector<std::size_t> rows;
+    for (std::size_t i = 0; i < problem.rows.size(); ++i)
+      if (problem.rows[i].target == t) rows.push_back(i);
+    const std::size_t step = std::max<std::size_t>(1, rows.size() / slips_a_target);
+    for (std::size_t i = step; i < rows.size(); i += step) {
+      terms.push_back(slip_term(problem, geometry, of, t, rows[i]));
+      terms.back().tests = static_cast<double>(step);
+    }
+  }
+}
+
+}  // namespace
+
+Term slip_term(const Problem& problem, const Geometry& geometry,
+               std::shared_ptr<const MachineEffect> of, std::size_t target, std::size_t row) {
+  Term term = term_of(std::move(of));
+  const Row& from = problem.rows[row];
+  term.shape = {{"file", static_cast<double>(from.file + 1), "1"},
+                {"row", static_cast<double>(from.row + 1), "1"},
+                {"setup", static_cast<double>(problem.targets[target].setup), "1"},
+                {"ball", static_cast<double>(problem.targets[target].ball), "1"}};
+  term.target = target;
+  term.row = row;
+  term.columns = geometry.part_shift;
+  for (std::size_t i = 0; i < problem.rows.size(); ++i) {
+    const Row& one = problem.rows[i];
+    if (one.target != target || i < row)
+      term.columns.middleRows(one.first, one.equations()).setZero();
+  }
+  return term;
+}
+
+std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
+                               const std::vector<MachineEffect>& catalogue) {
+  std::vector<Term> terms;
+  for (const MachineEffect& effect : catalogue) {
+    if (!effect.why_not.empty()) continue;
+    const auto of = std::make_shared<const MachineEffect>(effect);
+    if (std::holds_alternative<BallStep>(effect.term)) {
+      add_slips(problem, geometry, of, terms);
+      continue;
+    }
+    terms.push_back(term_of(of));
+    terms.back().columns = std::visit(Columns{problem, geometry}, effect.term);
+  }
+  return terms;
+}
+
+}  // namespace trueaxis::calibrate_detail

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "calibrate/estimate/read_out.hpp"
+#include "calibrate/estimate/tip_fit.hpp"
+#include "calibrate/estimate/total_uncertainty.hpp"
+#include "math/linear_algebra.hpp"
+#include "trueaxis/calibration.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Position and straightness of the axis that an array lies along, over the range of its rows.
+void add_array_unknowns(const MachineMeasurement& file, double largest,
+                        std::vector<Unknown>& unknowns) {
+  const std::size_t axis = index_of(*file.axis);
+  double low = file.axes.front()[axis], high = low;
+  for (const AxisPositions& at : file.axes) {
+    low = std::min(low, at[axis]);
+    high = std::max(high, at[axis]);
+  }
+  if (!(high > low)) return;
+  for (std::size_t direction = 0; direction < 3; ++direction) {
+    const ErrorName name{true, direction, axis};
+    // The linear part of straightness is the bar's line, or squareness.
+    for (int degree = direction == axis ? 1 : 2; degree <= 3; ++degree) {
+      const std::string full = to_string(name) + ".poly" + std::to_string(degree);
+      if (std::ranges::find(unknowns, full, &Unknown::name) != unknowns.end()) continue;
+      unknowns.push_back({full, {name, legendre(degree, low, high), 0.0}, largest});
+    }
+  }
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+NotDetermined in_words(const Held& held, const std::vector<Unknown>& unknowns) {
+  NotDetermined out;
+  const std::string name = unknowns[held.unknown].name;
+  out.members.push_back(name);
+  std::vector<std::string> others;
+  for (const std::size_t k : held.alike) {
+    out.members.push_back(unknowns[k].name);
+    others.push_back(unknowns[k].name);
+  }
+  if (held.places) {
+    out.members.emplace_back("ball");
+    others.emplace_back("the ball's centre");
+  }
+  if (held.effect < 1.0)
+    out.why = name + " moves no reading by more than the noise, whatever its size";
+  else if (others.size() == 1)
+    out.why = name + " is not told from " + others[0] + ": every position moves both alike";
+  else
+    out.why = name + " is not told from " + listed(others) +
+              " together: at these positions they move the readings as it does";
+  return out;
+}
+
+/// σ² of the covariance: that of the residuals where they show more than is stated.
+double covariance_scale(const Problem& problem, const Solution& solution, Calibration& out) {
+  const bool stated = problem.noise_stated && solution.variance <= 1.0;
+  out.noise_source = stated ? "stated" : "residuals";
+  return stated ? 1.0 : solution.variance;
+}
+
+void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
+              const Solution& solution, Calibration& out) {
+  const double scale = covariance_scale(problem, solution, out);
+  const MatrixXd inverse = scale * linear::pseudo_inverse(linear::gram(solution.jacobian));
+  const auto& kept = solution.determined.kept;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    const Unknown& one = unknowns[kept[i]];
+    const auto at = static_cast<Index>(i);
+    Estimate estimate;
+    estimate.value = solution.unknowns[static_cast<Index>(kept[i])];
+    estimate.u = std::sqrt(inverse(at, at)) * one.largest;
+    estimate.unit = one.unit.name.angular() ? "rad" : "mm";
+    out.parameters.push_back({one.name, estimate});
+    ErrorTerm term = one.unit;
+    term.function = scaled(term.function, estimate.value);
+    if (std::holds_alternative<ConstantError>(term.function)) term.u = estimate.u;
+    out.errors.terms.push_back(std::move(term));
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      out.covariance.push_back(inverse(at, static_cast<Index>(j)) * one.largest *
+                               unknowns[kept[j]].largest);
+  }
+  std::vector<std::string> held;
+  for (const Held& one : solution.determined.held) {
+    out.not_determined.push_back(in_words(one, unknowns));
+    held.push_back(unknowns[one.unknown].name);
+  }
+  out.gauge = held.empty() ? "nothing is held" : "held at what was given: " + listed(held);
+}
+
+void place_balls(const Problem& problem, const VectorXd& places, Calibration& out) {
+  for (const Target& target : problem.targets) {
+    const double* const place = places.data() + target.first;
+    PlacedBall ball{
+        target.file, target.setup, target.ball, rigid::array(target.point(place, 0.0)), {}};
+    if (target.line)
+      ball.direction = rigid::array(target.point(place, 1.0) - target.point(place, 0.0));
+    out.balls.push_back(ball);
+  }
+}
+
+double rms_mm(const Problem& problem, const VectorXd& residuals_mm) {
+  return std::sqrt(residuals_mm.squaredNorm() / static_cast<double>(problem.equations));
+}
+
+/// σ of files that state none becomes that of the residuals; once is enough, as what is kept
+/// changes little with it.
+void estimate_noise(std::span<const MachineMeasurement> data, const Solution& solution,
+                    Problem& problem) {
+  const double sigma_mm = std::max(std::sqrt(solution.variance) * unstated_noise_mm, 1e-9);
+  for (Row& row : problem.rows) {
+    if (data[row.file].noise_mm) continue;
+    row.sigma_mm = sigma_mm;
+    problem.weights.segment(row.first, row.equations()).setConstant(1.0 / sigma_mm);
+  }
+}
+
+}  // namespace
+
+std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMeasurement> data,
+                               const CalibrationOptions& options, bool array_errors,
+                               Calibration& out) {
+  TipFit fit{make_problem(machine, data, out.errors), {}, {}, out.errors};
+  Problem& problem = fit.problem;
+  if (problem.rows.empty()) return std::nullopt;
+  fit.unknowns = location_unknowns(machine, options.largest_length_mm, options.largest_angle_rad);
+  for (const MachineMeasurement& file : data)
+    if (array_errors && file.kind == MeasurementKind::array)
+      add_array_unknowns(file, options.largest_length_mm, fit.unknowns);
+  fit.solution = solve(problem, fit.given, fit.unknowns);
+  if (!problem.noise_stated && fit.solution.freedom > 0.0) {
+    estimate_noise(data, fit.solution, problem);
+    fit.solution = solve(problem, fit.given, fit.unknowns);
+  }
+  const Solution& solution = fit.solution;
+  out.converged = solution.converged;
+  out.message = solution.message;
+  if (!(solution.freedom > 0.0))
+    throw InputError(data.front().source, "has " + std::to_string(problem.equations) +
+                                              " numbers for " +
+                                              std::to_string(solution.jacobian.cols()) +
+                                              " unknowns: measure more positions");
+  describe(problem, fit.unknowns, solution, out);
+  place_balls(problem, solution.places, out);
+  out.equations = static_cast<std::size_t>(problem.equations);
+  out.unknowns = static_cast<std::size_t>(solution.jacobian.cols());
+  const VectorXd sigma = problem.weights.cwiseInverse();
+  if (problem.noise_stated) out.stated_noise_mm = rms_mm(problem, sigma);
+  out.rms_after_mm = rms_mm(problem, solution.residuals.cwiseProduct(sigma));
+  out.rms_parameters_mm = out.rms_after_mm;
+  out.rms_before_mm =
+      rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
+  out.noise_mm = std::sqrt((out.noise_source == "stated" ? 1.0 : solution.variance) *
+                           sigma.squaredNorm() / static_cast<double>(sigma.size()));
+  return fit;
+}
+
+Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurement> data,
+                         const CalibrationOptions& options) {
+  expects(!data.empty(), "a measurement");
+  Calibration out;
+  out.converged = true;
+  out.errors = options.errors;
+  for (const MachineMeasurement& file : data) {
+    out.sources.push_back(file.source);
+    out.input_hashes.push_back(file.input_hash);
+  }
+  from_read_outs(machine, data, options, out);
+  return out;
+}
+
+}  // namespace calibrate_detail
+
+Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
+                      const CalibrationOptions& options) {
+  using namespace calibrate_detail;
+  Calibration out = of_read_outs(machine, data, options);
+  const auto fit = fit_tips(machine, data, options, true, out);
+  if (!fit || !out.converged) return out;
+  const Eigen::VectorXd places = take_component_errors(*fit, out);
+  out.balls.clear();
+  place_balls(fit->problem, places, out);
+  out.rms_after_mm = rms_mm(fit->problem, fit->problem.residuals(out.errors, places));
+  return out;
+}
+
+}  // namespace trueaxis

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/estimate/geometry.hpp"
+
+#include <algorithm>
+
+#include "machine/screw.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// −∂(observed − predicted)/∂ε of a constant component error, by a forward difference: 1e-3 mm and
+/// 1e-5 rad leave a part of 1e-5 and less of the column.
+void fill_unit_errors(const Problem& problem, const ErrorModel& errors, const VectorXd& places,
+                      MatrixXd& out) {
+  const auto& axes = problem.machine->axes;
+  out.resize(problem.equations, static_cast<Index>(6 * axes.size()));
+  const VectorXd here = problem.residuals(errors, places);
+  ErrorModel moved = errors;
+  moved.terms.emplace_back();
+  for (std::size_t k = 0; k < axes.size(); ++k)
+    for (std::size_t direction = 0; direction < 6; ++direction) {
+      const double h = direction < 3 ? 1e-3 : 1e-5;
+      moved.terms.back() = {{true, direction, index_of(axes[k].name)}, ConstantError{h}, 0.0};
+      out.col(static_cast<Index>(6 * k + direction)) =
+          (here - problem.residuals(moved, places)) / h;
+    }
+}
+
+}  // namespace
+
+AxisRange axis_range(const Problem& problem, AxisName axis) {
+  AxisRange range{problem.rows.front().axes[index_of(axis)],
+                  problem.rows.front().axes[index_of(axis)]};
+  for (const Row& row : problem.rows) {
+    range.low = std::min(range.low, row.axes[index_of(axis)]);
+    range.high = std::max(range.high, row.axes[index_of(axis)]);
+  }
+  return range;
+}
+
+VectorXd error_column(const Problem& problem, const Geometry& geometry, const ErrorTerm& error,
+                      std::optional<AxisName> of) {
+  const auto& axes = problem.machine->axes;
+  const auto own =
+      std::ranges::find(axes, static_cast<AxisName>(error.name.body), &MachineAxis::name);
+  const std::size_t by = of ? index_of(*of) : error.name.body;
+  return times_rows(
+      problem,
+      geometry.unit_errors.col(6 * (own - axes.begin()) + static_cast<Index>(error.name.direction)),
+      [&](const Row& row) { return value_at(error.function, row.axes[by]); });
+}
+
+Geometry geometry_of(const Problem& problem, const ErrorModel& errors, const VectorXd& places) {
+  Geometry out;
+  fill_unit_errors(problem, errors, places, out.unit_errors);
+  out.places = problem.places_jacobian(errors, places);
+  out.tip_shift = MatrixXd::Zero(problem.equations, 3);
+  out.part_shift = MatrixXd::Zero(problem.equations, 3);
+  const MachineModel model(*problem.machine, errors);
+  for (const Row& row : problem.rows) {
+    const Index n = row.equations();
+    const Target& target = problem.targets[row.target];
+    // ∂/∂(place) = g R_w, where g is what the equations see of a shift of the ball in M.
+    const MatrixXd place = out.places.block(row.first, target.first, n, 3);
+    const rigid::Motion workpiece = actual_ends(model.compiled(), row.axes).workpiece;
+    out.part_shift.middleRows(row.first, n) = place;
+    out.tip_shift.middleRows(row.first, n) = -place * workpiece.R.transpose();
+  }
+  return out;
+}
+
+}  // namespace trueaxis::calibrate_detail

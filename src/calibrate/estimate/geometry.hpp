@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calibrate/estimate/problem.hpp"
+
+namespace trueaxis::calibrate_detail {
+
+inline constexpr double whole_turn = 300.0 * rad_per_deg;  ///< from here on harmonics can be told
+inline constexpr double least_range = 1e-6;                ///< of an axis that moved
+inline constexpr double least_move = 1e-9;                 ///< between two rows
+
+/// All that rows and places give the columns of terms.
+struct Geometry {
+  Eigen::MatrixXd unit_errors;  ///< 6 columns an axis of `machine.axes`: E.. of size 1 at every row
+  Eigen::MatrixXd tip_shift;    ///< 3: the tip moved along X Y Z of M
+  Eigen::MatrixXd part_shift;   ///< 3: the part moved along its own X Y Z
+  Eigen::MatrixXd places;       ///< as `Problem::places_jacobian`
+};
+Geometry geometry_of(const Problem& problem, const ErrorModel& errors,
+                     const Eigen::VectorXd& places);
+
+/// Columns times a function of the row.
+template <class Function>
+Eigen::MatrixXd times_rows(const Problem& problem, Eigen::MatrixXd columns, const Function& value) {
+  for (const Row& row : problem.rows) columns.middleRows(row.first, row.equations()) *= value(row);
+  return columns;
+}
+
+/// The column of a component error that is a function of the position of an axis, its own unless
+/// said.
+Eigen::VectorXd error_column(const Problem& problem, const Geometry& geometry,
+                             const ErrorTerm& error, std::optional<AxisName> of = {});
+
+/// The range of an axis over all rows.
+struct AxisRange {
+  double low = 0.0, high = 0.0;
+  double length() const { return high - low; }
+};
+AxisRange axis_range(const Problem& problem, AxisName axis);
+
+}  // namespace trueaxis::calibrate_detail

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "calibrate/estimate/read_out_mistake.hpp"
+#include "calibrate/estimate/tip_fit.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis {
+namespace {
+
+using calibrate_detail::fit_tips;
+
+constexpr double far_better = 0.5;    // of the RMS: four times the χ²
+constexpr double well_fitted = 1.4;   // RMS over a stated σ: nothing is looked for
+constexpr double much_fitted = 0.3;   // of the RMS before, where no σ is stated: nothing either
+constexpr double far_too_small = 30;  // times less scatter than is stated, or more
+// RMS that machines leave once everything is fitted: ten times what the component errors of worn
+// ones do (docs/calibration.md).
+constexpr double largest_left_mm = 0.05;
+constexpr double some_numbers = 120;  // of readings, on which a mistake is tried first
+constexpr double some_leeway = 1.3;   // of the RMS that is left of them
+
+/// A way in which columns are written wrongly, and how they are mended.
+struct Mistake {
+  std::string what, mend;
+  std::function<void(MachineMeasurement&)> undo;
+  /// By which mending makes the readings smaller, and what is left of them with it.
+  double smaller = 1.0;
+};
+
+std::string d(std::size_t i) { return std::string("d") + "XYZ"[i]; }
+
+Mistake exchanged_axes(AxisName a, AxisName b) {
+  const std::string both = std::string(1, letter_of(a)) + " and " + std::string(1, letter_of(b));
+  return {"the columns " + both + " are exchanged", "exchange them", [=](MachineMeasurement& file) {
+            for (AxisPositions& at : file.axes) std::swap(at[index_of(a)], at[index_of(b)]);
+          }};
+}
+
+Mistake scaled_axis(AxisName axis, double factor, const std::string& what,
+                    const std::string& mend) {
+  const std::string letter(1, letter_of(axis));
+  return {fmt::format(fmt::runtime(what), letter), fmt::format(fmt::runtime(mend), letter),
+          [=](MachineMeasurement& file) {
+            for (AxisPositions& at : file.axes) at[index_of(axis)] *= factor;
+          }};
+}
+
+/// Deviations in another unit than their header says.
+Mistake scaled_deviations(double factor, const std::string& is, const std::string& said) {
+  return {"the deviations are in " + is + " and the header says " + said,
+          "write [" + is + "] behind their names",
+          [=](MachineMeasurement& file) {
+            for (Vector3& one : file.deviation_mm)
+              for (double& size : one) size *= factor;
+          },
+          std::min(1.0, factor)};
+}
+
+void add_deviations(std::vector<Mistake>& list) {
+  list.push_back(scaled_deviations(1.0 / mm_per_um, "mm", "um"));
+  list.push_back(scaled_deviations(mm_per_um, "um", "mm"));
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = i + 1; j < 3; ++j)
+      list.push_back({"the columns " + d(i) + " and " + d(j) + " are exchanged", "exchange them",
+                      [=](MachineMeasurement& file) {
+                        for (Vector3& one : file.deviation_mm) std::swap(one[i], one[j]);
+                      }});
+  for (std::size_t i = 0; i < 3; ++i)
+    list.push_back({"the column " + d(i) + " has the wrong sign",
+                    "it is ball's centre - tip: turn its sign", [=](MachineMeasurement& file) {
+                      for (Vector3& one : file.deviation_mm) one[i] = -one[i];
+                    }});
+  list.push_back({"dX, dY and dZ have the wrong sign",
+                  "they are ball's centre - tip: turn their signs", [](MachineMeasurement& file) {
+                    for (Vector3& one : file.deviation_mm)
+                      for (double& size : one) size = -size;
+                  }});
+}
+
+/// Of every column that these files have.
+std::vector<Mistake> mistakes_of(const Machine& machine, std::span<const MachineMeasurement> data) {
+  std::vector<Mistake> list;
+  const bool deviations = std::ranges::any_of(
+      data, [](const MachineMeasurement& file) { return !file.deviation_mm.empty(); });
+  if (deviations) add_deviations(list);
+  const auto& axes = machine.axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    for (std::size_t j = i + 1; j < axes.size(); ++j)
+      if (is_rotary(axes[i].name) == is_rotary(axes[j].name))
+        list.push_back(exchanged_axes(axes[i].name, axes[j].name));
+    list.push_back(scaled_axis(axes[i].name, -1.0, "the column {} runs the other way",
+                               "turn its sign, or axes.{}.direction of the machine"));
+    if (!is_rotary(axes[i].name)) continue;
+    list.push_back(scaled_axis(axes[i].name, 1.0 / rad_per_deg, "the column {} is in radians",
+                               "write {}[rad]"));
+    list.push_back(
+        scaled_axis(axes[i].name, rad_per_deg, "the column {} is in degrees", "write {}[deg]"));
+  }
+  for (const bool inch : {true, false})
+    list.push_back({std::string("X, Y and Z are in ") + (inch ? "inch" : "mm"),
+                    std::string("write [") + (inch ? "in]" : "mm]") + " behind their names",
+                    [=](MachineMeasurement& file) {
+                      for (AxisPositions& at : file.axes)
+                        for (std::size_t k = 0; k < 3; ++k)
+                          at[k] *= inch ? mm_per_inch : 1.0 / mm_per_inch;
+                    }});
+  return list;
+}
+
+/// RMS of the readings once location errors are fitted; none where there is no fit, or one that no
+/// machine has.
+std::optional<double> left_mm(const Machine& machine, std::span<const MachineMeasurement> data,
+                              const CalibrationOptions& options) {
+  Calibration fitted;
+  fitted.errors = options.errors;
+  if (!fit_tips(machine, data, options, true, fitted) || !fitted.converged) return std::nullopt;
+  if (!implausible(fitted, options).empty()) return std::nullopt;
+  return fitted.rms_after_mm;
+}
+
+/// Rows here and there, some 120 numbers of them, for a first look at many mistakes.
+std::vector<MachineMeasurement> some_of(std::span<const MachineMeasurement> data,
+                                        std::size_t numbers) {
+  const double share = some_numbers / static_cast<double>(numbers);
+  std::vector<MachineMeasurement> out(data.begin(), data.end());
+  for (MachineMeasurement& file : out) {
+    if (file.kind == MeasurementKind::axis) continue;
+    const auto thin = [&](auto& column) {
+      std::size_t row = 0;
+      // By the golden ratio rows of no period are kept.
+      std::erase_if(column, [&](const auto&) {
+        const double at = static_cast<double>(row++) * (std::numbers::phi - 1.0);
+        return at - std::floor(at) >= share;
+      });
+    };
+    thin(file.setup), thin(file.ball), thin(file.axes), thin(file.deviation_mm);
+    thin(file.length_mm), thin(file.along_mm), thin(file.tool_length_mm), thin(file.time_s);
+  }
+  return out;
+}
+
+/// The RMS of `left_mm`; none either where there are too few rows.
+std::optional<double> left_of_some_mm(const Machine& machine,
+                                      std::span<const MachineMeasurement> data,
+                                      const CalibrationOptions& options) {
+  try {
+    return left_mm(machine, data, options);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+void undo(const Mistake& mistake, std::vector<MachineMeasurement>& data) {
+  for (MachineMeasurement& file : data)
+    if (file.kind != MeasurementKind::axis) mistake.undo(file);
+}
+
+/// Whether a mistake is worth a look at all rows: it leaves little of some, or they do not tell.
+class Worthwhile {
+ public:
+  Worthwhile(const Machine& machine, std::span<const MachineMeasurement> data,
+             const CalibrationOptions& options, std::size_t numbers)
+      : machine_(machine), options_(options), some_(some_of(data, numbers)) {
+    if (static_cast<double>(numbers) > some_numbers)
+      as_read_mm_ = left_of_some_mm(machine, some_, options);
+  }
+  bool operator()(const Mistake& mistake) const {
+    if (!as_read_mm_) return true;
+    std::vector<MachineMeasurement> right = some_;
+    undo(mistake, right);
+    const auto again_mm = left_of_some_mm(machine_, right, options_);
+    return again_mm && *again_mm < some_leeway * far_better * mistake.smaller * *as_read_mm_;
+  }
+
+ private:
+  const Machine& machine_;
+  const CalibrationOptions& options_;
+  std::vector<MachineMeasurement> some_;
+  std::optional<double> as_read_mm_;
+};
+
+}  // namespace
+
+std::string likely_mistake(const Machine& machine, std::span<const MachineMeasurement> data,
+                           const CalibrationOptions& options, const Calibration& found,
+                           double left_by_all_mm) {
+  if (const std::string why = calibrate_detail::read_out_mistake(data, found); !why.empty())
+    return why;
+  if (found.equations == 0) return "";
+  if (found.converged && found.rms_after_mm * far_too_small < found.stated_noise_mm)
+    return fmt::format(
+        "the readings scatter by {:.2g} µm and their noise is said to be {:.2g} µm: see whether "
+        "the unit of the deviations in the header is that of the numbers, and `# noise`",
+        found.rms_after_mm / mm_per_um, found.stated_noise_mm / mm_per_um);
+  const double as_read_mm = found.rms_parameters_mm;
+  const bool wrong = !found.converged || !implausible(found, options).empty();
+  const double fine_mm = found.stated_noise_mm > 0.0 ? well_fitted * found.stated_noise_mm
+                                                     : much_fitted * found.rms_before_mm;
+  const bool in_proportion =
+      left_by_all_mm <= std::max(far_too_small * found.stated_noise_mm, largest_left_mm);
+  if (!wrong && in_proportion && as_read_mm < fine_mm) return "";
+  std::string best;
+  double least_mm = wrong ? std::numeric_limits<double>::infinity() : far_better * as_read_mm;
+  const Worthwhile worthwhile(machine, data, options, found.equations);
+  for (const Mistake& mistake : mistakes_of(machine, data)) {
+    if (!wrong && !worthwhile(mistake)) continue;
+    std::vector<MachineMeasurement> right(data.begin(), data.end());
+    undo(mistake, right);
+    const std::optional<double> again_mm = left_mm(machine, right, options);
+    if (!again_mm || !(*again_mm < least_mm * mistake.smaller)) continue;
+    least_mm = *again_mm / mistake.smaller;
+    best = fmt::format("{}, and {:.3g} µm are left if {}: {}",
+                       wrong ? "no machine fits the readings"
+                             : fmt::format("{:.3g} µm of the readings are left by the fit",
+                                           as_read_mm / mm_per_um),
+                       *again_mm / mm_per_um, mistake.what, mistake.mend);
+  }
+  if (!best.empty() || in_proportion || wrong) return best;
+  return fmt::format(
+      "{:.3g} µm of the readings are left by every error that a machine has{}: see whether the "
+      "units "
+      "of the deviations and positions in the header are those of the numbers, and whether the "
+      "machine file, the tool length and the columns are those of the measurement",
+      left_by_all_mm / mm_per_um,
+      found.stated_noise_mm > 0.0 ? fmt::format(", and their noise is said to be {:.2g} µm",
+                                                found.stated_noise_mm / mm_per_um)
+                                  : std::string());
+}
+
+}  // namespace trueaxis

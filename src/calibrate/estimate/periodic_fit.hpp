@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace trueaxis::calibrate_detail {
+
+/// Least squares of Legendre polynomials and orders of a period over scattered positions (Eq. 177).
+class PeriodicFit {
+ public:
+  struct Result {
+    std::vector<double> coefficients, u;  ///< polynomials, then cos and sin of every order
+    std::vector<double> gains;            ///< of each order: what leaving it out adds to the rss
+    std::vector<double> residuals;
+    double rss = 0.0, freedom = 0.0;
+  };
+
+  /// @param smooth polynomials at most, degree 0 first: 4, of what repeats itself 1
+  PeriodicFit(std::vector<double> position, std::vector<double> value, std::size_t smooth = 4);
+
+  const std::vector<double>& position() const { return position_; }
+  std::size_t smooth() const { return smooth_; }  ///< polynomials: degree 3 at most, plus one
+  Result with(const std::vector<int>& orders, double period) const;
+  /// 1 … `most`, as far as the positions are dense enough and there are readings for them.
+  std::vector<int> orders_up_to(int most, double period, double highest_frequency) const;
+
+ private:
+  std::vector<double> position_, value_;
+  std::size_t smooth_;
+};
+
+/// Where a function of one valley is least (golden section).
+template <class Function>
+double least_of(const Function& f, double low, double high) {
+  const double ratio = 0.5 * (std::sqrt(5.0) - 1.0);
+  double a = high - ratio * (high - low), b = low + ratio * (high - low), fa = f(a), fb = f(b);
+  for (int step = 0; step < 30; ++step) {
+    if (fa < fb) {
+      high = b, b = a, fb = fa;
+      fa = f(a = high - ratio * (high - low));
+    } else {
+      low = a, a = b, fa = fb;
+      fb = f(b = low + ratio * (high - low));
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace trueaxis::calibrate_detail

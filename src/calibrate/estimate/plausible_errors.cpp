@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/estimate/plausible_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int last_degree = 3, last_order = 4;
+constexpr double least_travel_mm = 500.0;  // of an axis without limits
+
+/// Limits of a linear axis; of one without them what was moved, 500 mm at least.
+AxisRange travel_of(const Problem& problem, const MachineAxis& axis) {
+  AxisRange range = axis_range(problem, axis.name);
+  const double more = 0.5 * std::max(0.0, least_travel_mm - range.length());
+  range.low -= more;
+  range.high += more;
+  if (std::isfinite(axis.low)) range.low = axis.low;
+  if (std::isfinite(axis.high)) range.high = axis.high;
+  return range;
+}
+
+/// An amount of the given order whose share of the variance falls off as its square; `sum` is that
+/// over all orders.
+void add(PlausibleError& error, const UncertainAmount& amount, double sum) {
+  error.amounts.push_back(amount);
+  error.shares.push_back(1.0 / (amount.order * amount.order * sum * mean_square(amount)));
+}
+
+void add_polynomials(const AxisRange& travel, PlausibleError& error) {
+  const int first = !error.name.angular() && error.name.direction != error.name.body ? 2 : 1;
+  double sum = 0.0;
+  for (int k = first; k <= last_degree; ++k) sum += 1.0 / (k * k);
+  for (int k = first; k <= last_degree; ++k)
+    add(error, {error.name, UncertainAmount::Shape::legendre, k, travel.low, travel.high}, sum);
+}
+
+void add_harmonics(PlausibleError& error) {
+  double sum = 0.0;
+  for (int n = 1; n <= last_order; ++n) sum += 2.0 / (n * n);
+  for (int n = 1; n <= last_order; ++n) {
+    add(error, {error.name, UncertainAmount::Shape::cosine, n, 0.0, two_pi}, sum);
+    add(error, {error.name, UncertainAmount::Shape::sine, n, 0.0, two_pi}, sum);
+  }
+}
+
+}  // namespace
+
+double mean_square(const UncertainAmount& amount) {
+  if (amount.shape == UncertainAmount::Shape::legendre) return 1.0 / (2.0 * amount.order + 1.0);
+  return amount.shape == UncertainAmount::Shape::constant ? 1.0 : 0.5;
+}
+
+std::vector<PlausibleError> plausible_errors(const Problem& problem,
+                                             const std::vector<ErrorName>& known,
+                                             const PlausibleSizes& sizes) {
+  std::vector<PlausibleError> out;
+  for (const MachineAxis& axis : problem.machine->axes)
+    for (std::size_t direction = 0; direction < 6; ++direction) {
+      const bool rotary = is_rotary(axis.name);
+      PlausibleError error;
+      error.name = {true, direction, index_of(axis.name)};
+      if (std::ranges::find(known, error.name) != known.end()) continue;
+      if (rotary) {
+        error.plausible = direction < 3 ? sizes.rotary_length_mm : sizes.rotary_angle_rad;
+        add_harmonics(error);
+      } else {
+        error.plausible = direction < 3 ? sizes.linear_length_mm : sizes.linear_angle_rad;
+        add_polynomials(travel_of(problem, axis), error);
+      }
+      out.push_back(std::move(error));
+    }
+  return out;
+}
+
+MatrixXd amount_columns(const Problem& problem, const Geometry& geometry,
+                        const std::vector<UncertainAmount>& amounts) {
+  MatrixXd out(problem.equations, static_cast<Index>(amounts.size()));
+  for (std::size_t i = 0; i < amounts.size(); ++i)
+    out.col(static_cast<Index>(i)) =
+        error_column(problem, geometry, {amounts[i].name, amounts[i].unit(), 0.0});
+  return out;
+}
+
+}  // namespace trueaxis::calibrate_detail

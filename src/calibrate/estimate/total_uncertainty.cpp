@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibrate/estimate/total_uncertainty.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calibrate/estimate/plausible_errors.hpp"
+#include "calibrate/estimate/random_effects.hpp"
+#include "math/linear_algebra.hpp"
+
+namespace trueaxis::calibrate_detail {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double shown = 3.0;  // u of an amount
+
+bool is_kept(const TipFit& fit, const ErrorName& name) {
+  return std::ranges::any_of(fit.solution.determined.kept,
+                             [&](std::size_t k) { return fit.unknowns[k].unit.name == name; });
+}
+
+/// The covariance that was given, without what the fit estimates anew: component errors stay
+/// random as they were given, constants that are kept are free.
+struct Given {
+  std::vector<UncertainAmount> components;
+  MatrixXd root;           ///< of their covariance
+  ErrorCovariance others;  ///< what no reading of this measurement changes
+
+  explicit Given(const TipFit& fit) {
+    const ErrorCovariance& all = fit.given.covariance;
+    const MatrixXd matrix = matrix_of(all);
+    std::vector<Index> of_components, of_others;
+    for (std::size_t i = 0; i < all.amounts.size(); ++i) {
+      const UncertainAmount& amount = all.amounts[i];
+      if (amount.name.component) {
+        of_components.push_back(static_cast<Index>(i));
+        components.push_back(amount);
+      } else if (!is_kept(fit, amount.name)) {
+        of_others.push_back(static_cast<Index>(i));
+        others.amounts.push_back(amount);
+      }
+    }
+    root.resize(static_cast<Index>(components.size()), static_cast<Index>(components.size()));
+    if (!components.empty()) {
+      const linear::Spectrum of = linear::spectrum(matrix(of_components, of_components));
+      root = linear::scaled_columns(of.vectors, of.values.cwiseMax(0.0).cwiseSqrt());
+    }
+    const MatrixXd rest = matrix(of_others, of_others);
+    others.matrix.assign(rest.data(), rest.data() + rest.size());
+  }
+};
+
+/// Component errors that a value is known of, by the files or as unknowns of the fit.
+std::vector<ErrorName> known_of(const TipFit& fit) {
+  std::vector<ErrorName> known;
+  for (const ErrorTerm& term : fit.given.terms)
+    if (term.name.component) known.push_back(term.name);
+  for (const Unknown& one : fit.unknowns)
+    if (one.unit.name.component) known.push_back(one.unit.name);
+  return known;
+}
+
+/// Everything that is estimated together: kept unknowns, places, component errors that were given
+/// with their covariance, and those that nobody gave.
+class Together {
+ public:
+  Together(const TipFit& fit, const ErrorModel& errors)
+      : fit_(fit), given_(fit), plausible_(plausible_errors(fit.problem, known_of(fit))) {
+    amounts_ = given_.components;
+    for (const PlausibleError& error : plausible_)
+      amounts_.insert(amounts_.end(), error.amounts.begin(), error.amounts.end());
+    const Geometry geometry = geometry_of(fit.problem, errors, fit.solution.places);
+    MatrixXd columns = amount_columns(fit.problem, geometry, amounts_);
+    weigh(fit.problem, columns);
+    const auto known = given_.root.cols();
+    columns.leftCols(known) = linear::product(columns.leftCols(known), given_.root);
+    effects_ = regress(fit.solution.residuals, fit.solution.jacobian, columns, groups(),
+                       fit.problem.noise_stated);
+    give_back_units();
+  }
+
+  void write(Calibration& out) const {
+    write_parameters(out);
+    write_errors(out);
+    write_components(out);
+    out.size_of_components = effects_.times_all;
+    out.noise_source =
+        fit_.problem.noise_stated && effects_.variance == 1.0 ? "stated" : "residuals";
+    const VectorXd sigma = fit_.problem.weights.cwiseInverse();
+    out.noise_mm =
+        std::sqrt(effects_.variance * sigma.squaredNorm() / static_cast<double>(sigma.size()));
+  }
+
+  VectorXd places() const {
+    return fit_.solution.places + mean_.segment(kept(), fit_.problem.places);
+  }
+
+ private:
+  Index kept() const { return static_cast<Index>(fit_.solution.determined.kept.size()); }
+  const Unknown& unknown(Index k) const {
+    return fit_.unknowns[fit_.solution.determined.kept[static_cast<std::size_t>(k)]];
+  }
+
+  std::vector<RandomGroup> groups() const {
+    std::vector<RandomGroup> out{{1.0, VectorXd::Ones(given_.root.cols()), true}};
+    for (const PlausibleError& error : plausible_)
+      out.push_back(
+          {error.plausible, Eigen::Map<const VectorXd>(error.shares.data(),
+                                                       static_cast<Index>(error.shares.size()))});
+    return out;
+  }
+
+  /// From sizes and roots to mm and rad.
+  void give_back_units() {
+    const Index fixed = effects_.fixed.size(), known = given_.root.cols();
+    MatrixXd back = MatrixXd::Identity(effects_.covariance.rows(), effects_.covariance.cols());
+    for (Index k = 0; k < kept(); ++k) back(k, k) = unknown(k).largest;
+    back.block(fixed, fixed, known, known) = given_.root;
+    mean_.resize(back.rows());
+    mean_ << effects_.fixed, effects_.random;
+    mean_ = back * mean_;
+    covariance_ = linear::propagated(back, effects_.covariance);
+    for (Index k = 0; k < kept(); ++k)
+      mean_[k] += fit_.solution.unknowns[static_cast<Index>(
+          fit_.solution.determined.kept[static_cast<std::size_t>(k)])];
+  }
+
+  void write_parameters(Calibration& out) const {
+    const MatrixXd noise =
+        effects_.variance * linear::pseudo_inverse(linear::gram(fit_.solution.jacobian));
+    out.covariance.clear();
+    for (Index k = 0; k < kept(); ++k) {
+      CalibratedParameter& one = out.parameters[static_cast<std::size_t>(k)];
+      one.estimate.value = mean_[k];
+      one.estimate.u = std::sqrt(covariance_(k, k));
+      one.u_noise = std::sqrt(noise(k, k)) * unknown(k).largest;
+      for (Index j = 0; j < kept(); ++j) out.covariance.push_back(covariance_(k, j));
+    }
+  }
+
+  /// What was given, the kept unknowns and the component errors, with what is unknown of them all.
+  void write_errors(Calibration& out) const {
+    ErrorModel errors = fit_.given;
+    for (ErrorTerm& term : errors.terms)
+      if (is_kept(fit_, term.name)) term.u = 0.0;
+    errors.covariance = given_.others;
+    ErrorCovariance found;
+    std::vector<Index> which;
+    for (Index k = 0; k < kept(); ++k) {
+      ErrorTerm term = unknown(k).unit;
+      found.amounts.push_back(amount_of(term));
+      which.push_back(k);
+      term.function = scaled(term.function, mean_[k]);
+      errors.terms.push_back(std::move(term));
+    }
+    const Index first = effects_.fixed.size();
+    std::vector<ErrorTerm> components;
+    for (std::size_t i = 0; i < amounts_.size(); ++i) {
+      const Index at = first + static_cast<Index>(i);
+      found.amounts.push_back(amounts_[i]);
+      which.push_back(at);
+      add_amount(components, amounts_[i], mean_[at]);
+    }
+    errors.terms.insert(errors.terms.end(), components.begin(), components.end());
+    const MatrixXd matrix = covariance_(which, which);
+    found.matrix.assign(matrix.data(), matrix.data() + matrix.size());
+    add_covariance(errors.covariance, found);
+    gather_uncertainty(errors);
+    out.errors = std::move(errors);
+  }
+
+  void write_components(Calibration& out) const {
+    Index at = effects_.fixed.size() + given_.root.cols();
+    std::size_t group = 1;
+    for (const PlausibleError& error : plausible_) {
+      CalibratedComponent one{to_string(error.name), {}, 0.0, false};
+      double square = 0.0, unknown = 0.0;
+      for (const UncertainAmount& amount : error.amounts) {
+        const double variance = covariance_(at, at), share = mean_square(amount);
+        square += mean_[at] * mean_[at] * share;
+        unknown += variance * share;
+        one.shown = one.shown || std::abs(mean_[at]) > shown * std::sqrt(variance);
+        ++at;
+      }
+      one.rms = {std::sqrt(square), std::sqrt(unknown), error.name.angular() ? "rad" : "mm", ""};
+      one.plausible = error.plausible * effects_.times[group++];
+      out.components.push_back(std::move(one));
+    }
+  }
+
+  /// Amounts of one error that a function can hold together become one entry.
+  static void add_amount(std::vector<ErrorTerm>& terms, const UncertainAmount& amount,
+                         double value) {
+    ErrorTerm term{amount.name, scaled(amount.unit(), value), 0.0};
+    const auto same = std::ranges::find_if(terms, [&](ErrorTerm& other) {
+      return other.name == term.name && add_to(other.function, term.function);
+    });
+    if (same == terms.end()) terms.push_back(std::move(term));
+  }
+
+  static bool add_to(ErrorFunction& sum, const ErrorFunction& more) {
+    if (auto* fourier = std::get_if<FourierError>(&sum)) {
+      const auto* one = std::get_if<FourierError>(&more);
+      if (one == nullptr || one->period != fourier->period) return false;
+      const FourierError::Term& term = one->terms.front();
+      const auto order = std::ranges::find(fourier->terms, term.order, &FourierError::Term::order);
+      if (order == fourier->terms.end())
+        fourier->terms.push_back(term);
+      else
+        order->cos += term.cos, order->sin += term.sin;
+      return true;
+    }
+    auto* polynomial = std::get_if<PolynomialError>(&sum);
+    const auto* one = std::get_if<PolynomialError>(&more);
+    if (polynomial == nullptr || one == nullptr || one->origin != polynomial->origin ||
+        one->scale != polynomial->scale)
+      return false;
+    auto& c = polynomial->coefficients;
+    c.resize(std::max(c.size(), one->coefficients.size()), 0.0);
+    for (std::size_t i = 0; i < one->coefficients.size(); ++i) c[i] += one->coefficients[i];
+    return true;
+  }
+
+  const TipFit& fit_;
+  Given given_;
+  std::vector<PlausibleError> plausible_;
+  std::vector<UncertainAmount> amounts_;
+  RandomEffects effects_;
+  VectorXd mean_;
+  MatrixXd covariance_;
+};
+
+}  // namespace
+
+UncertainAmount amount_of(const ErrorTerm& unit) {
+  UncertainAmount out{.name = unit.name};
+  if (const auto* polynomial = std::get_if<PolynomialError>(&unit.function)) {
+    out.shape = UncertainAmount::Shape::legendre;
+    out.order = static_cast<int>(polynomial->coefficients.size()) - 1;
+    out.low = polynomial->origin - polynomial->scale;
+    out.high = polynomial->origin + polynomial->scale;
+  } else if (const auto* fourier = std::get_if<FourierError>(&unit.function)) {
+    const FourierError::Term& term = fourier->terms.front();
+    out.shape = term.sin == 0.0 ? UncertainAmount::Shape::cosine : UncertainAmount::Shape::sine;
+    out.order = static_cast<int>(term.order);
+    out.high = fourier->period;
+  }
+  return out;
+}
+
+void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
+                      const MatrixXd& of_columns, ErrorModel& errors) {
+  ErrorCovariance covariance;
+  std::vector<Index> which;
+  std::vector<double> unit;
+  for (const std::size_t k : fit.solution.determined.kept) {
+    covariance.amounts.push_back(amount_of(fit.unknowns[k].unit));
+    unit.push_back(fit.unknowns[k].largest);
+    which.push_back(static_cast<Index>(which.size()));
+  }
+  Index at = fit.solution.jacobian.cols();
+  for (const FoundColumns& one : found) {
+    for (std::size_t k = 0; k < one.errors.size(); ++k) {
+      covariance.amounts.push_back(amount_of(one.errors[k]));
+      unit.push_back(1.0);
+      which.push_back(at + static_cast<Index>(k));
+    }
+    at += one.count;
+  }
+  const auto back =
+      Eigen::Map<const VectorXd>(unit.data(), static_cast<Index>(unit.size())).asDiagonal();
+  const MatrixXd matrix = back * MatrixXd(of_columns(which, which)) * back;
+  covariance.matrix.assign(matrix.data(), matrix.data() + matrix.size());
+  const Given given(fit);
+  errors.covariance = given.others;
+  ErrorCovariance components{given.components, {}};
+  const MatrixXd of_components = given.root * given.root.transpose();
+  components.matrix.assign(of_components.data(), of_components.data() + of_components.size());
+  for (ErrorTerm& term : errors.terms)
+    if (is_kept(fit, term.name)) term.u = 0.0;
+  add_covariance(errors.covariance, components);
+  add_covariance(errors.covariance, covariance);
+  gather_uncertainty(errors);
+}
+
+VectorXd take_component_errors(const TipFit& fit, Calibration& out) {
+  const Together together(fit, out.errors);
+  together.write(out);
+  return together.places();
+}
+
+}  // namespace trueaxis::calibrate_detail

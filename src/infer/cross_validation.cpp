@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "infer/cross_validation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace trueaxis::infer {
+namespace {
+
+constexpr int resamplings = 999;
+
+double root_mean(double sum, double rows) { return rows > 0.0 ? std::sqrt(sum / rows) : 0.0; }
+
+/// Percentiles of a statistic over resampled blocks .
+template <typename Statistic>
+Interval interval(std::span<const HeldOutBlock> blocks, Statistic statistic) {
+  const auto sum = [](std::span<const HeldOutBlock> list) {
+    HeldOutBlock all;
+    for (const HeldOutBlock& b : list)
+      all.before += b.before, all.after += b.after, all.rows += b.rows;
+    return all;
+  };
+  Interval out;
+  out.value = statistic(sum(blocks));
+  std::mt19937_64 random(20261121);
+  std::vector<double> values;
+  std::vector<HeldOutBlock> drawn(blocks.size());
+  for (int r = 0; r < resamplings; ++r) {
+    for (HeldOutBlock& b : drawn) b = blocks[random() % blocks.size()];
+    values.push_back(statistic(sum(drawn)));
+  }
+  std::ranges::sort(values);
+  out.low = values[static_cast<std::size_t>(0.025 * resamplings)];
+  out.high = values[static_cast<std::size_t>(0.975 * resamplings)];
+  return out;
+}
+
+}  // namespace
+
+CrossValidated cross_validated(std::span<const HeldOutBlock> blocks) {
+  CrossValidated out;
+  if (blocks.empty()) return out;
+  out.before = interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.before, b.rows); });
+  out.after = interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.after, b.rows); });
+  out.ratio = interval(blocks, [](const HeldOutBlock& b) {
+    return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0;
+  });
+  return out;
+}
+
+}  // namespace trueaxis::infer

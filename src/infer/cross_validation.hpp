@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "trueaxis/inference.hpp"
+
+namespace trueaxis::infer {
+
+/// Sums of squares of a block that was left out, predicted by two models, and its readings.
+struct HeldOutBlock {
+  double before = 0.0, after = 0.0, rows = 0.0;
+};
+
+/// Root mean squares of all blocks, with intervals of 95 % by the percentiles of 999 resamplings of
+/// whole blocks (block bootstrap, Efron and Tibshirani 1993; Eq. 101).
+struct CrossValidated {
+  Interval before, after;
+  Interval ratio;  ///< after / before, blocks paired
+};
+CrossValidated cross_validated(std::span<const HeldOutBlock> blocks);
+
+}  // namespace trueaxis::infer
