@@ -117,8 +117,8 @@ void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
   }
 }
 
-/// `spindle_rpm` is signed like C: if C and t always turn against it, one of them is mirrored, and so
-/// is y of the axis.
+/// `spindle_rpm` is signed like C: if C and t always turn against it, one of them is mirrored, and
+/// so is y of the axis.
 void refuse_mistaken_sense(const CsvHeader& header, const ProbeStream& stream,
                            CsvDiagnostics& diagnostics) {
   if (!stream.spindle_rpm || *stream.spindle_rpm == 0.0) return;
@@ -129,12 +129,12 @@ void refuse_mistaken_sense(const CsvHeader& header, const ProbeStream& stream,
     (turned_rad * sense > 0.0 ? with_rad : against_rad) += std::abs(turned_rad);
   }
   if (with_rad > 0.0 || against_rad < two_pi) return;
-  diagnostics.add(header.line, header.find(CsvRole::angle)->character,
-                  fmt::format("C {} all through, and spindle_rpm {:.4g} says that it {}: the axis "
-                              "would be mirrored if C has the wrong sign. Correct C, or write "
-                              "'# spindle_rpm: {:.4g}'",
-                              sense > 0.0 ? "falls" : "grows", sense,
-                              sense > 0.0 ? "grows" : "falls", -sense));
+  diagnostics.add(
+      header.line, header.find(CsvRole::angle)->character,
+      fmt::format("C {} all through, and spindle_rpm {:.4g} says that it {}: the axis "
+                  "would be mirrored if C has the wrong sign. Correct C, or write "
+                  "'# spindle_rpm: {:.4g}'",
+                  sense > 0.0 ? "falls" : "grows", sense, sense > 0.0 ? "grows" : "falls", -sense));
 }
 
 }  // namespace
