@@ -40,6 +40,17 @@ TEST(DiagnoseWhiteNoise, AlarmsAtItsLevel) {
   }
   const boost::math::binomial hits(streams, options.false_alarm);
   EXPECT_LE(alarms, quantile(complement(hits, 1e-4)));
+  // Silence is no level: lobes of λ = N a²/(2σ²) above 100 are missed in one stream of 1e8.
+  constexpr int with_lobes = 20;
+  scenario.effects = {{"part.roundness", {{"order", 3}, {"amplitude_mm", sigma_mm}}}};
+  int seen = 0;
+  for (int s = 0; s < with_lobes; ++s) {
+    scenario.seed = seed + static_cast<std::uint64_t>(s);
+    const ProbeStream stream = virtual_lathe::simulate(scenario);
+    ASSERT_GT(static_cast<double>(stream.size()) / 2.0, 100.0);
+    seen += diagnose(stream, options).verdict != DiagnosisVerdict::ideal;
+  }
+  EXPECT_EQ(seen, with_lobes);
 }
 
 constexpr double turns = 12.3, lead_mm = 60.0 / turns, readings_per_turn = 23.7;

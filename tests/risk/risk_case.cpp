@@ -182,7 +182,7 @@ void add_slips(Group group, Draw& draw, Drawn& out) {
                           {"time_constant_s", draw.log_between(10.0, 300.0)}}});
 }
 
-Drawn draw_job(Group group, std::uint64_t seed) {
+Drawn draw_job(Group group, std::uint64_t seed, bool slips) {
   Draw draw(seed * 1000003 + static_cast<std::uint64_t>(group));
   Drawn out;
   out.scenarios.push_back(draw_seat(group, draw, 0.0, nullptr));
@@ -190,7 +190,7 @@ Drawn draw_job(Group group, std::uint64_t seed) {
     out.scenarios.push_back(
         draw_seat(group, draw, out.scenarios[0].plan.passes[0].end_mm + 10.0, &out.scenarios[0]));
   const virtual_lathe::PlannedPass& last = out.scenarios.back().plan.passes[0];
-  add_slips(group, draw, out);
+  if (slips) add_slips(group, draw, out);
   for (const Scenario& s : out.scenarios) {
     JobReference reference;
     reference.name = "seat " + std::to_string(out.job.references.size() + 1);
@@ -254,8 +254,8 @@ std::string_view name_of(Group group) {
   return names[static_cast<std::size_t>(group)];
 }
 
-Outcome judge(Group group, std::uint64_t seed) {
-  Drawn drawn = draw_job(group, seed);
+Outcome judge(Group group, std::uint64_t seed, bool slips) {
+  Drawn drawn = draw_job(group, seed, slips);
   std::vector<ProbeStream> streams;
   for (const Scenario& s : drawn.scenarios) {
     streams.push_back(virtual_lathe::simulate(s));

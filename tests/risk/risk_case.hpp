@@ -60,6 +60,7 @@ struct Outcome {
 };
 
 /// Draws the job of this seed, simulates, runs and judges it.
-Outcome judge(Group group, std::uint64_t seed);
+/// @param slips false: of a group of slips the same part held fast
+Outcome judge(Group group, std::uint64_t seed, bool slips = true);
 
 }  // namespace trueaxis::risk
