@@ -10,6 +10,7 @@
 #include "associate/distance_kernel.hpp"
 #include "associate/extreme_element.hpp"
 #include "associate/gaussian.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -91,7 +92,7 @@ void describe_gaussian(AssociatedFeature& out, const GaussianElement& gaussian,
   const Parameters gradient = per.cwiseProduct(fit.normal.jtd) / n;
   out.certificate.stationarity = gradient.norm();
   const ParameterMatrix h = per.asDiagonal() * fit.normal.jtj * per.asDiagonal() / n;
-  out.certificate.gap_mm = std::sqrt(std::max(0.0, gradient.dot(h.ldlt().solve(gradient))));
+  out.certificate.gap_mm = std::sqrt(std::max(0.0, linear::weighed_square(gradient, h)));
   out.certificate.starts = gaussian.starts;
   const Shape shape = fit.placed.shape;
   out.certificate.global =

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -78,8 +80,8 @@ ChebyshevSolution solve(const ChebyshevProgram& program, double reach, double to
       b.col(i) = dual.column(basis[static_cast<std::size_t>(i)]);
       cost[i] = dual.cost(basis[static_cast<std::size_t>(i)]);
     }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(b);
-    const Eigen::VectorXd lambda = lu.solve(one), y = lu.transpose().solve(cost);
+    const linear::Triangles lu(b);
+    const Eigen::VectorXd lambda = lu.solve(one), y = lu.solve_transposed(cost);
     out.step = -y.head(n);
     out.h = y[n];
     const Eigen::Index in = dual.entering(out.step, out.h, tolerance, exchange > quick);

@@ -9,6 +9,7 @@
 
 #include "associate/distance_kernel.hpp"
 #include "associate/starts.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -41,8 +42,8 @@ bool apart(const Placed& a, const Placed& b, double length) {
 double least_curvature(const LeastSquares& fit, const PointCloud& cloud) {
   const Parameters per = step_lengths(fit.placed.shape, cloud).cwiseInverse();
   const ParameterMatrix h = per.asDiagonal() * fit.normal.jtj * per.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<ParameterMatrix> eigen(h, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues().minCoeff() / eigen.eigenvalues().maxCoeff();
+  const Eigen::VectorXd values = linear::eigenvalues(h);
+  return values.minCoeff() / values.maxCoeff();
 }
 
 std::string not_determined(const LeastSquares& fit, const PointCloud& cloud) {

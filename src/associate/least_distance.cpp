@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -24,7 +26,7 @@ Eigen::VectorXd non_negative_least_squares(const Eigen::MatrixXd& e, const Eigen
       Eigen::MatrixXd part(e.rows(), static_cast<Eigen::Index>(free.size()));
       for (std::size_t k = 0; k < free.size(); ++k)
         part.col(static_cast<Eigen::Index>(k)) = e.col(free[k]);
-      const Eigen::VectorXd best = part.colPivHouseholderQr().solve(f);
+      const Eigen::VectorXd best = linear::pivoted_least_squares(part, f);
       double step = 1.0;
       std::size_t leaves = free.size();
       for (std::size_t k = 0; k < free.size(); ++k) {

@@ -9,6 +9,7 @@
 
 #include "associate/distance_kernel.hpp"
 #include "math/gram.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -82,7 +83,8 @@ LeastSquares least_squares(const Placed& start, const PointCloud& cloud, int max
     ParameterMatrix damped = h;
     // The floor keeps a motion that the points do not show from running away.
     damped.diagonal().array() += damping * h.diagonal().array() + 1e-16 * h.trace();
-    const Parameters step = damped.ldlt().solve(-(per.asDiagonal() * at.normal.jtd / n));
+    const Parameters step =
+        linear::solve_normal(damped, Eigen::VectorXd(-(per.asDiagonal() * at.normal.jtd / n)));
     const double moves = step.norm();
     if (!std::isfinite(moves)) return at;
     const Placed place = recentred(moved(at.placed, per.cwiseProduct(step)), cloud.centroid);

@@ -10,6 +10,7 @@
 #include "associate/chebyshev_program.hpp"
 #include "associate/distance_kernel.hpp"
 #include "associate/least_squares.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -172,7 +173,7 @@ class Search {
       right[p + 1 + i] = -program_.g[row];
     }
     right[p] = -1.0;
-    return kkt.completeOrthogonalDecomposition().solve(right).head(p);
+    return linear::least_squares(kkt, right).head(p);
   }
 
   /// Where fewer points hold the element than it has motions, h is flat about its optimum and goes

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "associate/distance_kernel.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -41,9 +42,9 @@ Eigen::VectorXd algebraic(const Eigen::Matrix3Xd& q, Shape shape) {
     a.col(3) = q.row(2).transpose();
     a.col(4) = q.row(2).cwiseAbs2().transpose();
   }
-  Eigen::MatrixXd h = a.transpose() * a;
+  Eigen::MatrixXd h = linear::gram(a);
   h.diagonal().array() += 1e-13 * h.trace();
-  return h.ldlt().solve(a.transpose() * b);
+  return linear::solve_normal(h, linear::transposed_product(a, b));
 }
 
 double root_of(double square) { return std::sqrt(std::max(square, 1e-12)); }
@@ -57,9 +58,9 @@ void set_tube(Placed& placed, const Eigen::Matrix3Xd& q, double x, double y, dou
   a.col(1) = 2.0 * q.row(2).transpose();
   a.col(2).setOnes();
   const Eigen::VectorXd b = rho.cwiseAbs2() + q.row(2).cwiseAbs2().transpose();
-  Eigen::MatrixXd h = a.transpose() * a;
+  Eigen::MatrixXd h = linear::gram(a);
   h.diagonal().array() += 1e-13 * h.trace();
-  const Eigen::VectorXd t = h.ldlt().solve(a.transpose() * b);
+  const Eigen::VectorXd t = linear::solve_normal(h, linear::transposed_product(a, b));
   placed.size = t[0] * length;
   placed.second_size = root_of(t[2] + t[0] * t[0] + t[1] * t[1]) * length;
   placed.offset += length * t[1] * placed.axes.row(2).transpose();

@@ -10,6 +10,7 @@
 
 #include "base/counted.hpp"
 #include "fit/apex_interval.hpp"
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -159,8 +160,7 @@ FitParameter length(std::string name, double value, double u) {
 /// u of |v| for a plane vector v with covariance c: along v, or in the worse direction where v is
 /// within its u.
 double u_of_norm(const Eigen::Vector2d& v, const Eigen::Matrix2d& c) {
-  const double worst =
-      std::sqrt(std::max(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(c).eigenvalues()(1), 0.0));
+  const double worst = std::sqrt(std::max(linear::eigenvalues(c)(1), 0.0));
   if (v.norm() <= worst) return worst;
   return std::sqrt(std::max(v.dot(c * v), 0.0)) / v.norm();
 }

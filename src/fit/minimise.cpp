@@ -12,6 +12,8 @@
 #include <limits>
 #include <utility>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -45,13 +47,13 @@ void factorise(const NormalMatrix& normal, Square<Most>& r, Column<Most>& z) {
     r = Matrix(llt.matrixU()) * d.asDiagonal();
     return;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scaled);
-  const Vector values = eigen.eigenvalues();
-  const Vector root = values.cwiseMax(0.0).cwiseSqrt();
-  const Vector inverse =
-      (values.array() > 1e-15 * values.maxCoeff()).select(root.cwiseInverse(), 0.0);
-  z = inverse.asDiagonal() * eigen.eigenvectors().transpose() * scaled_g;
-  r = root.asDiagonal() * eigen.eigenvectors().transpose() * d.asDiagonal();
+  const linear::Spectrum of = linear::spectrum(scaled);
+  const Eigen::VectorXd root = of.values.cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd inverse =
+      (of.values.array() > 1e-15 * of.values.maxCoeff()).select(root.cwiseInverse(), 0.0);
+  const Eigen::MatrixXd directions = of.vectors.transpose();
+  z = linear::scaled_rows(inverse, directions) * Eigen::VectorXd(scaled_g);
+  r = linear::scaled_columns(linear::scaled_rows(root, directions), d);
 }
 
 /// The whole stream as one block of p + 1 residuals. Evaluated points are remembered: Ceres asks
@@ -203,31 +205,6 @@ Minimum minimise_sized(const JointModel& model, std::vector<double> start, const
   return minimum;
 }
 
-template <int Most>
-void polish_sized(const JointModel& model, const LossScale& loss, Minimum& minimum) {
-  constexpr int most = 12;            // each step gains a digit at least
-  constexpr double enough = 1e-18;    // relative gain of the cost: a step of 1e-9 of the noise
-  constexpr double rounding = 1e-12;  // relative: a cost that rises by more is a step gone wrong
-  const auto p = static_cast<Eigen::Index>(minimum.working.size());
-  minimum.normal = model.accumulate(minimum.working, loss);  // its last step was predicted
-  ++minimum.iterations;
-  for (int i = 0; i < most && minimum.normal.valid; ++i) {
-    Square<Most> r;
-    Column<Most> z;
-    factorise<Most>(minimum.normal, r, z);
-    const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
-    if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
-    const Column<Most> step = r.colPivHouseholderQr().solve(z) / curvature;
-    Minimum next = minimum;
-    for (Eigen::Index j = 0; j < p; ++j) next.working[static_cast<std::size_t>(j)] += step(j);
-    next.normal = model.accumulate(next.working, loss);
-    if (!next.normal.valid || next.normal.sum_rho > (1.0 + rounding) * minimum.normal.sum_rho)
-      return;
-    ++next.iterations;
-    minimum = std::move(next);
-  }
-}
-
 }  // namespace
 
 Minimum minimise(const JointModel& model, std::vector<double> start, const LossScale& loss,
@@ -238,8 +215,27 @@ Minimum minimise(const JointModel& model, std::vector<double> start, const LossS
 }
 
 void polish(const JointModel& model, const LossScale& loss, Minimum& minimum) {
-  if (model.clampings() == 1) return polish_sized<one_clamping>(model, loss, minimum);
-  polish_sized<Eigen::Dynamic>(model, loss, minimum);
+  constexpr int most = 12;            // each step gains a digit at least
+  constexpr double enough = 1e-18;    // relative gain of the cost: a step of 1e-9 of the noise
+  constexpr double rounding = 1e-12;  // relative: a cost that rises by more is a step gone wrong
+  const auto p = static_cast<Eigen::Index>(minimum.working.size());
+  minimum.normal = model.accumulate(minimum.working, loss);  // its last step was predicted
+  ++minimum.iterations;
+  for (int i = 0; i < most && minimum.normal.valid; ++i) {
+    Square<Eigen::Dynamic> r;
+    Eigen::VectorXd z;
+    factorise<Eigen::Dynamic>(minimum.normal, r, z);
+    const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
+    if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
+    const Eigen::VectorXd step = r.colPivHouseholderQr().solve(z) / curvature;
+    Minimum next = minimum;
+    for (Eigen::Index j = 0; j < p; ++j) next.working[static_cast<std::size_t>(j)] += step(j);
+    next.normal = model.accumulate(next.working, loss);
+    if (!next.normal.valid || next.normal.sum_rho > (1.0 + rounding) * minimum.normal.sum_rho)
+      return;
+    ++next.iterations;
+    minimum = std::move(next);
+  }
 }
 
 }  // namespace trueaxis

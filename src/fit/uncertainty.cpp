@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/turn_centres.hpp"
 
@@ -172,8 +173,8 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
   const Eigen::MatrixXd h = unscale.asDiagonal() *
                             Eigen::Map<const Eigen::MatrixXd>(normal.jtj.data(), p, p) *
                             unscale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(h);
-  const double largest = eigen.eigenvalues().maxCoeff();
+  const linear::Spectrum of = linear::spectrum(h);
+  const double largest = of.values.maxCoeff();
   const double factor = noise.correlated ? 1.0 : noise.u_factor;
   const double sigma_mm = noise.sigma_mm * factor;
   const double sigma = std::max(std::isfinite(sigma_mm) ? sigma_mm : 0.0, rounding * size_mm);
@@ -182,8 +183,8 @@ Determination determine(const NormalMatrix& normal, const std::vector<double>& s
   out.inverse = Eigen::MatrixXd::Zero(p, p);
   out.free_directions.resize(p, 0);
   for (Eigen::Index i = 0; i < p; ++i) {
-    const double value = eigen.eigenvalues()(i);
-    const Eigen::VectorXd direction = unscale.asDiagonal() * eigen.eigenvectors().col(i);
+    const double value = of.values(i);
+    const Eigen::VectorXd direction = unscale.asDiagonal() * of.vectors.col(i);
     const double widened =
         noise.correlated ? std::sqrt(direction.dot(noise.correlated->jtcj * direction) / value)
                          : 1.0;

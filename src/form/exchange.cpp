@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -91,8 +92,8 @@ Nearest Exchange::operator()(std::span<const double> given) {
       basis.col(j) = gradient(one);
       right[j] = limit(one, y, wall);
     }
-    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(basis);
-    x = solver.transpose().solve(right);
+    const linear::Triangles solver(basis);
+    x = solver.solve_transposed(right);
     multipliers = solver.solve(objective_);
     // The reading that is broken most comes in.
     const Eigen::VectorXd off = values - *rows_ * x.head(p);

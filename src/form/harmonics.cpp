@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -56,10 +57,8 @@ std::pair<Eigen::VectorXd, Eigen::VectorXd> solved(const Eigen::MatrixXd& normal
   off.diagonal().setZero();
   if (off.cwiseAbs().maxCoeff() < 1e-12 * diagonal.maxCoeff())  // even angles
     return {right.cwiseQuotient(diagonal), diagonal.cwiseInverse()};
-  const Eigen::LLT<Eigen::MatrixXd> factor(normal);
-  const Eigen::MatrixXd inverse =
-      factor.solve(Eigen::MatrixXd::Identity(normal.rows(), normal.cols()));
-  return {factor.solve(right), inverse.diagonal()};
+  const linear::Cholesky factor(normal);
+  return {factor.solve(right), factor.inverse().diagonal()};
 }
 
 }  // namespace

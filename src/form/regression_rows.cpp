@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -23,7 +24,8 @@ std::array<double, 3> moment_solution(const std::array<double, 5>& m, int degree
     Eigen::Matrix3d moments;
     moments << m[0], m[1], m[2], m[1], m[2], m[3], m[2], m[3], m[4];
     if (moments.determinant() > least_determinant * m[0] * m[2] * m[4]) {
-      const Eigen::Vector3d a = moments.ldlt().solve(Eigen::Vector3d::UnitX());
+      const Eigen::Vector3d a =
+          linear::solve_normal(moments, Eigen::Vector3d(Eigen::Vector3d::UnitX()));
       return {a[0], a[1], a[2]};
     }
   }

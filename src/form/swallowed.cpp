@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "form/low_pass.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::form {
@@ -58,7 +59,7 @@ class OrderAlongZ {
       normal += row * row.transpose() / (u * u);
       right += row * Eigen::RowVector2d(found->cos_mm, found->sin_mm) / (u * u);
     }
-    const Eigen::MatrixXd inverse = normal.inverse();
+    const Eigen::MatrixXd inverse = linear::inverse(normal);
     const Eigen::MatrixXd found = inverse * right;
     for (Eigen::Index j = 0; j < count; ++j) {
       amplitude_mm += found.row(j).norm();

@@ -35,6 +35,10 @@ MatrixXd beside(const MatrixXd& q, const MatrixXd& b) { return b - q * transpose
 
 VectorXd beside(const MatrixXd& q, const VectorXd& b) { return b - q * transposed_product(q, b); }
 
+VectorXd pivoted_least_squares(const MatrixXd& a, const VectorXd& b) {
+  return a.colPivHouseholderQr().solve(b);
+}
+
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
   return a.completeOrthogonalDecomposition().solve(b);
 }
@@ -44,19 +48,23 @@ MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& a) {
-  return a.completeOrthogonalDecomposition().pseudoInverse();
+  return least_squares(a, MatrixXd(MatrixXd::Identity(a.rows(), a.rows())));
 }
 
 ShortestSolution shortest_solution(const MatrixXd& a, const VectorXd& b) {
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qr(a);
-  return {qr.solve(b), qr.pseudoInverse(), qr.rank()};
+  return {qr.solve(b), qr.solve(MatrixXd(MatrixXd::Identity(a.rows(), a.rows()))), qr.rank()};
 }
 
 MatrixXd inverse_of_normal(const MatrixXd& n) {
-  return n.ldlt().solve(MatrixXd::Identity(n.rows(), n.cols()));
+  return solve_normal(n, MatrixXd(MatrixXd::Identity(n.rows(), n.cols())));
 }
 
 VectorXd solve_normal(const MatrixXd& n, const VectorXd& b) { return n.ldlt().solve(b); }
+
+MatrixXd solve_normal(const MatrixXd& n, const MatrixXd& b) { return n.ldlt().solve(b); }
+
+double weighed_square(const VectorXd& v, const MatrixXd& n) { return v.dot(solve_normal(n, v)); }
 
 Eigen::Vector3d solve_normal(const Eigen::Matrix3d& n, const Eigen::Vector3d& b) {
   return n.ldlt().solve(b);
@@ -68,12 +76,20 @@ Eigen::Vector3d solve(const Eigen::Matrix3d& a, const Eigen::Vector3d& b) {
 
 Cholesky::Cholesky(const MatrixXd& n) : factors_(n) {}
 
+double Cholesky::reciprocal_condition() const { return factors_.rcond(); }
+
+double Cholesky::log_determinant() const {
+  return 2.0 * factors_.matrixLLT().diagonal().array().log().sum();
+}
+
 MatrixXd Cholesky::lower() const { return factors_.matrixL(); }
 
 VectorXd Cholesky::solve(const VectorXd& b) const { return factors_.solve(b); }
 
+MatrixXd Cholesky::solve(const MatrixXd& b) const { return factors_.solve(b); }
+
 MatrixXd Cholesky::inverse() const {
-  return factors_.solve(MatrixXd::Identity(factors_.rows(), factors_.cols()));
+  return solve(MatrixXd(MatrixXd::Identity(factors_.rows(), factors_.cols())));
 }
 
 MatrixXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const MatrixXd& b) {
@@ -82,6 +98,16 @@ MatrixXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const MatrixXd& b) {
 
 VectorXd solve_lower(const Eigen::Ref<const MatrixXd>& l, const VectorXd& b) {
   return l.triangularView<Eigen::Lower>().solve(b);
+}
+
+MatrixXd inverse(const MatrixXd& a) { return a.inverse(); }
+
+Triangles::Triangles(const MatrixXd& a) : factors_(a) {}
+
+VectorXd Triangles::solve(const VectorXd& b) const { return factors_.solve(b); }
+
+VectorXd Triangles::solve_transposed(const VectorXd& b) const {
+  return factors_.transpose().solve(b);
 }
 
 Spectrum spectrum(const MatrixXd& symmetric) {

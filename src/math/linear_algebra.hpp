@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 
 // Eigen's products and decompositions of dynamic matrices, compiled once: a room that writes them
 // itself compiles them itself, 1 to 5 s each.
@@ -35,6 +36,8 @@ MatrixXd orthonormal_basis(const MatrixXd& a, double threshold = 0.0);
 MatrixXd beside(const MatrixXd& q, const MatrixXd& b);
 VectorXd beside(const MatrixXd& q, const VectorXd& b);
 
+/// The x of least |A x − b| with zeros where columns depend on others.
+VectorXd pivoted_least_squares(const MatrixXd& a, const VectorXd& b);
 /// The shortest x of least |A x − b|, whatever the rank of A.
 VectorXd least_squares(const MatrixXd& a, const VectorXd& b);
 /// The same, a column of B each.
@@ -50,20 +53,42 @@ ShortestSolution shortest_solution(const MatrixXd& a, const VectorXd& b);
 
 /// N⁻¹ of a symmetric positive definite matrix.
 MatrixXd inverse_of_normal(const MatrixXd& n);
-/// N⁻¹ b of one.
+/// N⁻¹ b and N⁻¹ B of one, of which the lower triangle is read.
 VectorXd solve_normal(const MatrixXd& n, const VectorXd& b);
+MatrixXd solve_normal(const MatrixXd& n, const MatrixXd& b);
+/// vᵀ N⁻¹ v.
+double weighed_square(const VectorXd& v, const MatrixXd& n);
 Eigen::Vector3d solve_normal(const Eigen::Matrix3d& n, const Eigen::Vector3d& b);
 /// A⁻¹ b of a matrix that has an inverse.
 Eigen::Vector3d solve(const Eigen::Matrix3d& a, const Eigen::Vector3d& b);
+MatrixXd inverse(const MatrixXd& a);
+/// A = P⁻¹ L U of one that is met again and again.
+class Triangles {
+ public:
+  explicit Triangles(const MatrixXd& a);
+  /// A⁻¹ b and A⁻ᵀ b.
+  VectorXd solve(const VectorXd& b) const;
+  VectorXd solve_transposed(const VectorXd& b) const;
+
+ private:
+  Eigen::PartialPivLU<MatrixXd> factors_;
+};
 
 /// N = L Lᵀ.
 class Cholesky {
  public:
+  Cholesky() = default;
+  /// Its lower triangle is read.
   explicit Cholesky(const MatrixXd& n);
   bool positive_definite() const { return factors_.info() == Eigen::Success; }
+  /// 1 over the condition number in the 1-norm, about.
+  double reciprocal_condition() const;
+  /// ln det N.
+  double log_determinant() const;
   MatrixXd lower() const;
-  /// N⁻¹ b.
+  /// N⁻¹ b and N⁻¹ B.
   VectorXd solve(const VectorXd& b) const;
+  MatrixXd solve(const MatrixXd& b) const;
   MatrixXd inverse() const;
 
  private:

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/error.hpp"
 
@@ -96,7 +97,7 @@ std::vector<AsynchronousMotion> JointEstimate::asynchronous(bool across) const {
       if (one.run == r) seen.row(static_cast<Index>(one.sensor)) << one.along, one.across;
     const Eigen::Vector2d wanted(across ? 0.0 : 1.0, across ? 1.0 : 0.0);
     const Eigen::VectorXd weights =
-        seen.transpose().completeOrthogonalDecomposition().solve(wanted);
+        linear::least_squares(seen.transpose(), Eigen::VectorXd(wanted));
     if ((seen.transpose() * weights - wanted).norm() > 1e-6) continue;
     const Eigen::VectorXd motion = parts_[r].asynchronous_mm * weights;
     out.push_back({runs_[r].c_rad, {motion.begin(), motion.end()}});

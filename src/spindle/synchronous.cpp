@@ -119,8 +119,8 @@ bool SynchronousFit::prepare(int orders) {
       normal(1 + l, 1 + m) = sum;
     }
   }
-  normal_.compute(normal.selfadjointView<Eigen::Lower>());
-  if (normal_.info() != Eigen::Success || normal_.rcond() < 1e-2) return false;
+  normal_ = linear::Cholesky(normal);
+  if (!normal_.positive_definite() || normal_.reciprocal_condition() < 1e-2) return false;
   const int top = std::min(wanted_, orders);
   const double even = 2.0 / static_cast<double>(c_rad_.size());
   inflation_.assign(static_cast<std::size_t>(top) + 1, 1.0);

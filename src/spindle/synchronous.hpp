@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 
 /// What repeats with C in the readings of some sensors that read at once, and the covariance of it
@@ -47,7 +49,7 @@ class SynchronousFit {
   std::vector<std::vector<double>> drift_;  ///< columns P1 … P3 over the order of the readings
   double turns_ = 0.0;
   int wanted_, fitted_ = 0, carried_ = 0;
-  Eigen::LLT<Eigen::MatrixXd> normal_;
+  linear::Cholesky normal_;
   std::vector<double> inflation_;  ///< variance of order n over that of even spacing
 };
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -89,7 +91,7 @@ std::vector<double> RevolvedSurface::start(const ReadingBlock& readings, std::si
   }
   normal.diagonal() *= 1.0 + 1e-14;  // an undetermined direction then starts at zero
   normal.diagonal().array() += 1e-300;
-  const Eigen::VectorXd c = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+  const Eigen::VectorXd c = linear::solve_normal(normal, right);
 
   const double mean_x = 0.5 * c(0) * scale, mean_y = 0.5 * c(1) * scale;
   const double k_bx = tilts_ ? 0.5 * c(3) * scale / length : 0.0;
@@ -133,7 +135,7 @@ std::vector<double> RevolvedSurface::level_start(const ReadingBlock& readings,
     if (tapers_) a.row(i).tail(2) << zeta, zeta * zeta;
     b(i) = reading * reading;
   }
-  const Eigen::VectorXd c = a.completeOrthogonalDecomposition().solve(b);
+  const Eigen::VectorXd c = linear::least_squares(a, b);
   double x = 0.5 * c(0), y = 0.5 * c(1);
   const double radius = relative() ? nominal_path_radius(0.0)
                                    : std::sqrt(std::max(c(2) + x * x + y * y, 1e-2 * b.maxCoeff()));

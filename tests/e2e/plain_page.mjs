@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a page of HTML and SVG, without a script of its own, in headless Chromium, in the light, the dark and on paper, and lists what is wrong:
-//   node plain_page.mjs PAGE.html FOLDER_FOR_SCREENSHOTS
+//   node plain_page.mjs PAGE.html [FOLDER_FOR_SCREENSHOTS]
 import {mkdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
@@ -10,7 +10,7 @@ const root = resolve(dirname(fileURLToPath(import.meta.url)), '../..');
 const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
 const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
 const [file, folder] = process.argv.slice(2);
-mkdirSync(folder, {recursive: true});
+if (folder) mkdirSync(folder, {recursive: true});
 
 /** Paper, and what is hard to see on it: texts below 4.5, lines and areas below 1.3 (WCAG 2); areas of the paper's colour, and lines of none, do not count. */
 function inspect() {
@@ -47,7 +47,7 @@ for (const [name, width, colorScheme, media] of [['wide', 1400, 'light', 'screen
   if (seen.dark !== (name === 'dark')) problems.push(`${name}: the page is ${seen.dark ? 'dark' : 'light'}`);
   if (!seen.plots) problems.push(`${name}: nothing is drawn`);
   problems.push(...seen.problems.map((problem) => `${name}: ${problem}`));
-  await page.screenshot({path: join(folder, `${name}.png`), fullPage: true});
+  if (folder) await page.screenshot({path: join(folder, `${name}.png`), fullPage: true});
   await page.close();
 }
 await browser.close();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a report in headless Chromium as a reader would, wide, on a phone, in the dark and on paper, and lists what is wrong:
-//   node report_page.mjs REPORT.html FOLDER_FOR_SCREENSHOTS
+//   node report_page.mjs REPORT.html [FOLDER_FOR_SCREENSHOTS]
+// Pictures of whole pages are half of the work, so that they are made when they are asked for.
 import {existsSync, mkdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
@@ -11,11 +12,12 @@ const npm = process.env.TRUEAXIS_NPM ?? join(root, 'build/npm');
 const {chromium} = createRequire(join(npm, 'node_modules/'))('playwright-core');
 
 const [report, folder] = process.argv.slice(2);
-if (!report || !folder) {
-  console.error('usage: node report_page.mjs REPORT.html FOLDER_FOR_SCREENSHOTS');
+if (!report) {
+  console.error('usage: node report_page.mjs REPORT.html [FOLDER_FOR_SCREENSHOTS]');
   process.exit(2);
 }
-mkdirSync(folder, {recursive: true});
+if (folder) mkdirSync(folder, {recursive: true});
+const shoot = async (page, name) => { if (folder) await page.screenshot({path: join(folder, name), fullPage: true}); };
 
 /** What is wrong with each chart, seen from inside the page. */
 function inspectCharts() {
@@ -145,7 +147,7 @@ async function lookDark(browser) {
   await page.evaluate(() => { window.trueaxisReport.unfold(); });
   if (!await page.evaluate(paperIsDark)) problems.push('dark: the page is light');
   problems.push(...(await page.evaluate(inspectContrast)).map((problem) => `dark: ${problem}`));
-  await page.screenshot({path: join(folder, 'dark.png'), fullPage: true});
+  await shoot(page, 'dark.png');
   await page.evaluate(() => document.querySelectorAll('details').forEach((d) => { d.open = false; }));
   await page.setViewportSize({width: 703, height: 1000});  // A4 less its margins
   await page.emulateMedia({media: 'print', colorScheme: 'dark'});
@@ -189,7 +191,7 @@ async function look(browser, {name, width, height}) {
     await Promise.race([ready, broken]);
     console.log(`${name} folded: ${(await page.evaluate(() => document.documentElement.scrollHeight) / height).toFixed(1)} screens`);
     problems.push(...await page.evaluate(inspectWidth));
-    await page.screenshot({path: join(folder, `${name}_folded.png`), fullPage: true});
+    await shoot(page, `${name}_folded.png`);
     await page.evaluate(() => { window.trueaxisReport.unfold(); });
     const charts = await page.evaluate(inspectCharts);
     if (charts.count === 0) problems.push('there is no chart');
@@ -204,7 +206,7 @@ async function look(browser, {name, width, height}) {
   } catch (error) {
     problems.push(`the page does not get ready: ${error.message}`);
   }
-  await page.screenshot({path: join(folder, `${name}.png`), fullPage: true});
+  await shoot(page, `${name}.png`);
   await page.close();
   return problems.map((problem) => `${name}: ${problem}`);
 }

@@ -85,10 +85,10 @@ TEST_F(SpindleCommand, ThePageIsDarkWhereTheReaderAsksForIt) {
   ASSERT_EQ(command("spindle s.csv --report s.html").exit_code, 0);
   EXPECT_TRUE(contains(read_text(folder_ / "s.html"), "prefers-color-scheme: dark"));
   if (!example::can_open_pages()) GTEST_SKIP() << "chromium or node is not installed";
-  const std::string page = (folder_ / "s.html").string(), shots = (folder_ / "shots").string();
+  const std::string page = (folder_ / "s.html").string();
   const CommandResult looked =
       shell("node " + shell_word(places::source() + "/tests/e2e/plain_page.mjs") + " " +
-            shell_word(page) + " " + shell_word(shots) + " 2>&1");
+            shell_word(page) + example::pictures(folder_ / "shots") + " 2>&1");
   EXPECT_EQ(looked.exit_code, 0) << looked.output;
 }
 

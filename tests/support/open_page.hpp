@@ -24,6 +24,11 @@ inline std::string read_page(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// The folder of the pages' pictures as an argument, where the environment asks for pictures.
+inline std::string pictures(const std::filesystem::path& folder) {
+  return std::getenv("TRUEAXIS_PICTURES") ? " '" + folder.string() + "'" : "";
+}
+
 /// What report_page.mjs says of a page, and whether it finds it sound.
 struct Opinion {
   bool sound = false;
@@ -36,7 +41,7 @@ inline Opinion open_page(const std::string& html, const std::string& name) {
   const std::filesystem::path page = folder / "report.html", log = folder / "log.txt";
   std::ofstream(page, std::ios::binary) << html;
   const std::string command = "node '" + places::source() + "/tests/e2e/report_page.mjs' '" +
-                              page.string() + "' '" + folder.string() + "' >'" + log.string() +
+                              page.string() + "'" + pictures(folder) + " >'" + log.string() +
                               "' 2>&1";
   const bool sound = std::system(command.c_str()) == 0;
   return {sound, read_page(log)};

@@ -9,6 +9,7 @@
 #include "compensate/program_axes.hpp"
 #include "compensate/single_errors.hpp"
 #include "compensate/tally.hpp"
+#include "math/linear_algebra.hpp"
 #include "nc/program.hpp"
 #include "trueaxis/error.hpp"
 
@@ -102,9 +103,7 @@ MatrixXd datums(const MachineModel& nominal, const std::vector<Block>& blocks) {
       out.block<3, 1>(at, 3 + k) =
           Eigen::Vector3d::Unit(k).cross(Eigen::Vector3d(tip[0], tip[1], tip[2]));
   }
-  Eigen::ColPivHouseholderQR<MatrixXd> qr(out);
-  qr.setThreshold(1e-9);
-  return qr.householderQ() * MatrixXd::Identity(out.rows(), qr.rank());
+  return linear::orthonormal_basis(out, 1e-9);
 }
 
 /// Displacements of the tip by every uncertain number, three rows a block, beside the part's
