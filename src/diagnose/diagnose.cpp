@@ -64,7 +64,8 @@ void add_alike(const ProbeStream& stream, Diagnosis& out) {
   const auto angles = stream.kind == StreamKind::lateral ? angles_alike(stream) : std::nullopt;
   if (!angles) return;
   NotObservable lobes;
-  lobes.effect = "part.roundness";
+  const auto form = std::ranges::find(effect_catalogue(), SeparatedAs::form, &Effect::separated_as);
+  lobes.effect = form->id;
   lobes.why = fmt::format(
       "{0} even angles see lobes of the orders {1} and {2} as eccentricity: 1 µm of them moves the "
       "axis by 1 µm",
