@@ -51,6 +51,8 @@ bool take_centre(const ProbeStream& stream, std::span<const double> value_mm, Tu
   centre.position_mm = position / static_cast<double>(count);
   centre.x_mm = solution(1);
   centre.y_mm = solution(2);
+  const Eigen::Matrix4d cofactors = solver.solve(Eigen::Matrix4d::Identity());
+  centre.cofactor = {cofactors(1, 1), cofactors(2, 2), cofactors(1, 2)};
   squares += std::max(sum2 - right.dot(solution), 0.0);
   freedom += static_cast<double>(count) - 4.0;
   return true;
@@ -110,9 +112,10 @@ std::optional<CentreStep> step_in(std::span<const TurnCentre> run, double u_mm) 
   }
   const double noise = 2.0 * static_cast<double>(n) * u_mm * u_mm;
   if (at == 0 || least - noise > mostly * (about_line - noise)) return {};
-  // Twice the logarithm of the likelihood ratio, each reading of the stream a place to step at.
+  // A step and a change of slope of x and of y are four parameters, each centre a place for them.
   const double variance = std::max(u_mm * u_mm, variance_of_neighbours(centres));
-  const double enough = 2.0 * std::log(static_cast<double>(n) / by_chance);
+  const double enough =
+      quantile(complement(boost::math::chi_squared(4.0), by_chance / static_cast<double>(n)));
   if (about_bend - least < enough * variance) return {};
   const auto mean_of = [&](Eigen::Index from, Eigen::Index count) -> Eigen::Vector2d {
     return centres.middleRows(from, count).colwise().mean().transpose();
@@ -154,7 +157,10 @@ TurnCentres turn_centres(const ProbeStream& stream, std::span<const double> valu
     gone = 0.0;
   }
   if (freedom > 0.0) out.sigma_mm = std::sqrt(squares / freedom);
-  out.u_mm = out.sigma_mm * std::sqrt(2.0 / (per_turn * turns));
+  double cofactors = 0.0;
+  for (const TurnCentre& one : out.list) cofactors += 0.5 * (one.cofactor[0] + one.cofactor[1]);
+  if (!out.list.empty())
+    out.u_mm = out.sigma_mm * std::sqrt(cofactors / static_cast<double>(out.list.size()));
   return out;
 }
 
@@ -163,8 +169,11 @@ double centres_spread(const TurnCentres& centres, std::size_t parameters) {
       2.0 * static_cast<double>(centres.list.size()) - static_cast<double>(parameters);
   if (!(freedom >= 4.0) || !(centres.u_mm > 0.0)) return 1.0;
   double chi2 = 0.0;
-  for (const TurnCentre& one : centres.list)
-    chi2 += (one.x_mm * one.x_mm + one.y_mm * one.y_mm) / (centres.u_mm * centres.u_mm);
+  for (const TurnCentre& one : centres.list) {
+    const auto [xx, yy, xy] = one.cofactor;
+    const double x = one.x_mm / centres.sigma_mm, y = one.y_mm / centres.sigma_mm;
+    chi2 += (yy * x * x - 2.0 * xy * x * y + xx * y * y) / (xx * yy - xy * xy);
+  }
   const boost::math::chi_squared law(freedom);
   return cdf(complement(law, chi2)) < by_chance ? std::sqrt(chi2 / freedom) : 1.0;
 }

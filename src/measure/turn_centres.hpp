@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -18,12 +19,13 @@ struct TurnCentre {
   int run = 0;                     ///< turns of one sense that follow upon each other
   double position_mm = 0.0;        ///< mean of Z (of X of a face)
   double x_mm = 0.0, y_mm = 0.0;
+  std::array<double, 3> cofactor{};  ///< variances and covariance of x, y over σ²: xx, yy, xy
 };
 
 struct TurnCentres {
   std::vector<TurnCentre> list;
   double sigma_mm = 0.0;  ///< by which the values of a turn scatter about it
-  double u_mm = 0.0;      ///< of x and of y of one that follows
+  double u_mm = 0.0;      ///< of x and of y of one that follows, root mean square
 };
 
 /// The centres of all turns of `value_mm`, one a reading: what a fit leaves, or the readings.

@@ -87,7 +87,7 @@ TEST_F(MachineReportPage, FindingsWithRivalsAndTheUnexplained) {
   MachineFinding found = result.diagnosis.findings.front();
   found.effect = "reversal.C";
   found.errors.clear();
-  found.separate_with = "L2";
+  found.separate_with.emplace().plan = "L2";
   found.rivals = {{"EYC.harmonic2", 1.0, 2.0, 0.3}, {"drift.Z", 1.0, 2.0, 0.1}};
   result.diagnosis.findings.push_back(found);
   result.diagnosis.unexplained.push_back(

@@ -9,7 +9,6 @@
 #include <random>
 
 #include "associate/files/stream_association.hpp"
-#include "job/evidence.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -166,12 +165,13 @@ TEST(Sphere, ABallThatIsTooLargeIsSaid) {
   EXPECT_NE(found.notes.front().find("no part has a radius of -5"), std::string::npos);
 }
 
-TEST(Sphere, AJobThatChoosesItsSurfaceSaysThatItIsASphere) {
-  try {
-    surface_by_evidence(sphere(25.0));
-    ADD_FAILURE() << "a sphere was taken for something else";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("sphere of radius 25 mm"), std::string::npos);
+TEST(Sphere, ASphereFittedAsAnythingWithAnAxisIsRefused) {
+  for (const SurfaceKind surface : {SurfaceKind::cone, SurfaceKind::cylinder}) {
+    FitOptions options;
+    options.surface = surface;
+    const FitResult result = fit(sphere(25.0), options);
+    EXPECT_EQ(result.status, FitStatus::implausible);
+    EXPECT_NE(result.message.find("sphere of radius 25 mm"), std::string::npos) << result.message;
   }
 }
 

@@ -41,23 +41,25 @@ std::optional<CentreStep> step_of(const ProbeStream& stream) {
 TEST(TurnCentres, UIsThatOfTheNoise) {
   const ProbeStream stream = turning(1, 40);
   const TurnCentres centres = turn_centres(stream, stream.reading_mm);
-  ASSERT_EQ(centres.list.size(), 39U);
-  // σ of 39 · 20 degrees of freedom is known to 2.5 %, 4 u.
+  // A turn is whole after 25 readings: 38 in 972.
+  ASSERT_EQ(centres.list.size(), 38U);
+  // σ of 38 · 21 degrees of freedom is known to 2.5 %, 4 u.
   EXPECT_NEAR(centres.sigma_mm, sigma_mm, 0.1 * sigma_mm);
   double sum2 = 0.0;
   for (const TurnCentre& one : centres.list)
     sum2 +=
         std::pow(one.x_mm - 0.05 * std::cos(1.0), 2) + std::pow(one.y_mm - 0.05 * std::sin(1.0), 2);
-  // χ² of 78 degrees of freedom: 4 standard deviations.
-  EXPECT_NEAR(sum2 / std::pow(centres.u_mm, 2), 78.0, 4.0 * std::sqrt(156.0));
+  // χ² of 76 degrees of freedom whose halves weigh 0.6 and 1.4 (the slope in time takes 0.61 of
+  // the sine's square): 4 standard deviations.
+  EXPECT_NEAR(sum2 / std::pow(centres.u_mm, 2), 76.0, 4.0 * std::sqrt(152.0 * 1.16));
 }
 
 TEST(TurnCentres, NoiseLobesBendsAndDriftsAreNoStep) {
-  constexpr int streams = 500;
+  constexpr int streams = 2000;
   int alarms = 0;
   for (int i = 0; i < streams; ++i) alarms += step_of(turning(100 + i, 30)) ? 1 : 0;
-  // At most 10⁻³ each: of 500 more than 4 once in 6000 times.
-  EXPECT_LE(alarms, 4);
+  // At most 10⁻³ each: of 2000 more than 9 once in 20 000 times.
+  EXPECT_LE(alarms, 9);
   for (int i = 0; i < 20; ++i) {
     const double size_mm = 2e-3 * (i + 1);
     EXPECT_FALSE(step_of(turning(7 + i, 30, [&](double t) { return size_mm * t / 30.0; })));
@@ -91,8 +93,11 @@ TEST(TurnCentres, ASpreadBeyondTheirUIsBirges) {
   for (std::size_t i = 0; i < stream.size(); ++i)
     stream.reading_mm[i] +=
         2 * sigma_mm * std::sin(1.3 * stream.position_mm[i]) * std::cos(stream.c_rad[i]);
-  // (2 σ)²/2 over u² = 2 σ²/24.3 in one of two coordinates: χ²/ν is 1 + 12.
-  EXPECT_NEAR(centres_spread(turn_centres(stream, stream.reading_mm), 4), std::sqrt(13.0), 0.7);
+  // (2 σ)²/2 over u² = 2 σ²/24.3 in one of two coordinates would make χ²/ν 1 + 12; a turn sees the
+  // mean of 1.3 rad of it (sinc² 0.87), and its slope in time takes 0.61 of the sine's square, 0.3
+  // of both.
+  EXPECT_NEAR(centres_spread(turn_centres(stream, stream.reading_mm), 4),
+              std::sqrt(1.0 + 12.0 * 0.87 * 0.7), 0.7);
 }
 
 TEST(AnglesAlike, EvenAnglesAndNearlyEvenOnes) {
