@@ -112,8 +112,10 @@ TEST_F(FormCommand, AgainstADatumOfItsOwn) {
 
 // A tapered datum, coaxial with the part, rocks in its circumscribed cylinder, which is said.
 TEST_F(FormCommand, ATaperedDatumRocks) {
-  probe("p.csv", [](double, double) { return 15.0; }, 360, {0.0, 10.0});
-  probe("d.csv", [](double, double z) { return 10.0 + 0.01 * z; }, 360, {20.0, 30.0, 40.0});
+  const auto lobes = [](double t) { return 1e-4 * std::cos(3 * t); };  // no stuck probe
+  probe("p.csv", [&](double t, double) { return 15.0 + lobes(t); }, 360, {0.0, 10.0});
+  probe("d.csv", [&](double t, double z) { return 10.0 + 0.01 * z + lobes(t); }, 360,
+        {20.0, 30.0, 40.0});
   ASSERT_EQ(command("form p.csv --datum d.csv --upr 1-15 --json r.json").exit_code, 0);
   EXPECT_LT(value(result("r.json").at("groups").at(1).at("values"), "coaxiality"), 1e-6);
   const CommandStreams rocks =
@@ -189,7 +191,7 @@ TEST_F(FormCommand, PointsOfEveryElement) {
 }
 
 TEST_F(FormCommand, RefusesWhatTheReadingsDoNotCarry) {
-  const auto round = [](double, double) { return 15.0; };
+  const auto round = [](double t, double) { return 15.0 + 1e-3 * std::cos(3 * t); };
   probe("thousand.csv", round, 1000, {0.0});
   const CommandStreams few = command("form thousand.csv --upr 1-500");
   EXPECT_EQ(few.exit_code, 3);
@@ -205,7 +207,10 @@ TEST_F(FormCommand, RefusesWhatTheReadingsDoNotCarry) {
   probe("rad.csv", round, 360, {0.0}, "# x_convention: radius\nX_M[mm],C[rad],Z[mm]\n");
   refused("rad.csv", "write C[deg]");
   std::string radians = "# x_convention: radius\nX_M[mm],C[deg]\n";
-  for (int i = 0; i < 720; ++i) radians += "15.0," + std::to_string(two_pi * i / 720.0) + "\n";
+  for (int i = 0; i < 720; ++i) {
+    const double c_rad = two_pi * i / 720.0;
+    radians += std::to_string(round(c_rad, 0.0)) + "," + std::to_string(c_rad) + "\n";
+  }
   write("deg.csv", radians);
   refused("deg.csv", "write C[rad]");
   // A gauge's readings taken as positions.

@@ -141,7 +141,7 @@ TEST_F(Implausible, AnotherChannel) {
   for (std::size_t i = 0; i < stream.size(); ++i)
     stream.x_mm[i] = 25.0 + 0.5 * std::sin(0.37 * stream.c_deg[i] * std::numbers::pi / 180.0) +
                      1e-6 * static_cast<double>((7919 * i) % 4000);
-  expect_refused(stream, "probably not the reading of a probe");
+  expect_refused(stream, "X_M is no probe's");
 }
 
 // A coarse sensor on a part that runs true shows the same value for long, and is none.

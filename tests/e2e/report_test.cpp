@@ -16,15 +16,11 @@ using example::can_open_pages;
 using example::open_page;
 using example::Opinion;
 
-namespace fs = std::filesystem;
-
 void expect_sound(const JobResult& result, const std::string& name) {
   const Opinion opinion = open_page(render_report(result), name);
   EXPECT_TRUE(opinion.sound) << opinion.log;
-  for (const char* screen : {"wide.png", "phone.png"}) {
-    const fs::path picture = fs::path(places::scratch()) / "report" / name / screen;
-    EXPECT_GT(fs::file_size(picture), 10000u) << "a screenshot of a page is not that small";
-  }
+  for (const char* looked_at : {"wide folded: ", "phone folded: "})
+    EXPECT_TRUE(opinion.log.find(looked_at) != std::string::npos) << opinion.log;
 }
 
 class ReportPage : public testing::Test {

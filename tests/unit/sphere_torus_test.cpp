@@ -9,6 +9,7 @@
 #include <random>
 
 #include "associate/files/stream_association.hpp"
+#include "job/evidence.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -165,14 +166,15 @@ TEST(Sphere, ABallThatIsTooLargeIsSaid) {
   EXPECT_NE(found.notes.front().find("no part has a radius of -5"), std::string::npos);
 }
 
-TEST(Sphere, ASphereFittedAsAnythingWithAnAxisIsRefused) {
-  for (const SurfaceKind surface : {SurfaceKind::cone, SurfaceKind::cylinder}) {
-    FitOptions options;
-    options.surface = surface;
-    const FitResult result = fit(sphere(25.0), options);
-    EXPECT_EQ(result.status, FitStatus::implausible);
-    EXPECT_NE(result.message.find("sphere of radius 25 mm"), std::string::npos) << result.message;
-  }
+TEST(Sphere, ASphereFromAFileIsRefusedAsACylinder) {
+  ProbeStream stream = sphere(25.0);
+  stream.x_convention = XConvention::radius;
+  FitOptions options;
+  options.surface = surface_by_evidence(stream).surface;
+  EXPECT_EQ(options.surface, SurfaceKind::cylinder);
+  const FitResult result = fit(stream, options);
+  EXPECT_EQ(result.status, FitStatus::implausible);
+  EXPECT_NE(result.message.find("sphere of radius 25 mm"), std::string::npos) << result.message;
 }
 
 /// One section of a sphere: neither its height nor its radius can be told.

@@ -64,10 +64,17 @@ Json finding_json(const MachineFinding& finding) {
           {"probability", number(finding.probability)},
           {"rms", with_unit(finding.rms_mm, "mm")},
           {"rivals", list_of(finding.rivals, rival_json)},
-          {"consequence", finding.consequence},
           {"separate_with", finding.separate_with && !finding.separate_with->plan.empty()
                                 ? Json(finding.separate_with->plan)
                                 : Json(nullptr)}};
+}
+
+/// What follows from each cause that was found.
+Json consequences_json(const MachineDiagnosis& d) {
+  Json json = Json::object();
+  for (const MachineFinding& finding : d.findings)
+    if (!finding.consequence.empty()) json[finding.effect] = finding.consequence;
+  return json;
 }
 
 Json unexplained_json(const MachineUnexplained& one) {
@@ -170,6 +177,7 @@ Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine)
           {"inputs", inputs_json(d.baseline)},
           {"options", options_json(d)},
           {"verdict", to_string(d.verdict)},
+          {"consequences", consequences_json(d)},
           {"baseline", baseline_json(d.baseline)},
           {"extended", {{"parameters", parameters_json(d.extended)}}},
           {"findings", list_of(d.findings, finding_json)},
