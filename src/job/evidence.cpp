@@ -42,14 +42,15 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
                       std::abs(half_angle.value) > sure * half_angle.u;
   const double change_um = taper * length_mm(stream) / mm_per_um;
   const std::string surface = tapers ? "cone" : "cylinder";
-  std::string why =
-      fmt::format("taken for a {}: the radius changes by {:.4g} µm over {:.4g} mm of Z", surface,
-                  change_um, length_mm(stream));
+  std::string why = fmt::format("taken for a {}: ", surface);
   if (half_angle.determined() && std::isfinite(half_angle.u)) {
     const double U_deg = half_angle.expanded(cone.coverage_factor);
     const int decimals = decimals_of(U_deg, 0);
-    why += fmt::format(", a half angle of {:.{}f}° ± {:.{}f}°", std::abs(half_angle.value),
-                       decimals, U_deg, decimals);
+    why += fmt::format("half angle {:.{}f}° ± {:.{}f}°", std::abs(half_angle.value), decimals,
+                       U_deg, decimals);
+  } else {
+    why += fmt::format("the radius changes by {:.4g} µm over {:.4g} mm of Z", change_um,
+                       length_mm(stream));
   }
   if (!tapers) why += "; say --surface cone if it is one";
   return {tapers ? SurfaceKind::cone : SurfaceKind::cylinder, why};

@@ -5,8 +5,10 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "measure/column_checks.hpp"
+#include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -86,8 +88,11 @@ std::optional<UnitChange> reading_changes_unit(const ProbeStream& stream) {
     }
     return std::sqrt(squares / static_cast<double>(turn));
   };
+  std::vector<bool> begins(x.size(), false);  // of a pass: the rear side has the other sign
+  for (const Pass& pass : find_passes(stream)) begins[pass.begin] = true;
   for (std::size_t i = 2 * turn; i + turn <= x.size(); ++i) {
     for (const auto& [unit, what] : of_lengths) {
+      if (unit < 0.0 && begins[i]) continue;
       for (const double factor : {unit, 1.0 / unit}) {
         if (std::abs(x[i] - factor * x[i - 1]) > 0.05 * std::abs(factor * x[i - 1])) continue;
         const double usual_mm = near_steps * apart_mm(i - turn, 1.0);

@@ -168,7 +168,7 @@ TEST(Sphere, ABallThatIsTooLargeIsSaid) {
 
 TEST(Sphere, ASphereFromAFileIsRefusedAsACylinder) {
   ProbeStream stream = sphere(25.0);
-  stream.x_convention = XConvention::radius;
+  stream.x_convention = XConvention{};
   FitOptions options;
   options.surface = surface_by_evidence(stream).surface;
   EXPECT_EQ(options.surface, SurfaceKind::cylinder);

@@ -66,7 +66,7 @@ std::string findings_screen(const Diagnosis& d, std::size_t most) {
 }
 
 std::string unseen_screen(const Diagnosis& d) {
-  constexpr std::size_t most = 4;
+  constexpr std::size_t most = 2;  // one line of a terminal
   const FitResult& fit = d.extended;
   if (!fit.axis_known() || fit.surface == SurfaceKind::plane) return "";
   const double U_mm = fit.coverage_factor * std::min(fit.axis.u_at(fit.position_min_mm),
@@ -74,8 +74,10 @@ std::string unseen_screen(const Diagnosis& d) {
   std::vector<std::string> sizes;
   for (const NotObservable& n : d.not_observable) {
     const double per_unit = n.axis_bias_per_unit.value, size = U_mm / per_unit;
+    const Effect* effect = d.entry(n.effect);
     if (!is_never(n.detectable, n.detectable_unit) || !std::isfinite(per_unit) ||
-        is_never(size, n.detectable_unit) || sizes.size() == most)
+        is_never(size, n.detectable_unit) || (effect && effect->same_in_cut) ||
+        sizes.size() == most)
       continue;
     const bool milli = n.detectable_unit == "s" && size < 1.0;
     const std::string unit = milli ? "ms" : n.detectable_unit;
@@ -84,11 +86,9 @@ std::string unseen_screen(const Diagnosis& d) {
                                    : fmt::format("{:.2g} {}", milli ? 1e3 * size : size, unit)) +
                     " of " + n.effect);
   }
-  return sizes.empty()
-             ? ""
-             : line("unseen ", fmt::format("{} would move the axis by U, and no size of it "
-                                           "shows in these readings",
-                                           fmt::join(sizes, ", or ")));
+  return sizes.empty() ? ""
+                       : line("unseen ",
+                              fmt::format("{} would move the axis by U", fmt::join(sizes, " or ")));
 }
 
 std::string excluded_screen(const Diagnosis& d) {

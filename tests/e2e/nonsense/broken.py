@@ -252,7 +252,7 @@ def dial_wraps_at_100_um():
     return s
 
 
-@case(unseen="probe.lag")
+@case()
 def play_of_10_um():
     s = helix()
     held = s.x[0]
