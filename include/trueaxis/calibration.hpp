@@ -100,7 +100,7 @@ struct Calibration {
   std::string message;  ///< why not
   std::vector<std::string> sources, input_hashes;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;  ///< of `parameters` by rows, mm and rad
+  Covariance covariance;  ///< of `parameters`, mm and rad
   std::vector<CalibratedComponent> components;
   double size_of_components = 1.0;  ///< of this machine's, against those of machines in good order
   std::vector<PlacedBall> balls;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/covariance.hpp"
 #include "trueaxis/effect_term.hpp"
 #include "trueaxis/probe_stream.hpp"
 
@@ -24,7 +25,7 @@ enum class Slot {
 };
 
 /// What an effect is fixed to: what re-chucking, reversal, another speed or a return pass does.
-enum class Frame { part, chuck, spindle, machine, probe, time };
+enum class EffectFrame { part, chuck, spindle, machine, probe, time };
 
 /// A parameter with the sizes that machines show: priors, not limits. Both 0: no typical size.
 struct EffectParameter {
@@ -64,7 +65,7 @@ struct ShapeValues {
 };
 
 /// Parameters that are free together, at some shapes.
-struct Form {
+struct SearchForm {
   std::vector<std::size_t> free = {};  ///< linear parameters; empty: all
   ShapeValues starts = {};             ///< shapes to start from; none: the typical one
   int degrees = 0;                     ///< Legendre degrees along Z that the stream must tell
@@ -79,7 +80,7 @@ struct SearchRange {
     at_orders,   ///< at those undulations per revolution that stand out
     scanned      ///< by a scan alone: as a line, or a step between any two readings
   } when = When::always;
-  std::vector<Form> forms = std::vector<Form>(1);
+  std::vector<SearchForm> forms = std::vector<SearchForm>(1);
   int highest_order = 0;   ///< of a harmonic of free order; 0: what the sampling tells
   int highest_degree = 0;  ///< of a polynomial of free degree
   int lowest_degree = 0;   ///< of such a one; 0: its first
@@ -87,7 +88,7 @@ struct SearchRange {
 };
 
 /// A line of unknown frequency, which a periodogram finds. Its phase φ is that of cos(2π f x + φ).
-struct Line {
+struct SpectralLine {
   enum class In {
     angle,   ///< C; frequencies are orders
     time,    ///< t: Hz
@@ -132,7 +133,7 @@ struct AxisBias {
 };
 
 /// What a check of the data looks for.
-enum class Check {
+enum class DataCheck {
   interruption,
   saturation,
   quantisation,
@@ -156,8 +157,8 @@ struct Effect {
   std::string_view id = {};
   std::string_view title = {};
   Slot slot = Slot::part;
-  Frame frame = Frame::part;
-  Term term = {};                 ///< how it is computed; monostate for a check
+  EffectFrame frame = EffectFrame::part;
+  EffectTerm term = {};                 ///< how it is computed; monostate for a check
   std::string_view formula = {};  ///< the term as text
   std::vector<EffectParameter> parameters = {};
   std::string_view signature = {};
@@ -168,12 +169,12 @@ struct Effect {
   std::vector<Separation> separations = {};
   std::optional<AxisBias> axis_bias = {};
   std::string_view source = {};
-  std::optional<Check> check = {};  ///< quality of the data: never a name for a form
+  std::optional<DataCheck> check = {};  ///< quality of the data: never a name for a form
 
   Requirement needs = {};
   std::vector<ShapeValues> typical = {};  ///< shape: the first of the values each
   SearchRange search = {};
-  std::optional<Line> line = {};
+  std::optional<SpectralLine> line = {};
   std::optional<Refinement> refinement = {};
   std::string_view second_order_twin = {};  ///< id: one in the first order, told in the second
   int between_passes = 0;  ///< place among those that show from pass to pass, beside which the
@@ -215,11 +216,12 @@ struct TermValue {
   std::vector<std::size_t> free;   ///< which linear parameters are free; empty: all
   Pattern pattern;                 ///< of no effect
 
-  /// Amplitudes in the order of linear_parameters(effect->term, shape), 0 where not free; of a
-  /// pattern the factors of cos and sin, or of the bump. mm, rad, s. Empty: not fitted.
+  /// Amplitudes in the order of parameters(), 0 where not free; mm, rad, s. Empty: not fitted.
   std::vector<double> linear;
-  std::vector<double> covariance;  ///< of `linear`, row-major; empty: not fitted
+  Covariance covariance;       ///< of `linear`; empty: not fitted
 
+  /// Linear parameters of the effect; of a pattern those of cos and sin, or of the bump.
+  std::vector<LinearParameter> parameters() const;
   std::size_t columns() const;  ///< how many are free
   std::string id() const { return effect ? std::string(effect->id) : "unexplained"; }
 };
@@ -242,7 +244,7 @@ std::span<const Effect> effect_catalogue();
 const Effect* find_effect(std::string_view id, std::span<const Effect> own = {});
 
 /// The entry of a check.
-const Effect& entry_of(Check check);
+const Effect& entry_of(DataCheck check);
 
 /// Entries that name each other, in their order, where one of two named the other.
 /// @throws ContractViolation for an id that none of them has.
@@ -254,6 +256,6 @@ std::vector<std::string_view> nearest_effects(std::string_view id, std::size_t c
 std::span<const Separator> separators();
 
 std::string_view to_string(Slot slot);
-std::string_view to_string(Frame frame);
+std::string_view to_string(EffectFrame frame);
 
 }  // namespace trueaxis

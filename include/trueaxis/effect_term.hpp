@@ -56,7 +56,7 @@ struct TermShape {
 
 /// What a term's value moves. The derivative of the reading along it is the chain rule's other
 /// factor: of X, and of a face's Z.
-enum class Port {
+enum class TermPort {
   x,       ///< machine X: 1; of a face −∂Z/∂X
   normal,  ///< the surface along its normal, away from the part's axis, of a face towards +Z: ∂X/∂ρ
   c,       ///< argument C: ∂X/∂C
@@ -77,7 +77,7 @@ struct Harmonic {
   };
   Angle angle = Angle::spindle;
   Envelope envelope = Envelope::constant;
-  Port port = Port::x;
+  TermPort port = TermPort::x;
   double fixed_order = 0.0;  ///< 0: the shape's
 };
 
@@ -86,14 +86,14 @@ struct Harmonic {
 /// 135).
 struct PolynomialInZ {
   int first = 1, last = 1;
-  Port port = Port::x;
+  TermPort port = TermPort::x;
   bool plain = false;
   bool dish = false;
 };
 
 /// cos, sin (2π z/period − turns θ) (Eq. 43).
 struct PeriodicInZ {
-  Port port = Port::normal;
+  TermPort port = TermPort::normal;
   double turns = 0.0;
 };
 
@@ -137,7 +137,7 @@ struct Response {
   Of of = Of::gain;
 };
 
-using Term = std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime,
+using EffectTerm = std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime,
                           GrowthInTime, PartStep, ArgumentShift, ProbeLine, Response>;
 
 /// A parameter in which X_M is linear, near zero.
@@ -149,25 +149,25 @@ struct LinearParameter {
 /// The linear parameters of a term, in the order of its columns. A pair NAME_cos, NAME_sin are the
 /// factors of cos and sin: a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ) (a cos φ, −a sin
 /// φ).
-std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape);
+std::vector<LinearParameter> linear_parameters(const EffectTerm& term, const TermShape& shape);
 
 /// Writes ∂X_M/∂(linear parameter) at zero amplitude over the readings of `context`;
 /// `columns[j]` has room for context.size() values. What a term needs of the context must be there.
 /// Eq. 37.
 /// @throws ContractViolation when a column is missing or their number is not that of
 /// linear_parameters.
-void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
+void fill_columns(const EffectTerm& term, const TermContext& context, const TermShape& shape,
                   std::span<double* const> columns);
 
 /// The names of the shape parameters that a term reads.
-std::vector<std::string> shape_parameters(const Term& term);
+std::vector<std::string> shape_parameters(const EffectTerm& term);
 
 /// Whether the term is a step at an instant: no value of its shape predicts another, and the part
 /// stands elsewhere afterwards.
-bool is_step(const Term& term);
+bool is_step(const EffectTerm& term);
 
 /// Whether the term has two orders, the one twice the other: the lobes of jaws.
-bool has_two_orders(const Term& term);
+bool has_two_orders(const EffectTerm& term);
 
 /// Value of a shape parameter by the name that shape_parameters gives it.
 /// @throws ContractViolation for another name.

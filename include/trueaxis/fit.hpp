@@ -105,7 +105,7 @@ struct FitResult {
   double coverage_factor = 2.0;
 
   std::vector<FitParameter> parameters;  ///< in the order of the surface's catalogue line
-  std::vector<double> covariance;        ///< row-major, edge units, order of `parameters`
+  Covariance covariance;                 ///< of `parameters`, in their units
   std::vector<FitParameter> derived;     ///< radius_mid, axis offsets at the ends of the data, tilt
   std::vector<BudgetLine> budget;
   AxisEstimate axis;  ///< a plane: its normal through (0, 0, 0); all budget lines in it

@@ -67,8 +67,8 @@ std::vector<DatumTrouble> datum_troubles(const DatumErrors& datums);
 struct PartSetup {
   RigidTransform fixture_from_part;  ///< D = Tr(X0W, Y0W, Z0W) exp(A0W, B0W, C0W)
   std::array<double, 6> errors{};    ///< X0W … C0W: mm, then the rotation vector in rad
-  /// Of `errors`, row-major: mm², mm rad, rad². NaN where no uncertainty is stated.
-  std::array<double, 36> covariance{};
+  /// Of `errors`: mm², mm rad, rad². Empty where no uncertainty is stated.
+  Covariance covariance;
   bool converged = true;  ///< false: no numbers
 
   double u(std::size_t i) const;  ///< of errors[i]; NaN: not stated
@@ -94,9 +94,9 @@ PrintedLocation locate_as_printed(const Locators& locators);
 
 /// D of a part whose three datum surfaces lie on three perfect planes of the fixture: the inverse
 /// of the datum system of ISO 5459 (z = n₁ of XY, x along n₂ × n₁ with n₂ of ZX, origin the
-/// common point; Eq. 163). `covariance` is that of the nine errors in the order of
-/// `datum_error_names`, row-major, or empty. @throws InputError where `datum_troubles` has any.
-PartSetup setup_of_datums(const DatumErrors& datums, std::span<const double> covariance = {});
+/// common point; Eq. 163). `covariance` is that of the nine errors `datum_error_names`, in
+/// their order, or empty. @throws InputError where `datum_troubles` has any.
+PartSetup setup_of_datums(const DatumErrors& datums, const Covariance& covariance = {});
 
 /// Ezz, Ezx, Ezy, Eyy, Eyx, Eyz, Exx, Exy, Exz: of planes XY, ZX, YZ in turn.
 inline constexpr std::array<const char*, 9> datum_error_names{"Ezz", "Ezx", "Ezy", "Eyy", "Eyx",
@@ -107,7 +107,7 @@ double datum_error(const DatumErrors& datums, std::string_view name);
 /// A datum surface associated with points of it.
 struct ProbedDatum {
   std::array<double, 3> errors{};  ///< E_kk in mm, then its two angles in rad, as they are named
-  std::array<double, 9> covariance{};  ///< of them, row-major; NaN: not determined
+  Covariance covariance;         ///< of them; NaN: not determined
   double rms_mm = 0.0;                 ///< of the points about the plane
 };
 

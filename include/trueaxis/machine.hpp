@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "trueaxis/covariance.hpp"
 #include "trueaxis/units.hpp"
 
 /// A machine of three to six axes as a chain from the workpiece to the tool, the errors of its
@@ -180,10 +181,7 @@ struct UncertainAmount {
 };
 std::string to_string(const UncertainAmount& amount);  ///< X0C, EXX.poly2, EYC.cos1
 
-struct ErrorCovariance {
-  std::vector<UncertainAmount> amounts;  ///< each once
-  std::vector<double> matrix;            ///< of them by rows, mm and rad
-};
+using ErrorCovariance = CovarianceOf<UncertainAmount>;  ///< mm and rad; each amount once
 
 struct ErrorModel {
   ErrorSign sign = ErrorSign::moving_part;

@@ -69,7 +69,7 @@ struct MachineFinding : NamedFinding {
   std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
   std::string formula;            ///< of the term in its parameters
   std::vector<MachineShape> shape;
-  std::vector<double> covariance;  ///< of `parameters` by rows
+  Covariance covariance;  ///< of `parameters`
   bool likely_order = true;        ///< its order is 95 % likely among its aliases, 1/n² an order n
   std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
   double size = 0.0;                              ///< amplitude, mm or rad
@@ -82,7 +82,7 @@ struct MachineUnexplained {
   Estimate amplitude;   ///< mm or rad
   double p_value = 1.0;
   std::vector<CalibratedParameter> parameters;
-  std::vector<double> covariance;  ///< of `parameters` by rows
+  Covariance covariance;  ///< of `parameters`
 };
 
 /// An effect that these rows do not show. What shows it: `separate_with`.
@@ -110,7 +110,7 @@ struct MachinePlan {
   std::vector<std::string> separates;  ///< findings whose class it tells apart
   MeasurementKind kind = MeasurementKind::ball;
   std::vector<PlannedVisit> visits;  ///< in order
-  std::vector<double> covariance;    ///< of `MachineDiagnosis::uncertain` with it
+  Covariance covariance;             ///< of `MachineDiagnosis::uncertain` with it
 };
 
 /// A number that the tip depends on, before the measurement of a plausible size.
@@ -144,9 +144,9 @@ struct MachineDiagnosis {
   double false_alarm = 0.01, threshold = 0.0;               ///< p of one test that is a finding
   double typical_length_mm = 0.0, typical_angle_rad = 0.0;  ///< what was looked for
   /// Location errors, what was found and what these rows do not show, with their covariance after
-  /// the measurement by rows (Eq. 189); only where `covariances` is asked for.
+  /// the measurement (Eq. 189); only where `covariances` is asked for.
   std::vector<UncertainParameter> uncertain;
-  std::vector<double> covariance;
+  Covariance covariance;
 };
 
 struct MachineDiagnoseOptions {

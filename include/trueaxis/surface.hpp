@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "trueaxis/covariance.hpp"
+
 namespace trueaxis {
 
 /// The reference surfaces of the catalogue, and `own`: a profile of the user's (RevolvedProfile).
@@ -44,14 +46,16 @@ struct Axis {
   }
 };
 
-/// An axis with the covariance of (x, y, slope_x, slope_y), row-major 4 × 4 (mm², mm, 1).
 struct AxisEstimate {
   Axis axis;
-  std::array<double, 16> covariance{};
+  AxisCovariance covariance{};
 
   /// Standard uncertainty of the axis point at z in its worse direction, mm: the square root of the
   /// largest eigenvalue of the 2 × 2 covariance of (x(z), y(z)) (Eq. 36).
   double u_at(double z_mm) const;
+  /// Standard uncertainty of the slope in its worse direction, mm per mm; of both slopes together.
+  double u_slope() const;
+  double u_slopes() const;
 };
 
 /// A right circular cone (or, with tan_half_angle = 0, a cylinder) about an axis. s runs along the

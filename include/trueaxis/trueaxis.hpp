@@ -10,6 +10,7 @@
 #include "trueaxis/compensation.hpp"       // a program rewritten for a machine with errors
 #include "trueaxis/control_table.hpp"      // a correction in the forms that controls read
 #include "trueaxis/correction.hpp"         // target axis, correction table, actuator
+#include "trueaxis/covariance.hpp"         // uncertainties that go together, by name
 #include "trueaxis/datum_axis.hpp"         // the axis of a datum by another association
 #include "trueaxis/diagnosis.hpp"          // what the ideal surface misses
 #include "trueaxis/effect.hpp"             // the catalogue of effects

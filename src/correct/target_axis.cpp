@@ -78,11 +78,8 @@ Remainder remainder(const Reference& reference, const Axis& target, double z_sta
   left.tilt_rad = tilt_between_rad(target, reference.axis.axis);
   if (is_plane(reference)) {
     const double diameter = 2.0 * reference.face_radius_mm;
-    AxisEstimate slopes;  // as a position, so that u_at gives the worse direction of the tilt
-    const auto& c = reference.axis.covariance;
-    slopes.covariance = {c[10], c[11], 0, 0, c[14], c[15], 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     left.coaxiality_mm = diameter * std::tan(left.tilt_rad);
-    left.u_coaxiality_mm = diameter * slopes.u_at(0.0);
+    left.u_coaxiality_mm = diameter * reference.axis.u_slope();
     return left;
   }
   left.offset_start_mm = distance_mm(target, reference.axis.axis, z_start_mm);

@@ -99,9 +99,7 @@ bool earned(const Diagnosis& d) {
 
 /// u of the axis at Z; of a plane that of its tilt.
 double u_of_axis(const FitResult& fit, double z_mm) {
-  const auto& covariance = fit.axis.covariance;
-  return fit.surface == SurfaceKind::plane ? std::sqrt(covariance[10] + covariance[15])
-                                           : fit.axis.u_at(z_mm);
+  return fit.surface == SurfaceKind::plane ? fit.axis.u_slopes() : fit.axis.u_at(z_mm);
 }
 
 /// Whether the axis has a smaller u than that of the ideal fit, at an end of the data.

@@ -13,7 +13,7 @@ namespace trueaxis {
 namespace {
 
 // A column that is not there is empty; the one column that only probe.lag reads may be.
-void check(const Term& term, const TermContext& at) {
+void check(const EffectTerm& term, const TermContext& at) {
   for (const auto column :
        {at.z_mm, at.time_s, at.speed_rad_per_s, at.velocity_mm_per_s, at.x_mm, at.sensed_mm,
         at.dx_dc, at.dx_dz, at.theta_rad, at.theta_chuck_rad, at.s_mm, at.clamp_force_ratio}) {
@@ -79,19 +79,19 @@ std::size_t unlikeness(std::string_view asked, std::string_view id) {
 
 }  // namespace
 
-std::vector<LinearParameter> linear_parameters(const Term& term, const TermShape& shape) {
+std::vector<LinearParameter> linear_parameters(const EffectTerm& term, const TermShape& shape) {
   return std::visit([&](const auto& of) { return kind::parameters(of, shape).linear; }, term);
 }
 
-std::size_t linear_count(const Term& term, const TermShape& shape) {
+std::size_t linear_count(const EffectTerm& term, const TermShape& shape) {
   return std::visit([&](const auto& of) { return kind::count(of, shape); }, term);
 }
 
-std::vector<std::string> shape_parameters(const Term& term) {
+std::vector<std::string> shape_parameters(const EffectTerm& term) {
   return std::visit([](const auto& of) { return kind::parameters(of, {}).shape; }, term);
 }
 
-void fill_columns(const Term& term, const TermContext& context, const TermShape& shape,
+void fill_columns(const EffectTerm& term, const TermContext& context, const TermShape& shape,
                   std::span<double* const> columns) {
   check(term, context);
   expects(columns.size() == linear_count(term, shape), "one column a linear parameter");
@@ -116,11 +116,17 @@ void set_shape_value(TermShape& shape, std::string_view name, double value) {
   }
 }
 
-bool is_step(const Term& term) { return std::holds_alternative<PartStep>(term); }
+bool is_step(const EffectTerm& term) { return std::holds_alternative<PartStep>(term); }
 
-bool has_two_orders(const Term& term) {
+bool has_two_orders(const EffectTerm& term) {
   const auto* harmonic = std::get_if<Harmonic>(&term);
   return harmonic && harmonic->envelope == Harmonic::Envelope::jaws;
+}
+
+std::vector<LinearParameter> TermValue::parameters() const {
+  if (effect) return linear_parameters(effect->term, shape);
+  if (columns() == 1) return {{"amplitude", "mm"}};
+  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
 }
 
 std::size_t TermValue::columns() const {
@@ -152,7 +158,7 @@ const Effect* find_effect(std::string_view id, std::span<const Effect> own) {
   return nullptr;
 }
 
-const Effect& entry_of(Check check) {
+const Effect& entry_of(DataCheck check) {
   return *std::ranges::find(effect_catalogue(), check, &Effect::check);
 }
 
@@ -209,7 +215,7 @@ std::string_view to_string(Slot slot) {
   return words[static_cast<std::size_t>(slot)];
 }
 
-std::string_view to_string(Frame frame) {
+std::string_view to_string(EffectFrame frame) {
   static constexpr std::string_view words[] = {"part",    "chuck", "spindle",
                                                "machine", "probe", "time"};
   return words[static_cast<std::size_t>(frame)];

@@ -102,16 +102,16 @@ inline double away(const TermContext& at) { return at.rear == at.bore ? 1.0 : -1
 
 /// Multiplies by dX/d(value of `port`). Form is positive away from the part's axis: at the rear
 /// that is towards smaller X (Eqs. 37, 134).
-inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* const> columns) {
-  if (port == Port::reading || (port == Port::x && !at.face)) return;
+inline void scale_by_dx_d(TermPort port, const TermContext& at, std::span<double* const> columns) {
+  if (port == TermPort::reading || (port == TermPort::x && !at.face)) return;
   Chunk made;
-  if (port == Port::normal) secant(at, at.rear ? -1.0 : 1.0, made.data());
-  if (port == Port::x)
+  if (port == TermPort::normal) secant(at, at.rear ? -1.0 : 1.0, made.data());
+  if (port == TermPort::x)
     std::transform(at.dx_dz.begin(), at.dx_dz.end(), made.begin(), std::negate<>());
-  const bool axial = port == Port::z && at.face;  // the face comes by as much towards −Z
+  const bool axial = port == TermPort::z && at.face;  // the face comes by as much towards −Z
   if (axial) std::fill_n(made.begin(), at.size(), -1.0);
-  const double* factor = port == Port::c             ? at.dx_dc.data()
-                         : port == Port::z && !axial ? at.dx_dz.data()
+  const double* factor = port == TermPort::c             ? at.dx_dc.data()
+                         : port == TermPort::z && !axial ? at.dx_dz.data()
                                                      : made.data();
   for (double* column : columns) {
     for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
@@ -119,8 +119,8 @@ inline void scale_by_dx_d(Port port, const TermContext& at, std::span<double* co
 }
 
 /// Position that a term along Z is written in: s for what the part has, Z for the machine.
-inline std::span<const double> along_mm(Port port, const TermContext& at) {
-  return port == Port::normal ? at.s_mm : at.z_mm;
+inline std::span<const double> along_mm(TermPort port, const TermContext& at) {
+  return port == TermPort::normal ? at.s_mm : at.z_mm;
 }
 
 /// s/s_end, s_end that of the outer end of what was probed.
@@ -130,7 +130,7 @@ inline void share_of_end(const TermContext& at, double* out) {
 }
 
 /// u = (along − z_mid)/z_half.
-inline void normalised(Port port, const TermContext& at, double* out) {
+inline void normalised(TermPort port, const TermContext& at, double* out) {
   const std::span<const double> along = along_mm(port, at);
   for (std::size_t i = 0; i < at.size(); ++i) out[i] = (along[i] - at.z_mid_mm) / at.z_half_mm;
 }

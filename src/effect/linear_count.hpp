@@ -8,6 +8,6 @@
 namespace trueaxis {
 
 /// How many linear_parameters a term has, without their names.
-std::size_t linear_count(const Term& term, const TermShape& shape);
+std::size_t linear_count(const EffectTerm& term, const TermShape& shape);
 
 }  // namespace trueaxis

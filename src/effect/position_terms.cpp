@@ -12,7 +12,7 @@ using Angle = Harmonic::Angle;
 using Envelope = Harmonic::Envelope;
 
 /// Of the factors cos, sin of a value that moves `port`.
-std::string unit_of(Port port) { return port == Port::c ? "rad" : "mm"; }
+std::string unit_of(TermPort port) { return port == TermPort::c ? "rad" : "mm"; }
 
 double order_of(const Harmonic& term, const TermShape& shape) {
   return term.fixed_order > 0.0 ? term.fixed_order : shape.order;
@@ -96,7 +96,7 @@ Parameters parameters(const Harmonic& term, const TermShape&) {
   if (term.envelope == Envelope::growing)
     out.linear.insert(out.linear.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
   if (term.envelope == Envelope::lever) {
-    const std::string motion = term.port == Port::z ? "axial" : "radial";
+    const std::string motion = term.port == TermPort::z ? "axial" : "radial";
     out.linear.insert(out.linear.end(), {{motion + "_cos", "mm"}, {motion + "_sin", "mm"}});
   }
   if (term.envelope == Envelope::jaws) {

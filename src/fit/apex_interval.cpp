@@ -8,7 +8,7 @@
 
 namespace trueaxis {
 
-void add_apex_interval(std::vector<FitParameter>& parameters, const std::vector<double>& covariance,
+void add_apex_interval(std::vector<FitParameter>& parameters, const Covariance& covariance,
                        double coverage_factor) {
   const auto apex = std::ranges::find(parameters, "k", &FitParameter::name),
              angle = std::ranges::find(parameters, "half_angle", &FitParameter::name);
@@ -21,7 +21,7 @@ void add_apex_interval(std::vector<FitParameter>& parameters, const std::vector<
   const double half_angle_rad = angle->estimate.value * rad_per_deg;
   // ∂ ln tan α/∂α in edge units: what is wanted of tan α are its covariances relative to itself.
   const double relative = 2.0 * rad_per_deg / std::sin(2.0 * half_angle_rad);
-  const double with_tan = relative * covariance[row * parameters.size() + column];
+  const double with_tan = relative * covariance(row, column);
   const double squared = coverage_factor * coverage_factor;
   const double left = 1.0 - squared * std::pow(relative * angle->estimate.u, 2);
   if (!(left > 0.0)) return;

@@ -148,8 +148,14 @@ SetUpFit report_set_up(const PlacedSetUp& placed, const Standing& standing,
   const RowMajorMatrix jacobian = as_rows(surface.axis_jacobian(standing.working),
                                           static_cast<Eigen::Index>(standing.working.size()));
   const RowMajorMatrix axis = jacobian * standing.covariance * jacobian.transpose();
-  std::copy_n(axis.data(), 16, out.axis.covariance.begin());
+  std::copy_n(axis.data(), 16, out.axis.covariance.data());
   return out;
+}
+
+std::vector<std::string> names_of(const std::vector<FitParameter>& parameters) {
+  std::vector<std::string> names;
+  for (const FitParameter& one : parameters) names.push_back(one.name);
+  return names;
 }
 
 FitParameter length(std::string name, double value, double u) {
@@ -325,10 +331,11 @@ void describe(const JointModel& model, const std::vector<PlacedSetUp>& set_ups,
     const Standing standing = stand(placed);
     const RowMajorMatrix& jacobian = standing.report_jacobian;
     const RowMajorMatrix edge = jacobian * covariance * jacobian.transpose();
-    result.covariance.assign(edge.data(), edge.data() + edge.size());
     std::vector<FitParameter> parameters =
         report_parameters(model.info(), standing.surface.report(standing.working).value, jacobian,
                           edge, determination);
+    result.covariance = Covariance(names_of(parameters));
+    std::copy_n(edge.data(), edge.size(), result.covariance.data());
     add_apex_interval(parameters, result.covariance, options.coverage_factor);
     result.set_ups.push_back(report_set_up(placed, standing, parameters));
   }

@@ -12,10 +12,9 @@ namespace {
 /// U of the axis at the end where it is larger; of a plane what its tilt makes there.
 double U_of_axis_mm(const FitResult& fit) {
   const double outer_mm = std::max(std::abs(fit.position_min_mm), std::abs(fit.position_max_mm));
-  const auto& covariance = fit.axis.covariance;
   const double u_mm =
       fit.surface == SurfaceKind::plane
-          ? outer_mm * std::sqrt(covariance[10] + covariance[15])
+          ? outer_mm * fit.axis.u_slopes()
           : std::max(fit.axis.u_at(fit.position_min_mm), fit.axis.u_at(fit.position_max_mm));
   return fit.coverage_factor * u_mm;
 }

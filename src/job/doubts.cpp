@@ -166,8 +166,7 @@ std::vector<OpenAxis> open_axes(const JobResult& result) {
       const Axis &now = used.axis.axis, &ideal = result.fits[i].axis.axis;
       const double end_mm = std::max(std::abs(used.position_min_mm), used.position_max_mm);
       moved_mm = end_mm * std::hypot(now.slope_x - ideal.slope_x, now.slope_y - ideal.slope_y);
-      const auto& covariance = used.axis.covariance;
-      U_mm = used.coverage_factor * end_mm * std::sqrt(covariance[10] + covariance[15]);
+      U_mm = used.coverage_factor * end_mm * used.axis.u_slopes();
     }
     for (const double z_mm : {result.job.target->z_start_mm, result.job.target->z_end_mm}) {
       if (used.surface == SurfaceKind::plane) break;

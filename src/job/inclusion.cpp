@@ -56,7 +56,7 @@ std::string objection(const JobResult& result, const Diagnosis& diagnosis, const
   const auto [low, high] = std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
-  if (finding.term.effect->frame == Frame::machine && outside)
+  if (finding.term.effect->frame == EffectFrame::machine && outside)
     return "the length to be cut reaches beyond the one that was probed";
   return "";
 }

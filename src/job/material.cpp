@@ -42,11 +42,8 @@ Place between_faces(const FitResult& fit, const Axis& axis, double z_face_mm, do
   const Estimate& d = fit.parameter("d");
   const double probed = d.value / n - normal.slope_x * x - normal.slope_y * y;
   const double wanted = z_face_mm - axis.slope_x * (x - ax) - axis.slope_y * (y - ay);
-  AxisEstimate slopes;  // as a position: u_at gives the worse direction of the tilt
-  const auto& c = fit.axis.covariance;
-  slopes.covariance = {c[10], c[11], 0, 0, c[14], c[15], 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   return {x_mm, c_rad, probed - wanted,
-          fit.coverage_factor * std::hypot(or_zero(d.u), x_mm * or_zero(slopes.u_at(0.0)))};
+          fit.coverage_factor * std::hypot(or_zero(d.u), x_mm * or_zero(fit.axis.u_slope()))};
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
   for (const Finding* finding : findings) {
     Hypothesis whole = of_effect(*finding->term.effect, finding->term.shape);
     const std::vector<double>& linear = finding->term.linear;
-    const std::vector<double>& covariance = finding->term.covariance;
+    const Covariance& covariance = finding->term.covariance;
     const std::size_t count = linear.size();
     MotionColumns made{finding,
                        is_of(*diagnosed.diagnosis, *finding),
@@ -40,7 +40,7 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
                        {}};
     std::vector<double> u(count, 0.0);
     for (std::size_t j = 0; j < count && !covariance.empty(); ++j)
-      u[j] = std::sqrt(std::max(0.0, covariance[j * count + j]));
+      u[j] = std::sqrt(std::max(0.0, covariance(j, j)));
     std::vector<std::size_t> moved;
     for (std::size_t j = 0; j < count; ++j)
       if (u[j] > 0.0) moved.push_back(j);
@@ -49,7 +49,7 @@ std::vector<MotionColumns> motion_columns(const DiagnosedStream& diagnosed,
       one[j] = u[j];
       made.columns_mm.push_back(contribution(point, {&whole, 1}, one));
       for (const std::size_t i : moved)
-        made.correlation.push_back(covariance[j * count + i] / (u[i] * u[j]));
+        made.correlation.push_back(covariance(j, i) / (u[i] * u[j]));
     }
     out.push_back(std::move(made));
   }

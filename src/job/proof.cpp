@@ -17,7 +17,6 @@ namespace trueaxis {
 namespace {
 
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-using Covariance = std::array<double, 16>;
 
 constexpr double most_times = 100.0;  // readings; beyond that another measurement is meant
 constexpr double no_noise = 2.0;      // widening of u by correlated residuals
@@ -25,23 +24,23 @@ constexpr double margin = 1.05;       // the next stream's σ and angles are not
 constexpr double longest = 10.0;      // times the probed length
 
 /// What the readings' noise alone leaves of a reference's axis: its fit without influences.
-Covariance noise_of(const JobResult& result, std::size_t i) {
+AxisCovariance noise_of(const JobResult& result, std::size_t i) {
   if (result.streams.at(i).size() == 0) return fit_used(result, i).axis.covariance;
   FitOptions options = result.job.references[i].fit;
   options.influences.clear();
   const FitResult& used = fit_used(result, i);
-  Covariance noise = fit(result.streams[i], options).axis.covariance;
+  AxisCovariance noise = fit(result.streams[i], options).axis.covariance;
   // An extended model has its own σ and widening; beyond that its covariance holds what rivals
   // leave.
   const double ideal = result.fits[i].sigma_mm * result.fits[i].u_factor;
   const double ratio = ideal > 0.0 ? used.sigma_mm * used.u_factor / ideal : 1.0;
-  for (double& c : noise) c *= ratio * ratio;
+  for (double& c : noise.by_rows) c *= ratio * ratio;
   return noise;
 }
 
 /// Covariance with the noise of `times` as many readings over `longer` times the length, which
 /// turns the axis less about the place where position and slope are uncorrelated.
-Covariance with_more(const AxisEstimate& axis, const Covariance& noise, double times,
+AxisCovariance with_more(const AxisEstimate& axis, const AxisCovariance& noise, double times,
                      double longer) {
   const Eigen::Map<const Matrix4> whole(axis.covariance.data()), part(noise.data());
   const double slope2 = part(2, 2) + part(3, 3);
@@ -52,7 +51,7 @@ Covariance with_more(const AxisEstimate& axis, const Covariance& noise, double t
   shrink(2, 2) = shrink(3, 3) = 1.0 / longer;
   const Matrix4 move = to_middle.inverse() * shrink * to_middle;
   const Matrix4 scaled = move * part * move.transpose() / times;
-  Covariance out;
+  AxisCovariance out;
   Eigen::Map<Matrix4>(out.data()) = whole - part + scaled;
   return out;
 }
@@ -77,9 +76,9 @@ double rounded_up(double value) {
 
 /// The cause that was not found and leaves most of U, and the measurement that would show it;
 /// empty: none leaves as much as the readings' noise.
-std::string most_open(const Diagnosis& diagnosis, const Covariance& noise) {
+std::string most_open(const Diagnosis& diagnosis, const AxisCovariance& noise) {
   const AxisShare* most = nullptr;
-  double largest = std::max(noise[0], noise[5]);  // variances of x, y
+  double largest = std::max(noise(AxisRow::x, AxisRow::x), noise(AxisRow::y, AxisRow::y));
   for (const AxisShare& share : diagnosis.shares) {
     const double variance = share.probability * (share.axis_shift.value * share.axis_shift.value +
                                                  share.axis_shift.u * share.axis_shift.u);
@@ -110,7 +109,7 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
           "{}the axis by {} rests on few readings and takes their noise in whole: a quieter probe "
           "or least squares (without `association`) would prove it",
           of_reference(result, i), name_of(*result.job.references[i].association));
-  std::vector<Covariance> noise;
+  std::vector<AxisCovariance> noise;
   double readings = 0.0, length_mm = 0.0;
   for (std::size_t i = 0; i < references.size(); ++i) {
     const FitResult& used = fit_used(result, i);

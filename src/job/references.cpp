@@ -44,12 +44,12 @@ AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagn
     return out;
   const double variance =
       (turn->high * turn->high - turn->low * turn->low) / (2.0 * std::log(turn->high / turn->low));
-  const double x = out.axis.slope_x, y = out.axis.slope_y;
-  constexpr std::size_t slope_x = 2, slope_y = 3, columns = 4;
-  out.covariance[columns * slope_x + slope_x] += variance * y * y;
-  out.covariance[columns * slope_y + slope_y] += variance * x * x;
-  out.covariance[columns * slope_x + slope_y] -= variance * x * y;
-  out.covariance[columns * slope_y + slope_x] -= variance * x * y;
+  using enum AxisRow;
+  const double along_x = out.axis.slope_x, along_y = out.axis.slope_y;
+  out.covariance(slope_x, slope_x) += variance * along_y * along_y;
+  out.covariance(slope_y, slope_y) += variance * along_x * along_x;
+  out.covariance(slope_x, slope_y) -= variance * along_x * along_y;
+  out.covariance(slope_y, slope_x) -= variance * along_x * along_y;
   return out;
 }
 
@@ -87,7 +87,8 @@ AxisEstimate axis_of_reference(const JobResult& result, std::size_t i) {
   if (i >= result.associated.size() || !result.associated[i]) return out;
   out.axis = with_association(result, i, out.axis);
   const AxisEstimate& more = *result.associated[i];
-  for (std::size_t k = 0; k < out.covariance.size(); ++k) out.covariance[k] += more.covariance[k];
+  std::ranges::transform(out.covariance.by_rows, more.covariance.by_rows,
+                         out.covariance.by_rows.begin(), std::plus{});
   return out;
 }
 

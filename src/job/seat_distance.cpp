@@ -18,14 +18,15 @@ AxisEstimate difference(const AxisEstimate& first, const AxisEstimate& second) {
               second.axis.slope_y - first.axis.slope_y, z};
   // (x, y)(z) of the second is (x, y)(its z_ref) + slope d: J C Jᵀ with J = [[1, d], [0, 1]].
   const double d = z - second.axis.z_ref_mm;
-  std::array<double, 16> moved = second.covariance;
+  std::array<double, 16> moved = second.covariance.by_rows;
   for (std::size_t row = 0; row < 2; ++row)
     for (std::size_t column = 0; column < 4; ++column)
       moved[4 * row + column] += d * moved[4 * (row + 2) + column];
   for (std::size_t row = 0; row < 4; ++row)
     for (std::size_t column = 0; column < 2; ++column)
       moved[4 * row + column] += d * moved[4 * row + column + 2];
-  for (std::size_t i = 0; i < moved.size(); ++i) out.covariance[i] = first.covariance[i] + moved[i];
+  std::ranges::transform(first.covariance.by_rows, moved, out.covariance.by_rows.begin(),
+                         std::plus{});
   return out;
 }
 
@@ -50,8 +51,7 @@ SeatDistance distance_of(const JobResult& result, std::size_t i, std::size_t j) 
   out.middle = {offset_at(apart, middle(a)), offset_at(apart, middle(b))};
   out.worst = {worst_of(apart, a), worst_of(apart, b)};
   out.tilt_rad = std::atan(std::hypot(apart.axis.slope_x, apart.axis.slope_y));
-  const auto& c = apart.covariance;
-  out.u_tilt_rad = std::sqrt(0.5 * (c[10] + c[15]) + std::hypot(0.5 * (c[10] - c[15]), c[11]));
+  out.u_tilt_rad = apart.u_slope();
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "machine/screw.hpp"
 #include "machine/uncertainty.hpp"
+#include "math/covariance.hpp"
 
 namespace trueaxis {
 namespace {
@@ -32,7 +33,7 @@ struct Root {
 
 TipUncertainty::TipUncertainty(const MachineModel& model) : model_(model) {
   const ErrorModel& errors = model.errors();
-  const auto& correlated = errors.covariance.amounts;
+  const auto& correlated = errors.covariance.names();
   if (!correlated.empty()) {
     const Root root(matrix_of(errors.covariance));
     for (const int i : root.order) {

@@ -45,37 +45,28 @@ std::string to_string(const UncertainAmount& amount) {
   return shape == 0 ? text : text + std::to_string(amount.order);
 }
 
-MatrixXd matrix_of(const ErrorCovariance& covariance) {
-  const auto n = static_cast<Index>(covariance.amounts.size());
-  return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-      covariance.matrix.data(), n, n);
-}
-
 void add_covariance(ErrorCovariance& all, const ErrorCovariance& more) {
   std::vector<std::size_t> places;
-  std::vector<UncertainAmount> amounts = all.amounts;
-  for (const UncertainAmount& amount : more.amounts) {
+  std::vector<UncertainAmount> amounts = all.names();
+  for (const UncertainAmount& amount : more.names()) {
     const auto found = std::ranges::find(amounts, amount);
     places.push_back(static_cast<std::size_t>(found - amounts.begin()));
     if (found == amounts.end()) amounts.push_back(amount);
   }
-  const std::size_t n = amounts.size(), before = all.amounts.size(), added = more.amounts.size();
-  std::vector<double> matrix(n * n, 0.0);
-  for (std::size_t i = 0; i < before; ++i)
-    for (std::size_t j = 0; j < before; ++j) matrix[i * n + j] = all.matrix[i * before + j];
-  for (std::size_t i = 0; i < added; ++i)
-    for (std::size_t j = 0; j < added; ++j)
-      matrix[places[i] * n + places[j]] += more.matrix[i * added + j];
-  all = {std::move(amounts), std::move(matrix)};
+  ErrorCovariance sum(std::move(amounts));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < all.size(); ++j) sum(i, j) = all(i, j);
+  for (std::size_t i = 0; i < more.size(); ++i)
+    for (std::size_t j = 0; j < more.size(); ++j) sum(places[i], places[j]) += more(i, j);
+  all = std::move(sum);
 }
 
 void gather_uncertainty(ErrorModel& errors) {
   ErrorCovariance& covariance = errors.covariance;
   for (ErrorTerm& term : errors.terms) {
-    const auto found = std::ranges::find(covariance.amounts, UncertainAmount{.name = term.name});
-    if (term.u == 0.0 || found == covariance.amounts.end()) continue;
-    const auto at = static_cast<std::size_t>(found - covariance.amounts.begin());
-    covariance.matrix[at * (covariance.amounts.size() + 1)] += term.u * term.u;
+    const auto at = covariance.find(UncertainAmount{.name = term.name});
+    if (term.u == 0.0 || !at) continue;
+    covariance(*at, *at) += term.u * term.u;
     term.u = 0.0;
   }
 }

@@ -11,7 +11,6 @@ namespace trueaxis {
 PolynomialError legendre(int degree, double low, double high);
 
 /// The covariance as a matrix.
-Eigen::MatrixXd matrix_of(const ErrorCovariance& covariance);
 
 /// Adds what is independent of it; of an amount that both have the sum is uncertain.
 void add_covariance(ErrorCovariance& all, const ErrorCovariance& more);

@@ -51,7 +51,7 @@ void add_reference(Warnings& warnings, const JobResult& result, std::size_t i) {
   if (diagnosis.extended.status != FitStatus::converged)
     warnings.add(diagnosis.extended.message, name);
   for (const QualityCheck& check : diagnosis.checks)
-    if (check.found && check.effect != entry_of(Check::correlated_noise).id)
+    if (check.found && check.effect != entry_of(DataCheck::correlated_noise).id)
       warnings.add(check.text, name);
 }
 

@@ -65,9 +65,11 @@ Json seats_data(const JobResult& result) {
 Json ellipse_data(const AxisEstimate& estimate, double z_mm) {
   const auto& c = estimate.covariance;
   const double dz = z_mm - estimate.axis.z_ref_mm;
-  const double xx = c[0] + 2.0 * dz * c[2] + dz * dz * c[10];
-  const double yy = c[5] + 2.0 * dz * c[7] + dz * dz * c[15];
-  const double xy = c[1] + dz * (c[3] + c[6]) + dz * dz * c[11];
+  using enum AxisRow;
+  const double xx = c(x, x) + 2.0 * dz * c(x, slope_x) + dz * dz * c(slope_x, slope_x);
+  const double yy = c(y, y) + 2.0 * dz * c(y, slope_y) + dz * dz * c(slope_y, slope_y);
+  const double xy =
+      c(x, y) + dz * (c(x, slope_y) + c(y, slope_x)) + dz * dz * c(slope_x, slope_y);
   const double middle = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
   return {{"u_long_mm", std::sqrt(middle + half)},
           {"u_short_mm", std::sqrt(std::max(0.0, middle - half))},

@@ -12,15 +12,6 @@
 namespace trueaxis {
 namespace {
 
-/// Square root of the larger eigenvalue of the covariance [[a, b], [b, c]].
-double worse_u(double a, double b, double c) {
-  return std::sqrt((a + c) / 2.0 + std::hypot((a - c) / 2.0, b));
-}
-
-double u_tilt(const AxisEstimate& axis) {
-  return worse_u(axis.covariance[10], axis.covariance[11], axis.covariance[15]);
-}
-
 double tilt_deg(const Axis& axis) {
   return std::atan(std::hypot(axis.slope_x, axis.slope_y)) / rad_per_deg;
 }
@@ -42,7 +33,7 @@ Json axis_data(const AxisEstimate& estimate, double z_start_mm, double z_end_mm)
   return {{"start", end(z_start_mm)},
           {"end", end(z_end_mm)},
           {"tilt_deg", tilt_deg(estimate.axis)},
-          {"u_tilt_deg", u_tilt(estimate) / rad_per_deg}};
+          {"u_tilt_deg", estimate.u_slope() / rad_per_deg}};
 }
 
 /// Coaxiality with the spindle axis as the datum, as it would be cut without correction; a face: 2
@@ -52,7 +43,7 @@ Json before(const AxisEstimate& estimate, double face_radius_mm, std::pair<doubl
   if (face_radius_mm > 0.0) {
     const double tilt = std::hypot(estimate.axis.slope_x, estimate.axis.slope_y);
     return {{"coaxiality_mm", 2.0 * face_radius_mm * tilt},
-            {"u_mm", 2.0 * face_radius_mm * u_tilt(estimate)}};
+            {"u_mm", 2.0 * face_radius_mm * estimate.u_slope()}};
   }
   const bool at_start = offset_mm(estimate.axis, z_start) >= offset_mm(estimate.axis, z_end);
   const double worse_z = at_start ? z_start : z_end;

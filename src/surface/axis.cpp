@@ -17,21 +17,37 @@ Vec3 fma(double scale, const Vec3& a, const Vec3& b) {
   return {scale * a.x + b.x, scale * a.y + b.y, scale * a.z + b.z};
 }
 
+AxisRow slope_of(AxisRow i) { return i == AxisRow::x ? AxisRow::slope_x : AxisRow::slope_y; }
+
+/// Root of the larger eigenvalue of [[xx, xy], [xy, yy]].
+double worse_u(double xx, double xy, double yy) {
+  const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  return std::sqrt(std::max(largest, 0.0));  // in this order NaN stays NaN: no u is not u = 0
+}
+
 }  // namespace
 
 double AxisEstimate::u_at(double z_mm) const {
   const double lever = z_mm - axis.z_ref_mm;
   // Covariance of (x + lever·slope_x, y + lever·slope_y).
-  const auto propagated = [&](int i, int j) {
-    const auto cov = [&](int row, int column) {
-      return covariance[static_cast<std::size_t>(4 * row + column)];
-    };
-    return cov(i, j) + lever * (cov(i, j + 2) + cov(i + 2, j)) + lever * lever * cov(i + 2, j + 2);
+  const auto propagated = [&](AxisRow i, AxisRow j) {
+    const AxisRow si = slope_of(i), sj = slope_of(j);
+    return covariance(i, j) + lever * (covariance(i, sj) + covariance(si, j)) +
+           lever * lever * covariance(si, sj);
   };
-  const double xx = propagated(0, 0), yy = propagated(1, 1);
-  const double xy = 0.5 * (propagated(0, 1) + propagated(1, 0));
-  const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-  return std::sqrt(std::max(largest, 0.0));  // in this order NaN stays NaN: no u is not u = 0
+  using enum AxisRow;
+  return worse_u(propagated(x, x), 0.5 * (propagated(x, y) + propagated(y, x)), propagated(y, y));
+}
+
+double AxisEstimate::u_slope() const {
+  using enum AxisRow;
+  return worse_u(covariance(slope_x, slope_x), covariance(slope_x, slope_y),
+                 covariance(slope_y, slope_y));
+}
+
+double AxisEstimate::u_slopes() const {
+  using enum AxisRow;
+  return std::sqrt(covariance(slope_x, slope_x) + covariance(slope_y, slope_y));
 }
 
 // The origin of the vectors is the axis point at height z rather than at z_ref: all lengths are

@@ -28,7 +28,7 @@ class EffectLathe : public ::testing::TestWithParam<LatheBench> {
   }
 
   std::vector<double> predicted(const LatheCase& one, const TermContext& at) const {
-    const Term& term = find_effect(one.id)->term;
+    const EffectTerm& term = find_effect(one.id)->term;
     const std::size_t count = linear_parameters(term, one.shape).size();
     EXPECT_EQ(count, one.linear.size()) << one.id;
     std::vector<std::vector<double>> columns(count, std::vector<double>(at.size()));

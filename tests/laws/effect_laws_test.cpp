@@ -148,7 +148,7 @@ TEST(EffectLaws, SearchesFitTheirTerms) {
       EXPECT_FALSE(v.values.empty());
     }
     ASSERT_FALSE(effect.search.forms.empty());
-    for (const Form& form : effect.search.forms) {
+    for (const SearchForm& form : effect.search.forms) {
       for (const std::size_t j : form.free) EXPECT_LT(j, linear.size());
       EXPECT_EQ(form.starts.parameter == nullptr, form.starts.values.empty());
       if (!form.starts.parameter) continue;
@@ -167,7 +167,7 @@ TEST(EffectLaws, SearchesFitTheirTerms) {
       EXPECT_EQ(find_effect(twin)->second_order_twin, effect.id);
     }
   }
-  EXPECT_EQ(causes + 7, effect_catalogue().size());  // as many checks as Check has
+  EXPECT_EQ(causes + 7, effect_catalogue().size());  // as many checks as DataCheck has
 }
 
 TEST(EffectLaws, SeparatorsAreKnownAndAllUsed) {
@@ -217,7 +217,7 @@ struct Bench {
   }
 };
 
-std::vector<std::vector<double>> columns_of(const Term& term, const TermContext& at,
+std::vector<std::vector<double>> columns_of(const EffectTerm& term, const TermContext& at,
                                             const TermShape& shape) {
   std::vector<std::vector<double>> columns(linear_parameters(term, shape).size(),
                                            std::vector<double>(at.size()));
@@ -283,7 +283,7 @@ TEST(EffectLaws, AMissingColumnIsABrokenContract) {
   at.time_s = {};
   std::vector<double> column(2);
   double* const out[] = {column.data()};
-  const Term offset = find_effect("encoder.offset")->term;
+  const EffectTerm offset = find_effect("encoder.offset")->term;
   EXPECT_THROW(fill_columns(offset, at, {}, out), ContractViolation);
   at = bench.context();
   EXPECT_NO_THROW(fill_columns(offset, at, {}, out));

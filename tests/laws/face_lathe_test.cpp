@@ -54,7 +54,7 @@ TEST_P(FaceLathe, ColumnsAreTheLimitOfTheLathe) {
     if (bench().ball_mm > 0.0 && one.id.starts_with("part.") && one.id != "part.seat_slip")
       continue;
     SCOPED_TRACE(one.id);
-    const Term& term = find_effect(one.id)->term;
+    const EffectTerm& term = find_effect(one.id)->term;
     const std::size_t count = linear_parameters(term, one.shape).size();
     ASSERT_EQ(count, one.linear.size());
     std::vector<std::vector<double>> columns(count, std::vector<double>(stream.size()));

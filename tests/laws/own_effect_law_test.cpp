@@ -22,19 +22,19 @@ constexpr double sigma_mm = 0.001, amplitude_mm = 0.006, phase_rad = 0.7;
 const Effect five_at_the_ends{
     .id = "own.five_at_the_ends",
     .title = "five undulations towards both ends",
-    .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, Port::normal, 5.0},
+    .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, TermPort::normal, 5.0},
     .parameters = {{"amplitude", "mm", 1e-3, 0.02, "at the ends"}},
     .consequence = "grind both ends again",
     .needs = {.length = true}};
 const Effect three_starts{.id = "own.three_starts",
                           .title = "a spiral of three starts",
-                          .term = PeriodicInZ{Port::normal, 3.0},
+                          .term = PeriodicInZ{TermPort::normal, 3.0},
                           .parameters = {{"amplitude", "mm", 1e-3, 0.02, "at its tops"},
                                          {"lead", "mm", 2, 50, "", "period_mm"}},
                           .needs = {.length = true},
                           .typical = {{&TermShape::period_mm, {7.0}}},
                           .search = {SearchRange::When::scanned},
-                          .line = Line{Line::In::spiral, 0.02, 0.5}};
+                          .line = SpectralLine{SpectralLine::In::spiral, 0.02, 0.5}};
 constexpr double lead_mm = 7.3;
 
 /// A cylinder out at 60 rpm and back at 151 rpm, with a form along its normal in formulas of the

@@ -15,35 +15,35 @@ namespace {
 ErrorCovariance drawn_covariance(const Machine& machine, Draw& draw,
                                  std::vector<std::vector<double>>& root) {
   using Shape = UncertainAmount::Shape;
-  ErrorCovariance out;
+  std::vector<UncertainAmount> amounts;
   for (const MachineAxis& axis : machine.axes) {
     const std::size_t body = index_of(axis.name);
     const bool rotary = is_rotary(axis.name);
     for (std::size_t d = 0; d < 6; ++d) {
-      if (!without_effect({false, d, body})) out.amounts.push_back({.name = {false, d, body}});
+      if (!without_effect({false, d, body})) amounts.push_back({.name = {false, d, body}});
       const ErrorName component{true, d, body};
       if (draw.whole(0, 1) == 0)
-        out.amounts.push_back({component, Shape::legendre, draw.whole(1, 3), rotary ? -3.0 : -500.0,
+        amounts.push_back({component, Shape::legendre, draw.whole(1, 3), rotary ? -3.0 : -500.0,
                                rotary ? 3.0 : 500.0});
       else
-        out.amounts.push_back({component, draw.whole(0, 1) == 0 ? Shape::cosine : Shape::sine,
+        amounts.push_back({component, draw.whole(0, 1) == 0 ? Shape::cosine : Shape::sine,
                                draw.whole(1, 4), 0.0, rotary ? two_pi : 700.0});
     }
   }
   for (std::size_t d = 0; d < 6; ++d) {
-    out.amounts.push_back({.name = {false, d, spindle_body}});
-    out.amounts.push_back({.name = {false, d, workpiece_body}});
+    amounts.push_back({.name = {false, d, spindle_body}});
+    amounts.push_back({.name = {false, d, workpiece_body}});
   }
-  const std::size_t n = out.amounts.size(), directions = 8;
+  const std::size_t n = amounts.size(), directions = 8;
   root.assign(n, std::vector<double>(directions));
   for (std::size_t i = 0; i < n; ++i)
     for (double& one : root[i])
-      one = draw.between(-1.0, 1.0) * (out.amounts[i].name.angular() ? 20e-6 : 10e-3) /
+      one = draw.between(-1.0, 1.0) * (amounts[i].name.angular() ? 20e-6 : 10e-3) /
             std::sqrt(static_cast<double>(n));
-  out.matrix.assign(n * n, 0.0);
+  ErrorCovariance out(std::move(amounts));
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      for (std::size_t k = 0; k < directions; ++k) out.matrix[i * n + j] += root[i][k] * root[j][k];
+      for (std::size_t k = 0; k < directions; ++k) out(i, j) += root[i][k] * root[j][k];
   return out;
 }
 
@@ -71,7 +71,7 @@ TEST(TipUncertaintyLaw, IsThatOfDrawsThroughTheExactChain) {
     std::normal_distribution<double> normal;
     ErrorModel drawn = errors;
     const std::size_t first = drawn.terms.size();
-    for (const UncertainAmount& amount : errors.covariance.amounts)
+    for (const UncertainAmount& amount : errors.covariance.names())
       drawn.terms.push_back({amount.name, amount.unit(), 0.0});
     for (int i = 0; i < draws; ++i) {
       std::vector<double> z(root.front().size());
@@ -79,7 +79,7 @@ TEST(TipUncertaintyLaw, IsThatOfDrawsThroughTheExactChain) {
       for (std::size_t a = 0; a < root.size(); ++a) {
         double value = 0.0;
         for (std::size_t k = 0; k < z.size(); ++k) value += root[a][k] * z[k];
-        ErrorFunction function = errors.covariance.amounts[a].unit();
+        ErrorFunction function = errors.covariance.names()[a].unit();
         if (auto* constant = std::get_if<ConstantError>(&function)) constant->value *= value;
         if (auto* polynomial = std::get_if<PolynomialError>(&function))
           for (double& c : polynomial->coefficients) c *= value;

@@ -87,8 +87,8 @@ inline void read_surface(ProbeStream& stream, FitResult& fit, const Revolved& su
   fit.position_max_mm = *high;
   fit.input_hash = stream.input_hash;
   fit.source = stream.source;
-  for (const int i : {0, 5}) fit.axis.covariance[static_cast<std::size_t>(i)] = 1.7e-4 * 1.7e-4;
-  for (const int i : {10, 15}) fit.axis.covariance[static_cast<std::size_t>(i)] = 9e-6 * 9e-6;
+  for (const AxisRow i : {AxisRow::x, AxisRow::y}) fit.axis.covariance(i, i) = 1.7e-4 * 1.7e-4;
+  for (const AxisRow i : {AxisRow::slope_x, AxisRow::slope_y}) fit.axis.covariance(i, i) = 9e-6 * 9e-6;
 }
 
 inline FitResult cone_fit(ProbeStream& stream) {
@@ -242,7 +242,8 @@ inline void add_face(JobResult& result) {
   }
   fit.status = FitStatus::converged;
   fit.axis.axis = axis;
-  fit.axis.covariance[10] = fit.axis.covariance[15] = 5e-6 * 5e-6;
+  fit.axis.covariance(AxisRow::slope_x, AxisRow::slope_x) =
+      fit.axis.covariance(AxisRow::slope_y, AxisRow::slope_y) = 5e-6 * 5e-6;
   fit.parameters = {parameter("l", 4e-4, 5e-6, "1"), parameter("m", -2e-4, 5e-6, "1"),
                     parameter("d", 12.0, 7.5e-5, "mm")};
   fit.budget = {{"noise of the readings", 'A', {5e-6, 5e-6, 7.5e-5}}};

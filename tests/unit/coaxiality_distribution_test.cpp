@@ -20,7 +20,7 @@ constexpr double probability_error = 1e-3, relative = 4e-3;
 Reference seat(double u_x, double u_y, double u_slope = 0.0) {
   Reference out;
   out.name = "seat";
-  auto& c = out.axis.covariance;
+  auto& c = out.axis.covariance.by_rows;
   c[0] = u_x * u_x, c[5] = u_y * u_y, c[10] = c[15] = u_slope * u_slope;
   return out;
 }
@@ -92,7 +92,7 @@ TEST(CoaxialityDistribution, OfAFaceIsItsRunOut) {
 
 TEST(CoaxialityDistribution, WithoutAnUncertaintyThereIsNone) {
   Reference r = seat(1e-3, 1e-3);
-  r.axis.covariance[0] = std::numeric_limits<double>::quiet_NaN();
+  r.axis.covariance.by_rows[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(std::isnan(quantile(r, {}, 0.95)));
 }
 

@@ -174,7 +174,7 @@ TEST(DiagnosisJson, AnEffectOfOnesOwnIsReadByWhoGivesIt) {
   const Effect own{
       .id = "own.five_at_the_ends",
       .title = "five undulations towards both ends",
-      .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, Port::normal, 5.0},
+      .term = Harmonic{Harmonic::Angle::part, Harmonic::Envelope::parabola, TermPort::normal, 5.0},
       .parameters = {{"amplitude", "mm", 1e-3, 0.02, "at the ends"}}};
   Diagnosis diagnosis = example::cone_diagnosis();
   ASSERT_FALSE(diagnosis.findings.empty());

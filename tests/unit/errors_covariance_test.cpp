@@ -61,11 +61,11 @@ class ErrorsCovariance : public ::testing::Test {
 TEST_F(ErrorsCovariance, UpToTheDiagonalOrWhole) {
   for (const char* matrix : {"matrix = [4, -3, 9]\n", "matrix = [4, -3, -3, 9]\n"}) {
     const ErrorModel errors = read({written("e.toml", head_ + table_ + matrix)});
-    ASSERT_EQ(errors.covariance.amounts.size(), 2U);
-    EXPECT_DOUBLE_EQ(errors.covariance.matrix[0], 4e-6);
-    EXPECT_DOUBLE_EQ(errors.covariance.matrix[1], -3e-9);
-    EXPECT_DOUBLE_EQ(errors.covariance.matrix[2], -3e-9);
-    EXPECT_DOUBLE_EQ(errors.covariance.matrix[3], 9e-12);
+    ASSERT_EQ(errors.covariance.names().size(), 2U);
+    EXPECT_DOUBLE_EQ(errors.covariance.data()[0], 4e-6);
+    EXPECT_DOUBLE_EQ(errors.covariance.data()[1], -3e-9);
+    EXPECT_DOUBLE_EQ(errors.covariance.data()[2], -3e-9);
+    EXPECT_DOUBLE_EQ(errors.covariance.data()[3], 9e-12);
     EXPECT_EQ(errors.terms[0].u, 0.0);  // it stands in the matrix
   }
 }
@@ -77,15 +77,15 @@ TEST_F(ErrorsCovariance, IsWrittenAndReadBack) {
       "{name = \"EXX\", cos = 1, period_mm = 20}]\n"
       "matrix = [4e-6, 1e-6, 1e-6, 0, 1e-7, 1e-6, 0, 0, 0, 1e-8]\n";
   const ErrorModel once = read({written("e.toml", head_ + amounts)});
-  ASSERT_EQ(once.covariance.amounts.size(), 4U);
-  EXPECT_EQ(to_string(once.covariance.amounts[1]), "EYX.poly3");
-  EXPECT_EQ(to_string(once.covariance.amounts[2]), "EAC.sin2");
-  EXPECT_DOUBLE_EQ(once.covariance.amounts[2].high, two_pi);
+  ASSERT_EQ(once.covariance.names().size(), 4U);
+  EXPECT_EQ(to_string(once.covariance.names()[1]), "EYX.poly3");
+  EXPECT_EQ(to_string(once.covariance.names()[2]), "EAC.sin2");
+  EXPECT_DOUBLE_EQ(once.covariance.names()[2].high, two_pi);
   const ErrorModel twice = read({written("f.toml", errors_toml(once, &machine_.machine))});
-  ASSERT_EQ(twice.covariance.amounts, once.covariance.amounts);
+  ASSERT_EQ(twice.covariance.names(), once.covariance.names());
   for (std::size_t i = 0; i < 16; ++i)
-    EXPECT_NEAR(twice.covariance.matrix[i], once.covariance.matrix[i],
-                1e-8 * std::abs(once.covariance.matrix[i]));
+    EXPECT_NEAR(twice.covariance.data()[i], once.covariance.data()[i],
+                1e-8 * std::abs(once.covariance.data()[i]));
 }
 
 // Of several files: block diagonal; of an amount that both have, and of a u beside it, squares add.
@@ -100,8 +100,8 @@ TEST_F(ErrorsCovariance, FilesAreIndependent) {
                                 "schema = \"trueaxis.errors/1\"\nsign = \"moving_part\"\n"
                                 "[[error]]\nname = \"X0C\"\nvalue_um = 1\nu_um = 3\n");
   const ErrorModel all = read({a, b, c});
-  const auto& m = all.covariance.matrix;  // X0C, B0C, A0W
-  ASSERT_EQ(all.covariance.amounts.size(), 3U);
+  const double* m = all.covariance.data();  // X0C, B0C, A0W
+  ASSERT_EQ(all.covariance.names().size(), 3U);
   EXPECT_NEAR(m[0], (4.0 + 16.0 + 9.0) * 1e-6, 1e-18);
   EXPECT_DOUBLE_EQ(m[1], -3e-9);
   EXPECT_DOUBLE_EQ(m[2], 2e-9);

@@ -149,7 +149,7 @@ TEST(FixtureDatum, UncertaintyOfPointsCovers) {
       const ProbedDatum probed = fit_datum(k, points_of(draw, datums, k, 2e-3, 20), "points");
       for (std::size_t e = 0; e < 3; ++e)
         inside += std::abs(probed.errors[e] - truth(datums, k, e)) <=
-                  2.0 * std::sqrt(probed.covariance[4 * e]);
+                  2.0 * probed.covariance.u(e);
     }
   }
   EXPECT_NEAR(inside / 900.0, 0.938, 0.042) << "seed " << seed;
@@ -160,11 +160,11 @@ TEST(FixtureDatum, UncertaintyGoesIntoTheSetup) {
   constexpr unsigned seed = 1215;
   FixtureDraw draw(seed);
   const DatumErrors datums = draw.datums(0.8, 0.05);
-  std::vector<double> covariance(81, 0.0);
+  Covariance covariance({datum_error_names.begin(), datum_error_names.end()});
   double u[9];
   for (std::size_t i = 0; i < 9; ++i) {
     u[i] = i % 3 == 0 ? draw.within(1e-3, 2e-3) : draw.within(1e-5, 5e-5);
-    covariance[10 * i] = u[i] * u[i];
+    covariance(i, i) = u[i] * u[i];
   }
   const PartSetup setup = setup_of_datums(datums, covariance);
   for (std::size_t e = 0; e < 6; ++e) {

@@ -90,7 +90,7 @@ TEST(Inclusion, AMotionOfTheMachineIsFollowedWithinTheProbedLength) {
       const Diagnosis& diagnosis = *result.diagnoses.front();
       result.job.target->z_start_mm = diagnosis.z_mid_mm;
       result.job.target->z_end_mm = diagnosis.z_mid_mm + (beyond ? 2.0 : 1.0) * diagnosis.z_half_mm;
-      const bool refused = beyond && finding.term.effect->frame == Frame::machine;
+      const bool refused = beyond && finding.term.effect->frame == EffectFrame::machine;
       EXPECT_EQ(included_motions(result).empty(), refused) << id;
       EXPECT_EQ(result.inclusions.at(0).refused, refused) << id;
     }

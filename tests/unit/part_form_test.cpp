@@ -126,11 +126,13 @@ TEST(PartForm, UHoldsWhatWasTakenOff) {
   const Case one = assessed(scenario);
   ASSERT_EQ(one.form.motion.size(), 1u);
   Diagnosis unsure = one.diagnosis;
-  for (double& v : unsure.findings.front().term.covariance) v *= 1e4;  // u of 1 µm and more
+  Covariance& covariance = unsure.findings.front().term.covariance;
+  for (std::size_t i = 0; i < covariance.size(); ++i)
+    for (std::size_t j = 0; j < covariance.size(); ++j) covariance(i, j) *= 1e4;  // u of 1 µm
   const PartForm form = part_form({one.stream, &unsure}, on_one_core(scenario).fit, {});
   const double u = worst_value(one.form.with_open(), "RONt", "MZCI")->estimate.u;
   const double more = worst_value(form.with_open(), "RONt", "MZCI")->estimate.u;
-  const double u_amplitude = std::sqrt(unsure.findings.front().term.covariance.front());
+  const double u_amplitude = covariance.u(0);
   EXPECT_GT(more, u);
   // An amplitude off by u makes RONt larger by up to 2 u, of cos and sin together by √2 of that.
   EXPECT_GT(more, 0.5 * u_amplitude);

@@ -113,9 +113,9 @@ TEST(ReportNext, SaysWhatToDo) {
 TEST(ReportAxes, TheEllipseIsThatOfTheCovarianceThere) {
   const double turn = 30.0 * rad_per_deg, c = std::cos(turn), s = std::sin(turn);
   const auto turned = [&](double xx, double yy, AxisEstimate& axis, std::size_t at) {
-    axis.covariance[at] = xx * c * c + yy * s * s;
-    axis.covariance[at + 1] = axis.covariance[at + 4] = (xx - yy) * c * s;
-    axis.covariance[at + 5] = xx * s * s + yy * c * c;
+    axis.covariance.by_rows[at] = xx * c * c + yy * s * s;
+    axis.covariance.by_rows[at + 1] = axis.covariance.by_rows[at + 4] = (xx - yy) * c * s;
+    axis.covariance.by_rows[at + 5] = xx * s * s + yy * c * c;
   };
   AxisEstimate axis;
   axis.axis.z_ref_mm = 7.0;

@@ -146,7 +146,7 @@ TEST(Intersect, RearRootIsTheFrontRootHalfATurnOn) {
 
 TEST(AxisEstimate, UncertaintyIsThatOfTheWorseDirection) {
   AxisEstimate estimate{{0, 0, 0, 0, 10.0}, {}};
-  estimate.covariance = {4e-6, 0,    0, 0,  //
+  estimate.covariance.by_rows = {4e-6, 0,    0, 0,  //
                          0,    1e-6, 0, 0,  //
                          0,    0,    0, 0,  //
                          0,    0,    0, 1e-8};
@@ -154,7 +154,7 @@ TEST(AxisEstimate, UncertaintyIsThatOfTheWorseDirection) {
   EXPECT_NEAR(estimate.u_at(10.0), 2e-3, 1e-15);
   EXPECT_NEAR(estimate.u_at(110.0), std::sqrt(1.01e-4), 1e-12);
   // Fully correlated x and y: the worse direction is the diagonal, sqrt(2) larger.
-  estimate.covariance = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  estimate.covariance.by_rows = {1, 1, 0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
   EXPECT_NEAR(estimate.u_at(10.0), std::sqrt(2.0), 1e-12);
 }
 

@@ -69,7 +69,7 @@ std::vector<Hidden> add_hidden(const Questions& q, const Regression& regression,
 struct Extended {
   std::vector<Term> terms;
   Regression regression;
-  std::vector<double> covariance;
+  Covariance covariance;
 };
 Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
                   const std::vector<UncertainParameter>& uncertain) {

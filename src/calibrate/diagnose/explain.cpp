@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "infer/classes.hpp"
+#include "math/covariance.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -67,7 +68,7 @@ MachineFinding finding_of(const Regression& regression, const std::vector<Term>&
   const VectorXd value = block.back * a;
   const MatrixXd covariance =
       variance * block.back * all.inverse.bottomRightCorner(rank, rank) * block.back.transpose();
-  out.covariance.assign(covariance.data(), covariance.data() + covariance.size());
+  out.covariance = with_names(term.parameters, covariance);
   for (Index k = 0; k < value.size(); ++k)
     out.parameters.push_back(
         {term.parameters[static_cast<std::size_t>(k)],

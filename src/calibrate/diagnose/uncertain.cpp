@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/covariance.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -35,7 +36,7 @@ std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDia
   return out;
 }
 
-std::vector<double> covariance_of(const TipFit& fit, const Problem& problem,
+Covariance covariance_of(const TipFit& fit, const Problem& problem,
                                   const Geometry& geometry, const MatrixXd& base,
                                   const std::vector<UncertainParameter>& uncertain,
                                   double variance) {
@@ -53,12 +54,13 @@ std::vector<double> covariance_of(const TipFit& fit, const Problem& problem,
   columns = linear::beside(linear::orthonormal_basis(places), columns);
   const MatrixXd normal = linear::gram(columns) / variance + MatrixXd::Identity(count, count);
   const MatrixXd inverse = linear::inverse_of_normal(normal);
-  std::vector<double> out;
-  for (Index i = 0; i < count; ++i)
-    for (Index j = 0; j < count; ++j)
-      out.push_back(inverse(i, j) * uncertain[static_cast<std::size_t>(i)].prior *
-                    uncertain[static_cast<std::size_t>(j)].prior);
-  return out;
+  std::vector<std::string> names;
+  VectorXd prior(count);
+  for (const UncertainParameter& one : uncertain) {
+    prior[static_cast<Index>(names.size())] = one.prior;
+    names.push_back(one.effect);
+  }
+  return with_names(std::move(names), linear::scaled_both(inverse, prior));
 }
 
 }  // namespace trueaxis::calibrate_detail

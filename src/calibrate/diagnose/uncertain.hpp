@@ -13,7 +13,7 @@ std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDia
 
 /// Their covariance after a measurement, by rows, places beside them free (Eq. 189). Empty of none.
 /// @param base columns of all unknowns per largest size, then of the places, over σ
-std::vector<double> covariance_of(const TipFit& fit, const Problem& problem,
+Covariance covariance_of(const TipFit& fit, const Problem& problem,
                                   const Geometry& geometry, const Eigen::MatrixXd& base,
                                   const std::vector<UncertainParameter>& uncertain,
                                   double variance);

@@ -6,6 +6,7 @@
 #include "calibrate/estimate/read_out.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "calibrate/estimate/total_uncertainty.hpp"
+#include "math/covariance.hpp"
 #include "math/linear_algebra.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
@@ -81,6 +82,8 @@ void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
   const double scale = covariance_scale(problem, solution, out);
   const MatrixXd inverse = scale * linear::pseudo_inverse(linear::gram(solution.jacobian));
   const auto& kept = solution.determined.kept;
+  std::vector<std::string> names;
+  Eigen::VectorXd unit(static_cast<Index>(kept.size()));
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const Unknown& one = unknowns[kept[i]];
     const auto at = static_cast<Index>(i);
@@ -93,10 +96,10 @@ void describe(const Problem& problem, const std::vector<Unknown>& unknowns,
     term.function = scaled(term.function, estimate.value);
     if (std::holds_alternative<ConstantError>(term.function)) term.u = estimate.u;
     out.errors.terms.push_back(std::move(term));
-    for (std::size_t j = 0; j < kept.size(); ++j)
-      out.covariance.push_back(inverse(at, static_cast<Index>(j)) * one.largest *
-                               unknowns[kept[j]].largest);
+    names.push_back(one.name);
+    unit[at] = one.largest;
   }
+  out.covariance = with_names(std::move(names), linear::scaled_both(inverse, unit));
   std::vector<std::string> held;
   for (const Held& one : solution.determined.held) {
     out.not_determined.push_back(in_words(one, unknowns));

@@ -173,18 +173,18 @@ ReadOutModel model_of(const MachineMeasurement& file, std::vector<double> positi
 /// u of one coefficient, along every direction that the axis has a part in.
 void add_uncertainty(const std::array<double, 3>& factors, UncertainAmount amount, double u,
                      ErrorCovariance& covariance) {
-  ErrorCovariance one;
-  std::vector<double> sizes;
+  std::vector<UncertainAmount> amounts;
+  std::vector<double> sizes, products;
   const std::size_t first = amount.name.direction;
   for (std::size_t i = 0; i < 3; ++i) {
     if (factors[i] == 0.0) continue;
     amount.name.direction = first + i;
-    one.amounts.push_back(amount);
+    amounts.push_back(amount);
     sizes.push_back(factors[i] * u);
   }
   for (const double a : sizes)
-    for (const double b : sizes) one.matrix.push_back(a * b);
-  add_covariance(covariance, one);
+    for (const double b : sizes) products.push_back(a * b);
+  add_covariance(covariance, {std::move(amounts), products});
 }
 
 /// E_KK in the machine's directions of the position error along the axis: what the moving part does

@@ -8,6 +8,7 @@
 
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
+#include "math/covariance.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -35,14 +36,15 @@ struct Given {
     const ErrorCovariance& all = fit.given.covariance;
     const MatrixXd matrix = matrix_of(all);
     std::vector<Index> of_components, of_others;
-    for (std::size_t i = 0; i < all.amounts.size(); ++i) {
-      const UncertainAmount& amount = all.amounts[i];
+    std::vector<UncertainAmount> rest;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const UncertainAmount& amount = all.names()[i];
       if (amount.name.component) {
         of_components.push_back(static_cast<Index>(i));
         components.push_back(amount);
       } else if (!is_kept(fit, amount.name)) {
         of_others.push_back(static_cast<Index>(i));
-        others.amounts.push_back(amount);
+        rest.push_back(amount);
       }
     }
     root.resize(static_cast<Index>(components.size()), static_cast<Index>(components.size()));
@@ -50,8 +52,7 @@ struct Given {
       const linear::Spectrum of = linear::spectrum(matrix(of_components, of_components));
       root = linear::scaled_columns(of.vectors, of.values.cwiseMax(0.0).cwiseSqrt());
     }
-    const MatrixXd rest = matrix(of_others, of_others);
-    others.matrix.assign(rest.data(), rest.data() + rest.size());
+    others = with_names(std::move(rest), matrix(of_others, of_others));
   }
 };
 
@@ -133,14 +134,15 @@ class Together {
   void write_parameters(Calibration& out) const {
     const MatrixXd noise =
         effects_.variance * linear::pseudo_inverse(linear::gram(fit_.solution.jacobian));
-    out.covariance.clear();
+    std::vector<std::string> names;
     for (Index k = 0; k < kept(); ++k) {
       CalibratedParameter& one = out.parameters[static_cast<std::size_t>(k)];
       one.estimate.value = mean_[k];
       one.estimate.u = std::sqrt(covariance_(k, k));
       one.u_noise = std::sqrt(noise(k, k)) * unknown(k).largest;
-      for (Index j = 0; j < kept(); ++j) out.covariance.push_back(covariance_(k, j));
+      names.push_back(one.name);
     }
+    out.covariance = with_names(std::move(names), covariance_.topLeftCorner(kept(), kept()));
   }
 
   /// What was given, the kept unknowns and the component errors, with what is unknown of them all.
@@ -149,11 +151,11 @@ class Together {
     for (ErrorTerm& term : errors.terms)
       if (is_kept(fit_, term.name)) term.u = 0.0;
     errors.covariance = given_.others;
-    ErrorCovariance found;
+    std::vector<UncertainAmount> found;
     std::vector<Index> which;
     for (Index k = 0; k < kept(); ++k) {
       ErrorTerm term = unknown(k).unit;
-      found.amounts.push_back(amount_of(term));
+      found.push_back(amount_of(term));
       which.push_back(k);
       term.function = scaled(term.function, mean_[k]);
       errors.terms.push_back(std::move(term));
@@ -162,14 +164,12 @@ class Together {
     std::vector<ErrorTerm> components;
     for (std::size_t i = 0; i < amounts_.size(); ++i) {
       const Index at = first + static_cast<Index>(i);
-      found.amounts.push_back(amounts_[i]);
+      found.push_back(amounts_[i]);
       which.push_back(at);
       add_amount(components, amounts_[i], mean_[at]);
     }
     errors.terms.insert(errors.terms.end(), components.begin(), components.end());
-    const MatrixXd matrix = covariance_(which, which);
-    found.matrix.assign(matrix.data(), matrix.data() + matrix.size());
-    add_covariance(errors.covariance, found);
+    add_covariance(errors.covariance, with_names(std::move(found), covariance_(which, which)));
     gather_uncertainty(errors);
     out.errors = std::move(errors);
   }
@@ -255,18 +255,18 @@ UncertainAmount amount_of(const ErrorTerm& unit) {
 
 void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
                       const MatrixXd& of_columns, ErrorModel& errors) {
-  ErrorCovariance covariance;
+  std::vector<UncertainAmount> amounts;
   std::vector<Index> which;
   std::vector<double> unit;
   for (const std::size_t k : fit.solution.determined.kept) {
-    covariance.amounts.push_back(amount_of(fit.unknowns[k].unit));
+    amounts.push_back(amount_of(fit.unknowns[k].unit));
     unit.push_back(fit.unknowns[k].largest);
     which.push_back(static_cast<Index>(which.size()));
   }
   Index at = fit.solution.jacobian.cols();
   for (const FoundColumns& one : found) {
     for (std::size_t k = 0; k < one.errors.size(); ++k) {
-      covariance.amounts.push_back(amount_of(one.errors[k]));
+      amounts.push_back(amount_of(one.errors[k]));
       unit.push_back(1.0);
       which.push_back(at + static_cast<Index>(k));
     }
@@ -274,13 +274,12 @@ void state_covariance(const TipFit& fit, std::span<const FoundColumns> found,
   }
   const auto back =
       Eigen::Map<const VectorXd>(unit.data(), static_cast<Index>(unit.size())).asDiagonal();
-  const MatrixXd matrix = back * MatrixXd(of_columns(which, which)) * back;
-  covariance.matrix.assign(matrix.data(), matrix.data() + matrix.size());
+  const ErrorCovariance covariance =
+      with_names(std::move(amounts), back * MatrixXd(of_columns(which, which)) * back);
   const Given given(fit);
   errors.covariance = given.others;
-  ErrorCovariance components{given.components, {}};
-  const MatrixXd of_components = given.root * given.root.transpose();
-  components.matrix.assign(of_components.data(), of_components.data() + of_components.size());
+  const ErrorCovariance components =
+      with_names(given.components, given.root * given.root.transpose());
   for (ErrorTerm& term : errors.terms)
     if (is_kept(fit, term.name)) term.u = 0.0;
   add_covariance(errors.covariance, components);

@@ -17,7 +17,7 @@ Json covariance_json(const Calibration& c) {
     names.push_back(c.parameters[i].name);
     Json row = Json::array();
     for (std::size_t j = 0; j < n; ++j)
-      row.push_back(number(factor(i) * factor(j) * c.covariance[i * n + j]));
+      row.push_back(number(factor(i) * factor(j) * c.covariance(i, j)));
     rows.push_back(std::move(row));
   }
   return {{"parameters", names}, {"unit", "mm and deg"}, {"matrix", rows}};

@@ -25,7 +25,7 @@ Json rival_json(const Rival& rival) {
 
 /// The covariance in the units of `linear`.
 Json linear_json(const std::vector<CalibratedParameter>& parameters,
-                 const std::vector<double>& covariance) {
+                 const Covariance& covariance) {
   Json linear = Json::array(), rows = Json::array();
   const auto to_edge = [&](std::size_t i) {
     return parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
@@ -36,7 +36,7 @@ Json linear_json(const std::vector<CalibratedParameter>& parameters,
     linear.push_back(one);
     Json row = Json::array();
     for (std::size_t j = 0; j < parameters.size(); ++j)
-      row.push_back(number(to_edge(i) * to_edge(j) * covariance[i * parameters.size() + j]));
+      row.push_back(number(to_edge(i) * to_edge(j) * covariance(i, j)));
     rows.push_back(row);
   }
   return {{"linear", linear}, {"covariance", rows}};

@@ -184,7 +184,7 @@ std::optional<CandidateMeasurement> timing_measurement(const Predictor& predicto
 double longest_wave(const std::vector<AmbiguousFinding>& questions) {
   for (const AmbiguousFinding& q : questions)
     for (const Candidate& c : q.found.members)
-      if (c.hypothesis.effect->line && c.hypothesis.effect->line->in == Line::In::length)
+      if (c.hypothesis.effect->line && c.hypothesis.effect->line->in == SpectralLine::In::length)
         return c.hypothesis.shape.period_mm;
   return 0.0;
 }

@@ -37,13 +37,13 @@ void add_rest_of_steps(const Problem& problem, const std::vector<Hypothesis>& te
                        std::vector<Hypothesis>& list) {
   for (const Hypothesis& step : terms) {
     if (!step.effect || step.free.empty() || !is_step(step.effect->term)) continue;
-    std::vector<Form> forms = step.effect->search.forms;
-    Form all{.degrees = 1};  // but for a turn, which is a shift of where the part is
+    std::vector<SearchForm> forms = step.effect->search.forms;
+    SearchForm all{.degrees = 1};  // but for a turn, which is a shift of where the part is
     const auto parameters = linear_parameters(step.effect->term, step.shape);
     for (std::size_t j = 0; j < parameters.size(); ++j)
       if (parameters[j].name != "turn") all.free.push_back(j);
     forms.push_back(std::move(all));
-    for (const Form& form : forms) {
+    for (const SearchForm& form : forms) {
       if (problem.resolution.degrees < form.degrees) continue;
       Hypothesis rest = step;
       rest.free.clear();

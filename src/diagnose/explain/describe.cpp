@@ -55,17 +55,18 @@ TermValue fitted(const Hypothesis& h, const Eigen::VectorXd& coefficients,
                  const Eigen::MatrixXd& covariance) {
   TermValue out = h;
   const auto free = static_cast<std::size_t>(coefficients.size());
-  const std::size_t count =
-      h.effect && !h.free.empty() ? linear_parameters(h.effect->term, h.shape).size() : free;
+  std::vector<std::string> names;
+  for (const LinearParameter& one : h.parameters()) names.push_back(one.name);
+  const std::size_t count = names.size();
   const auto place = [&](std::size_t j) { return count == free ? j : h.free[j]; };
   out.linear.assign(count, 0.0);
   for (std::size_t j = 0; j < free; ++j)
     out.linear[place(j)] = coefficients(static_cast<Eigen::Index>(j));
   if (covariance.size() == 0) return out;
-  out.covariance.assign(count * count, 0.0);
+  out.covariance = Covariance(std::move(names));
   for (std::size_t i = 0; i < free; ++i) {
     for (std::size_t j = 0; j < free; ++j)
-      out.covariance[place(i) * count + place(j)] =
+      out.covariance(place(i), place(j)) =
           covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   }
   return out;

@@ -39,7 +39,7 @@ std::string percent_left(double share) {
 }
 
 /// An effect at its typical shape; and in a form that is told of apart.
-Typical typical_of(const Effect& effect, const Form& form, const LinearisationPoint& point) {
+Typical typical_of(const Effect& effect, const SearchForm& form, const LinearisationPoint& point) {
   TermShape shape = typical_shape(effect, point);
   shape.range_mm = std::max(typical_range_mm, point.range_x_mm);
   if (!form.told.empty() && form.starts.parameter)
@@ -81,9 +81,9 @@ std::vector<Typical> typical_effects(const Problem& problem) {
   std::vector<Typical> list;
   for (const Effect* effect : problem.effects) {
     if (effect->needs.cylinder && problem.point.base.tapers) continue;
-    const std::vector<Form>& forms = effect->search.forms;
+    const std::vector<SearchForm>& forms = effect->search.forms;
     list.push_back(typical_of(*effect, {.free = forms.front().free}, problem.point));
-    for (const Form& form : forms)
+    for (const SearchForm& form : forms)
       if (!form.told.empty()) list.push_back(typical_of(*effect, form, problem.point));
   }
   return list;

@@ -197,7 +197,7 @@ std::string rows_text(const std::vector<Rejected>& masked, const std::vector<dou
       rows.size() == 1 ? "" : "s", ranges_text(rows, most));
 }
 
-QualityCheck result(Check check, bool found, std::string text) {
+QualityCheck result(DataCheck check, bool found, std::string text) {
   return {std::string(entry_of(check).id), found, std::move(text)};
 }
 
@@ -208,7 +208,7 @@ QualityCheck saturation(const ProbeStream& stream, const DistinctValues& indicat
   const auto bottom = std::ranges::count(stream.reading_mm, low);
   const double repeats = static_cast<double>(stream.size()) / static_cast<double>(indication.count);
   const bool found = static_cast<double>(std::max(top, bottom)) > std::max(5.0, 12.0 * repeats);
-  return result(Check::saturation, found,
+  return result(DataCheck::saturation, found,
                 fmt::format("{} readings at the largest value, {} at the smallest", top, bottom));
 }
 
@@ -220,12 +220,12 @@ QualityCheck quantisation(double step, const Joint& joint, double sigma) {
     return is_rounding(h, joint.equations.point(), step);
   });
   if (taken) text += ": its error, of that period in X, is taken off";
-  return result(Check::quantisation, step > 0.5 * sigma, std::move(text));
+  return result(DataCheck::quantisation, step > 0.5 * sigma, std::move(text));
 }
 
 /// The stated σ against that which the data show; what it means for u.
 QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
-  if (!noise.stated_mm) return result(Check::stated_noise, false, "no noise is stated");
+  if (!noise.stated_mm) return result(DataCheck::stated_noise, false, "no noise is stated");
   const double stated = *noise.stated_mm, shown = noise.sigma_mm;
   const bool found = noise_disagrees(stated, shown, redundancy);
   std::string text = fmt::format("stated {:.3g} µm, from {} {:.3g} µm", stated / mm_per_um,
@@ -243,7 +243,7 @@ QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
                       "where that is wrong (a unit?)",
                       stated / shown);
   }
-  return result(Check::stated_noise, found, std::move(text));
+  return result(DataCheck::stated_noise, found, std::move(text));
 }
 
 }  // namespace
@@ -303,9 +303,9 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   const ProbeStream& stream = ideal.stream;
   std::vector<QualityCheck> list{saturation(stream, ideal.indication),
                                  quantisation(ideal.indication.step, joint, noise.sigma_mm)};
-  list.push_back(result(Check::outliers, !noise.masked.empty() && noise.interruptions.empty(),
+  list.push_back(result(DataCheck::outliers, !noise.masked.empty() && noise.interruptions.empty(),
                         rows_text(noise.masked, residual_mm)));
-  list.push_back(result(Check::interruption, !noise.interruptions.empty(),
+  list.push_back(result(DataCheck::interruption, !noise.interruptions.empty(),
                         sectors_text(stream, noise.masked) +
                             " excluded, which are far off on every revolution (a keyway, a hole)"));
   // Variance against tan² of the angle between probe and normal, in units of the mean variance.
@@ -323,11 +323,11 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   const double slope = spread > 0.0 ? (sum_tv - sum_t * sum_v / n) / spread / mean : 0.0;
   const double u = spread > 0.0 ? std::sqrt(2.0 / spread) : 0.0;  // Gaussian: var(v) = 2 mean²
   list.push_back(result(
-      Check::incidence_noise, u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
+      DataCheck::incidence_noise, u > 0.0 && slope > 4.0 * u && slope * sum_t / n > 0.05,
       fmt::format("variance grows by {:.3g} ± {:.2g} per tan² of the incidence", slope, 2.0 * u)));
   const auto& phi = noise.autoregression;
   list.push_back(result(
-      Check::correlated_noise, !phi.empty(),
+      DataCheck::correlated_noise, !phi.empty(),
       phi.empty() ? "neighbouring readings do not correlate"
                   : fmt::format("autoregression of order {}, φ1 = {:.3f}: readings are whitened",
                                 phi.size(), phi[0])));

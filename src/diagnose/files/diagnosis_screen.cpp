@@ -93,7 +93,7 @@ std::string unseen_screen(const Diagnosis& d) {
 
 std::string excluded_screen(const Diagnosis& d) {
   std::string text;
-  for (const Check check : {Check::outliers, Check::interruption})
+  for (const DataCheck check : {DataCheck::outliers, DataCheck::interruption})
     for (const QualityCheck& one : d.checks)
       if (one.found && one.effect == entry_of(check).id) text += line("check  ", one.text);
   return text;

@@ -16,12 +16,6 @@ constexpr PatternKind pattern_kinds[] = {{Pattern::Kind::fourier_legendre, "four
                                          {Pattern::Kind::line, "line"},
                                          {Pattern::Kind::bump, "bump"}};
 
-std::vector<LinearParameter> linear_of(const TermValue& term) {
-  if (term.effect) return linear_parameters(term.effect->term, term.shape);
-  if (term.columns() == 1) return {{"amplitude", "mm"}};
-  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
-}
-
 /// Edge units: an angle in degrees.
 double edge_of(const LinearParameter& parameter) {
   return parameter.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
@@ -29,7 +23,7 @@ double edge_of(const LinearParameter& parameter) {
 
 Json linear_array(const TermValue& term) {
   Json list = Json::array();
-  const auto parameters = linear_of(term);
+  const auto parameters = term.parameters();
   expects(parameters.size() == term.linear.size(), "a value for every linear parameter");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const bool angle = parameters[i].unit == "rad";
@@ -43,13 +37,13 @@ Json linear_array(const TermValue& term) {
 
 /// In the units of `linear`; empty where there is none.
 Json covariance_array(const TermValue& term) {
-  const auto parameters = linear_of(term);
+  const auto parameters = term.parameters();
   Json rows = Json::array();
   for (std::size_t i = 0; i < parameters.size() && !term.covariance.empty(); ++i) {
     Json row = Json::array();
     for (std::size_t j = 0; j < parameters.size(); ++j)
       row.push_back(number(edge_of(parameters[i]) * edge_of(parameters[j]) *
-                           term.covariance[i * parameters.size() + j]));
+                           term.covariance(i, j)));
     rows.push_back(row);
   }
   return rows;
@@ -122,7 +116,7 @@ Pattern pattern_from(const Json& json) {
 /// The value of every linear parameter, by name.
 std::vector<double> linear_from(const Json& list, const TermValue& term) {
   std::vector<double> values;
-  for (const LinearParameter& parameter : linear_of(term)) {
+  for (const LinearParameter& parameter : term.parameters()) {
     const auto entry = std::find_if(list.begin(), list.end(), [&](const Json& one) {
       return one.at("name") == parameter.name;
     });

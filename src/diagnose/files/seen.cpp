@@ -67,7 +67,7 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
   switch (harmonic.envelope) {
     case Harmonic::Envelope::constant:
       along =
-          harmonic.port == Port::z ? "along Z with the slope of the surface" : "the same along Z";
+          harmonic.port == TermPort::z ? "along Z with the slope of the surface" : "the same along Z";
       break;
     case Harmonic::Envelope::growing:
       along = growing ? "changing along Z" : "the same along Z";

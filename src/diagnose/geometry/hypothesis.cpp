@@ -108,7 +108,7 @@ void raise_degree(const Hypothesis& function, const LinearisationPoint& point, c
 void fill(const Hypothesis& hypothesis, const LinearisationPoint& point, const PointPart& part,
           std::span<double* const> columns) {
   if (!hypothesis.effect) return fill_pattern(hypothesis.pattern, point, part, columns);
-  const Term& term = hypothesis.effect->term;
+  const EffectTerm& term = hypothesis.effect->term;
   if (hypothesis.free.empty())
     return fill_columns(term, point.context(part), hypothesis.shape, columns);
   const std::size_t all = linear_count(term, hypothesis.shape);

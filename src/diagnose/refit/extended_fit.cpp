@@ -58,8 +58,7 @@ CleanedFit fit_cleaned(const ProbeStream& stream, const FitOptions& options,
   if (!options.influences.empty()) of_noise = fit(fitted, bare);
   const FitResult& noise_only = of_noise ? *of_noise : out.fit;
   out.noise_covariance = noise_only.covariance;
-  out.axis_noise_covariance.assign(noise_only.axis.covariance.begin(),
-                                   noise_only.axis.covariance.end());
+  out.axis_noise_covariance = noise_only.axis.covariance;
   out.fit.points = stream.size();
   out.fit.rejected = masked;
   return out;
@@ -105,12 +104,11 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
     return std::sqrt(std::max(0.0, variance(static_cast<Eigen::Index>(i))));
   };
   for (std::size_t p = 0; p < n; ++p) {
-    for (std::size_t q = 0; q < n; ++q) {
-      double& c = result.covariance[p * n + q];
-      c += joint_covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) -
-           cleaned.noise_covariance[p * n + q];
-    }
-    result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance[p * n + p]));
+    for (std::size_t q = 0; q < n; ++q)
+      result.covariance(p, q) +=
+          joint_covariance(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) -
+          cleaned.noise_covariance(p, q);
+    result.parameters[p].estimate.u = std::sqrt(std::max(0.0, result.covariance(p, p)));
     if (!result.budget.empty()) result.budget[0].u[p] = root(from_noise, p);
   }
   add_apex_interval(result.parameters, result.covariance, result.coverage_factor);
@@ -125,9 +123,9 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   const Eigen::MatrixXd axis = at * covariance * at.transpose();
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < 4; ++j)
-      result.axis.covariance[i * 4 + j] +=
+      result.axis.covariance.by_rows[i * 4 + j] +=
           axis(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -
-          cleaned.axis_noise_covariance[i * 4 + j];
+          cleaned.axis_noise_covariance.by_rows[i * 4 + j];
   }
   for (FitParameter& d : result.derived) {
     if (d.name.starts_with("offset") || d.name.ends_with("offset") ||

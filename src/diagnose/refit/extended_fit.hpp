@@ -13,7 +13,8 @@ namespace trueaxis::diagnose_detail {
 struct CleanedFit {
   FitResult fit;
   /// Its covariances without the influences (GUM type B) that the options state.
-  std::vector<double> noise_covariance, axis_noise_covariance;
+  Covariance noise_covariance;
+  AxisCovariance axis_noise_covariance;
 };
 
 /// @param effect_mm contribution of the terms, one a reading

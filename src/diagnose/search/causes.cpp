@@ -36,14 +36,14 @@ bool can_start(const ShapeValues& starts, const Problem& problem) {
 double tests_of(const SearchRange& range, bool alone) {
   if (range.tests > 0.0) return range.tests;
   std::size_t sum = 0;
-  for (const Form& form : range.forms)
+  for (const SearchForm& form : range.forms)
     sum += alone ? 1 : std::max<std::size_t>(1, form.starts.values.size());
   return static_cast<double>(sum);
 }
 
 /// Of M angles lobes of the order M/2 show one column in place of two: which of the linear
 /// parameters those are. Their other phase is nowhere.
-std::vector<std::size_t> visible(const Effect& effect, const Form& form, const TermShape& shape,
+std::vector<std::size_t> visible(const Effect& effect, const SearchForm& form, const TermShape& shape,
                                  const Problem& problem) {
   if (!problem.resolution.half_seen || shape.order != problem.resolution.half_seen)
     return form.free;
@@ -59,7 +59,7 @@ std::vector<std::size_t> visible(const Effect& effect, const Form& form, const T
 }
 
 /// @param alone one start of each form
-void add_form(const Effect& effect, const Form& form, TermShape shape, bool alone, double tests,
+void add_form(const Effect& effect, const SearchForm& form, TermShape shape, bool alone, double tests,
               const Problem& problem, std::vector<Hypothesis>& list) {
   if (problem.resolution.degrees < form.degrees || !can_start(form.starts, problem)) return;
   const std::vector<std::size_t> free = visible(effect, form, shape, problem);
@@ -88,7 +88,7 @@ void add_degrees(const Effect& effect, TermShape shape, const Problem& problem,
 }
 
 bool is_of_scale(const Effect* effect) {
-  return effect && effect->line && effect->line->in == Line::In::sensed;
+  return effect && effect->line && effect->line->in == SpectralLine::In::sensed;
 }
 
 /// The error of rounding has a known period: it is tried where a scan does not reach.
@@ -101,7 +101,7 @@ void add_rounding(const Effect& effect, TermShape shape, double step_mm,
 }
 
 /// A tilt with a radial motion of its own phase.
-bool is_any_motion(const Term& term, const Form& form) {
+bool is_any_motion(const EffectTerm& term, const SearchForm& form) {
   const auto* harmonic = std::get_if<Harmonic>(&term);
   return harmonic && harmonic->envelope == Harmonic::Envelope::lever && form.free.empty();
 }
@@ -160,7 +160,7 @@ std::vector<Hypothesis> preset_causes(const Problem& problem) {
     if (range.highest_degree > 0) {
       add_degrees(*effect, shape, problem, list);
     } else if (!has_free_order(*effect)) {
-      for (const Form& form : range.forms)
+      for (const SearchForm& form : range.forms)
         add_form(*effect, form, shape, false, tests_of(range, false), problem, list);
     } else {
       const double tests = tests_of(range, true) * orders_of(*effect, problem.resolution);
@@ -168,7 +168,7 @@ std::vector<Hypothesis> preset_causes(const Problem& problem) {
            ++n) {
         if (range.highest_order > 0 && n > range.highest_order) break;
         shape.order = n;
-        for (const Form& form : range.forms)
+        for (const SearchForm& form : range.forms)
           add_form(*effect, form, shape, true, tests, problem, list);
       }
     }
@@ -191,7 +191,7 @@ std::vector<Hypothesis> causes_of_order(const Problem& problem, int order) {
           (half && (!two || 2 * own != order)))
         continue;
       shape.order = own;
-      for (const Form& form : range.forms) {
+      for (const SearchForm& form : range.forms) {
         if (is_any_motion(effect->term, form)) continue;  // roundness that grows stands for it
         const bool second = two && form.free.empty();
         if (second ? 2 * own > problem.resolution.harmonics : half) continue;

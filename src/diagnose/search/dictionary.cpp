@@ -51,10 +51,10 @@ std::vector<std::pair<double, int>> functions_of(const Hypothesis& h) {
   const auto* around = std::get_if<Harmonic>(&h.effect->term);
   const auto* along = std::get_if<PolynomialInZ>(&h.effect->term);
   if (around && around->angle == Harmonic::Angle::part && has_free_order(*h.effect) &&
-      around->envelope == Harmonic::Envelope::growing && around->port == Port::normal) {
+      around->envelope == Harmonic::Envelope::growing && around->port == TermPort::normal) {
     out.emplace_back(h.shape.order, 0);
     if (h.free.empty()) out.emplace_back(h.shape.order, 1);
-  } else if (along && along->port == Port::normal && !along->plain && !along->dish) {
+  } else if (along && along->port == TermPort::normal && !along->plain && !along->dish) {
     for (std::size_t k = 0; k < h.columns(); ++k) {
       const std::size_t place = h.free.empty() ? k : h.free[k];
       out.emplace_back(0.0, along->first + static_cast<int>(place));

@@ -37,7 +37,7 @@ void erase_impossible(std::vector<Candidate>& list) {
 bool better(const Candidate& a, const Candidate& b) { return a.criterion < b.criterion; }
 
 bool is_spiral(const Hypothesis& h) {
-  return h.effect && h.effect->line && h.effect->line->in == Line::In::spiral;
+  return h.effect && h.effect->line && h.effect->line->in == SpectralLine::In::spiral;
 }
 
 /// Variants of a hypothesis in a round of refining.
@@ -55,7 +55,7 @@ std::vector<Hypothesis> variants(const Hypothesis& h, const Problem& problem, do
 
 /// Half a resolution cell of a line in its own variable.
 double half_cell(const Hypothesis& line, const LinearisationPoint& point) {
-  const bool spatial = line.effect && line.effect->line->in == Line::In::slide;
+  const bool spatial = line.effect && line.effect->line->in == SpectralLine::In::slide;
   return 0.4 / point.range(spatial ? &PointPart::s : variable_of(line)).length();
 }
 
@@ -163,7 +163,7 @@ void add_slow_spirals(const Problem& problem, std::vector<Hypothesis>& list) {
   const Extent slow = slow_spirals(problem);
   if (!(slow.length() > 0.0)) return;
   for (const Effect* effect : problem.effects) {
-    if (!effect->line || effect->line->in != Line::In::spiral) continue;
+    if (!effect->line || effect->line->in != SpectralLine::In::spiral) continue;
     const Hypothesis h = of_effect(*effect, typical_shape(*effect, problem.point));
     list.push_back(at_frequency(h, slow.low + 0.25 * slow.length()));
   }

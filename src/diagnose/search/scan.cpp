@@ -341,9 +341,9 @@ Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {
   Hypothesis h = hypothesis;
   if (!h.effect) {
     h.pattern.frequency = std::copysign(frequency, h.pattern.frequency);
-  } else if (h.effect->line->in == Line::In::angle) {
+  } else if (h.effect->line->in == SpectralLine::In::angle) {
     h.shape.order = frequency * two_pi;
-  } else if (h.effect->line->in == Line::In::time) {
+  } else if (h.effect->line->in == SpectralLine::In::time) {
     h.shape.frequency_hz = frequency;
   } else {
     h.shape.period_mm = 1.0 / frequency;
@@ -353,8 +353,8 @@ Hypothesis at_frequency(const Hypothesis& hypothesis, double frequency) {
 
 double frequency_of(const Hypothesis& h) {
   if (!h.effect) return std::abs(h.pattern.frequency);
-  if (h.effect->line->in == Line::In::angle) return h.shape.order / two_pi;
-  if (h.effect->line->in == Line::In::time) return h.shape.frequency_hz;
+  if (h.effect->line->in == SpectralLine::In::angle) return h.shape.order / two_pi;
+  if (h.effect->line->in == SpectralLine::In::time) return h.shape.frequency_hz;
   return 1.0 / h.shape.period_mm;
 }
 

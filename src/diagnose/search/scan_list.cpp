@@ -42,33 +42,33 @@ struct Sampled {
   bool another = true;     ///< no other scan has the same lines
 };
 
-Sampled sampled(Line::In in, const LinearisationPoint& point, const Resolution& resolution) {
+Sampled sampled(SpectralLine::In in, const LinearisationPoint& point, const Resolution& resolution) {
   Sampled out;
   if (resolution.sections) return out;
   const bool several = !resolution.one_variable;
-  if (in == Line::In::angle) {
+  if (in == SpectralLine::In::angle) {
     const double step = sampling(point, &PointPart::c) / two_pi;
     return {resolution.turns > fewest_turns && step > 0.0, resolution.turns, 0.5 / step};
   }
-  if (in == Line::In::time) {
+  if (in == SpectralLine::In::time) {
     const double step = point.has_time ? sampling(point, &PointPart::time) : 0.0;
     return {step > 0.0, range_of(point.time).length(), 0.5 / step, several};
   }
-  if (in == Line::In::sensed) {
+  if (in == SpectralLine::In::sensed) {
     const double swing = point.swing_mm;
     return {swing > least_swing_mm, swing, static_cast<double>(point.size()) / (3.0 * swing)};
   }
   out.extent = point.has_position ? point.range(&PointPart::s).length() : 0.0;
   out.seen = out.extent > shortest_mm;
   // A spiral that is finer than the sampling is seen as another, and as none else.
-  if (in != Line::In::spiral) out.highest = 0.5 / sampling(point, &PointPart::s);
-  out.another = in == Line::In::slide ? point.shifted : several;
+  if (in != SpectralLine::In::spiral) out.highest = 0.5 / sampling(point, &PointPart::s);
+  out.another = in == SpectralLine::In::slide ? point.shifted : several;
   return out;
 }
 
 Scan scan_of(const Effect& effect, const Sampled& of, const LinearisationPoint& point) {
-  const Line& line = *effect.line;
-  const double unit = line.in == Line::In::angle ? two_pi : 1.0;
+  const SpectralLine& line = *effect.line;
+  const double unit = line.in == SpectralLine::In::angle ? two_pi : 1.0;
   Scan scan;
   scan.x = column_of(line.in);
   scan.low = std::max(line.low, line.least_cycles / of.extent) / unit;
@@ -78,7 +78,7 @@ Scan scan_of(const Effect& effect, const Sampled& of, const LinearisationPoint& 
   };
   if (const auto* along = std::get_if<PeriodicInZ>(&effect.term)) {
     scan.turns = along->turns;
-    scan.form = along->port != Port::x;  // ∂X/∂Z too is of the other sign
+    scan.form = along->port != TermPort::x;  // ∂X/∂Z too is of the other sign
   }
   scan.counts = of.another;
   return scan;
@@ -123,18 +123,18 @@ Hypothesis pattern_line(double order, bool in_time, double frequency) {
   return h;
 }
 
-PointColumn column_of(Line::In in) {
+PointColumn column_of(SpectralLine::In in) {
   switch (in) {
-    case Line::In::angle:
+    case SpectralLine::In::angle:
       return &PointPart::c;
-    case Line::In::time:
+    case SpectralLine::In::time:
       return &PointPart::time;
-    case Line::In::slide:
+    case SpectralLine::In::slide:
       return &PointPart::z;
-    case Line::In::sensed:
+    case SpectralLine::In::sensed:
       return &PointPart::sensed;
-    case Line::In::length:
-    case Line::In::spiral:
+    case SpectralLine::In::length:
+    case SpectralLine::In::spiral:
       break;
   }
   return &PointPart::s;
@@ -153,11 +153,11 @@ Extent slow_spirals(const Problem& problem) {
 }
 
 std::vector<Scan> scans_of(const Problem& problem) {
-  using enum Line::In;
+  using enum SpectralLine::In;
   const LinearisationPoint& point = problem.whole ? problem.whole->point : problem.point;
   const Resolution& resolution = problem.resolution;
   std::vector<Scan> list;
-  for (const Line::In in : {angle, time, length, slide, spiral, sensed}) {
+  for (const SpectralLine::In in : {angle, time, length, slide, spiral, sensed}) {
     const Sampled of = sampled(in, point, resolution);
     for (const Effect* effect : problem.effects) {
       if (!of.seen || !effect->line || effect->line->in != in) continue;

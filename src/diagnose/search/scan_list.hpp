@@ -34,6 +34,6 @@ std::vector<Scan> scans_of(const Problem& problem);
 Hypothesis pattern_line(double order, bool in_time, double frequency);
 
 /// What a line is periodic in.
-PointColumn column_of(Line::In in);
+PointColumn column_of(SpectralLine::In in);
 
 }  // namespace trueaxis::diagnose_detail

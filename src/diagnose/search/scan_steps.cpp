@@ -189,7 +189,7 @@ std::vector<Hypothesis> dated(const Problem& problem, const std::vector<double>&
   const Eigen::VectorXd left = rows.white.col(0) - taken * (taken.transpose() * rows.white.col(0));
   const std::vector<Date> dates = dates_of(problem, phi, rows, taken, left, columns);
   std::vector<Hypothesis> out;
-  for (const Form& form : effect.search.forms) {
+  for (const SearchForm& form : effect.search.forms) {
     if (problem.resolution.degrees < form.degrees) continue;
     Hypothesis h = of_effect(effect, shape, form.free, effect.search.tests);
     std::vector<Index> free;

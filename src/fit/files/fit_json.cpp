@@ -43,14 +43,14 @@ Json estimates(const std::vector<FitParameter>& parameters) {
 /// Covariance of the parameters; null where one of the two was not determined.
 Json covariance_object(const FitResult& result) {
   const std::size_t count = result.parameters.size();
-  std::vector<double> values = result.covariance;
+  Covariance values = result.covariance;
   Json order = Json::array();
   for (std::size_t i = 0; i < count; ++i) {
     order.push_back(result.parameters[i].name);
     if (!withdrawn(result.parameters[i]) || values.empty()) continue;
-    for (std::size_t j = 0; j < count; ++j) values[i * count + j] = values[j * count + i] = none;
+    for (std::size_t j = 0; j < count; ++j) values(i, j) = values(j, i) = none;
   }
-  return {{"order", order}, {"matrix", matrix(values, std::max<std::size_t>(1, count))}};
+  return {{"order", order}, {"matrix", matrix({values.data(), values.size() * values.size()}, std::max<std::size_t>(1, count))}};
 }
 
 Json budget(const FitResult& result) {
@@ -89,7 +89,7 @@ AxisEstimate determined_axis(const FitResult& result) {
   if (withdrawn(result, "l") || withdrawn(result, "m") || withdrawn(result, "x0") ||
       withdrawn(result, "y0")) {
     estimate.axis = {none, none, none, none, estimate.axis.z_ref_mm};
-    estimate.covariance.fill(none);
+    estimate.covariance.by_rows.fill(none);
   }
   return estimate;
 }
@@ -111,7 +111,7 @@ Json axis_object(const AxisEstimate& estimate) {
       {"slope_y", with_unit(axis.slope_y, "1")},
       {"z_ref", with_unit(axis.z_ref_mm, "mm")},
       {"covariance",
-       {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance, 4)}}}};
+       {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance.by_rows, 4)}}}};
 }
 
 /// The file, what was taken of it that nothing says, and what of it was not used.
@@ -209,7 +209,7 @@ FitResult fit_from_object(const Json& json) {
                    value(axis, "slope_y"), value(axis, "z_ref")};
   const Json& covariance = axis.at("covariance").at("matrix");
   for (std::size_t i = 0; i < 16; ++i)
-    fit.axis.covariance[i] = number_from(covariance.at(i / 4).at(i % 4));
+    fit.axis.covariance.by_rows[i] = number_from(covariance.at(i / 4).at(i % 4));
   fit.shape = {fit.axis.axis, value(json.at("shape"), "radius"),
                value(json.at("shape"), "tan_half_angle")};
   const auto read = [](const Json& parameters, std::vector<FitParameter>& to) {
@@ -248,11 +248,11 @@ FitResult fit_from_json(std::string_view text, const std::string& path) {
     if (status != to_string(FitStatus::converged))
       throw InputError(path, "its fit is not converged (" + status + "): no correction from it");
     FitResult fit = fit_from_object(json);
-    for (const double covariance : fit.axis.covariance) {
+    for (const double covariance : fit.axis.covariance.by_rows) {
       if (!std::isfinite(covariance)) throw unreadable("its axis has no covariance");
     }
-    for (const std::size_t i : {0, 5, 10, 15}) {
-      if (fit.axis.covariance[i] < 0.0)
+    for (const AxisRow i : {AxisRow::x, AxisRow::y, AxisRow::slope_x, AxisRow::slope_y}) {
+      if (fit.axis.covariance(i, i) < 0.0)
         throw InputError(path, "has a negative variance in its axis covariance");
     }
     return fit;

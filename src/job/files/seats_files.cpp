@@ -23,10 +23,8 @@ double towards_deg(double x_mm, double y_mm) {
 
 /// Of a line's slopes: the angle to the spindle axis and its u in the worse direction, degrees.
 Estimate tilt_of(const AxisEstimate& axis) {
-  const auto& c = axis.covariance;
   return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)) / rad_per_deg,
-          std::sqrt(0.5 * (c[10] + c[15]) + std::hypot(0.5 * (c[10] - c[15]), c[11])) / rad_per_deg,
-          "deg", ""};
+          axis.u_slope() / rad_per_deg, "deg", ""};
 }
 
 Json offset_object(const AxisOffset& at) {

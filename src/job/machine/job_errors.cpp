@@ -13,22 +13,22 @@ namespace {
 
 /// Of the numbers of a finding, as amounts of errors of size 1.
 ErrorCovariance covariance_of(const MachineFinding& found) {
-  ErrorCovariance out;
+  std::vector<UncertainAmount> amounts;
   std::vector<std::size_t> at;
   for (std::size_t k = 0; k < found.errors.size(); ++k) {
     const double value = found.parameters[k].estimate.value;
     if (value == 0.0) continue;
     ErrorTerm unit = found.errors[k];
     unit.function = calibrate_detail::scaled(unit.function, 1.0 / value);
-    out.amounts.push_back(calibrate_detail::amount_of(unit));
+    amounts.push_back(calibrate_detail::amount_of(unit));
     at.push_back(k);
   }
-  const std::size_t n = found.parameters.size();
-  for (const std::size_t i : at)
-    for (const std::size_t j : at)
-      out.matrix.push_back(i * n + j < found.covariance.size() ? found.covariance[i * n + j]
-                           : i == j ? std::pow(found.parameters[i].estimate.u, 2)
-                                    : 0.0);
+  ErrorCovariance out(std::move(amounts));
+  for (std::size_t i = 0; i < at.size(); ++i)
+    for (std::size_t j = 0; j < at.size(); ++j)
+      out(i, j) = !found.covariance.empty() ? found.covariance(at[i], at[j])
+                  : i == j ? std::pow(found.parameters[at[i]].estimate.u, 2)
+                           : 0.0;
   return out;
 }
 
@@ -49,7 +49,7 @@ ErrorModel job_errors(const MachineJob& job, const MachineDiagnosis& diagnosis) 
     ErrorCovariance counted = std::move(errors.covariance);
     errors = diagnosis.errors;
     for (ErrorTerm& term : errors.terms)
-      if (std::ranges::any_of(counted.amounts, [&](const UncertainAmount& amount) {
+      if (std::ranges::any_of(counted.names(), [&](const UncertainAmount& amount) {
             return amount.name == term.name && !term.name.component;
           }))
         term.u = 0.0;

@@ -125,7 +125,7 @@ MatrixXd displacements(const Machine& machine, const MachineDiagnosis& diagnosis
   return out - datum * (datum.transpose() * out);
 }
 
-LargestInProgram largest_U(const MatrixXd& tips, const std::vector<double>& covariance,
+LargestInProgram largest_U(const MatrixXd& tips, const Covariance& covariance,
                            const std::vector<Block>& blocks, double coverage_factor) {
   LargestInProgram out;
   if (covariance.empty()) return out;

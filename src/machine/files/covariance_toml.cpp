@@ -11,6 +11,7 @@
 #include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
 #include "machine/uncertainty.hpp"
+#include "math/covariance.hpp"
 
 namespace trueaxis {
 namespace {
@@ -117,24 +118,21 @@ std::string trouble_of(const MatrixXd& matrix, const std::vector<UncertainAmount
 
 /// u that no error of a machine has (error_sizes.hpp).
 void check_sizes(TomlTable& table, const ErrorCovariance& covariance) {
-  const std::size_t n = covariance.amounts.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::string trouble =
-        size_trouble(covariance.amounts[i].name, std::sqrt(covariance.matrix[i * (n + 1)]));
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
+    const std::string trouble = size_trouble(covariance.names()[i].name, covariance.u(i));
     if (!trouble.empty()) table.complain("matrix", "as u " + trouble);
   }
 }
 
 /// u of entries of one name, squares added, against that of the matrix.
 void check_u(TomlTable& table, const ErrorCovariance& covariance, const ErrorModel& errors) {
-  const std::size_t n = covariance.amounts.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const UncertainAmount& amount = covariance.amounts[i];
+  for (std::size_t i = 0; i < covariance.size(); ++i) {
+    const UncertainAmount& amount = covariance.names()[i];
     if (amount.shape != UncertainAmount::Shape::constant) continue;
     double square = 0.0;
     for (const ErrorTerm& term : errors.terms)
       if (term.name == amount.name) square += term.u * term.u;
-    const double u = std::sqrt(covariance.matrix[i * (n + 1)]), said = std::sqrt(square);
+    const double u = covariance.u(i), said = std::sqrt(square);
     if (square == 0.0 || std::abs(said - u) <= same_u * u) continue;
     const double factor = amount.name.angular() ? 1e6 : 1e3;
     table.complain("matrix", fmt::format("has u = {:.6g} {} of {}, whose entries say {:.6g}: take "
@@ -155,9 +153,8 @@ void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
   const auto angle = table->required_choice<double>(
       "angle", {unit_choice("urad"), unit_choice("mrad"), unit_choice("rad"), unit_choice("deg"),
                 unit_choice("arcsec")});
-  ErrorCovariance covariance;
-  covariance.amounts = read_amounts(*table, machine);
-  const auto n = static_cast<Index>(covariance.amounts.size());
+  std::vector<UncertainAmount> amounts = read_amounts(*table, machine);
+  const auto n = static_cast<Index>(amounts.size());
   auto matrix = square_of(table->numbers("matrix"), n);
   if (n == 0 || !matrix) {
     if (n == 0) table->complain("amounts", "is needed: tables such as {name = \"X0C\"}");
@@ -167,32 +164,30 @@ void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
                                             n, n * n, n * (n + 1) / 2));
     return;
   }
-  if (const std::string trouble = trouble_of(*matrix, covariance.amounts); !trouble.empty()) {
+  if (const std::string trouble = trouble_of(*matrix, amounts); !trouble.empty()) {
     table->complain("matrix", trouble);
     return;
   }
   VectorXd unit(n);
   for (Index i = 0; i < n; ++i)
-    unit[i] = covariance.amounts[static_cast<std::size_t>(i)].name.angular() ? angle : length;
-  const MatrixXd inside = unit.asDiagonal() * *matrix * unit.asDiagonal();
-  covariance.matrix.assign(inside.data(), inside.data() + inside.size());
+    unit[i] = amounts[static_cast<std::size_t>(i)].name.angular() ? angle : length;
+  ErrorCovariance covariance =
+      with_names(std::move(amounts), unit.asDiagonal() * *matrix * unit.asDiagonal());
   check_u(*table, covariance, errors);
   if (!large_errors) check_sizes(*table, covariance);
   for (ErrorTerm& term : errors.terms)
-    if (std::ranges::find(covariance.amounts, UncertainAmount{.name = term.name}) !=
-        covariance.amounts.end())
-      term.u = 0.0;
+    if (covariance.find(UncertainAmount{.name = term.name})) term.u = 0.0;
   errors.covariance = std::move(covariance);
 }
 
 std::string covariance_toml(const ErrorCovariance& covariance) {
-  const std::size_t n = covariance.amounts.size();
+  const std::size_t n = covariance.size();
   if (n == 0) return "";
   std::string text =
       "\n[covariance] # of amounts that multiply 1, a Legendre polynomial, a cosine or a sine; by "
       "rows up to the diagonal\nlength = \"um\"\nangle = \"urad\"\namounts = [\n";
   std::vector<double> factor;
-  for (const UncertainAmount& amount : covariance.amounts) {
+  for (const UncertainAmount& amount : covariance.names()) {
     const bool rotary = amount.name.body >= 3 && amount.name.body < axis_count;
     const double per = rotary ? 1.0 / rad_per_deg : 1.0;
     const char* const unit = rotary ? "deg" : "mm";
@@ -211,7 +206,7 @@ std::string covariance_toml(const ErrorCovariance& covariance) {
   for (std::size_t i = 0; i < n; ++i) {
     text += " ";
     for (std::size_t j = 0; j <= i; ++j)
-      text += fmt::format(" {:.9g},", factor[i] * factor[j] * covariance.matrix[i * n + j]);
+      text += fmt::format(" {:.9g},", factor[i] * factor[j] * covariance(i, j));
     text += '\n';
   }
   return text + "]\n";

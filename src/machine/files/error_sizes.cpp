@@ -88,9 +88,9 @@ bool has_large_errors(const ErrorModel& errors, const Machine& machine) {
     const double size = size_of(one.function, range_of(one.function, one.name, machine));
     return std::max(size, one.u) > largest_size(one.name);
   });
-  const auto& [amounts, matrix] = errors.covariance;
-  for (std::size_t i = 0; i < amounts.size(); ++i)
-    if (std::sqrt(matrix[i * (amounts.size() + 1)]) > largest_size(amounts[i].name)) return true;
+  const ErrorCovariance& of = errors.covariance;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (of.u(i) > largest_size(of.names()[i].name)) return true;
   return term;
 }
 

@@ -65,13 +65,11 @@ std::string lines(const TableError& error, const Units& units) {
 /// u of an entry: its own, or in the last entry of its name that of the covariance.
 double u_of(const ErrorModel& errors, std::size_t entry) {
   const ErrorName& name = errors.terms[entry].name;
-  const auto& amounts = errors.covariance.amounts;
-  const auto found = std::ranges::find(amounts, UncertainAmount{.name = name});
-  if (found == amounts.end()) return errors.terms[entry].u;
+  const auto at = errors.covariance.find(UncertainAmount{.name = name});
+  if (!at) return errors.terms[entry].u;
   for (std::size_t later = entry + 1; later < errors.terms.size(); ++later)
     if (errors.terms[later].name == name) return 0.0;
-  const auto at = static_cast<std::size_t>(found - amounts.begin());
-  return std::sqrt(errors.covariance.matrix[at * (amounts.size() + 1)]);
+  return errors.covariance.u(*at);
 }
 
 }  // namespace

@@ -146,13 +146,12 @@ Estimated estimated(const FitResult& fit) {
   const auto& c = fit.axis.covariance;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const double from = z - axis.z_ref_mm;
-    const auto u = [&](std::size_t i) {  // of x (0) or y (1); its slope is i + 2
-      const std::size_t s = i + 2;
-      return std::sqrt(c[4 * i + i] + 2.0 * from * c[4 * i + s] + from * from * c[4 * s + s]);
+    const auto u = [&](AxisRow i, AxisRow slope) {
+      return std::sqrt(c(i, i) + 2.0 * from * c(i, slope) + from * from * c(slope, slope));
     };
     const auto [x, y] = axis.at(z);
-    put(x, u(0));
-    put(y, u(1));
+    put(x, u(AxisRow::x, AxisRow::slope_x));
+    put(y, u(AxisRow::y, AxisRow::slope_y));
   }
   for (const FitParameter& derived : fit.derived) {
     if (derived.name == "radius_mid") put(derived.estimate.value, derived.estimate.u);

@@ -28,7 +28,7 @@ bool is_independent(const Noise& noise) { return noise.rho == 0.0 && noise.autor
 bool is_in_proportion(const Scenario& scenario) {
   return scenario.noise.uniform_mm == 0.0 && scenario.noise.quantisation_mm == 0.0 &&
          std::ranges::none_of(scenario.effects, [](const virtual_lathe::Effect& effect) {
-           return effect.id == entry_of(Check::quantisation).id;
+           return effect.id == entry_of(DataCheck::quantisation).id;
          });
 }
 
