@@ -19,7 +19,7 @@
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "job/files/job_results.hpp"
-#include "job/one_surface.hpp"
+#include "job/files/stream_job.hpp"
 #include "report/stream_report.hpp"
 
 namespace trueaxis::cli {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/ends_of_stream.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <iterator>
 #include <vector>
 
-#include "job/references.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
 
@@ -17,7 +14,12 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
-constexpr double mostly = 0.5, gathered = 3.0, hardly = 1e-4;
+constexpr Threshold mostly{"left_out", 0.5, "of a run", "most of it"};
+constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone lie anywhere"};
+constexpr Threshold hardly{"by_chance", 1e-4, "of streams", "that a short run is all left out"};
+constexpr double limits[] = {3.0, 4.0};  // σ
+constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
+                                  "of both limits together, Eq. 275"};
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
 /// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
@@ -33,15 +35,12 @@ std::size_t left_out_end(std::size_t count, LeftOut left_out) {
     const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
     const double elsewhere = (total - here + 1.0) / rest;
     const bool is_run = i + 1 >= least_end
-                            ? here >= mostly * run && here / run >= gathered * elsewhere
-                            : here == run && std::pow(elsewhere, run) < hardly;
+                            ? here >= mostly.value * run && here / run >= gathered.value * elsewhere
+                            : here == run && std::pow(elsewhere, run) < hardly.value;
     if (is_run) longest = i + 1;
   }
   return longest;
 }
-
-constexpr double limits[] = {3.0, 4.0};  // σ
-constexpr double off_by_chance = 1e-3;   // of streams, of both limits together
 
 /// How many of the last eight lie beyond a limit, if that many do in no other eight and by chance
 /// hardly ever do (Eq. 275); 0: no more than elsewhere. `far`: of each reading, in time.
@@ -58,64 +57,80 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   const double share = (static_cast<double>(elsewhere) + 1.0) / (static_cast<double>(rest) + 1.0);
   const boost::math::binomial_distribution<double> law(static_cast<double>(least_end), share);
   const double p = cdf(complement(law, static_cast<double>(here) - 1.0));
-  return p * static_cast<double>(std::size(limits)) < off_by_chance ? here : 0;
+  return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
+
+/// Of a reference's readings, those that a fit or the diagnosis left out.
+std::vector<bool> left_out_of(const IdentifiedJob& job, std::size_t i) {
+  const std::size_t count = job.streams.at(i).size();
+  std::vector<bool> left_out(count, false);
+  const auto mark = [&](const std::vector<Rejected>& rows) {
+    for (const Rejected& r : rows)
+      if (r.row >= 1 && r.row <= count) left_out[r.row - 1] = true;
+  };
+  mark(job.fits[i].rejected);
+  if (job.diagnoses[i]) mark(job.diagnoses[i]->noise.masked);
+  return left_out;
+}
+
+std::optional<Reason> left_out_of_reference(const IdentifiedJob& job, std::size_t i) {
+  const std::vector<bool> left_out = left_out_of(job, i);
+  if (left_out.empty()) return {};
+  for (const Pass& pass : find_passes(job.streams[i])) {
+    const std::size_t size = pass.end - pass.begin;
+    const std::size_t last =
+        left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
+    const std::size_t first =
+        left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
+    if (first + last > 0)
+      return Reason{ReasonCode::left_out_at_an_end,
+                    {i},
+                    {{"count", static_cast<double>(last > 0 ? last : first)}},
+                    {{"end", last > 0 ? "last" : "first"}}};
+  }
+  return {};
+}
+
+std::optional<Reason> far_off_in_reference(const IdentifiedJob& job, std::size_t i) {
+  if (!job.diagnoses[i]) return {};
+  const std::vector<double>& left_mm = job.diagnoses[i]->residual_after_mm;
+  if (left_mm.size() < 4 * least_end) return {};
+  std::vector<double> there;
+  std::ranges::copy_if(left_mm, std::back_inserter(there),
+                       [](double r) { return std::isfinite(r); });
+  const double sigma_mm = mad_sigma(there);
+  for (const double limit : limits) {
+    std::vector<bool> far(left_mm.size());
+    for (std::size_t k = 0; k < left_mm.size(); ++k)
+      far[k] = !std::isfinite(left_mm[k]) || std::abs(left_mm[k]) > limit * sigma_mm;
+    if (const std::size_t count = far_in_last(far); count > 0)
+      return Reason{ReasonCode::far_off_at_the_end,
+                    {i},
+                    {{"count", static_cast<double>(count)},
+                     {"last", static_cast<double>(least_end)},
+                     {"limit", limit}}};
+  }
+  return {};
+}
+
+Reasons find_left_out(const CheckInput& in) {
+  return first_of_references(in.job,
+                             [&](std::size_t i) { return left_out_of_reference(in.job, i); });
+}
+
+Reasons find_far_off(const CheckInput& in) {
+  return first_of_references(in.job,
+                             [&](std::size_t i) { return far_off_in_reference(in.job, i); });
+}
+
+constexpr Threshold of_left_out[] = {mostly, gathered, hardly};
+constexpr Threshold of_far_off[] = {off_by_chance};
 
 }  // namespace
 
-std::string left_out_at_an_end(const JobResult& result) {
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    const std::size_t count = result.streams.at(i).size();
-    std::vector<bool> left_out(count, false);
-    const auto mark = [&](const std::vector<Rejected>& rows) {
-      for (const Rejected& r : rows)
-        if (r.row >= 1 && r.row <= count) left_out[r.row - 1] = true;
-    };
-    mark(result.fits[i].rejected);
-    if (result.diagnoses[i]) mark(result.diagnoses[i]->noise.masked);
-    const std::vector<Pass> passes =
-        count > 0 ? find_passes(result.streams[i]) : std::vector<Pass>{};
-    for (const Pass& pass : passes) {
-      const std::size_t size = pass.end - pass.begin;
-      const std::size_t last =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
-      const std::size_t first =
-          left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
-      if (first + last == 0) continue;
-      return fmt::format(
-          "{}most of the {} {} readings of a pass were left out, because they do not lie where the "
-          "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
-          "and probe again, or take that end out of the stream if the surface ends there",
-          of_reference(result, i), last > 0 ? "last" : "first", last > 0 ? last : first);
-    }
-  }
-  return "";
-}
-
-std::string far_off_at_the_end(const JobResult& result) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    const std::vector<double>& left_mm = result.diagnoses[i]->residual_after_mm;
-    if (left_mm.size() < 4 * least_end) continue;
-    std::vector<double> there;
-    std::ranges::copy_if(left_mm, std::back_inserter(there),
-                         [](double r) { return std::isfinite(r); });
-    const double sigma_mm = mad_sigma(there);
-    for (const double limit : limits) {
-      std::vector<bool> far(left_mm.size());
-      for (std::size_t k = 0; k < left_mm.size(); ++k)
-        far[k] = !std::isfinite(left_mm[k]) || std::abs(left_mm[k]) > limit * sigma_mm;
-      const std::size_t count = far_in_last(far);
-      if (count == 0) continue;
-      return fmt::format(
-          "{}{} of the last {} readings lie more than {:.0f} σ off, as no other {} do: the part "
-          "may "
-          "have slipped there, and stands elsewhere now. Clamp it again and probe again, or take "
-          "that end out of the stream if the surface ends there",
-          of_reference(result, i), count, least_end, limit, least_end);
-    }
-  }
-  return "";
-}
+constinit const JobCheck left_out_at_an_end{"left_out_at_an_end", CheckedAt::references,
+                                            Weight::leaves_open, of_left_out, find_left_out};
+constinit const JobCheck far_off_at_the_end{"far_off_at_the_end", CheckedAt::references,
+                                            Weight::leaves_open, of_far_off, find_far_off};
 
 }  // namespace trueaxis

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
-#include "trueaxis/job.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
 // A slip near an end of a stream leaves too few readings beside it to be a finding, and where it is
 // the last end the part stands elsewhere now.
 
-/// Of the first reference where outliers gather at an end of a pass. Empty: there is none.
-std::string left_out_at_an_end(const JobResult& result);
+/// Of the first reference where outliers gather at an end of a pass.
+extern const JobCheck left_out_at_an_end;
 
 /// Of the first reference where several of the last eight readings lie farther off than in any
-/// other eight, and than their share elsewhere makes once in a thousand streams. Empty: there is
-/// none.
-std::string far_off_at_the_end(const JobResult& result);
+/// other eight, and than their share elsewhere makes once in a thousand streams.
+extern const JobCheck far_off_at_the_end;
 
 }  // namespace trueaxis

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/evidence.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
-#include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -24,55 +22,51 @@ double length_mm(const ProbeStream& stream) {
 }
 
 /// A job takes no sphere, and a cylinder through one has an axis that leans anywhere.
-void refuse_a_sphere(const ProbeStream& stream, const FitResult& cone) {
+std::optional<Reason> a_sphere(const ProbeStream& stream, const FitResult& cone) {
   constexpr double much_better = 0.1;  // of the residuals
-  if (stream.indication == Indication::relative || list_set_ups(stream).size() > 1) return;
+  if (stream.indication == Indication::relative || list_set_ups(stream).size() > 1) return {};
   FitOptions options;
   options.surface = SurfaceKind::cylinder;
   const double rms_mm =
       cone.status == FitStatus::converged ? cone.rms_mm : fit(stream, options).rms_mm;
   options.surface = SurfaceKind::sphere;
   const FitResult sphere = fit(stream, options);
-  if (sphere.status == FitStatus::converged && sphere.rms_mm < much_better * rms_mm)
-    throw InputError(stream.source,
-                     fmt::format("the readings are those of a sphere of radius {:.6g} mm, not of a "
-                                 "cone or cylinder: `trueaxis fit {} --surface sphere` finds it, "
-                                 "and a job takes none; say --surface to have it otherwise",
-                                 sphere.parameter("radius").value, stream.source));
+  if (sphere.status != FitStatus::converged || !(sphere.rms_mm < much_better * rms_mm)) return {};
+  return Reason{ReasonCode::is_a_sphere,
+                {},
+                {{"radius", sphere.parameter("radius").value, "mm"}},
+                {{"stream", stream.source}}};
 }
+
+Reasons if_a_cone() { return {{ReasonCode::set_surface, {}, {}, {{"surface", "cone"}}}}; }
 
 }  // namespace
 
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
-  if (stream.kind == StreamKind::face)
-    return {SurfaceKind::plane, "taken for a plane: Z_M is read at C and X"};
-  if (!(length_mm(stream) > 0.0))
-    return {SurfaceKind::section, "taken for one section: there is no change of Z"};
+  if (stream.kind == StreamKind::face) return {SurfaceKind::plane, {ReasonCode::reads_a_face}};
+  if (!(length_mm(stream) > 0.0)) return {SurfaceKind::section, {ReasonCode::no_change_of_z}};
   FitOptions options;
   options.surface = SurfaceKind::cone;
   const FitResult cone = fit(stream, options);
-  refuse_a_sphere(stream, cone);
-  if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, "taken for a cone"};
+  if (auto sphere = a_sphere(stream, cone)) return {SurfaceKind::sphere, std::move(*sphere)};
+  if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, {ReasonCode::cone_at_last}};
   if (cone.status != FitStatus::converged)
-    return {SurfaceKind::cylinder,
-            "taken for a cylinder: no taper is seen; say --surface cone if it is one"};
+    return {SurfaceKind::cylinder, {ReasonCode::no_taper_seen, {}, {}, {}, {}, if_a_cone()}};
   const Estimate& half_angle = cone.parameter("half_angle");
   const double taper = std::abs(cone.shape.tan_half_angle);
   const bool tapers = taper > least_taper && half_angle.determined() &&
                       std::abs(half_angle.value) > sure * half_angle.u;
-  const double change_um = taper * length_mm(stream) / mm_per_um;
-  const std::string surface = tapers ? "cone" : "cylinder";
-  std::string why =
-      fmt::format("taken for a {}: the radius changes by {:.4g} µm over {:.4g} mm of Z", surface,
-                  change_um, length_mm(stream));
-  if (half_angle.determined() && std::isfinite(half_angle.u)) {
-    const double U_deg = half_angle.expanded(cone.coverage_factor);
-    const int decimals = decimals_of(U_deg, 0);
-    why += fmt::format(", a half angle of {:.{}f}° ± {:.{}f}°", std::abs(half_angle.value),
-                       decimals, U_deg, decimals);
-  }
-  if (!tapers) why += "; say --surface cone if it is one";
-  return {tapers ? SurfaceKind::cone : SurfaceKind::cylinder, why};
+  const SurfaceKind surface = tapers ? SurfaceKind::cone : SurfaceKind::cylinder;
+  const double length = length_mm(stream);
+  Reason why{ReasonCode::taper_seen,
+             {},
+             {{"change", taper * length, "mm"}, {"length", length, "mm"}},
+             {{"surface", to_string(surface)}}};
+  if (half_angle.determined() && std::isfinite(half_angle.u))
+    why.numbers.push_back({"half_angle", std::abs(half_angle.value), "deg",
+                           half_angle.expanded(cone.coverage_factor)});
+  if (!tapers) why.remedies = if_a_cone();
+  return {surface, std::move(why)};
 }
 
 }  // namespace trueaxis

@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "job/evidence.hpp"
+#include "format/reason_words.hpp"
+#include "job/files/stream_job.hpp"
 #include "measure/seats.hpp"
 
 namespace trueaxis {
@@ -23,7 +24,7 @@ std::string reference_text(const std::string& file, const std::string& name,
       "name = \"{}\"\n"
       "stream = '{}'\n"
       "surface = \"{}\"      # {}\n",
-      name.empty() ? surface : name, file, surface, evidence.why);
+      name.empty() ? surface : name, file, surface, words_of(evidence.why));
   if (seat)
     text += fmt::format("z_from_mm = {:.10g}\nz_to_mm = {:.10g}\n", seat->z.from_mm, seat->z.to_mm);
   if (stream.kind == StreamKind::lateral) text += "feature = \"shaft\"        # or \"bore\"\n";
@@ -38,7 +39,7 @@ std::string job_stub(const std::string& path, const ProbeStream& stream) {
   std::string references, title;
   bool section = false;
   for (std::size_t i = 0; i < seats.seats.size(); ++i) {
-    const SurfaceEvidence evidence = surface_by_evidence(within(stream, seats.seats[i].z));
+    const SurfaceEvidence evidence = job_surface_of(within(stream, seats.seats[i].z));
     if (i > 0) references += '\n', title += ", ";
     references += reference_text(file, std::string(1, static_cast<char>('A' + i)), stream, evidence,
                                  &seats.seats[i]);
@@ -46,7 +47,7 @@ std::string job_stub(const std::string& path, const ProbeStream& stream) {
     section = section || evidence.surface == SurfaceKind::section;
   }
   if (seats.seats.empty()) {
-    const SurfaceEvidence evidence = surface_by_evidence(stream);
+    const SurfaceEvidence evidence = job_surface_of(stream);
     references = reference_text(file, "", stream, evidence, nullptr);
     title = to_string(evidence.surface);
     section = evidence.surface == SurfaceKind::section;
