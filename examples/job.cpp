@@ -25,7 +25,9 @@ int main() {
   job.tool.speed_rpm = 600.0, job.tool.nose_radius_mm = 0.4;
 
   const JobResult result = run_job(job, {virtual_lathe::simulate(scenario)});
-  std::printf("%s\n", result.verdict.line.c_str());
+  std::printf("%s:", to_string(result.verdict.decision));
+  for (const Reason& reason : result.verdict.reasons) std::printf(" %s", to_string(reason.code));
+  std::printf(", coaxiality at most %.1f µm\n", 1e3 * result.verdict.upper_mm);
   const CorrectionRows& rows = result.correction->rows;
   std::printf("revolution   Z mm     C rad    command µm\n");
   for (std::size_t i = 0; i < rows.c_rad.size(); i += rows.c_rad.size() / 8)

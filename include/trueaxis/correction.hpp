@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "trueaxis/effect.hpp"
+#include "trueaxis/reason.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
@@ -168,10 +169,10 @@ struct ActuatorMargin {
                                    ///< worst place: the axis of the cut moves by it (Eq. 116a)
   double following_limit_mm = 0.0;
   bool follows = false;
-  std::string breaks;          ///< the numbers that break, empty when it follows
+  Reasons breaks;              ///< the limits that break, none when it follows
   double max_speed_rpm = 0.0;  ///< highest speed at which it would run, where it runs at most that
                                ///< of a third of the bandwidth or its own; 0: at none
-  std::string remedy;  ///< what would make it follow ("it would with …"), empty when it follows
+  Reasons remedies;            ///< what would make it follow, none when it follows
 };
 
 /// An error motion of the machine that the probe saw along X and that repeats while cutting. The

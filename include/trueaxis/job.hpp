@@ -15,6 +15,7 @@
 #include "trueaxis/fit.hpp"
 #include "trueaxis/part_form.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/reason.hpp"
 #include "trueaxis/resimulation.hpp"
 #include "trueaxis/units.hpp"
 
@@ -97,8 +98,8 @@ struct Inclusion {
   std::string effect;
   std::string reference;  ///< where it was found; empty: nowhere
   bool included = false;
-  bool refused = false;  ///< found, but it must not be cut with: then there is no go
-  std::string why;       ///< why it is not included; of an included one what is left open
+  bool refused = false;         ///< found, but it must not be cut with: then there is no go
+  std::optional<Reason> why{};  ///< why it is not included; of an included one what is left open
 };
 
 /// Two references whose axes are apart by more than their uncertainty: half-way between their
@@ -116,7 +117,7 @@ struct Disagreement {
 /// data, explains, or a disagreement that no part has.
 struct Agreement {
   std::vector<Disagreement> disagreements;  ///< the largest first
-  std::string reason;                       ///< with what mends it; not empty: nothing may be cut
+  std::optional<Reason> reason;             ///< with what mends it: then nothing may be cut
   double odds = 0.0;  ///< of the mistake that is named against none, of equal odds before
 };
 
@@ -142,26 +143,31 @@ struct CutFile {
   double adds_mm = 0.0;      ///< both together
 };
 
-/// ISO 14253-1 decision about the tolerance, with the numbers it rests on.
-struct Verdict {
-  Decision decision = Decision::no_go;
-  std::string line;  ///< the first line of the result
-  std::vector<std::string> reservations{};
-  /// Of not_proven the measurement that would; of a file that is too coarse what would do.
-  std::string what_would_prove{};
+/// The numbers that the decision about a cut rests on.
+struct CutNumbers {
   /// The files of the job and table.csv. The numbers below are of the one that adds most, `file`.
   std::vector<CutFile> files{};
   std::string file{};
-  std::string moved{};  ///< that the part slipped, when and by how much; the axis is that of now
   double coaxiality_before_mm = 0.0;  ///< cut about the spindle axis, against the references
   double coaxiality_after_mm =
       0.0;  ///< expected with `file`: what the compromise, the actuator and the file leave
   double u_coaxiality_mm = 0.0;  ///< of the worst reference's axis in its worse direction, doubled
   double lower_mm = 0.0, upper_mm = 0.0;  ///< that the coaxiality is below in 5 and in 95 of 100
   double coverage_factor = 2.0;  ///< of U in fits; the decision's risk is 5 % whatever it is
+};
+
+/// ISO 14253-1 decision about the tolerance, with what it rests on.
+struct Verdict : CutNumbers {
+  Decision decision = Decision::no_go;
+  Reasons reasons{};       ///< why the decision is what it is, the weightiest first
+  Reasons reservations{};  ///< what a reader of it must know as well
+  Reasons moved{};         ///< slips that are sure: the axis is that of now
 
   /// Whether the table may be run.
   bool go() const { return decision != Decision::not_proven && decision != Decision::no_go; }
+  /// Of a tolerance that is not proven the measurement that would; of a file that is too coarse
+  /// what would do.
+  Reasons what_would_prove() const;
 };
 
 const char* to_string(Decision decision);
@@ -169,7 +175,6 @@ const char* to_string(Decision decision);
 /// The datum system of a target (Eqs. 304, 305): its axis is linear in those of the references.
 struct TargetDatum {
   std::string name;  ///< "A-B | C"
-  std::string how;   ///< how it follows from the references, a sentence
   double z_ref_mm = 0.0;
   /// Of each reference: (x, y, slope_x, slope_y) of the datum's axis by those of its own at z_ref,
   /// row-major 4 × 4.
@@ -177,7 +182,8 @@ struct TargetDatum {
   std::vector<Remainder> references;  ///< what is left at each reference, which nothing judges
 };
 
-struct JobResult {
+/// What the readings tell of the references: the input of all that follows.
+struct IdentifiedJob {
   Job job;
   std::vector<ProbeStream> streams;  ///< one per reference
   std::vector<FitResult> fits;       ///< one per reference: the ideal surface
@@ -186,23 +192,32 @@ struct JobResult {
   std::vector<std::optional<Diagnosis>> diagnoses;
   /// Every diagnosed reference as the virtual lathe takes it again.
   std::vector<std::optional<Resimulation>> resimulations;
-  std::vector<PartForm> forms;  ///< one per reference
-  /// Of each reference, what other associations would give; empty where there are none.
-  std::vector<std::vector<DatumAxis>> datum_axes;
+};
+
+/// The cut that follows from it, unless something forbids to compute one.
+struct PlannedJob : IdentifiedJob {
   /// Of each reference whose job says an `association`, how far its axis is off least squares.
-  std::vector<std::optional<AxisEstimate>> associated;
-  std::optional<TargetDatum> datum;  ///< of a job that names `datums`
-  std::vector<Inclusion> inclusions;
-  std::optional<TargetAxis> target_axis;
-  std::optional<Correction> correction;
-  std::vector<MadeControlTable> control_files;  ///< of a correction, one for each of job.outputs
-  std::string refused;  ///< why no correction could be made though all was fitted; else empty
-  Verdict verdict;
+  std::vector<std::optional<AxisEstimate>> associated{};
+  std::optional<TargetDatum> datum{};  ///< of a job that names `datums`
+  std::vector<Inclusion> inclusions{};
+  std::optional<TargetAxis> target_axis{};
+  std::optional<Correction> correction{};
+  std::vector<MadeControlTable> control_files{};  ///< one for each of job.outputs
+  std::string refused{};  ///< why no correction could be made though all was fitted; else empty
+};
+
+struct JobResult : PlannedJob {
+  std::vector<PartForm> forms{};  ///< one per reference
+  /// Of each reference, what other associations would give; empty where there are none.
+  std::vector<std::vector<DatumAxis>> datum_axes{};
+  Verdict verdict{};
+  /// Of each reference, why its axis is withheld from its fits: `why_not` there is the code.
+  std::vector<std::optional<Reason>> axis_unknown{};
 };
 
 /// The fit whose axis the correction takes: that of the extended model where the diagnosis found
 /// something and it converged, else that of the ideal surface.
-const FitResult& fit_used(const JobResult& result, std::size_t reference);
+const FitResult& fit_used(const IdentifiedJob& job, std::size_t reference);
 
 /// Whether every tolerance of form is proven met. The verdict is of the cut and does not hold them.
 bool forms_met(const JobResult& result);

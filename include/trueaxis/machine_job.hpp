@@ -74,9 +74,8 @@ struct ErrorMap {
 
 struct MachineJobVerdict {
   Decision decision = Decision::no_go;
-  std::string line;
-  std::vector<std::string> reservations;
-  std::string next;                        ///< what to do now
+  Reasons reasons, reservations;
+  Reasons next;                            ///< what to do now
   double before_mm = 0.0, after_mm = 0.0;  ///< largest, at the ends of cutting moves
   std::size_t before_line = 0, after_line = 0;
   double between_mm = 0.0;  ///< largest deviation between the ends, of the new program
@@ -103,7 +102,7 @@ struct MachineJobResult {
   std::optional<PartDisplacement> part;  ///< of the program as it was read
   std::vector<ProgramTip> tips;
   std::vector<ErrorMap> maps;
-  std::vector<std::string> remarks;  ///< what holds for the numbers, and what they leave out
+  Reasons remarks;  ///< what holds for the numbers, and what they leave out
   MachineJobVerdict verdict;
 };
 

@@ -26,6 +26,7 @@
 #include "trueaxis/part_form.hpp"          // form without what is not of the part
 #include "trueaxis/probe_stream.hpp"       // the readings
 #include "trueaxis/program_harm.hpp"       // what a diagnosis of a machine means on a program
+#include "trueaxis/reason.hpp"             // why something is decided and what mends it, as data
 #include "trueaxis/resimulation.hpp"       // the diagnosed part measured again
 #include "trueaxis/spindle.hpp"            // part and spindle separated
 #include "trueaxis/study.hpp"              // repeats against the Cramér-Rao bound

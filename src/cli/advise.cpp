@@ -22,8 +22,9 @@
 #include "job/conclude.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/files/job_words.hpp"
+#include "job/files/stream_job.hpp"
 #include "job/machine/files/machine_job_toml.hpp"
-#include "job/one_surface.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
@@ -56,11 +57,11 @@ int exit_code_of(const Diagnosis& diagnosis) {
 }
 
 /// What the tolerance of the job asks of the measurement: its verdict, as `run` would have it.
-void advise_on_tolerance(JobResult result) {
-  if (!result.job.coaxiality_tolerance_mm) return;
-  result.agreement = hold_together(result);
-  conclude(result);
-  std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", result.verdict.line);
+void advise_on_tolerance(IdentifiedJob job) {
+  if (!job.job.coaxiality_tolerance_mm) return;
+  job.agreement = hold_together(job);
+  std::cout << "\nTolerance of the job\n"
+            << layout::wrapped("  ", verdict_line(conclude(std::move(job))));
 }
 
 int advise_job(const Options& options) {
@@ -73,7 +74,7 @@ int advise_job(const Options& options) {
       return checked(outputs, "diagnose the machine and propose the next measurement of it");
     return advise_machine_job(job, options.verbose);
   }
-  JobResult result;
+  IdentifiedJob result;
   result.job = read_job_toml(content, options.stream.path);
   result.streams = read_streams(result.job);
   for (std::size_t i = 0; i < result.streams.size(); ++i)

@@ -16,6 +16,7 @@
 #include "format/outputs.hpp"
 #include "job/conclude.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/files/job_words.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
@@ -79,7 +80,7 @@ Identified identified(const Options& options) {
 }
 
 /// The job of the one reference: as `run` would have it, with the stream read again.
-JobResult result_of(const Options& options, Job job, Identified found, Outputs& outputs) {
+IdentifiedJob result_of(const Options& options, Job job, Identified found, Outputs& outputs) {
   if (!is_diagnosed(found.fit.surface))
     throw InputError(options.fit, std::string("is of a ") + to_string(found.fit.surface) +
                                       ", about which nothing is cut: probe a cylinder or cone");
@@ -87,7 +88,7 @@ JobResult result_of(const Options& options, Job job, Identified found, Outputs& 
     throw InputError(options.fit,
                      "is one section, which shows no direction of an axis: probe it along Z as a "
                      "cylinder or cone");
-  JobResult result;
+  IdentifiedJob result;
   JobReference reference;
   reference.name = options.fit;
   reference.fit.surface = found.fit.surface;
@@ -119,7 +120,7 @@ JobResult result_of(const Options& options, Job job, Identified found, Outputs& 
 int execute(const Options& options) {
   Outputs outputs(options.force);
   Identified found = identified(options);
-  JobResult result =
+  IdentifiedJob job =
       result_of(options, read_target_toml(options.target), std::move(found), outputs);
   outputs.reads(options.fit);
   outputs.reads(options.target);
@@ -127,7 +128,7 @@ int execute(const Options& options) {
   outputs.may_write(options.table, "trueaxis.correction");
   outputs.check();
   if (options.check) return checked(outputs, "correct the target for the axis of " + options.fit);
-  conclude(result);
+  const JobResult result = conclude(std::move(job));
   const Verdict& verdict = result.verdict;
   const bool cut = verdict.go() && result.correction;
   if (!options.preview) {
@@ -140,9 +141,9 @@ int execute(const Options& options) {
   }
   const bool printed = !options.preview && options.table == "-";
   if (!printed && result.correction)
-    std::cout << verdict.line << '\n' << correction_preview(*result.correction);
+    std::cout << verdict_line(result) << '\n' << correction_preview(*result.correction);
   if (options.ideal) (printed ? std::cerr : std::cout) << rests_on_ideal;
-  if (!cut) throw Refusal(verdict.line.substr(verdict.line.find(": ") + 2));
+  if (!cut) throw Refusal(words_of(verdict.reasons, "; ", result.job));
   return done;
 }
 

@@ -16,10 +16,11 @@
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
+#include "format/reason_words.hpp"
 #include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/part_form_files.hpp"
-#include "job/one_surface.hpp"
+#include "job/files/stream_job.hpp"
 #include "report/stream_report.hpp"
 #include "trueaxis/diagnosis.hpp"
 
@@ -65,9 +66,9 @@ int execute(const Options& options) {
   diagnose_options.fit = options.association.chosen();
   diagnose_options.false_alarm = options.false_alarm;
   Diagnosis diagnosis = diagnose(stream, diagnose_options);
-  if (const std::string why = why_axis_unknown(stream, diagnosis); !why.empty())
+  if (const auto why = why_axis_unknown(stream, diagnosis))
     for (FitResult* fit : {&diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      withhold_axis(*fit, why);
+      withhold_axis(*fit, words_of(*why));
   const PartForm form = part_form({stream, &diagnosis}, diagnose_options.fit, {});
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);
@@ -79,8 +80,8 @@ int execute(const Options& options) {
   if (!options.result.printed() && options.verbose)
     std::cout << diagnosis_text(diagnosis) << part_form_text(form);
   if (!options.result.printed() && !options.verbose)
-    print_screen(broken_fit(diagnosis) ? diagnosis_screen(diagnosis)
-                                       : screen_with_form(diagnosis_screen(diagnosis), form));
+    print_screen(
+        diagnosis_screen(diagnosis, broken_fit(diagnosis) ? "" : part_form_screen(form, "")));
   if (const FitResult* fit = broken_fit(diagnosis)) {
     std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
     return numerical;

@@ -16,12 +16,12 @@
 #include "cli/waiting.hpp"
 #include "fit/files/fit_files.hpp"
 #include "fit/files/fit_screen.hpp"
-#include "fit/moved.hpp"
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
+#include "format/reason_words.hpp"
 #include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
-#include "job/one_surface.hpp"
+#include "job/files/stream_job.hpp"
 #include "report/stream_report.hpp"
 
 namespace trueaxis::cli {
@@ -63,10 +63,10 @@ int execute(const Options& options) {
   std::optional<Waiting> waiting("fit of " + stream.source);
   const FitOptions chosen = options.association.chosen();
   FitResult result = fit(stream, chosen);
-  if (const std::string why = moved_in_pass(stream, result.residual_mm, result); !why.empty())
-    withhold_axis(result, why);
-  if (const std::string why = few_angles(stream); !why.empty() && result.axis_known())
-    result.notes.push_back(why);
+  if (const auto why = moved_reason(stream, result.residual_mm, result))
+    withhold_axis(result, words_of(*why));
+  if (const auto why = few_angles_of(stream); why && result.axis_known())
+    result.notes.push_back(words_of(*why));
   waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));

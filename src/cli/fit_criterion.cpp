@@ -7,7 +7,7 @@
 #include "associate/files/stream_association.hpp"
 #include "cli/guarded.hpp"
 #include "format/outputs.hpp"
-#include "job/one_surface.hpp"
+#include "job/files/stream_job.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "form/files/form_text.hpp"
 #include "form/files/spindle_motion.hpp"
 #include "format/outputs.hpp"
-#include "job/one_surface.hpp"
+#include "job/files/stream_job.hpp"
 
 namespace trueaxis::cli {
 namespace {

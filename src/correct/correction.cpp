@@ -64,7 +64,7 @@ Correction make_correction(const AxisEstimate& axis, const TargetSurface& target
                      tool.speed_rpm)
           : searched_rpm;
   if (!correction.margin.follows)
-    correction.margin.remedy = remedy(spectrum, profile, actuator, searched_rpm);
+    correction.margin.remedies = {remedy(spectrum, profile, actuator, searched_rpm)};
   return correction;
 }
 

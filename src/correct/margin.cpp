@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "correct/margin.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -185,34 +183,25 @@ int highest_order_of(const Spectrum& spectrum, const std::vector<SlowAmplitude>&
   return highest;
 }
 
-std::string number(double value, const char* unit) { return fmt::format("{:.4g} {}", value, unit); }
-
 /// Whether set-points show an order at all; what they do not show no command brings about.
 bool enough_set_points(double per_revolution, int order) { return per_revolution > 2.0 * order; }
 
-void judge(ActuatorMargin& margin, int highest_order, double following_limit_mm) {
-  const auto check = [&](bool holds, const std::string& what) {
-    if (holds) return;
-    margin.breaks += (margin.breaks.empty() ? "" : "; ") + what;
+void judge(ActuatorMargin& m, int highest_order) {
+  const auto within = [&](double used, double available, const char* unit, ReasonCode broken) {
+    if (!(used <= available))
+      m.breaks.push_back({broken, {}, {{"used", used, unit}, {"available", available, unit}}});
   };
-  constexpr double um = 1.0 / mm_per_um;
-  check(margin.stroke_used_mm <= margin.stroke_available_mm,
-        "stroke " + number(margin.stroke_used_mm * um, "µm") + " of " +
-            number(margin.stroke_available_mm * um, "µm"));
-  check(margin.slew_used_mm_per_s <= margin.slew_available_mm_per_s,
-        "slew " + number(margin.slew_used_mm_per_s, "mm/s") + " of " +
-            number(margin.slew_available_mm_per_s, "mm/s"));
-  check(margin.highest_frequency_hz <= margin.bandwidth_hz,
-        "frequency " + number(margin.highest_frequency_hz, "Hz") + " of a bandwidth of " +
-            number(margin.bandwidth_hz, "Hz"));
-  check(enough_set_points(margin.set_points_per_revolution, highest_order),
-        "set-points " + number(margin.set_points_per_revolution, "a revolution") + ", more than " +
-            std::to_string(2 * highest_order) + " are needed for order " +
-            std::to_string(highest_order));
-  check(margin.following_mm <= following_limit_mm,
-        "following error " + number(margin.following_mm * um, "µm") + " of " +
-            number(following_limit_mm * um, "µm"));
-  margin.follows = margin.breaks.empty();
+  within(m.stroke_used_mm, m.stroke_available_mm, "mm", ReasonCode::stroke_exceeded);
+  within(m.slew_used_mm_per_s, m.slew_available_mm_per_s, "mm/s", ReasonCode::slew_exceeded);
+  within(m.highest_frequency_hz, m.bandwidth_hz, "Hz", ReasonCode::frequency_exceeded);
+  if (!enough_set_points(m.set_points_per_revolution, highest_order))
+    m.breaks.push_back({ReasonCode::set_points_too_few,
+                        {},
+                        {{"per_revolution", m.set_points_per_revolution},
+                         {"needed", 2.0 * highest_order},
+                         {"order", double(highest_order)}}});
+  within(m.following_mm, m.following_limit_mm, "mm", ReasonCode::following_error_exceeded);
+  m.follows = m.breaks.empty();
 }
 
 /// The least value of a doubling scale above `now` that holds, then halved towards `now`; 0: none
@@ -231,11 +220,13 @@ double least_that_holds(double now, double most, double step, Holds holds) {
   return good;
 }
 
-std::string at_speed(double now_rpm, double rpm) {
-  if (!(rpm > 0.0)) return "not at any speed";
-  const std::string less = rpm < now_rpm ? " or less" : "";
-  if (rpm >= 10.0) return fmt::format("at {:.12g} rpm{}", std::floor(rpm), less);
-  return fmt::format("at {:.2g} rpm{}", std::floor(10.0 * rpm) / 10.0, less);
+/// Rounded down, so that it does follow.
+Reason at_speed(double now_rpm, double rpm) {
+  if (!(rpm > 0.0)) return {ReasonCode::at_no_speed};
+  const double speed_rpm = rpm >= 10.0 ? std::floor(rpm) : std::floor(10.0 * rpm) / 10.0;
+  return {rpm < now_rpm ? ReasonCode::at_speed_or_less : ReasonCode::at_speed,
+          {},
+          {{"speed", speed_rpm, "rpm"}}};
 }
 
 }  // namespace
@@ -270,7 +261,7 @@ ActuatorMargin margin_at(const Spectrum& spectrum, const Motion& motion, const A
   margin.bandwidth_hz = actuator.bandwidth_hz();
   margin.set_points_per_revolution = actuator.sampling_hz / turns_hz;
   margin.following_limit_mm = actuator.following_limit_mm;
-  judge(margin, highest_order, actuator.following_limit_mm);
+  judge(margin, highest_order);
   return margin;
 }
 
@@ -318,8 +309,8 @@ double trusted_speed_rpm(const ActuatorMargin& at, double speed_rpm) {
   return speed_rpm * at.bandwidth_hz / 3.0 / std::max(at.highest_frequency_hz, once_hz);
 }
 
-std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
-                   double max_speed_rpm) {
+Reason remedy(const Spectrum& spectrum, const Profile& profile, const Actuator& actuator,
+              double max_speed_rpm) {
   const double now_rpm = profile.tool().speed_rpm;
   Motion motion = motion_of(profile, now_rpm);
   const int rows = motion.rows_per_revolution;
@@ -328,11 +319,8 @@ std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actua
     motion.rows_per_revolution = static_cast<int>(tried);
     return margin_at(spectrum, motion, actuator).follows;
   });
-  if (more_rows > 0.0) {
-    return "it would with " + std::to_string(static_cast<int>(more_rows)) +
-           " rows a revolution (rows_per_revolution): between " + std::to_string(rows) +
-           " the interpolation errs too much";
-  }
+  if (more_rows > 0.0)
+    return {ReasonCode::follows_with_rows, {}, {{"rows", more_rows}, {"now", double(rows)}}};
   motion.rows_per_revolution = rows;
   const double faster_hz =
       least_that_holds(actuator.sampling_hz, most_sampling * actuator.sampling_hz,
@@ -341,11 +329,11 @@ std::string remedy(const Spectrum& spectrum, const Profile& profile, const Actua
                          sampled.sampling_hz = tried;
                          return margin_at(spectrum, motion, sampled).follows;
                        });
-  const std::string speed = "it would " + at_speed(now_rpm, max_speed_rpm);
-  if (!(faster_hz > 0.0)) return speed;
-  const bool slower = max_speed_rpm > 0.0 && max_speed_rpm < now_rpm;
-  return "it would with set-points at " + fmt::format("{:.12g} Hz", faster_hz) + " (sampling_hz)" +
-         (slower ? ", or " + at_speed(now_rpm, max_speed_rpm) : "");
+  const Reason speed = at_speed(now_rpm, max_speed_rpm);
+  if (!(faster_hz > 0.0)) return {ReasonCode::follows_at_speed, {}, {}, {}, {speed}};
+  Reason faster{ReasonCode::follows_with_set_points, {}, {{"rate", faster_hz, "Hz"}}};
+  if (max_speed_rpm > 0.0 && max_speed_rpm < now_rpm) faster.parts = {speed};
+  return faster;
 }
 
 }  // namespace trueaxis

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measure/turn_centres.hpp"
-
 namespace trueaxis {
 namespace {
 
@@ -21,11 +19,11 @@ double U_of_axis_mm(const FitResult& fit) {
 
 }  // namespace
 
-std::string moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
-                          const FitResult& fit) {
-  if (!fit.axis_known() || left_mm.size() != stream.size()) return "";
+std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
+                                        const FitResult& fit) {
+  if (!fit.axis_known() || left_mm.size() != stream.size()) return {};
   const auto step = find_centre_step(turn_centres(stream, left_mm));
-  return step && step->size_mm > U_of_axis_mm(fit) ? moved_text(*step) : "";
+  return step && step->size_mm > U_of_axis_mm(fit) ? step : std::nullopt;
 }
 
 }  // namespace trueaxis

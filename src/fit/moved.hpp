@@ -2,16 +2,16 @@
 #pragma once
 
 #include <span>
-#include <string>
 
+#include "measure/turn_centres.hpp"
 #include "trueaxis/fit.hpp"
 
 namespace trueaxis {
 
 /// That the part moved within a pass, by more than U of the axis: its axis is then that of neither
-/// place (Eq. 314). Empty: it stood still, or bends.
+/// place (Eq. 314). None: it stood still, or bends.
 /// @param left_mm what the model of the readings leaves, one each
-std::string moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
-                          const FitResult& fit);
+std::optional<CentreStep> moved_in_pass(const ProbeStream& stream, std::span<const double> left_mm,
+                                        const FitResult& fit);
 
 }  // namespace trueaxis

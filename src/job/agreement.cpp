@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/agreement.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -15,21 +13,23 @@
 namespace trueaxis {
 namespace {
 
-constexpr double by_chance = 1e-3;        // of a disagreement by the noise alone
-constexpr double tried_from_mm = 0.01;    // a smaller disagreement is that of parts
-constexpr double tilt_arm_mm = 100.0;     // at which a tilt counts as an offset
-constexpr double much_more_likely = 1e3;  // and among disagreements that no part has:
-constexpr double more_likely = 20.0;
-constexpr double taken_to = 0.2;  // of the disagreement, by a mistake that is named
-constexpr double as_likely = 10.0;
-// Beyond these the surfaces are not of one part as it stands.
-constexpr double no_part_mm = 0.5, no_part_rad = 0.01, no_part_mm_per_mm = 1e-3;
+constexpr Threshold by_chance{"p", 1e-3, "1", "of a disagreement by the noise alone"};
+constexpr Threshold tried_from{"apart", 0.01, "mm", "a smaller disagreement is that of parts"};
+constexpr double tilt_arm_mm = 100.0;  // at which a tilt counts as an offset
+constexpr Threshold much_more_likely{"odds", 1e3, "1", "surfaces of parts are not quite coaxial"};
+constexpr Threshold more_likely{"odds", 20.0, "1", "among disagreements that no part has"};
+constexpr Threshold taken_to{"left", 0.2, "of the disagreement", "by a mistake that is named"};
+constexpr Threshold as_likely{"odds", 10.0, "1", "another mistake is named too"};
+constexpr const char* of_one_part = "beyond it the surfaces are not of one part as it stands";
+constexpr Threshold no_part_apart{"apart", 0.5, "mm", of_one_part};
+constexpr Threshold no_part_slope{"apart", 1e-3, "mm per mm between", of_one_part};
+constexpr Threshold no_part_tilt{"tilt", 0.01, "rad", of_one_part};
 
 double size_mm(const Disagreement& d) { return std::hypot(d.offset_mm, tilt_arm_mm * d.tilt_rad); }
 
 bool of_no_part(const Disagreement& d) {
-  return d.offset_mm - d.U_offset_mm > no_part_mm + no_part_mm_per_mm * d.between_mm ||
-         d.tilt_rad - d.U_tilt_rad > no_part_rad;
+  return d.offset_mm - d.U_offset_mm > no_part_apart.value + no_part_slope.value * d.between_mm ||
+         d.tilt_rad - d.U_tilt_rad > no_part_tilt.value;
 }
 
 /// The references that have an axis.
@@ -51,7 +51,7 @@ struct Held {
   }
 };
 
-Held held_of(const JobResult& result) {
+Held held_of(const IdentifiedJob& result) {
   Held held;
   held.coverage_factor = result.job.references.front().fit.coverage_factor;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
@@ -121,7 +121,7 @@ std::vector<Explanation> explanations(const Held& held, const Disagreement& wors
       Held right = held;
       right.axis[at] = mended(held.axis[at], mistake, e.number);
       e.left = right.pairs().front();
-      if (size_mm(e.left) <= taken_to * size_mm(worst)) list.push_back(e);
+      if (size_mm(e.left) <= taken_to.value * size_mm(worst)) list.push_back(e);
     }
   }
   std::ranges::stable_sort(list, std::ranges::greater{}, &Explanation::log_odds);
@@ -129,7 +129,7 @@ std::vector<Explanation> explanations(const Held& held, const Disagreement& wors
 }
 
 /// The same by a fit of the readings as they should have been read; false: it does not fit them.
-bool holds_on_data(const JobResult& result, const Held& held, Explanation& e) {
+bool holds_on_data(const IdentifiedJob& result, const Held& held, Explanation& e) {
   const std::size_t i = held.reference[e.at];
   const FitResult again =
       fit(mended(result.streams[i], *e.mistake, e.number), result.job.references[i].fit);
@@ -148,28 +148,31 @@ bool holds_on_data(const JobResult& result, const Held& held, Explanation& e) {
   return true;
 }
 
-/// "212 µm and 1.3 mrad"
-std::string apart(const Disagreement& d) {
-  const std::string tilt = fmt::format("{:.2g} mrad", 1e3 * d.tilt_rad);
-  const double um = d.offset_mm / mm_per_um;
-  if (d.offset_mm == 0.0 && d.U_offset_mm == 0.0) return tilt;
-  return fmt::format("{:.{}f} µm and {}", um, um < 10.0 ? 1 : 0, tilt);
+/// The numbers of a disagreement; the offset only where both have a place.
+std::vector<ReasonNumber> numbers_of(const Disagreement& d, const char* offset, const char* tilt) {
+  std::vector<ReasonNumber> numbers{{tilt, d.tilt_rad, "rad", d.U_tilt_rad}};
+  if (d.offset_mm != 0.0 || d.U_offset_mm != 0.0)
+    numbers.push_back({offset, d.offset_mm, "mm", d.U_offset_mm});
+  return numbers;
 }
 
-std::string said(const JobResult& result, const Held& held, const Explanation& e) {
-  std::string text =
-      fmt::format(fmt::runtime(e.mistake->what), reference_and_file(result, held.reference[e.at]));
-  if (e.mistake->open == OpenNumber::c_zero)
-    text += fmt::format(" ({:+.1f}° to be added)", e.number / rad_per_deg);
-  if (e.mistake->open == OpenNumber::z_zero)
-    text += fmt::format(" ({:+.3g} mm to be added)", e.number);
-  return text;
+Reason apart(const Disagreement& d, ReasonCode code) {
+  Reason reason{code, {d.first, d.second}, numbers_of(d, "offset", "tilt")};
+  if (d.U_offset_mm > 0.0) reason.numbers.push_back({"U_offset", d.U_offset_mm, "mm"});
+  return reason;
+}
+
+Reason said(const Held& held, const Explanation& e) {
+  Reason reason{e.mistake->what, {held.reference[e.at]}, {}, e.mistake->of};
+  if (e.mistake->open)
+    reason.numbers = {{"to_add", e.number, *e.mistake->open == OpenNumber::c_zero ? "rad" : "mm"}};
+  return reason;
 }
 
 /// The most likely mistake, and what is nearly as likely.
-void name_mistake(const JobResult& result, const Held& held, const Disagreement& worst,
+void name_mistake(const IdentifiedJob& result, const Held& held, const Disagreement& worst,
                   Agreement& out) {
-  const double least = of_no_part(worst) ? more_likely : much_more_likely;
+  const double least = of_no_part(worst) ? more_likely.value : much_more_likely.value;
   std::vector<Explanation> likely = explanations(held, worst);
   std::erase_if(likely, [&](Explanation& e) {
     return e.log_odds < std::log(least) || !holds_on_data(result, held, e) ||
@@ -178,57 +181,62 @@ void name_mistake(const JobResult& result, const Held& held, const Disagreement&
   if (likely.empty()) return;
   std::ranges::stable_sort(likely, std::ranges::greater{}, &Explanation::log_odds);
   const Explanation& best = likely.front();
-  std::string what, mend;
+  Reason reason = apart(worst, ReasonCode::streams_misread);
+  for (const ReasonNumber& left : numbers_of(best.left, "offset_left", "tilt_left"))
+    reason.numbers.push_back(left);
   for (const Explanation& e : likely) {
-    if (e.log_odds < best.log_odds - std::log(as_likely)) break;
+    if (e.log_odds < best.log_odds - std::log(as_likely.value)) break;
     if (e.mistake->open && !best.mistake->open) continue;  // what explains it needs no number
-    what += (what.empty() ? "" : ", or ") + said(result, held, e);
-    if (mend.find(e.mistake->mend) == std::string::npos)
-      mend += (mend.empty() ? "" : ", or ") + std::string(e.mistake->mend);
+    reason.parts.push_back(said(held, e));
+    reason.remedies.push_back({e.mistake->mend, {held.reference[e.at]}, {}, e.mistake->of});
   }
   out.odds = std::exp(std::min(best.log_odds, 600.0));
-  out.reason =
-      fmt::format("{}, {} if {}: {}", how_apart(result, worst), apart(best.left), what, mend);
+  out.reason = std::move(reason);
 }
 
 /// Whether all readings are of one file, whose signs, units and zeros are those of all.
-bool of_one_file(const JobResult& result) {
+bool of_one_file(const IdentifiedJob& result) {
   return std::ranges::all_of(result.streams, [&](const ProbeStream& stream) {
     return !stream.input_hash.empty() && stream.input_hash == result.streams.front().input_hash;
   });
 }
 
-void hold_axes(const JobResult& result, Agreement& out) {
+void hold_axes(const IdentifiedJob& result, Agreement& out) {
   const Held held = held_of(result);
   if (held.axis.size() < 2) return;
   out.disagreements = held.pairs();
-  std::erase_if(out.disagreements, [](const Disagreement& d) { return d.p_value >= by_chance; });
-  if (out.disagreements.empty() || size_mm(out.disagreements.front()) < tried_from_mm ||
+  std::erase_if(out.disagreements,
+                [](const Disagreement& d) { return d.p_value >= by_chance.value; });
+  if (out.disagreements.empty() || size_mm(out.disagreements.front()) < tried_from.value ||
       of_one_file(result))
     return;
   const Disagreement& worst = out.disagreements.front();
   name_mistake(result, held, worst, out);
-  if (!out.reason.empty() || !of_no_part(worst)) return;
-  out.reason =
-      how_apart(result, worst) +
-      ", farther than surfaces of one part are, and no sign, unit, diameter or zero of one stream "
-      "explains it: probe all references in one clamping";
+  if (!out.reason && of_no_part(worst)) out.reason = apart(worst, ReasonCode::axes_of_no_part);
 }
+
+Reasons find_disagreement(const CheckInput& in) {
+  const auto& reason = in.job.agreement.reason;
+  return reason ? Reasons{*reason} : Reasons{};
+}
+
+constexpr Threshold of_agreement[] = {
+    by_chance,     tried_from,    much_more_likely, more_likely,      taken_to,         as_likely,
+    no_part_apart, no_part_slope, no_part_tilt,     exchanged_better, exchanged_as_good};
 
 }  // namespace
 
-std::string how_apart(const JobResult& result, const Disagreement& d) {
-  std::string U = fmt::format("{:.2g} mrad", 1e3 * d.U_tilt_rad);
-  if (d.U_offset_mm > 0.0) U = fmt::format("{:.2g} µm and {}", d.U_offset_mm / mm_per_um, U);
-  return fmt::format("the axes of {} and {} are {} apart (U = {})",
-                     reference_and_file(result, d.first), reference_and_file(result, d.second),
-                     apart(d), U);
+constinit const JobCheck references_agree{"references_agree", CheckedAt::references,
+                                          Weight::forbids, of_agreement, find_disagreement};
+
+Reason how_apart(const Disagreement& disagreement) {
+  return apart(disagreement, ReasonCode::axes_apart);
 }
 
-Agreement hold_together(const JobResult& result) {
+Agreement hold_together(const IdentifiedJob& result) {
   Agreement out;
   if (!of_one_file(result)) out.reason = exchanged_streams(result);
-  if (out.reason.empty()) hold_axes(result, out);
+  if (!out.reason) hold_axes(result, out);
   return out;
 }
 

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
-#include "trueaxis/job.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
@@ -12,9 +10,10 @@ namespace trueaxis {
 /// U the mistakes of mistakes(), one reference after the other. A mistake is named where it takes
 /// the disagreement to a fifth and the axes are a thousand times more likely with it, than with
 /// surfaces that are out of their common axis as those of parts are.
-Agreement hold_together(const JobResult& result);
+Agreement hold_together(const IdentifiedJob& job);
+extern const JobCheck references_agree;
 
-/// "the axes of seat (seat.csv) and journal (journal.csv) are 212 µm and 1.3 mrad apart (U = …)"
-std::string how_apart(const JobResult& result, const Disagreement& disagreement);
+/// How far two axes are apart, as a reason.
+Reason how_apart(const Disagreement& disagreement);
 
 }  // namespace trueaxis

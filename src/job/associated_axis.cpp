@@ -21,7 +21,7 @@ constexpr std::uint64_t seed = 5459;
 
 class AxisDifference {
  public:
-  AxisDifference(const JobResult& result, std::size_t reference)
+  AxisDifference(const PlannedJob& result, std::size_t reference)
       : name_(result.job.references[reference].name),
         fit_(fit_used(result, reference)),
         criterion_(*result.job.references[reference].association),
@@ -81,7 +81,7 @@ class AxisDifference {
 
 }  // namespace
 
-std::optional<AxisEstimate> associated_difference(const JobResult& result, std::size_t reference) {
+std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference) {
   const auto& association = result.job.references[reference].association;
   if (!association || *association == Criterion::gaussian) return {};
   if (fit_used(result, reference).status != FitStatus::converged) return {};

@@ -11,6 +11,6 @@ namespace trueaxis {
 /// readings, with the covariance that their noise gives this difference (Eq. 303), at z_ref of the
 /// fit used. Nothing where the job states none, or least squares.
 /// @throws Refusal where the readings give no such axis
-std::optional<AxisEstimate> associated_difference(const JobResult& result, std::size_t reference);
+std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference);
 
 }  // namespace trueaxis

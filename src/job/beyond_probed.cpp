@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/beyond_probed.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -17,13 +16,12 @@ namespace {
 
 /// A line and the length that it was probed over.
 struct ProbedLine {
-  std::string name;
   AxisEstimate axis;
   double low_mm, high_mm;
 };
 
 /// What causes that the data cannot tell would add is no line's.
-const FitResult& of_the_line(const JobResult& result, std::size_t i) {
+const FitResult& of_the_line(const PlannedJob& result, std::size_t i) {
   const bool named = i < result.diagnoses.size() && result.diagnoses[i] &&
                      result.diagnoses[i]->named.status == FitStatus::converged;
   return named ? result.diagnoses[i]->named : fit_used(result, i);
@@ -34,10 +32,10 @@ bool counts(const std::array<double, 16>& share) {
 }
 
 /// The axis of the datum, over the length of all that it rests on.
-ProbedLine line_of_datum(const JobResult& result) {
+ProbedLine line_of_datum(const PlannedJob& result) {
   std::vector<Reference> references = references_of(result);
   constexpr double far = std::numeric_limits<double>::infinity();
-  ProbedLine out{"the datum " + result.datum->name, {}, far, -far};
+  ProbedLine out{{}, far, -far};
   for (std::size_t i = 0; i < references.size(); ++i) {
     const FitResult& fit = of_the_line(result, i);
     references[i].axis = fit.axis;
@@ -49,10 +47,10 @@ ProbedLine line_of_datum(const JobResult& result) {
   return out;
 }
 
-ProbedLine line_of(const JobResult& result, std::size_t i) {
+ProbedLine line_of(const PlannedJob& result, std::size_t i) {
   if (result.datum) return line_of_datum(result);
   const FitResult& fit = of_the_line(result, i);
-  return {result.job.references[i].name, fit.axis, fit.position_min_mm, fit.position_max_mm};
+  return {fit.axis, fit.position_min_mm, fit.position_max_mm};
 }
 
 double u_beyond(const ProbedLine& line, const TargetSurface& target) {
@@ -67,7 +65,7 @@ double u_beyond(const ProbedLine& line, const TargetSurface& target) {
 
 }  // namespace
 
-double u_beyond_probed(const JobResult& result, std::size_t i) {
+double u_beyond_probed(const PlannedJob& result, std::size_t i) {
   if (!result.job.target || result.job.target->kind == TargetKind::face ||
       of_the_line(result, i).surface == SurfaceKind::plane)
     return 1.0;
@@ -75,22 +73,29 @@ double u_beyond_probed(const JobResult& result, std::size_t i) {
   return u_beyond(line_of(result, i), *result.job.target);
 }
 
-std::string extrapolation(const JobResult& result, double factor) {
+std::optional<Reason> extrapolation(const PlannedJob& result, double factor, ReasonCode code) {
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const double times = u_beyond_probed(result, i);
     if (!(times > factor)) continue;
     const ProbedLine line = line_of(result, i);
-    const TargetSurface& target = *result.job.target;
-    return fmt::format(
-        "the cut from Z = {:.6g} to {:.6g} mm lies so far from the probed length of {}, Z = {:.6g} "
-        "to {:.6g} mm, that U is extrapolated: {:.3g} times that within it",
-        target.z_start_mm, target.z_end_mm, line.name, line.low_mm, line.high_mm, times);
+    Reason reason{code,
+                  {i},
+                  {{"z_start", result.job.target->z_start_mm, "mm"},
+                   {"z_end", result.job.target->z_end_mm, "mm"},
+                   {"z_low", line.low_mm, "mm"},
+                   {"z_high", line.high_mm, "mm"},
+                   {"times", times}}};
+    if (result.datum) {
+      reason.references.clear();
+      reason.names = {{"datum", result.datum->name}};
+    }
+    return reason;
   }
-  return "";
+  return {};
 }
 
-std::string common_datum(const JobResult& result) {
-  if (result.datum || !result.job.target) return "";
+std::optional<Reason> common_datum(const PlannedJob& result) {
+  if (result.datum || !result.job.target) return {};
   double low_mm = std::numeric_limits<double>::infinity(), high_mm = -low_mm;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
@@ -102,9 +107,11 @@ std::string common_datum(const JobResult& result) {
   }
   const auto [from_mm, to_mm] =
       std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
-  if (names.size() < 2 || from_mm < low_mm || to_mm > high_mm) return "";
-  return fmt::format("it lies between them, so take the axis of both: datum = [{}] in [target]",
-                     fmt::join(names, ", "));
+  if (names.size() < 2 || from_mm < low_mm || to_mm > high_mm) return {};
+  return Reason{ReasonCode::take_common_datum,
+                {},
+                {},
+                {{"references", fmt::format("{}", fmt::join(names, ", "))}}};
 }
 
 }  // namespace trueaxis

@@ -5,6 +5,7 @@
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/associated_axis.hpp"
+#include "job/check.hpp"
 #include "job/cut_checks.hpp"
 #include "job/doubts.hpp"
 #include "job/inclusion.hpp"
@@ -27,55 +28,61 @@ std::vector<Remainder> limited_remainders(std::span<const Reference> references,
   return out;
 }
 
-/// What says where the part is, of every reference of which that is not known.
+void plan_cut(PlannedJob& plan) {
+  const TargetSurface& target = *plan.job.target;
+  plan.datum = target_datum(plan);
+  const std::vector<Reference> references = references_of(plan);
+  plan.target_axis = solve_target_axis(judged(plan, references_aimed_at(plan)), target.z_start_mm,
+                                       target.z_end_mm, target.kind != TargetKind::face);
+  const TargetAxis& solved = *plan.target_axis;
+  plan.target_axis->remainders =
+      limited_remainders(judged(plan, references), solved.axis.axis, target);
+  if (plan.datum) plan.datum->references = limited_remainders(references, solved.axis.axis, target);
+  IncludedMotions included = included_motions(plan);
+  plan.inclusions = std::move(included.inclusions);
+  plan.correction = make_correction(solved.axis, target, plan.job.tool, plan.job.actuator,
+                                    std::move(included.motions));
+  for (const ControlTable& output : plan.job.outputs)
+    plan.control_files.push_back(make_control_table(*plan.correction, output));
+}
+
+/// The cut, where nothing forbids to plan one.
+PlannedJob planned(IdentifiedJob identified) {
+  PlannedJob plan{std::move(identified)};
+  require_stock(plan);
+  if (slip_objection(plan) && !plan.agreement.disagreements.empty()) plan.agreement = {};
+  if (!first_found(Weight::forbids, CheckedAt::references, {plan, {}}).empty()) return plan;
+  try {
+    for (std::size_t i = 0; i < plan.fits.size(); ++i)
+      plan.associated.push_back(associated_difference(plan, i));
+    if (plan.job.target) plan_cut(plan);
+  } catch (const Refusal& refusal) {
+    plan.refused = refusal.what();
+  }
+  return plan;
+}
+
+/// Takes what says where the part is out of the fits of every reference of which that is not known.
 void withhold_axes(JobResult& result) {
+  result.axis_unknown.resize(result.fits.size());
   for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i]) continue;
     Diagnosis& diagnosis = *result.diagnoses[i];
-    const std::string why = why_axis_unknown(result.streams[i], diagnosis);
-    if (why.empty()) continue;
+    result.axis_unknown[i] = why_axis_unknown(result.streams[i], diagnosis);
+    if (!result.axis_unknown[i]) continue;
     for (FitResult* fit :
          {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      withhold_axis(*fit, why);
+      withhold_axis(*fit, to_string(result.axis_unknown[i]->code));
   }
-}
-
-void correct(JobResult& result) {
-  const TargetSurface& target = *result.job.target;
-  result.datum = target_datum(result);
-  const std::vector<Reference> references = references_of(result);
-  result.target_axis =
-      solve_target_axis(judged(result, references_aimed_at(result)), target.z_start_mm,
-                        target.z_end_mm, target.kind != TargetKind::face);
-  TargetAxis& solved = *result.target_axis;
-  solved.remainders = limited_remainders(judged(result, references), solved.axis.axis, target);
-  if (result.datum)
-    result.datum->references = limited_remainders(references, solved.axis.axis, target);
-  result.correction = make_correction(result.target_axis->axis, target, result.job.tool,
-                                      result.job.actuator, included_motions(result));
-  for (const ControlTable& output : result.job.outputs)
-    result.control_files.push_back(make_control_table(*result.correction, output));
 }
 
 }  // namespace
 
-void conclude(JobResult& result) {
-  require_stock(result);
-  const bool fitted = std::ranges::all_of(
-      result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
-  const bool slipped = !slip_objection(result).empty();
-  if (slipped && !result.agreement.disagreements.empty()) result.agreement = {};
-  if (fitted && !slipped && result.agreement.reason.empty()) {
-    try {
-      for (std::size_t i = 0; i < result.fits.size(); ++i)
-        result.associated.push_back(associated_difference(result, i));
-      if (result.job.target) correct(result);
-    } catch (const Refusal& refusal) {
-      result.refused = refusal.what();
-    }
-  }
-  result.verdict = decide(result);
+JobResult conclude(IdentifiedJob identified, std::vector<PartForm> forms) {
+  JobResult result{planned(std::move(identified)), std::move(forms)};
+  result.verdict = decide(result, result.forms);
   if (!result.correction) withhold_axes(result);
+  return result;
 }
 
 }  // namespace trueaxis

@@ -15,75 +15,125 @@
 namespace trueaxis {
 namespace {
 
-double ball_of(const JobResult& result, std::size_t i) {
+double ball_of(const PlannedJob& result, std::size_t i) {
   const double said_mm = result.job.references[i].fit.ball_radius_mm;
   return said_mm > 0.0 ? said_mm : result.streams[i].ball_radius_mm.value_or(0.0);
 }
 
 /// A surface whose radius, once the ball is taken off, is none.
-std::string ball_objection(const JobResult& result, std::size_t i) {
+std::optional<Reason> no_surface_behind_ball(const PlannedJob& result, std::size_t i) {
   const FitResult& fit = result.fits[i];
-  if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::own) return "";
+  if (fit.surface == SurfaceKind::plane || fit.surface == SurfaceKind::own) return {};
   for (const double z_mm : {fit.position_min_mm, fit.position_max_mm}) {
     const double radius_mm =
         fit.shape.radius_mm + fit.shape.tan_half_angle * (z_mm - fit.shape.axis.z_ref_mm);
-    if (radius_mm > radius_U_mm(fit)) continue;
-    return fmt::format(
-        "{}: with a ball of radius {:.6g} mm the surface has a radius of {:.6g} mm at Z = {:.6g} "
-        "mm: give the radius of the probe's ball, or none where the readings are of the contact",
-        result.job.references[i].name, ball_of(result, i), radius_mm, z_mm);
+    if (!(radius_mm > radius_U_mm(fit)))
+      return Reason{
+          ReasonCode::no_surface_behind_ball,
+          {i},
+          {{"ball", ball_of(result, i), "mm"}, {"radius", radius_mm, "mm"}, {"z", z_mm, "mm"}}};
   }
-  return "";
+  return {};
 }
 
-/// "Z = 12 mm, C = 90°"
-std::string at_place(const Place& place, bool face) {
-  return fmt::format("{} = {:.6g} mm, C = {:.4g}°", face ? "X" : "Z", place.position_mm,
-                     place.c_rad / rad_per_deg);
-}
-
-/// "12.3 µm" or "1.25 mm"
-std::string readable(double length_mm) {
-  return std::abs(length_mm) < 1.0 ? fmt::format("{:.4g} µm", length_mm / mm_per_um)
-                                   : fmt::format("{:.4g} mm", length_mm);
+/// What is met at a place, "Z = 12 mm, C = 90°".
+Reason met_at(const Place& place, bool face, std::size_t i, ReasonCode code) {
+  return {code,
+          {i},
+          {{"at", place.position_mm, "mm"},
+           {"c", place.c_rad, "rad"},
+           {"material", place.material_mm, "mm", place.U_mm}},
+          {{"along", face ? "X" : "Z"}}};
 }
 
 /// A shaft to be cut in the hollow of a bore, or a bore outside of a shaft.
-std::string hollow_objection(const JobResult& result, std::size_t i) {
+std::optional<Reason> no_material_between(const PlannedJob& result, std::size_t i) {
   const bool bore = result.job.target->bore;
   const std::optional<MaterialMet> wall = material_over(result, i);
-  if (!wall || result.fits[i].bore == bore || wall->least.material_mm > wall->least.U_mm) return "";
-  return fmt::format(
-      "the target is a {} and the probed surface of {} a {}: at {} there is no material between "
-      "them ({}): see which feature is a shaft and which a bore",
-      bore ? "bore" : "shaft", result.job.references[i].name, bore ? "shaft" : "bore",
-      at_place(wall->least, false), readable(wall->least.material_mm));
+  if (!wall || result.fits[i].bore == bore || wall->least.material_mm > wall->least.U_mm) return {};
+  Reason reason = met_at(wall->least, false, i, ReasonCode::no_material_between);
+  reason.names.push_back({"target", bore ? "bore" : "shaft"});
+  reason.names.push_back({"probed", bore ? "shaft" : "bore"});
+  return reason;
 }
 
-std::string stock_objection(const JobResult& result, std::size_t i) {
+std::optional<Reason> not_the_stock(const PlannedJob& result, std::size_t i) {
   const std::optional<MaterialMet> over = material_over(result, i);
   const bool face = result.job.target->kind == TargetKind::face;
-  if (!over || (!face && result.fits[i].bore != result.job.target->bore)) return "";
-  const std::string& name = result.job.references[i].name;
-  if (const Place& least = over->least; least.material_mm < least.U_mm) {
-    return fmt::format("the target {} air: at {} the probed surface of {} has {} over it (U = {})",
-                       least.material_mm < -least.U_mm ? "cuts" : "may cut", at_place(least, face),
-                       name, readable(least.material_mm), readable(least.U_mm));
-  }
+  if (!over || (!face && result.fits[i].bore != result.job.target->bore)) return {};
+  if (const Place& least = over->least; least.material_mm < least.U_mm)
+    return met_at(least, face, i,
+                  least.material_mm < -least.U_mm ? ReasonCode::cuts_air : ReasonCode::may_cut_air);
   const Place& most = over->most;
-  if (result.job.stock_mm && most.material_mm + most.U_mm > *result.job.stock_mm) {
-    return fmt::format(
-        "the target needs more than the stated stock of {}: at {} the probed surface of {} has {} "
-        "over it (U = {})",
-        readable(*result.job.stock_mm), at_place(most, face), name, readable(most.material_mm),
-        readable(most.U_mm));
-  }
-  return "";
+  if (!result.job.stock_mm || !(most.material_mm + most.U_mm > *result.job.stock_mm)) return {};
+  Reason reason = met_at(most, face, i, ReasonCode::stock_exceeded);
+  reason.numbers.push_back({"stock", *result.job.stock_mm, "mm"});
+  return reason;
 }
+
+/// Of the first reference, and only where a cut is planned.
+template <auto of_reference>
+Reasons find_met(const CheckInput& in) {
+  if (!in.job.correction) return {};
+  return first_of_references(in.job, [&](std::size_t i) { return of_reference(in.job, i); });
+}
+
+Reasons find_ball(const CheckInput& in) {
+  return first_of_references(in.job,
+                             [&](std::size_t i) { return no_surface_behind_ball(in.job, i); });
+}
+
+Reasons find_refused(const CheckInput& in) {
+  if (in.job.refused.empty()) return {};
+  return {{ReasonCode::cut_refused, {}, {}, {{"why", in.job.refused}}}};
+}
+
+Reasons find_too_far(const CheckInput& in) {
+  if (!in.job.correction) return {};
+  auto far = extrapolation(in.job, refused_u_factor.value, ReasonCode::cut_too_far);
+  if (!far) return {};
+  far->remedies = {common_datum(in.job).value_or(Reason{ReasonCode::probe_nearer})};
+  return {*far};
+}
+
+Reasons find_far(const CheckInput& in) {
+  if (!in.job.correction) return {};
+  auto far = extrapolation(in.job, reserved_u_factor.value, ReasonCode::cut_far);
+  if (!far) return {};
+  if (const auto common = common_datum(in.job)) far->remedies = {*common};
+  return {*far};
+}
+
+Reasons find_relative(const CheckInput& in) {
+  Reasons found;
+  for (std::size_t i = 0; i < in.job.fits.size() && in.job.correction; ++i)
+    if (in.job.streams[i].indication == Indication::relative)
+      found.push_back({ReasonCode::gauge_shows_no_radius, {i}});
+  return found;
+}
+
+constexpr Threshold of_radius[] = {{"radius", 1.0, "of its U", "less may be no surface at all"}};
+constexpr Threshold of_material[] = {{"material", 1.0, "of its U", "less may be air"}};
+constexpr Threshold of_refused[] = {refused_u_factor}, of_reserved[] = {reserved_u_factor};
 
 }  // namespace
 
-void require_stock(const JobResult& result) {
+constinit const JobCheck cut_refused{
+    "cut_refused", CheckedAt::cut, Weight::forbids, {}, find_refused};
+constinit const JobCheck surface_behind_ball{"surface_behind_ball", CheckedAt::cut, Weight::forbids,
+                                             of_radius, find_ball};
+constinit const JobCheck material_between{"material_between", CheckedAt::cut, Weight::forbids,
+                                          of_material, find_met<no_material_between>};
+constinit const JobCheck stock{"stock", CheckedAt::cut, Weight::forbids, of_material,
+                               find_met<not_the_stock>};
+constinit const JobCheck cut_too_far{"cut_too_far", CheckedAt::cut, Weight::forbids, of_refused,
+                                     find_too_far};
+constinit const JobCheck cut_far{"cut_far", CheckedAt::cut, Weight::reserves, of_reserved,
+                                 find_far};
+constinit const JobCheck gauge_shows_no_radius{
+    "gauge_shows_no_radius", CheckedAt::cut, Weight::reserves, {}, find_relative};
+
+void require_stock(const PlannedJob& result) {
   if (!result.job.target || result.job.stock_mm) return;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const bool face = result.job.target->kind == TargetKind::face;
@@ -96,37 +146,6 @@ void require_stock(const JobResult& result) {
                     face ? "X" : "Z", over->first, over->second, result.job.references[i].name,
                     face ? "along Z" : "in radius"));
   }
-}
-
-std::string cut_objection(const JobResult& result) {
-  const auto first_of = [&](auto check) {
-    std::string why;
-    for (std::size_t i = 0; i < result.fits.size() && why.empty(); ++i) why = check(result, i);
-    return why;
-  };
-  if (std::string why = first_of(ball_objection); !why.empty()) return why;
-  if (!result.correction) return "";
-  if (std::string why = first_of(hollow_objection); !why.empty()) return why;
-  if (std::string why = first_of(stock_objection); !why.empty()) return why;
-  const std::string far = extrapolation(result, refused_u_factor);
-  if (far.empty()) return "";
-  const std::string common = common_datum(result);
-  return far + ": " + (common.empty() ? "probe nearer to it, or a greater length" : common);
-}
-
-std::vector<std::string> cut_reservations(const JobResult& result) {
-  std::vector<std::string> sentences;
-  if (!result.correction) return sentences;
-  if (std::string far = extrapolation(result, reserved_u_factor); !far.empty()) {
-    const std::string common = common_datum(result);
-    sentences.push_back(far + (common.empty() ? "" : "; " + common));
-  }
-  for (std::size_t i = 0; i < result.fits.size(); ++i)
-    if (result.streams[i].indication == Indication::relative)
-      sentences.push_back(result.job.references[i].name +
-                          " was read with a relative gauge, which shows no radius: whether the "
-                          "target cuts air there is not known");
-  return sentences;
 }
 
 }  // namespace trueaxis

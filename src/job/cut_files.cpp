@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/cut_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -21,12 +17,10 @@ const char* length_key(ControlFormat format) {
   return format == ControlFormat::sinumerik_cec ? "band_mm" : "position_step_mm";
 }
 
-/// A finer table that adds `allowed_mm` at most; empty: none that the format holds does.
-std::string finer_table(const Correction& correction, const ControlTable& table,
-                        double allowed_mm) {
+/// A finer table that adds `allowed_mm` at most; none: none that the format holds does.
+Reasons finer_table(const Correction& correction, const ControlTable& table, double allowed_mm) {
   constexpr int halvings = 12;
   const bool one_step = table.format == ControlFormat::beckhoff_crosscomp2;  // of both axes
-  const char* length = length_key(table.format);
   double least = 1.0;
   for (int i = 0; i < halvings; ++i) {
     least *= 0.5;
@@ -39,19 +33,22 @@ std::string finer_table(const Correction& correction, const ControlTable& table,
       if (!objection_to(finer, correction.target, correction.tool).empty() ||
           diameter_mm(make_control_table(correction, finer).off) > allowed_mm)
         continue;
-      std::string keys;
-      if (of_length < 1.0) keys = fmt::format("{} = {:.6g}", length, finer.position_step_mm);
+      Reasons keys;
+      if (of_length < 1.0)
+        keys.push_back({ReasonCode::set_step,
+                        {},
+                        {{"step", finer.position_step_mm, "mm"}},
+                        {{"key", length_key(table.format)}}});
       if (of_angle < 1.0)
-        keys += fmt::format("{}c_step_deg = {:.6g}", keys.empty() ? "" : " and ",
-                            finer.c_step_rad / rad_per_deg);
+        keys.push_back({ReasonCode::set_c_step, {}, {{"step", finer.c_step_rad, "rad"}}});
       return keys;
     }
   }
-  return "";
+  return {};
 }
 
-/// More rows a revolution; empty: 100000 are not enough.
-std::string more_rows(const JobResult& result, const ControlTable* table, double allowed_mm) {
+/// More rows a revolution; none: 100000 are not enough.
+Reasons more_rows(const PlannedJob& result, const ControlTable* table, double allowed_mm) {
   constexpr double most_rows = 1e5;
   const Correction& correction = *result.correction;
   double rows = rows_that_would_do(correction, {allowed_mm, 0.5 * allowed_mm});
@@ -62,13 +59,13 @@ std::string more_rows(const JobResult& result, const ControlTable* table, double
     rows = std::ceil(more * correction.tool.rows_per_revolution *
                      diameter_mm(result.control_files[at].off) / allowed_mm);
   }
-  if (!(rows > 0.0) || rows > most_rows) return "";
-  return fmt::format("rows_per_revolution = {:.0f} in [cut]", rows);
+  if (!(rows > 0.0) || rows > most_rows) return {};
+  return {{ReasonCode::set_rows, {}, {{"rows", rows}}}};
 }
 
 }  // namespace
 
-std::vector<CutFile> cut_files(const JobResult& result) {
+std::vector<CutFile> cut_files(const PlannedJob& result) {
   const Correction& correction = *result.correction;
   const double actuator_mm = 2.0 * correction.margin.following_once_mm;
   std::vector<CutFile> files;
@@ -86,39 +83,42 @@ std::vector<CutFile> cut_files(const JobResult& result) {
   return files;
 }
 
-std::string what_would_do(const JobResult& result, const CutFile& file, double allowed_mm) {
+Reason what_would_do(const PlannedJob& result, const CutFile& file, double allowed_mm) {
   const auto output = std::ranges::find(result.job.outputs, file.name, &ControlTable::file);
   const ControlTable* table = output == result.job.outputs.end() ? nullptr : &*output;
   const double left_mm = allowed_mm - (table == nullptr ? 0.0 : file.actuator_mm);
   const bool rows = table == nullptr || table->format == ControlFormat::halstreamer ||
                     table->format == ControlFormat::servo_nc;
-  const std::string key =
+  const Reasons keys =
       rows ? more_rows(result, table, left_mm) : finer_table(*result.correction, *table, left_mm);
-  if (!key.empty()) return file.name + " would do with " + key;
-  return fmt::format(
-      "{} does not keep the tolerance with any step that the format allows: take another format",
-      file.name);
+  return {keys.empty() ? ReasonCode::other_format : ReasonCode::file_would_do,
+          {},
+          {},
+          {{"output", file.name}},
+          keys};
 }
 
-double allowed_between_rows_mm(const JobResult& result) {
+double allowed_between_rows_mm(const PlannedJob& result) {
   return 0.1 *
          result.job.coaxiality_tolerance_mm.value_or(result.correction->margin.following_limit_mm);
 }
 
-std::string coarse_rows(const JobResult& result) {
+std::optional<Reason> coarse_rows(const PlannedJob& result) {
   const Correction& correction = *result.correction;
   const double allowed_mm = allowed_between_rows_mm(result);
   const double off_mm = correction.between_rows.largest_mm;
-  if (!(off_mm > allowed_mm)) return "";
+  if (!(off_mm > allowed_mm)) return {};
   const int rows = rows_that_would_do(correction, {allowed_mm, allowed_mm});
-  const std::string enough =
-      rows > 0 ? fmt::format("with rows_per_revolution = {} it is at most {:.3g} µm", rows,
-                             allowed_mm / mm_per_um)
-               : "more rows do not help";
-  return fmt::format(
-      "{} rows per revolution: straight lines between them are off by up to {:.3g} "
-      "µm; {}",
-      correction.tool.rows_per_revolution, off_mm / mm_per_um, enough);
+  const Reason enough{ReasonCode::rows_that_would_do,
+                      {},
+                      {{"rows", static_cast<double>(rows)}, {"allowed", allowed_mm, "mm"}}};
+  return Reason{
+      ReasonCode::rows_coarse,
+      {},
+      {{"rows", static_cast<double>(correction.tool.rows_per_revolution)}, {"off", off_mm, "mm"}},
+      {},
+      {},
+      {rows > 0 ? enough : Reason{ReasonCode::rows_do_not_help}}};
 }
 
 }  // namespace trueaxis

@@ -11,11 +11,10 @@ namespace {
 
 constexpr std::size_t too_many_points = 200'000;
 
-bool has_table(const JobResult& result, std::size_t i) {
+bool has_table(const PlannedJob& result, std::size_t i) {
   const ProbeStream& stream = result.streams[i];
   const SurfaceKind surface = result.fits[i].surface;
-  return i < result.forms.size() &&
-         (surface == SurfaceKind::cylinder || surface == SurfaceKind::cone) &&
+  return (surface == SurfaceKind::cylinder || surface == SurfaceKind::cone) &&
          fit_used(result, i).status == FitStatus::converged &&
          stream.indication == Indication::absolute && list_set_ups(stream).size() == 1 &&
          stream.size() <= too_many_points;
@@ -23,7 +22,7 @@ bool has_table(const JobResult& result, std::size_t i) {
 
 }  // namespace
 
-std::vector<Point3> datum_points(const JobResult& result, std::size_t reference) {
+std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference) {
   const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
   const FitOptions& fit = result.job.references[reference].fit;
   const ProbeStream& stream = result.streams[reference];
@@ -59,7 +58,7 @@ DatumAxis datum_axis(std::span<const Point3> points, Element element, Criterion 
   return out;
 }
 
-std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference) {
+std::vector<DatumAxis> datum_axes(const PlannedJob& result, std::size_t reference) {
   std::vector<DatumAxis> out;
   if (!has_table(result, reference)) return out;
   const FitResult& used = fit_used(result, reference);

@@ -12,11 +12,11 @@ namespace trueaxis {
 /// readings and take their noise in whole: they are stated without U. Empty: a section, a face, a
 /// gauge without a radius, several set-ups, and where the job has no axis
 /// or asks for no values of form.
-std::vector<DatumAxis> datum_axes(const JobResult& result, std::size_t reference);
+std::vector<DatumAxis> datum_axes(const PlannedJob& result, std::size_t reference);
 
 /// Where the ball's centre stood at the readings that count, without what is not of the part, in
 /// the part frame (Eqs. 1, 293): the axis of the centres is the part's.
-std::vector<Point3> datum_points(const JobResult& result, std::size_t reference);
+std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference);
 
 /// The axis of one association; `why` says where there is none.
 DatumAxis datum_axis(std::span<const Point3> points_mm, Element element, Criterion criterion,

@@ -1,25 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/datum_doubts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/references.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
 
-bool is_member(const JobResult& result, std::size_t i) {
+bool is_member(const PlannedJob& result, std::size_t i) {
   return std::ranges::any_of(result.job.datums, [&](const auto& names) {
     return std::ranges::count(names, result.job.references[i].name) > 0;
   });
 }
 
 /// That the coaxiality of reference i with the datum is above in 95 of 100.
-double least_off_mm(const JobResult& result, std::size_t i) {
+double least_off_mm(const PlannedJob& result, std::size_t i) {
   const Reference reference = references_of(result)[i];
   const TargetSurface& target = *result.job.target;
   return CoaxialityDistribution({&reference, 1}, result.target_axis->axis.axis, target.z_start_mm,
@@ -27,48 +24,56 @@ double least_off_mm(const JobResult& result, std::size_t i) {
       .quantile(nonconformity_risk);
 }
 
-/// "A is at least 23 µm (a diameter) off the datum A-B, tolerance 10 µm"; empty: it is not.
-std::string too_far(const JobResult& result, std::size_t i) {
+/// How far off the datum a reference is at least, where that is more than the tolerance.
+std::optional<Reason> too_far(const PlannedJob& result, std::size_t i, ReasonCode code) {
   if (result.fits[i].surface == SurfaceKind::plane || !result.job.coaxiality_tolerance_mm)
-    return "";
-  const double least_mm = least_off_mm(result, i),
-               tolerance_mm = *result.job.coaxiality_tolerance_mm;
-  if (!(least_mm > tolerance_mm)) return "";
-  return fmt::format("{} is at least {:.3g} µm (a diameter, over the cut) off the datum {}",
-                     result.job.references[i].name, least_mm / mm_per_um, result.datum->name);
+    return {};
+  const double least_mm = least_off_mm(result, i);
+  if (!(least_mm > *result.job.coaxiality_tolerance_mm)) return {};
+  return Reason{code, {i}, {{"off", least_mm, "mm"}}, {{"datum", result.datum->name}}};
 }
+
+/// Of the references that are in the datum, or of those that are not.
+Reasons off_the_datum(const PlannedJob& result, bool members, ReasonCode code) {
+  Reasons found;
+  if (!result.datum || !result.target_axis) return found;
+  for (std::size_t i = 0; i < result.fits.size(); ++i)
+    if (is_member(result, i) == members)
+      if (const auto far = too_far(result, i, code)) found.push_back(*far);
+  return found;
+}
+
+Reasons find_slip(const CheckInput& in) {
+  if (!in.job.datum || !in.job.target_axis || in.job.fits.size() < 2) return {};
+  return first_of_references(in.job, [&](std::size_t i) {
+    const bool slipped = i < in.job.diagnoses.size() && in.job.diagnoses[i] &&
+                         in.job.diagnoses[i]->slip() != nullptr;
+    return slipped ? std::optional(Reason{ReasonCode::slipped_between_references, {i}})
+                   : std::nullopt;
+  });
+}
+
+Reasons find_members_apart(const CheckInput& in) {
+  Reasons found = off_the_datum(in.job, true, ReasonCode::datum_members_apart);
+  if (found.size() > 1) found.resize(1);
+  return found;
+}
+
+Reasons find_off_datum(const CheckInput& in) {
+  return off_the_datum(in.job, false, ReasonCode::reference_off_datum);
+}
+
+constexpr Threshold beyond_tolerance[] = {
+    {"off", 1.0, "of the tolerance", "what is less is within what the job allows"}};
 
 }  // namespace
 
-std::string datum_objection(const JobResult& result) {
-  if (!result.datum || !result.target_axis) return "";
-  for (std::size_t i = 0; i < result.diagnoses.size() && result.fits.size() > 1; ++i)
-    if (result.diagnoses[i] && result.diagnoses[i]->slip())
-      return fmt::format(
-          "the part slipped while {} was probed, and the other references may have been probed "
-          "before: probe all of them again as the part now stands",
-          result.job.references[i].name);
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    if (!is_member(result, i)) continue;
-    if (const std::string far = too_far(result, i); !far.empty())
-      return far +
-             ", more than the tolerance, so that the references of the datum share no axis: "
-             "see whether all were probed in one clamping and whether Z and C are counted alike";
-  }
-  return "";
-}
-
-std::vector<std::string> datum_reservations(const JobResult& result) {
-  std::vector<std::string> list;
-  if (!result.datum || !result.target_axis) return list;
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    if (is_member(result, i)) continue;
-    if (const std::string far = too_far(result, i); !far.empty())
-      list.push_back(far +
-                     ", and no tolerance is held against it: see whether it was probed in the "
-                     "same clamping");
-  }
-  return list;
-}
+constinit const JobCheck slipped_between_references{
+    "slipped_between_references", CheckedAt::cut, Weight::leaves_open, {}, find_slip};
+constinit const JobCheck datum_members_apart{"datum_members_apart", CheckedAt::cut,
+                                             Weight::leaves_open, beyond_tolerance,
+                                             find_members_apart};
+constinit const JobCheck references_off_datum{"references_off_datum", CheckedAt::cut,
+                                              Weight::reserves, beyond_tolerance, find_off_datum};
 
 }  // namespace trueaxis

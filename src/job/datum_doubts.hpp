@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "trueaxis/job.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
-/// Why the datum system that the job names is not what a tolerance can be held against: the part
-/// slipped while one of several references was probed, or the references of a common datum stand
-/// off their one axis by more than the tolerance. Empty: nothing speaks against it.
-std::string datum_objection(const JobResult& result);
+/// The part slipped while one of the references of a datum system was probed: the others may be of
+/// the part as it stood before.
+extern const JobCheck slipped_between_references;
 
-/// References beside the datum whose axes are farther off it than the tolerance, a sentence each.
-std::vector<std::string> datum_reservations(const JobResult& result);
+/// The first reference of a common datum that is off its axis by more than the tolerance.
+extern const JobCheck datum_members_apart;
+
+/// References beside the datum whose axes are farther off it than the tolerance.
+extern const JobCheck references_off_datum;
 
 }  // namespace trueaxis

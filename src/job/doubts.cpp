@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/doubts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -10,7 +8,6 @@
 
 #include "fit/moved.hpp"
 #include "job/ends_of_stream.hpp"
-#include "job/references.hpp"
 #include "job/slip.hpp"
 #include "measure/angles_alike.hpp"
 #include "measure/passes.hpp"
@@ -19,9 +16,15 @@
 namespace trueaxis {
 namespace {
 
-constexpr double much_left = 1.5;       // of the noise: 5/9 of the sum of squares are no noise
-constexpr double too_little_mm = 1e-4;  // the last digit of a stream makes as much
-constexpr double least_beats = 3.0;     // of a line with the spindle, over a pass
+constexpr Threshold much_left{"left", 1.5, "of the noise",
+                              "5/9 of the sum of squares are no noise"};
+constexpr Threshold too_little{"left", 1e-4, "mm", "the last digit of a stream makes as much"};
+constexpr Threshold least_beats{"beats", 3.0, "turns over a pass",
+                                "a line that beats less with the spindle is one with the axis"};
+constexpr Threshold least_angles{"angles", 7.0, "1",
+                                 "six take five lobes, the commonest of ground parts, for an "
+                                 "eccentricity"};
+constexpr Threshold angles_apart{"apart", rad_per_deg, "rad", "angles nearer than that are one"};
 
 /// Cycles per revolution of a term at the speed and feed of a pass; none: it is no wave.
 std::optional<double> order_in(const TermValue& term, const Pass& pass) {
@@ -56,202 +59,123 @@ bool goes_with_axis(const TermValue& term, const std::vector<Pass>& passes) {
     const auto order = order_in(term, pass);
     const double turned = static_cast<double>(pass.end - pass.begin) / pass.readings_per_revolution;
     const bool line = term.effect || term.pattern.kind == Pattern::Kind::line;
-    const bool slow = line && order && *order * turned <= least_beats;
-    if (!order || (!slow && std::abs(*order - 1.0) * turned > least_beats)) return false;
+    const bool slow = line && order && *order * turned <= least_beats.value;
+    if (!order || (!slow && std::abs(*order - 1.0) * turned > least_beats.value)) return false;
     turns = true;
   }
   return turns;
 }
 
-/// What of a diagnosis is not settled; empty: every cause has its name.
-std::string open_causes(const Diagnosis& diagnosis) {
-  std::string text;
-  for (const Finding& finding : diagnosis.findings) {
-    if (finding.rivals.empty() || finding.cosmetic) continue;
-    text += (text.empty() ? "" : ", ") + finding.effect() + " may be " + finding.rivals[0].effect;
-  }
-  if (!diagnosis.unexplained.empty())
-    text += (text.empty() ? "" : ", ") + std::string("a pattern has no known cause");
-  return text;
+/// What went with the axis, were it measured again.
+Reasons next_of(const Diagnosis& diagnosis) {
+  if (diagnosis.next.what.empty()) return {{ReasonCode::probe_at_other_speed}};
+  return {measure(diagnosis.next)};
 }
 
-/// Whether all passes that turn run at one speed and not in both directions of Z.
-bool one_manner(const std::vector<Pass>& passes) {
-  const Pass* first = nullptr;
-  for (const Pass& p : passes) {
-    if (p.c_sign == 0 || p.readings_per_revolution <= 0.0) continue;
-    if (!first) first = &p;
-    const double apart = std::abs(p.speed_rad_per_s - first->speed_rad_per_s);
-    if (apart > 0.01 * std::abs(first->speed_rad_per_s) || p.feed_sign != first->feed_sign)
-      return false;
-  }
-  return true;
-}
-
-bool is_bow(const Finding& finding) {
-  const auto* harmonic = std::get_if<Harmonic>(&finding.term.effect->term);
-  return harmonic && harmonic->fixed_order == 1.0 &&
-         harmonic->envelope == Harmonic::Envelope::parabola;
-}
-
-/// Angles at which a stream was read, to 1°; `most`: as many or more.
-int few_places(const ProbeStream& stream, int most) {
+/// Angles at which a stream was read, each `angles_apart` from the next; `most`: as many or more.
+std::size_t few_places(const ProbeStream& stream, std::size_t most) {
   std::vector<double> places;
   for (const double c : stream.c_rad) {
     const bool known = std::ranges::any_of(places, [&](double place) {
-      return std::abs(std::remainder(c - place, two_pi)) < rad_per_deg;
+      return std::abs(std::remainder(c - place, two_pi)) < angles_apart.value;
     });
     if (!known) places.push_back(c);
-    if (static_cast<int>(places.size()) >= most) break;
+    if (places.size() >= most) break;
   }
-  return static_cast<int>(places.size());
+  return places.size();
 }
+
+std::optional<Reason> left_unexplained_of(const ProbeStream&, const Diagnosis& diagnosis) {
+  const NoiseReport& noise = diagnosis.noise;
+  const double left_mm = diagnosis.gain.rms_after_mm;
+  const double most_mm = much_left.value * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
+  if (!(left_mm > std::max(most_mm, too_little.value))) return {};
+  return Reason{ReasonCode::left_unexplained,
+                {},
+                {{"left", left_mm, "mm"}, {"noise", noise.sigma_mm, "mm"}},
+                {{"source", noise.source}}};
+}
+
+std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  const std::vector<Pass> passes = stream.size() > 0 ? find_passes(stream) : std::vector<Pass>{};
+  for (const Unexplained& u : diagnosis.unexplained)
+    if (goes_with_axis(u.term, passes))
+      return Reason{ReasonCode::pattern_with_axis,
+                    {},
+                    {{"amplitude", u.amplitude.value, "mm"}},
+                    {},
+                    {},
+                    next_of(diagnosis)};
+  for (const Finding& f : diagnosis.findings)
+    if (goes_with_axis(f.term, passes))
+      return Reason{ReasonCode::finding_with_axis, {}, {{"turns", least_beats.value}},
+                    {{"effect", f.effect()}},      {}, next_of(diagnosis)};
+  return {};
+}
+
+std::optional<Reason> moved_in_pass_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  return moved_reason(stream, diagnosis.residual_after_mm, diagnosis.extended);
+}
+
+std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagnosis) {
+  if (!diagnosis.slip() || is_sure_slip(diagnosis)) return {};
+  return Reason{ReasonCode::slip_unsure};
+}
+
+std::optional<Reason> few_angles_in(const ProbeStream& stream, const Diagnosis&) {
+  return few_angles_of(stream);
+}
+
+constexpr Threshold of_left[] = {much_left, too_little};
+constexpr Threshold of_beats[] = {least_beats};
+constexpr Threshold of_angles[] = {least_angles, angles_apart};
+constexpr Threshold of_move[] = {{"moved", 1.0, "of U", "what is less is within it"}};
 
 }  // namespace
 
-std::string left_unnamed(const Diagnosis& diagnosis) {
-  const NoiseReport& noise = diagnosis.noise;
-  const double left_mm = diagnosis.gain.rms_after_mm;
-  const double most_mm = much_left * (noise.sigma_mm + 2.0 * noise.u_sigma_mm);
-  if (!(left_mm > std::max(most_mm, too_little_mm))) return "";
-  return fmt::format(
-      "what was found leaves {:.2g} µm where the {} show a noise of {:.2g} µm: the readings "
-      "hold "
-      "something that no cause and no pattern explains, and the axis may go with it. See whether "
-      "the part slipped, clamp it again and probe again",
-      left_mm / mm_per_um, noise.source, noise.sigma_mm / mm_per_um);
+constinit const JobCheck moves_in_pass{"moves_in_pass", CheckedAt::references, Weight::leaves_open,
+                                       of_move, of_streams<moved_in_pass_of>};
+constinit const JobCheck left_unexplained{"left_unexplained", CheckedAt::references,
+                                          Weight::leaves_open, of_left,
+                                          of_streams<left_unexplained_of>};
+constinit const JobCheck moves_with_axis{"moves_with_axis", CheckedAt::references,
+                                         Weight::leaves_open, of_beats,
+                                         of_streams<moves_with_axis_of>};
+constinit const JobCheck few_angles{"few_angles", CheckedAt::references, Weight::leaves_open,
+                                    of_angles, of_streams<few_angles_in>};
+
+Reason measure(const NextMeasurement& next) {
+  return {ReasonCode::measure, {}, {}, {{"plan", next.plan}, {"what", next.what}}};
 }
 
-std::vector<std::string> model_reservations(const JobResult& result) {
-  std::vector<std::string> list;
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    if (!result.diagnoses[i]) {
-      if (result.fits[i].u_factor > 1.0)
-        list.push_back(of_reference(result, i) +
-                       "its readings are not diagnosed, and what they leave correlates");
-      continue;
-    }
-    const Diagnosis& diagnosis = *result.diagnoses[i];
-    const double stated_mm = diagnosis.noise.stated_mm.value_or(0.0);
-    const double left_mm = std::max(diagnosis.noise.sigma_mm, diagnosis.gain.rms_after_mm);
-    if (stated_mm > 0.0 &&
-        left_mm - stated_mm > std::max(0.5 * stated_mm, 3.0 * diagnosis.noise.u_sigma_mm)) {
-      list.push_back(fmt::format(
-          "{}after all that was found a reading scatters by {:.2g} µm, {:.2g} times the stated "
-          "noise: the readings hold something that was not found, or the noise was stated too "
-          "small",
-          of_reference(result, i), left_mm / mm_per_um, left_mm / stated_mm));
-    }
-    const bool one_pass =
-        result.streams.at(i).size() > 0 && one_manner(find_passes(result.streams[i]));
-    if (one_pass && std::ranges::any_of(diagnosis.findings, is_bow))
-      list.push_back(
-          of_reference(result, i) +
-          "a bow that was seen in one pass, or in passes alike, may as well be a vibration "
-          "near the spindle's frequency, which would move the axis: a pass back at "
-          "another speed tells");
-  }
-  return list;
+std::optional<Reason> few_angles_of(const ProbeStream& stream) {
+  if (stream.kind == StreamKind::face) return {};
+  const auto enough = static_cast<std::size_t>(least_angles.value);
+  std::size_t angles = few_places(stream, enough);
+  if (const auto alike = angles_alike(stream))
+    angles = std::min(angles, static_cast<std::size_t>(*alike));
+  if (angles >= enough) return {};
+  const auto count = static_cast<double>(angles);
+  return Reason{ReasonCode::few_angles,
+                {},
+                {{"angles", count}, {"lobes", count - 1.0}, {"enough", least_angles.value}}};
 }
 
-std::vector<OpenAxis> open_axes(const JobResult& result) {
-  std::vector<OpenAxis> list;
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !result.job.target) continue;
-    const FitResult& used = fit_used(result, i);
-    const std::string open = open_causes(*result.diagnoses[i]);
-    if (&used == &result.fits[i] || open.empty()) continue;
-    double moved_mm = 0.0, U_mm = 0.0;
-    if (used.surface == SurfaceKind::plane) {  // what its tilt makes at the outer end
-      const Axis &now = used.axis.axis, &ideal = result.fits[i].axis.axis;
-      const double end_mm = std::max(std::abs(used.position_min_mm), used.position_max_mm);
-      moved_mm = end_mm * std::hypot(now.slope_x - ideal.slope_x, now.slope_y - ideal.slope_y);
-      U_mm = used.coverage_factor * end_mm * used.axis.u_slopes();
-    }
-    for (const double z_mm : {result.job.target->z_start_mm, result.job.target->z_end_mm}) {
-      if (used.surface == SurfaceKind::plane) break;
-      const auto [x, y] = used.axis.axis.at(z_mm);
-      const auto [x_ideal, y_ideal] = result.fits[i].axis.axis.at(z_mm);
-      moved_mm = std::max(moved_mm, std::hypot(x - x_ideal, y - y_ideal));
-      U_mm = std::max(U_mm, used.coverage_factor * used.axis.u_at(z_mm));
-    }
-    if (moved_mm <= U_mm) continue;
-    list.push_back(
-        {i, fmt::format("{}the diagnosis moved the axis by {:.2g} µm (U = {:.2g} µm), and {}",
-                        of_reference(result, i), moved_mm / mm_per_um, U_mm / mm_per_um, open)});
-  }
-  return list;
+std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const double> left_mm,
+                                   const FitResult& fit) {
+  const auto step = moved_in_pass(stream, left_mm, fit);
+  if (!step) return {};
+  return Reason{ReasonCode::moved_in_pass,
+                {},
+                {{"size", step->size_mm, "mm"}, {"row", static_cast<double>(step->reading + 1)}},
+                {{"text", moved_text(*step)}}};
 }
 
-std::string improbable_and_far(const JobResult& result, double tolerance_mm) {
-  constexpr double listed = 1e-3;  // what is less probable is in no class
-  constexpr double far_out = 3.0;  // times the tolerance, which is a diameter
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i]) continue;
-    for (const AxisShare& share : result.diagnoses[i]->shares) {
-      const double out_mm = 2.0 * share.axis_shift.value;
-      if (share.probability >= listed || share.effect.empty() || share.instead_of.empty() ||
-          out_mm <= far_out * tolerance_mm)
-        continue;
-      const Effect* effect = result.diagnoses[i]->entry(share.effect);
-      if (!effect || effect->separations.empty()) continue;
-      const Separation& tells = effect->separations.front();
-      const auto plan =
-          std::ranges::find(result.diagnoses[i]->plans, tells.code, &Separating::plan);
-      return fmt::format(
-          "{}{} may be {} too, improbable as its size is, and the axis were then {:.0f} µm "
-          "elsewhere: measure it, or {}",
-          of_reference(result, i), share.instead_of, share.effect,
-          share.axis_shift.value / mm_per_um,
-          plan == result.diagnoses[i]->plans.end() ? std::string(tells.how) : plan->what);
-    }
-  }
-  return "";
-}
-
-std::string moves_with_axis(const ProbeStream& stream, const Diagnosis& diagnosis) {
-  const std::vector<Pass> passes = stream.size() > 0 ? find_passes(stream) : std::vector<Pass>{};
-  const std::string next = diagnosis.next.what.empty()
-                               ? "probe again at another speed and another feed"
-                               : diagnosis.next.what;
-  for (const Unexplained& u : diagnosis.unexplained) {
-    if (!goes_with_axis(u.term, passes)) continue;
-    return fmt::format(
-        "a pattern of {:.2g} µm near one undulation per revolution has no known cause, and the "
-        "axis goes with it: {}",
-        u.amplitude.value / mm_per_um, next);
-  }
-  for (const Finding& f : diagnosis.findings) {
-    if (!goes_with_axis(f.term, passes)) continue;
-    return fmt::format(
-        "{} is so near to once a revolution that over the stream it gains at most {:.2g} turns "
-        "on the part or its eccentricity, and cannot be told from a shift of the axis: {}",
-        f.effect(), least_beats, next);
-  }
-  return "";
-}
-
-std::string few_angles(const ProbeStream& stream) {
-  constexpr int enough = 7;  // six see five lobes as eccentricity, the commonest of ground parts
-  if (stream.kind == StreamKind::face) return "";
-  int angles = few_places(stream, enough);
-  if (const auto alike = angles_alike(stream)) angles = std::min(angles, *alike);
-  if (angles >= enough) return "";
-  return fmt::format(
-      "{0} angles, the same in every revolution or nearly so, cannot tell {1} lobes from an "
-      "eccentricity: probe at {2} angles or more",
-      angles, angles - 1, enough);
-}
-
-std::string why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {
-  if (diagnosis.slip() && !is_sure_slip(diagnosis))
-    return "the part slipped, and where it is now is not known";
-  for (const std::string& why :
-       {left_out_at_an_end(stream, diagnosis), far_off_at_the_end(diagnosis),
-        moved_in_pass(stream, diagnosis.residual_after_mm, diagnosis.extended),
-        left_unnamed(diagnosis), moves_with_axis(stream, diagnosis), few_angles(stream)})
-    if (!why.empty()) return why;
-  return "";
+std::optional<Reason> why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  for (const auto find : {slip_unsure_of, left_out_of_stream, far_off_of_stream, moved_in_pass_of,
+                          left_unexplained_of, moves_with_axis_of, few_angles_in})
+    if (auto why = find(stream, diagnosis)) return why;
+  return {};
 }
 
 void withhold_axis(FitResult& fit, const std::string& why) {

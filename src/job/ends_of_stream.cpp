@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/ends_of_stream.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
@@ -16,7 +14,12 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t least_end = 8;  // readings: of fewer, all must have been left out
-constexpr double mostly = 0.5, gathered = 3.0, hardly = 1e-4;
+constexpr Threshold mostly{"left_out", 0.5, "of a run", "most of it"};
+constexpr Threshold gathered{"gathered", 3.0, "times elsewhere", "outliers alone lie anywhere"};
+constexpr Threshold hardly{"by_chance", 1e-4, "of streams", "that a short run is all left out"};
+constexpr double limits[] = {3.0, 4.0};  // σ
+constexpr Threshold off_by_chance{"by_chance", 1e-3, "of streams",
+                                  "of both limits together, Eq. 275"};
 
 /// The longest run of readings at an end of a stream of which most were left out, and three times
 /// the share of all others; 0: outliers lie anywhere. A short one is a run where all of it was left
@@ -32,15 +35,12 @@ std::size_t left_out_end(std::size_t count, LeftOut left_out) {
     const auto run = static_cast<double>(i + 1), rest = static_cast<double>(count) - run;
     const double elsewhere = (total - here + 1.0) / rest;
     const bool is_run = i + 1 >= least_end
-                            ? here >= mostly * run && here / run >= gathered * elsewhere
-                            : here == run && std::pow(elsewhere, run) < hardly;
+                            ? here >= mostly.value * run && here / run >= gathered.value * elsewhere
+                            : here == run && std::pow(elsewhere, run) < hardly.value;
     if (is_run) longest = i + 1;
   }
   return longest;
 }
-
-constexpr double limits[] = {3.0, 4.0};  // σ
-constexpr double off_by_chance = 1e-3;   // of streams, of both limits together
 
 /// How many of the last eight lie beyond a limit, if that many do in no other eight and by chance
 /// hardly ever do (Eq. 275); 0: no more than elsewhere. `far`: of each reading, in time.
@@ -57,13 +57,16 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   const double share = (static_cast<double>(elsewhere) + 1.0) / (static_cast<double>(rest) + 1.0);
   const boost::math::binomial_distribution<double> law(static_cast<double>(least_end), share);
   const double p = cdf(complement(law, static_cast<double>(here) - 1.0));
-  return p * static_cast<double>(std::size(limits)) < off_by_chance ? here : 0;
+  return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
+
+constexpr Threshold of_left_out[] = {mostly, gathered, hardly};
+constexpr Threshold of_far_off[] = {off_by_chance};
 
 }  // namespace
 
-std::string left_out_at_an_end(const ProbeStream& stream, const Diagnosis& diagnosis) {
-  if (stream.size() == 0) return "";
+std::optional<Reason> left_out_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis) {
+  if (stream.size() == 0) return {};
   std::vector<bool> left_out(stream.size(), false);
   for (const auto* rows : {&diagnosis.baseline.rejected, &diagnosis.noise.masked})
     for (const Rejected& r : *rows)
@@ -74,19 +77,18 @@ std::string left_out_at_an_end(const ProbeStream& stream, const Diagnosis& diagn
         left_out_end(size, [&](std::size_t k) { return left_out[pass.end - 1 - k]; });
     const std::size_t first =
         left_out_end(size, [&](std::size_t k) { return left_out[pass.begin + k]; });
-    if (first + last == 0) continue;
-    return fmt::format(
-        "most of the {} {} readings of a pass were left out, because they do not lie where the "
-        "others do: the part may have slipped there, and stands elsewhere now. Clamp it again "
-        "and probe again, or take that end out of the stream if the surface ends there",
-        last > 0 ? "last" : "first", last > 0 ? last : first);
+    if (first + last > 0)
+      return Reason{ReasonCode::left_out_at_an_end,
+                    {},
+                    {{"count", static_cast<double>(last > 0 ? last : first)}},
+                    {{"end", last > 0 ? "last" : "first"}}};
   }
-  return "";
+  return {};
 }
 
-std::string far_off_at_the_end(const Diagnosis& diagnosis) {
+std::optional<Reason> far_off_of_stream(const ProbeStream&, const Diagnosis& diagnosis) {
   const std::vector<double>& left_mm = diagnosis.residual_after_mm;
-  if (left_mm.size() < 4 * least_end) return "";
+  if (left_mm.size() < 4 * least_end) return {};
   std::vector<double> there;
   std::ranges::copy_if(left_mm, std::back_inserter(there),
                        [](double r) { return std::isfinite(r); });
@@ -95,15 +97,21 @@ std::string far_off_at_the_end(const Diagnosis& diagnosis) {
     std::vector<bool> far(left_mm.size());
     for (std::size_t k = 0; k < left_mm.size(); ++k)
       far[k] = !std::isfinite(left_mm[k]) || std::abs(left_mm[k]) > limit * sigma_mm;
-    const std::size_t count = far_in_last(far);
-    if (count == 0) continue;
-    return fmt::format(
-        "{} of the last {} readings lie more than {:.0f} σ off, as no other {} do: the part may "
-        "have slipped there, and stands elsewhere now. Clamp it again and probe again, or take "
-        "that end out of the stream if the surface ends there",
-        count, least_end, limit, least_end);
+    if (const std::size_t count = far_in_last(far); count > 0)
+      return Reason{ReasonCode::far_off_at_the_end,
+                    {},
+                    {{"count", static_cast<double>(count)},
+                     {"last", static_cast<double>(least_end)},
+                     {"limit", limit}}};
   }
-  return "";
+  return {};
 }
+
+constinit const JobCheck left_out_at_an_end{"left_out_at_an_end", CheckedAt::references,
+                                            Weight::leaves_open, of_left_out,
+                                             of_streams<left_out_of_stream>};
+constinit const JobCheck far_off_at_the_end{"far_off_at_the_end", CheckedAt::references,
+                                            Weight::leaves_open, of_far_off,
+                                             of_streams<far_off_of_stream>};
 
 }  // namespace trueaxis

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <optional>
 
-#include "trueaxis/diagnosis.hpp"
-#include "trueaxis/probe_stream.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
 // A slip near an end of a stream leaves too few readings beside it to be a finding, and where it is
 // the last end the part stands elsewhere now.
 
-/// That outliers gather at an end of a pass. Empty: they do not.
-std::string left_out_at_an_end(const ProbeStream& stream, const Diagnosis& diagnosis);
+/// Outliers gather at an end of a pass.
+std::optional<Reason> left_out_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis);
+extern const JobCheck left_out_at_an_end;
 
-/// That several of the last eight readings lie farther off than in any other eight, and than their
-/// share elsewhere makes once in a thousand streams. Empty: they do not.
-std::string far_off_at_the_end(const Diagnosis& diagnosis);
+/// Several of the last eight readings lie farther off than in any other eight, and than their share
+/// elsewhere makes once in a thousand streams.
+std::optional<Reason> far_off_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis);
+extern const JobCheck far_off_at_the_end;
 
 }  // namespace trueaxis

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/evidence.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "trueaxis/fit.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -22,38 +21,33 @@ double length_mm(const ProbeStream& stream) {
   return high - low;
 }
 
+Reasons if_a_cone() { return {{ReasonCode::set_surface, {}, {}, {{"surface", "cone"}}}}; }
+
 }  // namespace
 
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
-  if (stream.kind == StreamKind::face)
-    return {SurfaceKind::plane, "taken for a plane: Z_M is read at C and X"};
-  if (!(length_mm(stream) > 0.0))
-    return {SurfaceKind::section, "taken for one section: there is no change of Z"};
+  if (stream.kind == StreamKind::face) return {SurfaceKind::plane, {ReasonCode::reads_a_face}};
+  if (!(length_mm(stream) > 0.0)) return {SurfaceKind::section, {ReasonCode::no_change_of_z}};
   FitOptions options;
   options.surface = SurfaceKind::cone;
   const FitResult cone = fit(stream, options);
-  if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, "taken for a cone"};
+  if (cone.status == FitStatus::implausible) return {SurfaceKind::cone, {ReasonCode::cone_at_last}};
   if (cone.status != FitStatus::converged)
-    return {SurfaceKind::cylinder,
-            "taken for a cylinder: no taper is seen; say --surface cone if it is one"};
+    return {SurfaceKind::cylinder, {ReasonCode::no_taper_seen, {}, {}, {}, {}, if_a_cone()}};
   const Estimate& half_angle = cone.parameter("half_angle");
   const double taper = std::abs(cone.shape.tan_half_angle);
   const bool tapers = taper > least_taper && half_angle.determined() &&
                       std::abs(half_angle.value) > sure * half_angle.u;
-  const double change_um = taper * length_mm(stream) / mm_per_um;
-  const std::string surface = tapers ? "cone" : "cylinder";
-  std::string why = fmt::format("taken for a {}: ", surface);
-  if (half_angle.determined() && std::isfinite(half_angle.u)) {
-    const double U_deg = half_angle.expanded(cone.coverage_factor);
-    const int decimals = decimals_of(U_deg, 0);
-    why += fmt::format("half angle {:.{}f}° ± {:.{}f}°", std::abs(half_angle.value), decimals,
-                       U_deg, decimals);
-  } else {
-    why += fmt::format("the radius changes by {:.4g} µm over {:.4g} mm of Z", change_um,
-                       length_mm(stream));
-  }
-  if (!tapers) why += "; say --surface cone if it is one";
-  return {tapers ? SurfaceKind::cone : SurfaceKind::cylinder, why};
+  const SurfaceKind surface = tapers ? SurfaceKind::cone : SurfaceKind::cylinder;
+  const double length = length_mm(stream);
+  Reason why{ReasonCode::taper_seen, {}, {}, {{"surface", to_string(surface)}}};
+  if (half_angle.determined() && std::isfinite(half_angle.u))
+    why.numbers = {{"half_angle", std::abs(half_angle.value), "deg",
+                    half_angle.expanded(cone.coverage_factor)}};
+  else
+    why.numbers = {{"change", taper * length, "mm"}, {"length", length, "mm"}};
+  if (!tapers) why.remedies = if_a_cone();
+  return {surface, std::move(why)};
 }
 
 }  // namespace trueaxis

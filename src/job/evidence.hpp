@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/reason.hpp"
 #include "trueaxis/surface.hpp"
 
 namespace trueaxis {
 
-/// The surface that a stream's readings are of, and why, in a sentence.
+/// The surface that a stream's readings are of, and why. A job takes no sphere.
 struct SurfaceEvidence {
   SurfaceKind surface = SurfaceKind::cone;
-  std::string why;
+  Reason why;
 };
 
 /// A face is a plane, a stream without a change of Z a section. Else a cone where its half angle
 /// is beyond 3 u and the radius changes over the probed length by more than a thousandth of the
-/// length, which is more than a slide or a worn bed makes of a cylinder; else a cylinder.
+/// length, which is more than a slide or a worn bed makes of a cylinder; else a cylinder. A sphere
+/// where one leaves a tenth of what these do.
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream);
 
 }  // namespace trueaxis

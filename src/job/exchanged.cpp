@@ -1,36 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/exchanged.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <numeric>
 
 #include "fit/plausible.hpp"
 #include "job/mistakes.hpp"
 #include "math/statistics.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
-namespace {
-
-constexpr double far_better = 1.0 / 3.0;  // of the RMS
-constexpr double as_good = 1.2;
-
-std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
-
-}  // namespace
-
-std::string reference_and_file(const JobResult& result, std::size_t i) {
-  const JobReference& reference = result.job.references[i];
-  const std::string file = std::filesystem::path(reference.stream).filename().string();
-  return reference.name + (file.empty() ? "" : " (" + file + ")");
-}
-
-std::string exchanged_streams(const JobResult& result) {
+std::optional<Reason> exchanged_streams(const IdentifiedJob &result) {
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     for (std::size_t j = i + 1; j < result.streams.size(); ++j) {
       const FitOptions &of_i = result.job.references[i].fit, &of_j = result.job.references[j].fit;
@@ -43,18 +24,21 @@ std::string exchanged_streams(const JobResult& result) {
       const double a_mm = left_mm(result.streams[i], a), b_mm = left_mm(result.streams[j], b);
       const FitResult a_by_j = fit(result.streams[i], of_j), b_by_i = fit(result.streams[j], of_i);
       const bool fits = a_by_j.status == FitStatus::converged &&
-                        b_by_i.status == FitStatus::converged && a_by_j.rms_mm <= as_good * a_mm &&
-                        b_by_i.rms_mm <= as_good * b_mm;
-      const bool better = a_by_j.rms_mm <= far_better * a_mm || b_by_i.rms_mm <= far_better * b_mm;
+                        b_by_i.status == FitStatus::converged &&
+                        a_by_j.rms_mm <= exchanged_as_good.value * a_mm &&
+                        b_by_i.rms_mm <= exchanged_as_good.value * b_mm;
+      const bool better = a_by_j.rms_mm <= exchanged_better.value * a_mm ||
+                          b_by_i.rms_mm <= exchanged_better.value * b_mm;
       if (!fits || !better) continue;
-      return fmt::format(
-          "{} and {} have each other's stream: as given their fits leave {} and {}, exchanged {} "
-          "and {}: exchange their `stream`",
-          reference_and_file(result, i), reference_and_file(result, j), um_text(a_mm),
-          um_text(b_mm), um_text(b_by_i.rms_mm), um_text(a_by_j.rms_mm));
+      return Reason{ReasonCode::streams_exchanged,
+                    {i, j},
+                    {{"left", a_mm, "mm"},
+                     {"left_of_other", b_mm, "mm"},
+                     {"exchanged", b_by_i.rms_mm, "mm"},
+                     {"exchanged_of_other", a_by_j.rms_mm, "mm"}}};
     }
   }
-  return "";
+  return {};
 }
 
 }  // namespace trueaxis

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <string>
+#include <optional>
 
-#include "trueaxis/job.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
-/// "seat (seat.csv)"
-std::string reference_and_file(const JobResult& result, std::size_t reference);
+inline constexpr Threshold exchanged_better{"left", 1.0 / 3.0, "of the RMS as given",
+                                            "for one of the two"};
+inline constexpr Threshold exchanged_as_good{"left", 1.2, "of the RMS as given", "for both"};
 
 /// That two references have each other's stream: each stream is fitted better, or as well, with the
-/// surface of the other. Empty: of none.
-std::string exchanged_streams(const JobResult& result);
+/// surface of the other.
+std::optional<Reason> exchanged_streams(const IdentifiedJob& job);
 
 }  // namespace trueaxis

@@ -51,21 +51,16 @@ void judge(const FormTask& task, PartForm& form) {
                                    *task.runout_tolerance_mm, form));
 }
 
-void reserve_forms(JobResult& result) {
-  Verdict& verdict = result.verdict;
-  for (std::size_t i = 0; i < result.forms.size(); ++i)
-    for (const FormJudgement& one : result.forms[i].judgements) {
-      if (one.conformity == Conformity::met) continue;
-      constexpr const char* words[] = {"met", "NOT MET", "NOT PROVEN", "NOT JUDGED"};
-      const std::string why = fmt::format("the {} of {} is {}, and the verdict is of the cut alone",
-                                          one.what, result.job.references[i].name,
-                                          words[static_cast<std::size_t>(one.conformity)]);
-      verdict.reservations.push_back(why);
-      verdict.line += "; " + why;
-      if (verdict.decision != Decision::go) continue;
-      verdict.decision = Decision::go_with_reservations;
-      verdict.line = "GO with reservations" + verdict.line.substr(2);
-    }
+Reasons form_reservations(std::span<const PartForm> forms) {
+  constexpr ReasonCode codes[] = {ReasonCode::count_, ReasonCode::form_not_met,
+                                  ReasonCode::form_not_proven, ReasonCode::form_not_judged};
+  Reasons list;
+  for (std::size_t i = 0; i < forms.size(); ++i)
+    for (const FormJudgement& one : forms[i].judgements)
+      if (one.conformity != Conformity::met)
+        list.push_back(
+            {codes[static_cast<std::size_t>(one.conformity)], {i}, {}, {{"form", one.what}}});
+  return list;
 }
 
 bool PartForm::met() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "trueaxis/job.hpp"
 #include "trueaxis/part_form.hpp"
 
@@ -11,8 +13,7 @@ namespace trueaxis {
 /// The two differ where the readings leave open what is of the part.
 void judge(const FormTask& task, PartForm& form);
 
-/// The verdict is of the cut: where a tolerance of form is not proven met, it says so as a
-/// reservation, and a GO is one with reservations.
-void reserve_forms(JobResult& result);
+/// The verdict is of the cut: a tolerance of form that is not proven met is a reservation of it.
+Reasons form_reservations(std::span<const PartForm> forms);
 
 }  // namespace trueaxis

@@ -33,32 +33,31 @@ ForbiddenCause forbidden_cause(const Diagnosis& diagnosis, const Finding& findin
   return out;
 }
 
-/// Why a finding must not be cut with; empty: it may. A line that is free in its order fits noise a
+/// Why a finding must not be cut with; none: it may. A line that is free in its order fits noise a
 /// little better than the whole order beside it, so chance keeps it in the class with a small
 /// probability: what may be copied by mistake is what a go may be wrong by.
-std::string objection(const JobResult& result, const Diagnosis& diagnosis, const Finding& finding) {
+std::optional<Reason> motion_objection(const Job& job, const Diagnosis& diagnosis,
+                                       const Finding& finding) {
   const ForbiddenCause other = forbidden_cause(diagnosis, finding);
-  if (other.probability > nonconformity_risk) {
-    return fmt::format(
-        "the data cannot tell it from {} (class {}), which must not be copied into the cut; the "
-        "probability of such a cause is {:.2g}, allowed are {:.2g}",
-        other.effect, fmt::join(finding.members(), ", "), other.probability, nonconformity_risk);
-  }
+  if (other.probability > nonconformity_risk)
+    return Reason{ReasonCode::not_told_from_forbidden,
+                  {},
+                  {{"probability", other.probability}, {"allowed", nonconformity_risk}},
+                  {{"cause", other.effect},
+                   {"class", fmt::format("{}", fmt::join(finding.members(), ", "))}}};
   if (std::abs(finding.term.shape.order - std::round(finding.term.shape.order)) > 1e-9)
-    return "it does not repeat every revolution";
-  if (result.job.target->kind == TargetKind::face)
-    return diagnosis.baseline.surface == SurfaceKind::plane
-               ? "a face is cut without the motions that were seen on it"
-               : "it was seen along X, and a face is cut along Z";
-  if (side_of_tool(result.job.tool.angle_from_probe_rad) == 0)
-    return "the probe saw it along its own direction; the tool's angle from the probe must be 0 or "
-           "180 deg";
-  const auto [low, high] = std::minmax(result.job.target->z_start_mm, result.job.target->z_end_mm);
+    return Reason{ReasonCode::not_repeating};
+  if (job.target->kind == TargetKind::face)
+    return Reason{diagnosis.baseline.surface == SurfaceKind::plane ? ReasonCode::seen_on_a_face
+                                                                   : ReasonCode::seen_along_x};
+  if (side_of_tool(job.tool.angle_from_probe_rad) == 0)
+    return Reason{ReasonCode::tool_off_probe_line};
+  const auto [low, high] = std::minmax(job.target->z_start_mm, job.target->z_end_mm);
   const bool outside = low < diagnosis.z_mid_mm - 1.05 * diagnosis.z_half_mm ||
                        high > diagnosis.z_mid_mm + 1.05 * diagnosis.z_half_mm;
   if (finding.term.effect->frame == EffectFrame::machine && outside)
-    return "the length to be cut reaches beyond the one that was probed";
-  return "";
+    return Reason{ReasonCode::beyond_probed_length};
+  return {};
 }
 
 bool known_already(const std::vector<RepeatingMotion>& motions, const Finding& finding) {
@@ -79,39 +78,51 @@ std::span<const std::string_view> repeating_effects() {
   return ids;
 }
 
-std::vector<RepeatingMotion> included_motions(JobResult& result) {
-  std::vector<RepeatingMotion> motions;
-  for (const std::string& wish : result.job.include) {
+namespace {
+
+/// What becomes of a wish at a finding that may be it.
+Inclusion inclusion_of(const std::string& wish, const IdentifiedJob& job, std::size_t i,
+                       const Finding& finding, const std::vector<RepeatingMotion>& motions) {
+  Inclusion out{wish, job.job.references[i].name, false, false,
+                motion_objection(job.job, *job.diagnoses[i], finding)};
+  out.refused = out.why.has_value();
+  if (out.refused) return out;
+  const ForbiddenCause other = forbidden_cause(*job.diagnoses[i], finding);
+  if (finding.effect() != wish) {
+    out.why = Reason{ReasonCode::named_otherwise, {}, {}, {{"effect", finding.effect()}}};
+  } else if (known_already(motions, finding)) {
+    out.why = Reason{ReasonCode::shown_by_another};
+  } else {
+    out.included = true;
+    if (!other.effect.empty())
+      out.why = Reason{ReasonCode::may_be_forbidden,
+                       {},
+                       {{"probability", other.probability}},
+                       {{"cause", other.effect}}};
+  }
+  return out;
+}
+
+}  // namespace
+
+IncludedMotions included_motions(const IdentifiedJob& job) {
+  IncludedMotions out;
+  for (const std::string& wish : job.job.include) {
     bool found = false;
-    for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-      if (!result.diagnoses[i]) continue;
-      const Diagnosis& diagnosis = *result.diagnoses[i];
+    for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
+      if (!job.diagnoses[i]) continue;
+      const Diagnosis& diagnosis = *job.diagnoses[i];
       for (const Finding& finding : diagnosis.findings) {
         if (!finding.may_be(wish)) continue;
         found = true;
-        Inclusion inclusion{wish, result.job.references[i].name, false, false,
-                            objection(result, diagnosis, finding)};
-        if (!inclusion.why.empty()) {
-          inclusion.refused = true;
-        } else if (finding.effect() != wish) {
-          inclusion.why = "it is named " + finding.effect() + " there";
-        } else if (known_already(motions, finding)) {
-          inclusion.why = "another reference shows it already";
-        } else {
-          inclusion.included = true;
-          if (const ForbiddenCause other = forbidden_cause(diagnosis, finding);
-              !other.effect.empty())
-            inclusion.why =
-                fmt::format("the probability that it is {}, which should not be, is {:.2g}",
-                            other.effect, other.probability);
-          motions.push_back({finding.term, diagnosis.z_mid_mm, diagnosis.z_half_mm});
-        }
-        result.inclusions.push_back(inclusion);
+        out.inclusions.push_back(inclusion_of(wish, job, i, finding, out.motions));
+        if (out.inclusions.back().included)
+          out.motions.push_back({finding.term, diagnosis.z_mid_mm, diagnosis.z_half_mm});
       }
     }
-    if (!found) result.inclusions.push_back({wish, "", false, false, "it was not found"});
+    if (!found) out.inclusions.push_back({wish, "", false, false, Reason{ReasonCode::not_found}});
   }
-  return motions;
+  return out;
 }
 
 }  // namespace trueaxis

@@ -8,8 +8,12 @@
 
 namespace trueaxis {
 
-/// Findings that the job asks to be put into the correction and that may be; what became of each
-/// wish goes to `result.inclusions`.
-std::vector<RepeatingMotion> included_motions(JobResult& result);
+struct IncludedMotions {
+  std::vector<RepeatingMotion> motions;
+  std::vector<Inclusion> inclusions;  ///< what became of each wish
+};
+
+/// Findings that the job asks to be put into the correction and that may be.
+IncludedMotions included_motions(const IdentifiedJob& job);
 
 }  // namespace trueaxis

@@ -13,32 +13,42 @@
 namespace trueaxis {
 namespace {
 
-void diagnose_all(JobResult& result) {
-  for (std::size_t i = 0; i < result.streams.size(); ++i) {
-    result.diagnoses.emplace_back();
-    result.resimulations.emplace_back();
-    if (result.fits[i].status != FitStatus::converged) continue;
+/// Fits, what they tell of each other, and the diagnosis of each.
+IdentifiedJob identified(Job job, std::vector<ProbeStream> streams) {
+  IdentifiedJob out{std::move(job), std::move(streams), {}, {}, {}, {}};
+  for (std::size_t i = 0; i < out.streams.size(); ++i)
+    out.fits.push_back(fit(out.streams[i], out.job.references[i].fit));
+  out.agreement = hold_together(out);
+  for (std::size_t i = 0; i < out.streams.size(); ++i) {
+    auto& diagnosis = out.diagnoses.emplace_back();
+    auto& again = out.resimulations.emplace_back();
+    if (out.fits[i].status != FitStatus::converged) continue;
     DiagnoseOptions options;
-    options.fit = result.job.references[i].fit;
-    result.diagnoses[i] = diagnose(result.streams[i], options);
-    if (result.diagnoses[i]->baseline.status == FitStatus::implausible) {
-      result.fits[i] = result.diagnoses[i]->baseline;
-      result.diagnoses[i].reset();
-      continue;
+    options.fit = out.job.references[i].fit;
+    diagnosis = diagnose(out.streams[i], options);
+    if (diagnosis->baseline.status == FitStatus::implausible) {
+      out.fits[i] = diagnosis->baseline;
+      diagnosis.reset();
+    } else {
+      again = resimulate(*diagnosis, out.streams[i], options.fit.ball_radius_mm);
     }
-    result.resimulations[i] =
-        resimulate(*result.diagnoses[i], result.streams[i], options.fit.ball_radius_mm);
   }
+  return out;
 }
 
 /// What run-out is about; nothing: the spindle axis.
-std::optional<std::size_t> datum_of(const JobResult& result, const FormTask& task) {
+std::optional<std::size_t> datum_of(const IdentifiedJob& result, const FormTask& task) {
   for (std::size_t i = 0; i < result.job.references.size(); ++i)
     if (task.runout_tolerance_mm && result.job.references[i].name == task.runout_datum) return i;
   return {};
 }
 
-void assess_forms(JobResult& result) {
+/// Of every reference, where the job asks for values of form.
+std::vector<PartForm> forms_of(const IdentifiedJob& result) {
+  std::vector<PartForm> forms;
+  const bool judged = std::ranges::any_of(result.job.references,
+                                          [](const JobReference& r) { return r.form.judges(); });
+  if (!judged && !result.job.values_of_form) return forms;
   const auto diagnosed = [&](std::size_t i) {
     return DiagnosedStream{result.streams[i],
                            result.diagnoses[i] ? &*result.diagnoses[i] : nullptr};
@@ -49,14 +59,14 @@ void assess_forms(JobResult& result) {
       PartForm none;
       none.why_not = "the readings are refused";
       judge(reference.form, none);
-      result.forms.push_back(std::move(none));
+      forms.push_back(std::move(none));
       continue;
     }
     const auto datum = datum_of(result, reference.form);
     const DiagnosedStream of_part = diagnosed(i), of_datum = diagnosed(datum.value_or(i));
-    result.forms.push_back(
-        part_form(of_part, reference.fit, reference.form, datum ? &of_datum : nullptr));
+    forms.push_back(part_form(of_part, reference.fit, reference.form, datum ? &of_datum : nullptr));
   }
+  return forms;
 }
 
 }  // namespace
@@ -67,19 +77,9 @@ bool forms_met(const JobResult& result) {
 
 JobResult run_job(Job job, std::vector<ProbeStream> streams) {
   expects(job.references.size() == streams.size() && !streams.empty(), "one stream per reference");
-  JobResult result;
-  result.job = std::move(job);
-  result.streams = std::move(streams);
-  for (std::size_t i = 0; i < result.streams.size(); ++i) {
-    result.fits.push_back(fit(result.streams[i], result.job.references[i].fit));
-  }
-  result.agreement = hold_together(result);
-  diagnose_all(result);
-  const bool judged = std::ranges::any_of(result.job.references,
-                                          [](const JobReference& r) { return r.form.judges(); });
-  if (judged || result.job.values_of_form) assess_forms(result);
-  conclude(result);
-  reserve_forms(result);
+  IdentifiedJob found = identified(std::move(job), std::move(streams));
+  std::vector<PartForm> forms = forms_of(found);
+  JobResult result = conclude(std::move(found), std::move(forms));
   for (std::size_t i = 0; i < result.forms.size(); ++i)
     result.datum_axes.push_back(datum_axes(result, i));
   return result;

@@ -13,7 +13,7 @@ constexpr int places = 21, angles = 72;
 
 double or_zero(double u) { return std::isfinite(u) ? u : 0.0; }
 
-bool faces(const JobResult& result, std::size_t i) {
+bool faces(const PlannedJob& result, std::size_t i) {
   return result.job.target->kind == TargetKind::face &&
          result.fits[i].surface == SurfaceKind::plane;
 }
@@ -48,7 +48,7 @@ Place between_faces(const FitResult& fit, const Axis& axis, double z_face_mm, do
 
 }  // namespace
 
-std::optional<std::pair<double, double>> overlap_mm(const JobResult& result, std::size_t i) {
+std::optional<std::pair<double, double>> overlap_mm(const PlannedJob& result, std::size_t i) {
   const FitResult& fit = result.fits[i];
   const TargetSurface& target = *result.job.target;
   const bool face = target.kind == TargetKind::face;
@@ -60,7 +60,7 @@ std::optional<std::pair<double, double>> overlap_mm(const JobResult& result, std
   return from < to ? std::optional(std::pair(from, to)) : std::nullopt;
 }
 
-std::optional<MaterialMet> material_over(const JobResult& result, std::size_t i) {
+std::optional<MaterialMet> material_over(const PlannedJob& result, std::size_t i) {
   const auto over = overlap_mm(result, i);
   if (!over || !result.target_axis) return std::nullopt;
   const TargetSurface& target = *result.job.target;

@@ -11,7 +11,8 @@ namespace trueaxis {
 /// Z (of a face X) from and to where the target lies on the probed length of a reference, mm.
 /// Nothing where they do not meet, or where the readings show no place of the surface (a relative
 /// gauge, a face beside a shaft).
-std::optional<std::pair<double, double>> overlap_mm(const JobResult& result, std::size_t reference);
+std::optional<std::pair<double, double>> overlap_mm(const PlannedJob& result,
+                                                    std::size_t reference);
 
 /// What lies between target and probed surface at one place.
 struct Place {
@@ -26,6 +27,6 @@ struct MaterialMet {
 
 /// The material that the tool would meet over the overlap: from the fitted surface as clamped to
 /// the target about the target axis. With features of two sides it is the wall between them.
-std::optional<MaterialMet> material_over(const JobResult& result, std::size_t reference);
+std::optional<MaterialMet> material_over(const PlannedJob& result, std::size_t reference);
 
 }  // namespace trueaxis

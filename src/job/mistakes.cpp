@@ -31,29 +31,32 @@ Turned turned(double x, double y, double angle_rad) {
 }  // namespace
 
 std::span<const Mistake> mistakes() {
+  using enum ReasonCode;
+  static const std::vector<ReasonName> c{{"column", "C"}}, z{{"column", "Z"}},
+      inches{{"unit", "inch"}}, mm{{"unit", "mm"}};
+  const auto unit_of = [](const char* unit, const char* column) {
+    return std::vector<ReasonName>{{"unit", unit}, {"column", column}};
+  };
   static const Mistake list[] = {
-      {.what = "C of {} runs the other way", .mend = "turn the sign of its column C", .c = -1.0},
-      {.what = "the X of {} is a diameter", .mend = "x_convention = \"diameter\"", .x = 0.5},
-      {.what = "the X of {} is a radius", .mend = "x_convention = \"radius\"", .x = 2.0},
-      {.what = "{} was probed from behind",
-       .mend = "probed there, X is negative: turn the sign of its column X_M",
-       .turn_rad = 0.5 * two_pi},
-      {.what = "Z of {} runs the other way", .mend = "turn the sign of its column Z", .z = -1.0},
-      {.what = "{} is in inch", .mend = "[inch] behind the names of X and Z", .x = inch, .z = inch},
-      {.what = "the X of {} is in inch", .mend = "[inch] behind the name of X", .x = inch},
-      {.what = "the Z of {} is in inch", .mend = "[inch] behind the name of Z", .z = inch},
-      {.what = "{} is in mm",
-       .mend = "[mm] behind the names of X and Z",
-       .x = 1.0 / inch,
-       .z = 1.0 / inch},
-      {.what = "the X of {} is in mm", .mend = "[mm] behind the name of X", .x = 1.0 / inch},
-      {.what = "the Z of {} is in mm", .mend = "[mm] behind the name of Z", .z = 1.0 / inch},
-      {.what = "C of {} counts from another zero",
-       .mend = "another set-up: probe all references in one clamping, or add the angle to its C",
-       .open = OpenNumber::c_zero},
-      {.what = "Z of {} counts from another zero",
-       .mend = "another set-up: probe all references with one datum, or add the length to its Z",
-       .open = OpenNumber::z_zero}};
+      {.what = column_reversed, .mend = turn_sign, .of = c, .c = -1.0},
+      {.what = x_convention_wrong,
+       .mend = set_x_convention,
+       .of = {{"convention", "diameter"}},
+       .x = 0.5},
+      {.what = x_convention_wrong,
+       .mend = set_x_convention,
+       .of = {{"convention", "radius"}},
+       .x = 2.0},
+      {.what = probed_from_behind, .mend = turn_sign_behind, .turn_rad = 0.5 * two_pi},
+      {.what = column_reversed, .mend = turn_sign, .of = z, .z = -1.0},
+      {.what = stream_in_unit, .mend = name_units, .of = inches, .x = inch, .z = inch},
+      {.what = column_in_unit, .mend = name_unit, .of = unit_of("inch", "X"), .x = inch},
+      {.what = column_in_unit, .mend = name_unit, .of = unit_of("inch", "Z"), .z = inch},
+      {.what = stream_in_unit, .mend = name_units, .of = mm, .x = 1.0 / inch, .z = 1.0 / inch},
+      {.what = column_in_unit, .mend = name_unit, .of = unit_of("mm", "X"), .x = 1.0 / inch},
+      {.what = column_in_unit, .mend = name_unit, .of = unit_of("mm", "Z"), .z = 1.0 / inch},
+      {.what = c_zero_differs, .mend = clamp_all_once_c, .open = OpenNumber::c_zero},
+      {.what = z_zero_differs, .mend = clamp_all_once_z, .open = OpenNumber::z_zero}};
   return list;
 }
 

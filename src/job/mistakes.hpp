@@ -3,18 +3,19 @@
 
 #include <optional>
 #include <span>
-#include <string>
+#include <vector>
 
 #include "job/axis_likelihood.hpp"
 #include "trueaxis/probe_stream.hpp"
+#include "trueaxis/reason.hpp"
 
 namespace trueaxis {
 
 /// A way in which a stream is read wrongly: what its columns have to be multiplied by, or turned
 /// by, to be right.
 struct Mistake {
-  const char* what;  ///< "C of {} runs the other way", {} the name of the reference
-  const char* mend;  ///< "turn the sign of its column C"
+  ReasonCode what, mend;
+  std::vector<ReasonName> of{};  ///< the column, the unit or the convention that both are about
   double x = 1.0, z = 1.0, c = 1.0;
   double turn_rad = 0.0;
   std::optional<OpenNumber> open{};  ///< a number that only the data can tell

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/proof.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "job/doubts.hpp"
 #include "job/references.hpp"
 #include "job/target_datum.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -24,7 +22,7 @@ constexpr double margin = 1.05;       // the next stream's σ and angles are not
 constexpr double longest = 10.0;      // times the probed length
 
 /// What the readings' noise alone leaves of a reference's axis: its fit without influences.
-AxisCovariance noise_of(const JobResult& result, std::size_t i) {
+AxisCovariance noise_of(const PlannedJob& result, std::size_t i) {
   if (result.streams.at(i).size() == 0) return fit_used(result, i).axis.covariance;
   FitOptions options = result.job.references[i].fit;
   options.influences.clear();
@@ -75,8 +73,8 @@ double rounded_up(double value) {
 }
 
 /// The cause that was not found and leaves most of U, and the measurement that would show it;
-/// empty: none leaves as much as the readings' noise.
-std::string most_open(const Diagnosis& diagnosis, const AxisCovariance& noise) {
+/// none: none leaves as much as the readings' noise.
+std::optional<Reason> most_open(const Diagnosis& diagnosis, const AxisCovariance& noise) {
   const AxisShare* most = nullptr;
   double largest = std::max(noise(AxisRow::x, AxisRow::x), noise(AxisRow::y, AxisRow::y));
   for (const AxisShare& share : diagnosis.shares) {
@@ -84,41 +82,45 @@ std::string most_open(const Diagnosis& diagnosis, const AxisCovariance& noise) {
                                                  share.axis_shift.u * share.axis_shift.u);
     if (share.instead_of.empty() && variance > largest) most = &share, largest = variance;
   }
-  if (!most) return "";
+  if (!most) return {};
+  Reason reason{ReasonCode::hidden_cause,
+                {},
+                {{"open", std::sqrt(largest), "mm"}},
+                {{"effect", most->effect}}};
   const auto hidden =
       std::ranges::find(diagnosis.not_observable, most->effect, &NotObservable::effect);
-  const bool told = hidden != diagnosis.not_observable.end() && hidden->separate_with &&
-                    !hidden->separate_with->plan.empty();
-  const Effect* effect = diagnosis.entry(most->effect);
-  const std::string_view key = effect ? effect->stated_as : "";
-  return fmt::format(
-      "no number of readings proves it: {}, which these passes do not show, leaves {:.2g} µm of "
-      "the axis open{}{}",
-      most->effect, std::sqrt(largest) / mm_per_um,
-      told ? ". " + hidden->separate_with->what : std::string(),
-      key.empty() ? "" : fmt::format(". Or state the uncertainty of the {} in the job", key));
+  if (hidden != diagnosis.not_observable.end() && hidden->separate_with &&
+      !hidden->separate_with->plan.empty()) {
+    reason.names.push_back({"plan", hidden->separate_with->plan});
+    reason.names.push_back({"what", hidden->separate_with->what});
+  }
+  if (const Effect* effect = diagnosis.entry(most->effect); effect && !effect->stated_as.empty())
+    reason.names.push_back({"stated_as", std::string(effect->stated_as)});
+  return reason;
+}
+
+/// What a reference asks for before the number of its readings matters.
+std::optional<Reason> before_more_readings(const PlannedJob& result, std::size_t i) {
+  const FitResult& used = fit_used(result, i);
+  if (used.u_factor > no_noise)
+    return Reason{ReasonCode::look_for_cause, {i}, {{"autocorrelation", used.autocorrelation}}};
+  return {};
 }
 
 }  // namespace
 
-std::string what_would_prove(const JobResult& result, double allowed_mm) {
+Reason what_would_prove(const PlannedJob& result, double allowed_mm) {
   const std::vector<Reference> references = references_of(result);
   for (std::size_t i = 0; i < result.associated.size(); ++i)
     if (result.associated[i])
-      return fmt::format(
-          "{}the axis by {} rests on few readings and takes their noise in whole: a quieter probe "
-          "or least squares (without `association`) would prove it",
-          of_reference(result, i), name_of(*result.job.references[i].association));
+      return {ReasonCode::quieter_probe_or_least_squares,
+              {i},
+              {},
+              {{"association", name_of(*result.job.references[i].association)}}};
   std::vector<AxisCovariance> noise;
   double readings = 0.0, length_mm = 0.0;
   for (std::size_t i = 0; i < references.size(); ++i) {
-    const FitResult& used = fit_used(result, i);
-    if (used.u_factor > no_noise)
-      return fmt::format(
-          "{}what the readings leave is no noise, neighbours are alike ({:.2f}): more of them "
-          "prove "
-          "nothing. Look for its cause, or clamp the part again and probe again",
-          of_reference(result, i), used.autocorrelation);
+    if (const auto first = before_more_readings(result, i)) return *first;
     noise.push_back(noise_of(result, i));
     readings += static_cast<double>(result.fits[i].points);
     length_mm =
@@ -135,27 +137,26 @@ std::string what_would_prove(const JobResult& result, double allowed_mm) {
   };
   const auto times = smallest(most_times, [&](double t) { return proven(t, 1.0); });
   const auto longer = smallest(longest, [&](double l) { return proven(1.0, l); });
-  std::string text;
+  Reason more{ReasonCode::more_would_prove};
   if (times)
-    text = fmt::format("about {:.0f} readings instead of {:.0f}",
-                       rounded_up(margin * *times * readings), readings);
+    more.parts.push_back({ReasonCode::more_readings,
+                          {},
+                          {{"needed", rounded_up(margin * *times * readings)}, {"now", readings}}});
   if (longer && length_mm > 0.0)
-    text += fmt::format("{}the same number over {:.4g} mm instead of {:.4g} mm",
-                        text.empty() ? "" : ", or ", rounded_up(margin * *longer * length_mm),
-                        length_mm);
-  if (!text.empty()) return text + " would prove it";
-  if (proven(1e12, 1.0))
-    return fmt::format("more than {:.0f} times the readings would be needed: take a quieter sensor",
-                       most_times);
+    more.parts.push_back(
+        {ReasonCode::greater_length,
+         {},
+         {{"needed", rounded_up(margin * *longer * length_mm), "mm"}, {"now", length_mm, "mm"}}});
+  if (!more.parts.empty()) return more;
+  if (proven(1e12, 1.0)) return {ReasonCode::quieter_sensor, {}, {{"times", most_times}}};
   for (std::size_t i = 0; i < references.size(); ++i) {
     if (!result.diagnoses[i]) continue;
-    if (const std::string open = most_open(*result.diagnoses[i], noise[i]); !open.empty())
-      return open;
-    const NextMeasurement& next = result.diagnoses[i]->next;
-    if (!next.plan.empty()) return "readings alone do not prove it: " + next.what;
+    if (const auto open = most_open(*result.diagnoses[i], noise[i])) return *open;
+    Reason next = measure(result.diagnoses[i]->next);
+    next.code = ReasonCode::measurement_would_prove;
+    if (!result.diagnoses[i]->next.plan.empty()) return next;
   }
-  return "no number of readings proves it: what the compromise, the stated influences and rival "
-         "models leave is more than the tolerance";
+  return {ReasonCode::nothing_proves};
 }
 
 }  // namespace trueaxis

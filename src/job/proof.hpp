@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
@@ -11,6 +9,6 @@ namespace trueaxis {
 /// noise in them falls with the number of readings, that of the slopes also with the square of the
 /// probed length; stated influences and what rival models leave fall with neither (Eq. 120).
 /// @param allowed_mm the tolerance less what the actuator leaves
-std::string what_would_prove(const JobResult& result, double allowed_mm);
+Reason what_would_prove(const PlannedJob& job, double allowed_mm);
 
 }  // namespace trueaxis

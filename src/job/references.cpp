@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/references.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -54,7 +52,7 @@ AxisEstimate axis_of(const FitResult& fit, const std::optional<Diagnosis>& diagn
 }
 
 /// By the association of the reference instead of least squares (Eq. 303).
-Axis with_association(const JobResult& result, std::size_t i, Axis axis) {
+Axis with_association(const PlannedJob& result, std::size_t i, Axis axis) {
   if (i >= result.associated.size() || !result.associated[i]) return axis;
   const Axis& more = result.associated[i]->axis;
   const auto [x, y] = more.at(axis.z_ref_mm);
@@ -67,12 +65,7 @@ Axis with_association(const JobResult& result, std::size_t i, Axis axis) {
 
 }  // namespace
 
-std::string of_reference(const JobResult& result, std::size_t i) {
-  const std::string& name = result.job.references[i].name;
-  return name.empty() ? "" : name + ": ";
-}
-
-const FitResult& fit_used(const JobResult& result, std::size_t reference) {
+const FitResult& fit_used(const IdentifiedJob& result, std::size_t reference) {
   expects(reference < result.fits.size(), "a reference of the job");
   const bool diagnosed = reference < result.diagnoses.size() && result.diagnoses[reference];
   if (!diagnosed) return result.fits[reference];
@@ -81,7 +74,7 @@ const FitResult& fit_used(const JobResult& result, std::size_t reference) {
                                                            : result.fits[reference];
 }
 
-AxisEstimate axis_of_reference(const JobResult& result, std::size_t i) {
+AxisEstimate axis_of_reference(const PlannedJob& result, std::size_t i) {
   const FitResult& fit = fit_used(result, i);
   AxisEstimate out = i < result.diagnoses.size() ? axis_of(fit, result.diagnoses[i]) : fit.axis;
   if (i >= result.associated.size() || !result.associated[i]) return out;
@@ -92,7 +85,7 @@ AxisEstimate axis_of_reference(const JobResult& result, std::size_t i) {
   return out;
 }
 
-std::vector<Reference> references_of(const JobResult& result) {
+std::vector<Reference> references_of(const PlannedJob& result) {
   std::vector<Reference> references;
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const JobReference& named = result.job.references[i];
@@ -103,7 +96,7 @@ std::vector<Reference> references_of(const JobResult& result) {
   return references;
 }
 
-std::vector<Reference> references_aimed_at(const JobResult& result) {
+std::vector<Reference> references_aimed_at(const PlannedJob& result) {
   std::vector<Reference> references = references_of(result);
   for (std::size_t i = 0; i < references.size() && i < result.diagnoses.size(); ++i) {
     if (!result.diagnoses[i] || result.job.axis_of_cut == AxisOfCut::stated) continue;
@@ -115,13 +108,20 @@ std::vector<Reference> references_aimed_at(const JobResult& result) {
   return references;
 }
 
-std::string axis_reservation(const JobResult& result) {
+namespace {
+
+Reasons find_axis_of_cut(const CheckInput& in) {
+  const AxisOfCut axis = in.job.job.axis_of_cut;
   const bool diagnosed =
-      std::ranges::any_of(result.diagnoses, [](const auto& d) { return d.has_value(); });
-  if (result.job.axis_of_cut == AxisOfCut::stated || !diagnosed) return "";
-  return fmt::format("the job has the part cut about the {} axis, not about the stated one",
-                     to_string(result.job.axis_of_cut));
+      std::ranges::any_of(in.job.diagnoses, [](const auto& d) { return d.has_value(); });
+  if (axis == AxisOfCut::stated || !diagnosed) return {};
+  return {{ReasonCode::axis_of_cut_not_stated, {}, {}, {{"axis", to_string(axis)}}}};
 }
+
+}  // namespace
+
+constinit const JobCheck axis_of_cut{
+    "axis_of_cut", CheckedAt::cut, Weight::reserves, {}, find_axis_of_cut};
 
 const char* to_string(AxisOfCut axis) {
   switch (axis) {

@@ -41,7 +41,7 @@ AxisOffset worst_of(const AxisEstimate& apart, const FitResult& seat) {
   return low.size_mm() > high.size_mm() ? low : high;
 }
 
-SeatDistance distance_of(const JobResult& result, std::size_t i, std::size_t j) {
+SeatDistance distance_of(const PlannedJob& result, std::size_t i, std::size_t j) {
   const FitResult &a = fit_used(result, i), &b = fit_used(result, j);
   const AxisEstimate apart = difference(axis_of_reference(result, i), axis_of_reference(result, j));
   const auto middle = [](const FitResult& fit) {
@@ -63,13 +63,13 @@ bool has_a_line(const FitResult& fit) {
 
 double AxisOffset::size_mm() const { return std::hypot(x_mm, y_mm); }
 
-bool axis_is_known(const JobResult& result, std::size_t reference) {
+bool axis_is_known(const PlannedJob& result, std::size_t reference) {
   const bool slipped = reference < result.diagnoses.size() && result.diagnoses[reference] &&
-                       result.diagnoses[reference]->slip() && !slip_objection(result).empty();
-  return !slipped && fit_used(result, reference).axis_known() && result.agreement.reason.empty();
+                       result.diagnoses[reference]->slip() && slip_objection(result).has_value();
+  return !slipped && fit_used(result, reference).axis_known() && !result.agreement.reason;
 }
 
-std::vector<SeatDistance> seat_distances(const JobResult& result) {
+std::vector<SeatDistance> seat_distances(const PlannedJob& result) {
   std::vector<SeatDistance> out;
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     for (std::size_t j = i + 1; j < result.fits.size(); ++j)

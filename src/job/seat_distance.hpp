@@ -31,9 +31,9 @@ struct SeatDistance {
 
 /// Whether the axis of a reference may be stated: its fit converged, it did not slip unsurely, and
 /// nothing shows the streams to be read wrongly.
-bool axis_is_known(const JobResult& result, std::size_t reference);
+bool axis_is_known(const PlannedJob& result, std::size_t reference);
 
 /// Every pair of cones and cylinders whose axes are known.
-std::vector<SeatDistance> seat_distances(const JobResult& result);
+std::vector<SeatDistance> seat_distances(const PlannedJob& result);
 
 }  // namespace trueaxis

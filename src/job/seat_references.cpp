@@ -11,11 +11,11 @@
 
 namespace trueaxis {
 
-void take_every_seat(Job& job, std::vector<ProbeStream>& streams) {
+std::optional<Reason> take_every_seat(Job& job, std::vector<ProbeStream>& streams) {
   expects(job.references.size() == 1 && streams.size() == 1, "a job of one stream");
-  if (!column_objection(streams.front()).empty()) return;  // the fit says so
+  if (!column_objection(streams.front()).empty()) return {};  // the fit says so
   const Seats found = find_seats(streams.front());
-  if (found.seats.empty()) return;
+  if (found.seats.empty()) return {};
   const JobReference whole = std::move(job.references.front());
   const ProbeStream all = std::move(streams.front());
   job.references.clear();
@@ -28,7 +28,7 @@ void take_every_seat(Job& job, std::vector<ProbeStream>& streams) {
     job.references.back().read.z_to_mm = z.to_mm;
     streams.push_back(within(all, z));
   }
-  streams.front().read_as.push_back(seats_text(found));
+  return seats_reason(found);
 }
 
 }  // namespace trueaxis

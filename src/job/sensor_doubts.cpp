@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/sensor_doubts.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
-
-#include "job/references.hpp"
-#include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
@@ -20,9 +15,9 @@ bool is_function_of_reading(const Effect& effect) {
 }
 
 /// Whether the readings of a reference change by its eccentricity more than by anything else.
-bool turns_off_centre(const JobResult& result, std::size_t i) {
-  const FitResult& fit = result.fits[i];
-  if (fit.surface == SurfaceKind::plane || list_set_ups(result.streams[i]).size() > 1) return false;
+bool turns_off_centre(const IdentifiedJob& job, std::size_t i) {
+  const FitResult& fit = job.fits[i];
+  if (fit.surface == SurfaceKind::plane || list_set_ups(job.streams[i]).size() > 1) return false;
   double off_mm = 0.0;
   for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
     const auto [x, y] = fit.axis.axis.at(z);
@@ -32,25 +27,25 @@ bool turns_off_centre(const JobResult& result, std::size_t i) {
   return std::abs(fit.shape.tan_half_angle) * length_mm < 2.0 * off_mm;
 }
 
-}  // namespace
-
-std::string sensor_or_eccentricity(const JobResult& result, double room_mm) {
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !turns_off_centre(result, i)) continue;
-    for (const Finding& finding : result.diagnoses[i]->findings) {
-      if (!is_function_of_reading(*finding.term.effect)) continue;
+Reasons find_sensor(const CheckInput& in) {
+  const double room_mm = *in.job.job.coaxiality_tolerance_mm - in.cut.upper_mm;
+  for (std::size_t i = 0; i < in.job.diagnoses.size(); ++i) {
+    if (!in.job.diagnoses[i] || !turns_off_centre(in.job, i)) continue;
+    for (const Finding& finding : in.job.diagnoses[i]->findings) {
       const double shift_mm = std::abs(finding.axis_shift.value);
-      if (!(2.0 * shift_mm > room_mm)) continue;
-      return fmt::format(
-          "{}{} moves the axis by {:.2g} µm, and on a part that turns off-centre it looks as lobes "
-          "in "
-          "phase with the eccentricity do, which move no axis: probe once more with the slide "
-          "moved "
-          "by some tenths of a millimetre, as a set-up of its own, or calibrate the sensor",
-          of_reference(result, i), finding.effect(), shift_mm / mm_per_um);
+      if (is_function_of_reading(*finding.term.effect) && 2.0 * shift_mm > room_mm)
+        return {{ReasonCode::sensor_or_eccentricity,
+                 {i},
+                 {{"shift", shift_mm, "mm"}},
+                 {{"effect", finding.effect()}}}};
     }
   }
-  return "";
+  return {};
 }
+
+}  // namespace
+
+constinit const JobCheck sensor_or_eccentricity{
+    "sensor_or_eccentricity", CheckedAt::tolerance, Weight::leaves_open, {}, find_sensor};
 
 }  // namespace trueaxis

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/slip.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-
-#include "job/references.hpp"
-#include "trueaxis/units.hpp"
+#include <utility>
 
 namespace trueaxis {
 namespace {
-
-constexpr const char* remedy = ": clamp it again and probe again";
 
 bool is_slip(const Diagnosis& diagnosis, std::string_view id) {
   const Effect* effect = diagnosis.entry(id);
@@ -27,12 +21,6 @@ Estimate parameter_of(const Finding& finding, std::string_view name) {
   return {};
 }
 
-/// "19.7 ± 0.9 µm"
-std::string plus_minus(double value, double U, const char* unit) {
-  const int decimals = decimals_of(U, 1);
-  return fmt::format("{:.{}f} ± {:.{}f}{}", value, decimals, U, decimals, unit);
-}
-
 /// Length of the vector of two parameters, its u along its own direction; none without both.
 Estimate length_of(const Estimate& x, const Estimate& y) {
   if (!x.determined() || !y.determined()) return {};
@@ -42,45 +30,51 @@ Estimate length_of(const Estimate& x, const Estimate& y) {
 }
 
 /// Step across and along the axis, tilt and turn, as far as the readings show each.
-std::string how_far(const Finding& finding, double k) {
-  std::string text;
-  const auto add = [&](const Estimate& e, double edge, const char* unit, const char* what) {
-    if (!e.determined()) return;
-    text += (text.empty() ? "" : " and ") + plus_minus(e.value / edge, k * e.u / edge, unit) + what;
+Reasons how_far(const Finding& finding, double k) {
+  Reasons parts;
+  const auto add = [&](ReasonCode code, const Estimate& e, const char* unit) {
+    if (e.determined()) parts.push_back({code, {}, {{"by", e.value, unit, k * e.u}}});
   };
   const auto of = [&](std::string_view name) { return parameter_of(finding, name); };
-  add(length_of(of("dx"), of("dy")), mm_per_um, " µm", "");
-  add(of("dz"), mm_per_um, " µm", " along Z");
-  add(length_of(of("tilt_x"), of("tilt_y")), 1.0, "°", " of tilt");
-  add(of("turn"), 1.0, "°", "");
-  add(of("dr"), mm_per_um, " µm", " of radius");
-  add(of("taper"), 1.0, "°", " of taper");
-  return text;
+  add(ReasonCode::moved_across, length_of(of("dx"), of("dy")), "mm");
+  add(ReasonCode::moved_along_z, of("dz"), "mm");
+  add(ReasonCode::moved_tilt, length_of(of("tilt_x"), of("tilt_y")), "deg");
+  add(ReasonCode::moved_turn, of("turn"), "deg");
+  add(ReasonCode::moved_radius, of("dr"), "mm");
+  add(ReasonCode::moved_taper, of("taper"), "deg");
+  return parts;
 }
 
-std::string named(const Finding& finding, double k) {
-  std::string text = "the part slipped in the chuck";
+Reason slipped(std::size_t i, const Finding& finding, double k, ReasonCode code) {
+  Reason reason{code, {i}, {}, {}, how_far(finding, k)};
   const Estimate onset = parameter_of(finding, "onset");
-  if (onset.determined() && onset.unit == "s") text += fmt::format(" at {:.1f} s", onset.value);
-  if (onset.determined() && onset.unit != "s")
-    text += fmt::format(" at reading {:.0f}", onset.value + 1.0);
-  const std::string by = how_far(finding, k);
-  return text + (by.empty() ? "" : " by " + by);
+  if (onset.determined() && onset.unit == "s")
+    reason.numbers.push_back({"onset_time", onset.value, "s"});
+  else if (onset.determined())
+    reason.numbers.push_back({"onset_reading", onset.value + 1.0});
+  return reason;
 }
 
-/// As a member of the class of another name; empty: it is none.
-std::string possible(const Diagnosis& diagnosis, const Finding& finding) {
-  for (const Rival& rival : finding.rivals) {
-    if (!is_slip(diagnosis, rival.effect)) continue;
-    return fmt::format(
-        "the part may have slipped in the chuck, which the data cannot tell from {} "
-        "(probability of the slip {:.2g})",
-        finding.effect(), rival.probability);
-  }
-  return "";
+/// As a member of the class of another name.
+std::optional<Reason> possible(const Diagnosis& diagnosis, std::size_t i, const Finding& finding) {
+  for (const Rival& rival : finding.rivals)
+    if (is_slip(diagnosis, rival.effect))
+      return Reason{ReasonCode::part_may_have_slipped,
+                    {i},
+                    {{"probability", rival.probability}},
+                    {{"effect", finding.effect()}}};
+  return {};
+}
+
+Reasons find_unsure_slip(const CheckInput& in) {
+  std::optional<Reason> slip = slip_objection(in.job);
+  return slip ? Reasons{std::move(*slip)} : Reasons{};
 }
 
 }  // namespace
+
+constinit const JobCheck part_slipped{
+    "part_slipped", CheckedAt::references, Weight::forbids, {}, find_unsure_slip};
 
 bool is_sure_slip(const Diagnosis& diagnosis) {
   const Finding* slip = diagnosis.slip();
@@ -95,30 +89,29 @@ bool is_sure_slip(const Diagnosis& diagnosis) {
   });
 }
 
-std::string slip_objection(const JobResult& result) {
-  std::string perhaps;
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || is_sure_slip(*result.diagnoses[i])) continue;
-    const Diagnosis& diagnosis = *result.diagnoses[i];
-    if (const Finding* slip = diagnosis.slip())
-      return of_reference(result, i) + named(*slip, diagnosis.baseline.coverage_factor) + remedy;
-    for (const Finding& finding : diagnosis.findings) {
-      const std::string maybe = possible(diagnosis, finding);
-      if (perhaps.empty() && !maybe.empty()) perhaps = of_reference(result, i) + maybe + remedy;
+std::optional<Reason> slip_objection(const IdentifiedJob& job) {
+  std::optional<Reason> perhaps;
+  for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
+    if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i])) continue;
+    const Diagnosis& diagnosis = *job.diagnoses[i];
+    if (const Finding* slip = diagnosis.slip()) {
+      perhaps = slipped(i, *slip, diagnosis.baseline.coverage_factor, ReasonCode::part_slipped);
+      break;
     }
+    for (const Finding& finding : diagnosis.findings)
+      if (!perhaps) perhaps = possible(diagnosis, i, finding);
   }
+  if (perhaps) perhaps->remedies = {{ReasonCode::clamp_again}};
   return perhaps;
 }
 
-std::string moved_part(const JobResult& result) {
-  std::string text;
-  for (std::size_t i = 0; i < result.diagnoses.size(); ++i) {
-    if (!result.diagnoses[i] || !is_sure_slip(*result.diagnoses[i])) continue;
-    text += (text.empty() ? "" : "; ") + of_reference(result, i) +
-            named(*result.diagnoses[i]->slip(), result.fits[i].coverage_factor) +
-            ": the axis is that of the part as it now stands";
-  }
-  return text;
+Reasons moved_part(const IdentifiedJob& job) {
+  Reasons moved;
+  for (std::size_t i = 0; i < job.diagnoses.size(); ++i)
+    if (job.diagnoses[i] && is_sure_slip(*job.diagnoses[i]))
+      moved.push_back(slipped(i, *job.diagnoses[i]->slip(), job.fits[i].coverage_factor,
+                              ReasonCode::part_moved));
+  return moved;
 }
 
 }  // namespace trueaxis

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <optional>
 
-#include "trueaxis/job.hpp"
+#include "job/check.hpp"
 
 namespace trueaxis {
 
 /// Why no table may be cut after a slip that is not sure: one that is merely in a finding's class,
 /// that is not the only one, that has rivals, or beside which a pattern is not explained. One that
-/// a reference's diagnosis names goes before one in a class; empty: no diagnosis has any such.
-std::string slip_objection(const JobResult& result);
+/// a reference's diagnosis names goes before one in a class.
+std::optional<Reason> slip_objection(const IdentifiedJob& job);
+extern const JobCheck part_slipped;
 
 /// That the part moved, when and by how much, where that is sure: the axis is that of the part as
-/// it now stands. Empty: it did not.
-std::string moved_part(const JobResult& result);
+/// it now stands.
+Reasons moved_part(const IdentifiedJob& job);
 
 /// One slip, its sizes shown by what was read after it, no rival of it, no finding that may be
 /// another, and nothing unexplained.

@@ -17,20 +17,20 @@ namespace {
 using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 using NamesOfDatum = std::vector<std::string>;
 
-std::size_t reference_named(const JobResult& result, const std::string& name) {
+std::size_t reference_named(const PlannedJob& result, const std::string& name) {
   const auto found = std::ranges::find(result.job.references, name, &JobReference::name);
   expects(found != result.job.references.end(), "a reference of the job");
   return static_cast<std::size_t>(found - result.job.references.begin());
 }
 
-bool is_face_datum(const JobResult& result, const NamesOfDatum& datum) {
+bool is_face_datum(const PlannedJob& result, const NamesOfDatum& datum) {
   return result.fits[reference_named(result, datum.front())].surface == SurfaceKind::plane;
 }
 
 /// What the readings of a reference say of x, y at z_ref and the slopes, per reading: the normal
 /// matrix of (cos C, sin C, w cos C, w sin C), w = Z − z_ref + R tan α, less what the radius and a
 /// taper take of it.
-Matrix4 metric_of(const JobResult& result, std::size_t i, double z_ref_mm) {
+Matrix4 metric_of(const PlannedJob& result, std::size_t i, double z_ref_mm) {
   const ProbeStream& stream = result.streams[i];
   const Revolved& shape = fit_used(result, i).shape;
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
@@ -62,7 +62,7 @@ struct Common {
   Matrix4 metric = Matrix4::Zero();
 };
 
-Common common_axis(const JobResult& result, const NamesOfDatum& names, double z_ref_mm) {
+Common common_axis(const PlannedJob& result, const NamesOfDatum& names, double z_ref_mm) {
   Common out;
   out.share.assign(result.fits.size(), Matrix4::Zero());
   for (const std::string& name : names) {
@@ -93,32 +93,12 @@ void hold_to_face(std::size_t face, Common& common) {
   common.share[face].bottomRightCorner<2, 2>().setIdentity();
 }
 
-std::string how_of(const JobResult& result, const DatumSystem& datums) {
-  const std::string first = fmt::format("{}", fmt::join(datums.front(), " and "));
-  if (is_face_datum(result, datums.front()))
-    return datums.size() < 2
-               ? fmt::format("the direction is that of {}", first)
-               : fmt::format("the direction is that of {}, the place that of {} held to it", first,
-                             fmt::join(datums[1], " and "));
-  std::string how =
-      datums.front().size() < 2
-          ? fmt::format("the axis is that of {}", first)
-          : fmt::format(
-                "{} share one axis with radii of their own, by least squares, each by its "
-                "weight however many readings it has",
-                first);
-  if (datums.size() > 1)
-    how += fmt::format("; {} fixes Z, which no axis depends on", fmt::join(datums[1], " and "));
-  return how;
-}
-
 }  // namespace
 
-std::optional<TargetDatum> target_datum(const JobResult& result) {
+std::optional<TargetDatum> target_datum(const PlannedJob& result) {
   const DatumSystem& datums = result.job.datums;
   if (datums.empty()) return {};
   TargetDatum out;
-  out.how = how_of(result, datums);
   for (const NamesOfDatum& names : datums)
     out.name += (out.name.empty() ? "" : " | ") + fmt::format("{}", fmt::join(names, "-"));
   const TargetSurface& target = *result.job.target;
@@ -143,7 +123,7 @@ std::optional<TargetDatum> target_datum(const JobResult& result) {
   return out;
 }
 
-std::vector<Reference> judged(const JobResult& result, const std::vector<Reference>& references) {
+std::vector<Reference> judged(const PlannedJob& result, const std::vector<Reference>& references) {
   if (!result.datum) return references;
   const TargetDatum& datum = *result.datum;
   Reference one{datum.name, {}, 1.0, 0.0};

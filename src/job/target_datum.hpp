@@ -12,10 +12,10 @@ namespace trueaxis {
 /// one datum share one axis with radii of their own, by least squares of all readings (Eq. 304). A
 /// face that is named first gives the direction, and the second the place, held to it (Eq. 305).
 /// Nothing where the job names none. @throws Refusal where the readings leave the axis open
-std::optional<TargetDatum> target_datum(const JobResult& result);
+std::optional<TargetDatum> target_datum(const PlannedJob& job);
 
 /// What the target axis is solved for and a tolerance is held against: the datum where the job
 /// names one, else the references themselves.
-std::vector<Reference> judged(const JobResult& result, const std::vector<Reference>& references);
+std::vector<Reference> judged(const PlannedJob& job, const std::vector<Reference>& references);
 
 }  // namespace trueaxis

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "trueaxis/job.hpp"
 
 namespace trueaxis {
 
-/// The whole decision about a job, from fits, diagnoses, resimulations, inclusions, target axis and
-/// correction; Eq. 120. No go, in this order: references that do not
-/// agree as those of one part; a fit that failed; a slip of the part; a cut
-/// that is refused or that geometry forbids; an actuator that cannot follow; no uncertainty; a
-/// motion that must not enter the correction; findings that the virtual lathe refutes (refuted()).
-/// Not proven: something found that goes with the axis. Then the tolerance, and what is to be said
-/// beside a go.
-Verdict decide(const JobResult& result);
+/// The whole decision about a job, from what is identified, planned and assessed of its form; Eq.
+/// 120. Made of checks(): no go where the first finds what forbids a cut; not proven where one
+/// leaves the axis open; then the tolerance, and what is to be said beside a go.
+Verdict decide(const PlannedJob& job, std::span<const PartForm> forms = {});
 
 }  // namespace trueaxis

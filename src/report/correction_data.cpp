@@ -74,6 +74,7 @@ Json map_data(const CorrectionRows& rows, std::size_t turns) {
 Json correction_data(const Correction& correction) {
   const std::vector<Turn> turns = turns_of(correction.rows);
   Json data = correction_object(correction);
+  for (const char* as_data : {"broken", "remedies"}) data["margin"].erase(as_data);
   data["face"] = correction.target.kind == TargetKind::face;
   data["revolutions"] = turns.size();
   data["speed_rpm"] = correction.tool.speed_rpm;

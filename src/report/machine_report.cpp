@@ -7,6 +7,7 @@
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
+#include "job/files/job_words.hpp"
 #include "job/machine/files/machine_job_results.hpp"
 #include "report/page.hpp"
 #include "report/thinning.hpp"
@@ -38,10 +39,10 @@ const char* outcome(const MachineJobVerdict& verdict) {
 Json verdict_data(const MachineJobResult& result) {
   const MachineJobVerdict& v = result.verdict;
   Json data{{"outcome", outcome(v)},
-            {"line", v.line},
-            {"next", v.next},
-            {"reservations", v.reservations},
-            {"remarks", result.remarks},
+            {"line", machine_verdict_line(v)},
+            {"next", machine_next_words(v)},
+            {"reservations", sentences_of(v.reservations, {})},
+            {"remarks", sentences_of(result.remarks, {})},
             {"tolerance_um", result.job.tolerance_mm ? um(*result.job.tolerance_mm) : nothing}};
   if (result.tips.empty()) return data;
   data["path_before_um"] = um(v.path_before_mm());
@@ -164,26 +165,20 @@ Json machine_report_data(const MachineJobResult& result) {
 
 std::string render_machine_diagnosis_report(const MachineJobResult& result, const Json& program) {
   constexpr const char* words[] = {"ideal", "effects", "unexplained"};
-  // The screen's lines in words: "->" is an arrow here, and a plan goes by what is done.
-  std::string line = machine_diagnosis_screen(result.diagnosis);
-  line.resize(line.find('\n'));
-  for (std::size_t at = line.find("->"); at != std::string::npos; at = line.find("->", at))
-    line.replace(at, 2, "→");
-  std::string next = next_screen(result.diagnosis).substr(std::string_view("next   ").size());
-  if (const std::string head = result.diagnosis.next_plan + ", "; next.starts_with(head))
-    next.replace(0, head.size(), "Measure ");
+  const std::string line = machine_diagnosis_line(result.diagnosis, "→");
   Json data = machine_report_data(result);
   data["of"] = "diagnosis";
   data["verdict"]["outcome"] = words[static_cast<std::size_t>(result.diagnosis.verdict)];
   data["verdict"]["line"] = line;
-  data["verdict"]["next"] = next.substr(0, next.find('\n'));
+  data["verdict"]["next"] = next_plan_text(result.diagnosis, PlanBy::deed);
   if (!program.is_null()) data["harm"] = program;
   return page_of("TrueAxis diagnosis: " + title_of(result.job), line, data, machine_script());
 }
 
 std::string render_machine_report(const MachineJobResult& result) {
-  const Json tables = machine_job_object(result);
-  return page_of("TrueAxis report: " + title_of(result.job), result.verdict.line,
+  Json tables = machine_job_object(result);  // without the reasons as data: they are in words
+  for (const char* key : {"reasons", "reserved", "next_steps"}) tables["verdict"].erase(key);
+  return page_of("TrueAxis report: " + title_of(result.job), machine_verdict_line(result.verdict),
                  machine_report_data(result), machine_script(), &tables);
 }
 

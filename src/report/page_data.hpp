@@ -39,6 +39,9 @@ Json seats_data(const JobResult& result);
 /// the longer one points.
 Json ellipse_data(const AxisEstimate& estimate, double z_mm);
 
+/// result.json as the page lists it: without the reasons as data, which it has in words.
+Json job_tables(const JobResult& result);
+
 /// What is to be minded: {text, of}, `of` the references; reservations first.
 Json warnings_data(const JobResult& result);
 

@@ -10,6 +10,7 @@
 #include "fit/files/fit_files.hpp"
 #include "job/files/datum_axes_files.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/job_words.hpp"
 #include "job/files/seats_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
@@ -35,18 +36,11 @@ const char* outcome(const JobResult& result) {
   }
 }
 
-/// The verdict's line without the reservations, which stand below it.
-std::string short_line(const Verdict& verdict) {
-  std::string line = verdict.line;
-  for (auto one = verdict.reservations.rbegin(); one != verdict.reservations.rend(); ++one)
-    if (line.ends_with("; " + *one)) line.resize(line.size() - one->size() - 2);
-  return line;
-}
-
 Json verdict_data(const JobResult& result) {
   const Verdict& verdict = result.verdict;
-  Json data{
-      {"outcome", outcome(result)}, {"line", short_line(verdict)}, {"k", verdict.coverage_factor}};
+  Json data{{"outcome", outcome(result)},
+            {"line", verdict_line_alone(result)},
+            {"k", verdict.coverage_factor}};
   data["tolerance_mm"] =
       result.job.coaxiality_tolerance_mm.value_or(std::numeric_limits<double>::quiet_NaN());
   if (result.target_axis && result.refused.empty()) {
@@ -194,9 +188,19 @@ Json report_data(const JobResult& result) {
   return data;
 }
 
+Json job_tables(const JobResult& result) {
+  Json tables = job_object(result);
+  for (const char* key : {"reasons", "reserved"}) tables["verdict"].erase(key);
+  if (result.correction)
+    for (const char* key : {"broken", "remedies"}) tables["correction"]["margin"].erase(key);
+  if (tables.contains("included"))
+    for (Json& one : tables["included"]) one.erase("code");
+  return tables;
+}
+
 std::string render_report(const JobResult& result) {
-  const Json tables = job_object(result);
-  return page_of("TrueAxis report: " + job_title(result.job), result.verdict.line,
+  const Json tables = job_tables(result);
+  return page_of("TrueAxis report: " + job_title(result.job), verdict_line(result),
                  report_data(result), job_script(), &tables);
 }
 

@@ -8,6 +8,7 @@
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/job_words.hpp"
 #include "job/seat_distance.hpp"
 #include "job/slip.hpp"
 #include "report/page_data.hpp"
@@ -79,6 +80,14 @@ const NextMeasurement* best_next(const JobResult& result) {
   return best;
 }
 
+/// Whether the verdict itself is that of a slip.
+bool is_of_slip(const Verdict& verdict) {
+  return std::ranges::any_of(verdict.reasons, [](const Reason& reason) {
+    return reason.code == ReasonCode::part_slipped ||
+           reason.code == ReasonCode::part_may_have_slipped;
+  });
+}
+
 /// "cec.ini or servo.nc"; of a job without files for controls its table.
 std::string files_asked_for(const JobResult& result) {
   std::string names;
@@ -102,33 +111,32 @@ std::string cut_text(const JobResult& result) {
 
 Json warnings_data(const JobResult& result) {
   Warnings warnings;
-  for (const std::string& reservation : result.verdict.reservations) warnings.add(reservation);
-  warnings.add(result.verdict.moved);
-  if (const std::string slip = slip_objection(result);
-      result.verdict.line.find(slip) == std::string::npos)
-    warnings.add(slip + ". So no axis is given");
+  for (const Reason& one : result.verdict.reservations) warnings.add(words_of(one, result.job));
+  warnings.add(words_of(result.verdict.moved, "; ", result.job));
+  if (const auto slip = slip_objection(result); slip && !is_of_slip(result.verdict))
+    warnings.add(words_of(*slip, result.job) + ". So no axis is given");
   for (const Inclusion& inclusion : result.inclusions) {
     std::string text = inclusion_text(inclusion);
     while (text.ends_with('\n')) text.pop_back();
-    if (!inclusion.included || !inclusion.why.empty()) warnings.add(text);
+    if (!inclusion.included || inclusion.why) warnings.add(text);
   }
   for (std::size_t i = 0; i < result.fits.size(); ++i) add_reference(warnings, result, i);
   const bool answered = !result.job.target && !seat_distances(result).empty();
   for (const Disagreement& apart : result.agreement.disagreements)
     if (!answered)
-      warnings.add("More than U explains, " + how_apart(result, apart) +
+      warnings.add("More than U explains, " + words_of(how_apart(apart), result.job) +
                    ", half-way between the two");
   return warnings.list();
 }
 
 Json next_data(const JobResult& result) {
   Json steps = Json::array();
-  if (!result.verdict.what_would_prove.empty()) steps.push_back(result.verdict.what_would_prove);
-  if (result.correction && result.verdict.what_would_prove.empty())
-    steps.push_back(cut_text(result));
+  const Reasons would_prove = result.verdict.what_would_prove();
+  if (!would_prove.empty()) steps.push_back(words_of(would_prove, "; ", result.job));
+  if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
   if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
-  const bool moved = !slip_objection(result).empty();
+  const bool moved = slip_objection(result).has_value();
   if (result.fits.size() == 1 && !moved)
     if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty())
       steps.push_back("To centre the part by hand: " + tap);

@@ -39,13 +39,14 @@ std::string command(const char* verb, const FitResult& fit) {
 
 /// @param outcome what the banner says in one word
 std::string page(JobResult result, const char* outcome, const std::string& line, Json first_steps) {
-  result.verdict.line = line;
   Json data = report_data(result);
   data["verdict"]["outcome"] = outcome;
+  data["verdict"]["line"] = line;
   data["of_stream"] = true;
   for (const Json& step : next_data(result)) first_steps.push_back(step);
   data["next"] = std::move(first_steps);
-  const Json tables = job_object(result);
+  Json tables = job_tables(result);
+  tables["verdict"]["line"] = line;
   return page_of("TrueAxis report: " + result.job.name, line, data, job_script(), &tables);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "job/files/job_words.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "job/target_datum.hpp"
@@ -95,7 +96,7 @@ Json target_data(const JobResult& result) {
   const std::vector<Remainder> left = result.datum         ? result.datum->references
                                       : result.target_axis ? result.target_axis->remainders
                                                            : std::vector<Remainder>{};
-  const bool unsure = !slip_objection(result).empty();
+  const bool unsure = slip_objection(result).has_value();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
     const bool slipped =
@@ -118,7 +119,7 @@ Json target_data(const JobResult& result) {
     data["axis"] = axis_data(result.target_axis->axis, length.first, length.second);
     if (result.datum)
       data["datum"] = {{"name", result.datum->name},
-                       {"how", result.datum->how},
+                       {"how", datum_words(result)},
                        {"before", before_datum(result, length)},
                        {"after", remainder_data(result.target_axis->remainders.front())}};
   }

@@ -4,6 +4,7 @@
 
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/files/job_words.hpp"
 #include "support/command_fixture.hpp"
 #include "support/places.hpp"
 #include "trueaxis/job.hpp"
@@ -14,20 +15,25 @@ namespace {
 class LibraryAndCommand : public CommandTest {
  protected:
   /// Both run the job; what they say of it is compared.
-  Verdict expect_same(const std::filesystem::path& path) {
+  JobResult expect_same(const std::filesystem::path& path) {
     const Job job = read_job_toml(path.string());
-    const JobResult by_library = run_job(job, read_streams(job));
+    JobResult by_library = run_job(job, read_streams(job));
+    word_unknown_axes(by_library);
     const CommandStreams by_command = command("run " + shell_word(path) + " -o out");
     const Verdict& verdict = by_library.verdict;
-    EXPECT_EQ(verdict.line, first_line(by_command.out));
+    EXPECT_EQ(verdict_line(by_library), first_line(by_command.out));
     EXPECT_EQ(by_command.exit_code, verdict.go() ? 0 : 1) << by_command.err;
     const nlohmann::json written = result("out/result.json").at("verdict");
     EXPECT_EQ(written.at("go"), verdict.go());
-    EXPECT_EQ(written.at("line"), verdict.line);
+    EXPECT_EQ(written.at("line"), verdict_line(by_library));
+    EXPECT_FALSE(verdict.reasons.empty());
+    EXPECT_EQ(written.at("reasons").size(), verdict.reasons.size());
+    for (std::size_t i = 0; i < verdict.reasons.size(); ++i)
+      EXPECT_EQ(written.at("reasons").at(i).at("code"), to_string(verdict.reasons[i].code));
     EXPECT_EQ(there("out/table.csv"), verdict.go() && by_library.correction.has_value());
     for (const ResultFile& file : job_files(by_library))
       EXPECT_EQ(read_text(folder_ / "out" / file.name), file.text) << file.name;
-    return verdict;
+    return by_library;
   }
 };
 
@@ -49,9 +55,9 @@ TEST_F(LibraryAndCommand, RefuseAlikeWhatTheLatheRefutes) {
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
   file("job.toml",
        simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
-  const Verdict verdict = expect_same(folder_ / "job.toml");
-  EXPECT_FALSE(verdict.go());
-  EXPECT_TRUE(contains(verdict.line, "what was found does not reproduce the readings"));
+  const JobResult result = expect_same(folder_ / "job.toml");
+  EXPECT_FALSE(result.verdict.go());
+  EXPECT_EQ(result.verdict.reasons.at(0).code, ReasonCode::not_reproduced);
 }
 
 /// The stream of RunRefusals.AHeightThatIsImplausibleMovesNoAxis.
@@ -61,8 +67,7 @@ TEST_F(LibraryAndCommand, DecideAlikeAboutAnImplausibleCause) {
   ASSERT_EQ(command("simulate part.toml -o part.csv").exit_code, 0);
   file("job.toml",
        simple_job(cylinder_reference, 120.0, 1000.0) + "[actuator]\nstroke_um = 4000\n");
-  const Verdict verdict = expect_same(folder_ / "job.toml");
-  EXPECT_TRUE(verdict.go());
+  EXPECT_TRUE(expect_same(folder_ / "job.toml").verdict.go());
 }
 
 }  // namespace

@@ -88,7 +88,10 @@ TEST_F(MachineReportPage, FindingsWithRivalsAndTheUnexplained) {
   result.diagnosis.findings.push_back(found);
   result.diagnosis.unexplained.push_back(
       {"order 5 of C along X", {0.004, 0.0005, "mm", ""}, 1e-4, {}, {}});
-  result.verdict.reservations = {"reversal.C is not told from EYC.harmonic2"};
+  result.verdict.reservations = {{ReasonCode::finding_not_told,
+                                  {},
+                                  {},
+                                  {{"effect", "reversal.C"}, {"rivals", "EYC.harmonic2"}}}};
   result.verdict.decision = Decision::go_with_reservations;
   expect_sound_page(result, "machine_rivals");
 }
@@ -106,9 +109,9 @@ TEST_F(MachineReportPage, ALongProgramIsThinned) {
 TEST_F(MachineReportPage, HostileNamesStayText) {
   MachineJobResult result = run_machine_job(blade_job());
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>\xff";
-  result.job.name = result.job.machine.name = result.verdict.line = hostile;
-  result.verdict.next = hostile;
-  result.remarks = {hostile};
+  result.job.name = result.job.machine.name = hostile;
+  const Reason remark{ReasonCode::remark, {}, {}, {{"text", hostile}}};
+  result.verdict.reasons = result.verdict.next = result.remarks = {remark};
   result.job.header = {{"Part", hostile}};
   result.job.inputs.front().file = hostile;
   result.diagnosis.not_observable.front().why = hostile;

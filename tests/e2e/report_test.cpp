@@ -91,10 +91,12 @@ TEST_F(ReportPage, OneSectionWithoutZ) { expect_sound(example::section_job(), "s
 TEST_F(ReportPage, HostileNamesStayText) {
   JobResult result = example::cone_job(100);
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>";
-  result.job.name = result.job.path = result.verdict.line = hostile;
+  result.job.name = result.job.path = hostile;
+  result.verdict.reasons = {{ReasonCode::cut_refused, {}, {}, {{"why", hostile}}}};
   result.job.references.front().name = hostile + "\xff";
   result.fits.front().rejected = {{3, hostile}};
-  result.fits.front().notes = result.verdict.reservations = {hostile};
+  result.fits.front().notes = {hostile};
+  result.verdict.reservations = result.verdict.reasons;
   result.job.header = {{"Part", hostile}, {hostile, "7"}};
   expect_sound(result, "hostile");
 }

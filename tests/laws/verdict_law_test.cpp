@@ -7,6 +7,7 @@
 #include <string>
 
 #include "diagnose/files/seen.hpp"
+#include "job/files/job_words.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -67,9 +68,9 @@ TEST(Verdict, ASlipWithoutAClockIsNamedByTheReading) {
                             {"time_s", 20.0}}});
       const JobResult result =
           run_job(job_of(s, 10.0), {without_clock(virtual_lathe::simulate(s))});
-      EXPECT_NE(result.verdict.line.find("the part slipped in the chuck at reading "),
+      EXPECT_NE(verdict_line(result).find("the part slipped in the chuck at reading "),
                 std::string::npos)
-          << result.verdict.line;
+          << verdict_line(result);
       ASSERT_NE(result.diagnoses[0]->slip(), nullptr);
       EXPECT_EQ(seen_text(*result.diagnoses[0]->slip(), 2.0).find("the part moved at reading "),
                 0u);
@@ -86,7 +87,7 @@ TEST(Verdict, AfterASlipTheAxisIsThatOfThePartAsItNowStands) {
     s.effects.push_back(
         {"part.slip", {{"dx_mm", 0.03}, {"dy_mm", 0.0}, {"turn_rad", 0.0}, {"time_s", 20.0}}});
     const JobResult result = decided(s);
-    EXPECT_EQ(result.verdict.decision, Decision::go) << result.verdict.line;
+    EXPECT_EQ(result.verdict.decision, Decision::go) << verdict_line(result);
     ASSERT_TRUE(result.target_axis.has_value());
     const AxisEstimate& axis = result.diagnoses[0]->extended.axis;
     for (const double z : {0.0, 40.0}) {
@@ -124,7 +125,7 @@ TEST(Verdict, AVibrationThatBeatsWithTheSpindleIsNotProven) {
                           {"amplitude_mm", 0.005},
                           {"phase_rad", 1.1 * static_cast<double>(seed)}}});
     const JobResult result = decided(s);
-    EXPECT_FALSE(result.verdict.go()) << seed << ": " << result.verdict.line;
+    EXPECT_FALSE(result.verdict.go()) << seed << ": " << verdict_line(result);
   }
 }
 
@@ -173,8 +174,11 @@ TEST(Verdict, WhatOnePassDoesNotShowIsNamed) {
   Scenario s = cylinder(11);
   const double upper_um = 1e3 * decided(s, 1e3).verdict.upper_mm;
   const JobResult open = decided(s, 0.6 * upper_um);
-  ASSERT_EQ(open.verdict.decision, Decision::not_proven) << open.verdict.line;
-  const std::string& says = open.verdict.what_would_prove;
+  ASSERT_EQ(open.verdict.decision, Decision::not_proven) << verdict_line(open);
+  const Reasons would = open.verdict.what_would_prove();
+  ASSERT_EQ(would.size(), 1u);
+  EXPECT_EQ(would.front().code, ReasonCode::hidden_cause);
+  const std::string says = words_of(would.front(), open.job);
   EXPECT_NE(says.find("probe.la"), std::string::npos) << says;  // latency or lag
   EXPECT_NE(says.find("probe back at"), std::string::npos) << says;
   add_way_back(s);
@@ -187,15 +191,17 @@ TEST(Verdict, WhatWouldProveItDoes) {
   add_way_back(s);
   const double upper_um = 1e3 * decided(s, 1e3).verdict.upper_mm;
   const JobResult open = decided(s, 0.6 * upper_um);
-  ASSERT_EQ(open.verdict.decision, Decision::not_proven) << open.verdict.line;
-  const std::string& says = open.verdict.what_would_prove;
-  ASSERT_EQ(says.rfind("about ", 0), 0u) << says;
-  const double readings = std::stod(says.substr(6));
+  ASSERT_EQ(open.verdict.decision, Decision::not_proven) << verdict_line(open);
+  const Reasons would = open.verdict.what_would_prove();
+  ASSERT_EQ(would.size(), 1u);
+  ASSERT_FALSE(would.front().parts.empty()) << words_of(would.front(), open.job);
+  ASSERT_EQ(would.front().parts.front().code, ReasonCode::more_readings);
+  const double readings = would.front().parts.front().number("needed")->value;
   // Less than u shrinks with n, the following error of the actuator does not.
   EXPECT_GT(readings, 2.0 * 1469.0 / (0.6 * 0.6));
   for (auto& pass : s.plan.passes) pass.readings_per_revolution *= readings / (2.0 * 1469.0);
   EXPECT_EQ(decided(s, 0.6 * upper_um).verdict.decision, Decision::go)
-      << decided(s, 0.6 * upper_um).verdict.line;
+      << verdict_line(decided(s, 0.6 * upper_um));
 }
 
 TEST(Verdict, OutOfToleranceBeyondDoubtIsNoGo) {
@@ -206,7 +212,7 @@ TEST(Verdict, OutOfToleranceBeyondDoubtIsNoGo) {
   job.references.push_back(job.references[0]);
   const JobResult result =
       run_job(job, {virtual_lathe::simulate(s), virtual_lathe::simulate(other)});
-  EXPECT_EQ(result.verdict.decision, Decision::no_go) << result.verdict.line;
+  EXPECT_EQ(result.verdict.decision, Decision::no_go) << verdict_line(result);
   EXPECT_GT(result.verdict.lower_mm, 0.04);
 }
 
@@ -216,8 +222,8 @@ TEST(Verdict, AnAxisThatTheDiagnosisMovedIsNoPlainGoWhileTheCauseIsOpen) {
       {"spindle.asynchronous", {{"order", 0.43}, {"amplitude_mm", 0.02}, {"phase_rad", 1.0}}});
   const JobResult result = decided(s);
   ASSERT_FALSE(result.diagnoses[0]->findings.at(0).rivals.empty());
-  EXPECT_EQ(result.verdict.decision, Decision::go_with_reservations) << result.verdict.line;
-  EXPECT_EQ(result.verdict.line.rfind("GO with reservations: ", 0), 0u);
+  EXPECT_EQ(result.verdict.decision, Decision::go_with_reservations) << verdict_line(result);
+  EXPECT_EQ(verdict_line(result).rfind("GO with reservations: ", 0), 0u);
   EXPECT_EQ(result.verdict.reservations.size(), 1u);
   // Were the axis where the ideal fit has it, a tighter tolerance would not be kept.
   const double tolerance_um = 1.01e3 * result.verdict.upper_mm;

@@ -142,7 +142,7 @@ inline Correction cylinder_correction(const AxisEstimate& axis) {
                        200.0,       20.0,   600.0,
                        2000.0,      0.0028, 4.1e-5,
                        2.0e-5,      0.001,  true,
-                       "",          2950.0, ""};
+                       {},          2950.0, {}};
   return correction;
 }
 
@@ -167,12 +167,20 @@ inline JobResult cone_job(std::size_t readings = 1500) {
   result.job.tool = result.correction->tool;
   const auto [x, y] = axis.axis.at(25.0);
   result.target_axis = TargetAxis{axis, {{"taper seat", 0.0, 0.0, 0.0, 0.0, 2 * 2.8e-4, 1.4e-3}}};
-  result.verdict = {.decision = Decision::go,
-                    .line = "GO: coaxiality at most 1.4 µm with the table, tolerance 5 µm",
-                    .coaxiality_before_mm = 2.0 * std::hypot(x, y),
-                    .coaxiality_after_mm = 8.2e-5,
-                    .u_coaxiality_mm = 2 * 2.8e-4,
-                    .upper_mm = 1.4e-3};
+  Verdict& verdict = result.verdict;
+  verdict.decision = Decision::go;
+  verdict.coaxiality_before_mm = 2.0 * std::hypot(x, y);
+  verdict.coaxiality_after_mm = 8.2e-5;
+  verdict.u_coaxiality_mm = 2 * 2.8e-4;
+  verdict.upper_mm = 1.4e-3;
+  const Reason expected{
+      ReasonCode::coaxiality_expected,
+      {},
+      {{"at_most", verdict.upper_mm, "mm"}, {"without", verdict.coaxiality_before_mm, "mm"}},
+      {},
+      {{ReasonCode::with_the_table}}};
+  verdict.reasons = {
+      {ReasonCode::tolerance_kept, {}, {{"tolerance", 0.005, "mm"}}, {}, {expected}}};
   return result;
 }
 
@@ -197,7 +205,10 @@ inline JobResult rank_deficient_job() {
   result.correction.reset();
   result.job.target.reset();
   result.verdict = {};
-  result.verdict.line = "NO-GO: the axis of taper seat is not determined";
+  result.verdict.reasons = {{ReasonCode::fit_failed,
+                             {0},
+                             {},
+                             {{"message", "the axis is not determined"}, {"turns", "5 turns"}}}};
   return result;
 }
 
@@ -294,10 +305,17 @@ inline JobResult shaft_and_face_job() {
   margin.following_mm = 0.0031;
   margin.slew_used_mm_per_s = 231.0;
   margin.follows = false;
-  margin.breaks = "slew rate 231 mm/s of 200 mm/s; following error 3.1 µm of 1 µm";
+  margin.breaks = {
+      {ReasonCode::slew_exceeded, {}, {{"used", 231.0, "mm/s"}, {"available", 200.0, "mm/s"}}},
+      {ReasonCode::following_error_exceeded,
+       {},
+       {{"used", 0.0031, "mm"}, {"available", 0.001, "mm"}}}};
   margin.max_speed_rpm = 410.0;
   result.verdict.decision = Decision::no_go;
-  result.verdict.line = "NO-GO: the actuator cannot follow at 600 rpm; it would at 410 rpm";
+  const Reason speed{ReasonCode::at_speed_or_less, {}, {{"speed", 410.0, "rpm"}}};
+  margin.remedies = {{ReasonCode::follows_at_speed, {}, {}, {}, {speed}}};
+  result.verdict.reasons = {
+      {ReasonCode::actuator_cannot_follow, {}, {}, {}, margin.breaks, margin.remedies}};
   return result;
 }
 

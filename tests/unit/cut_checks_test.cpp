@@ -7,6 +7,7 @@
 #include <string>
 
 #include "job/beyond_probed.hpp"
+#include "job/files/job_words.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -45,6 +46,20 @@ TargetSurface cylinder(double radius_mm, double z_start_mm, double z_end_mm) {
   return {TargetKind::cylinder, false, z_start_mm, z_end_mm, radius_mm, 0.0, 0.0, 0.0, 0.0};
 }
 
+/// What forbids the cut by its geometry, in words; empty: nothing does.
+std::string cut_objection(const JobResult& result) {
+  for (const JobCheck* check : {&surface_behind_ball, &material_between, &stock, &cut_too_far})
+    if (const Reasons found = (*check)(result); !found.empty())
+      return words_of(found.front(), result.job);
+  return "";
+}
+
+Reasons cut_reservations(const JobResult& result) {
+  Reasons all = cut_far(result);
+  for (Reason& one : gauge_shows_no_radius(result)) all.push_back(std::move(one));
+  return all;
+}
+
 bool says(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -60,7 +75,7 @@ TEST(CutChecks, MaterialIsThatBetweenTheAxesOfPartAndTarget) {
   EXPECT_NEAR(over->most.material_mm, 0.3, over->most.U_mm + 1e-4);
   EXPECT_EQ(cut_objection(result), "");
   EXPECT_TRUE(cut_reservations(result).empty());
-  EXPECT_TRUE(result.verdict.go()) << result.verdict.line;
+  EXPECT_TRUE(result.verdict.go()) << verdict_line(result);
 }
 
 // An axis 50 µm beside another: 50 µm more at one side and less at the other.
@@ -126,7 +141,7 @@ TEST(CutChecks, OfARelativeGaugeTheMaterialIsNotKnownAndThatIsSaid) {
   const JobResult result = run_job(job_of(cylinder(19.7, 30.0, 10.0)), {stream});
   EXPECT_EQ(cut_objection(result), "");
   ASSERT_EQ(cut_reservations(result).size(), 1u);
-  EXPECT_TRUE(says(cut_reservations(result)[0], "relative gauge"));
+  EXPECT_EQ(cut_reservations(result)[0].code, ReasonCode::gauge_shows_no_radius);
 }
 
 }  // namespace

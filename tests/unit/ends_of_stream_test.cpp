@@ -9,6 +9,7 @@
 #include <random>
 
 #include "job/doubts.hpp"
+#include "job/files/job_words.hpp"
 #include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
@@ -43,8 +44,10 @@ TEST(EndsOfStream, NoiseIsTakenForAMovedPartOnceInAThousandStreams) {
 TEST(EndsOfStream, AStepInTheLastReadingsIsSaid) {
   JobResult result = with_noise(7);
   for (std::size_t i = readings - 4; i < readings; ++i) left_of(result)[i] += 8.0 * sigma_mm;
-  const std::string said = far_off_at_the_end(*result.diagnoses.front());
-  EXPECT_TRUE(said.starts_with("4 of the last 8 readings")) << said;
+  const Reasons found = far_off_at_the_end(result);
+  ASSERT_EQ(found.size(), 1u);
+  const std::string said = words_of(found.front(), result.job);
+  EXPECT_TRUE(said.starts_with("seat: 4 of the last 8 readings")) << said;
   EXPECT_NE(said.find("the part may have slipped there"), std::string::npos);
 }
 
@@ -52,32 +55,34 @@ TEST(EndsOfStream, ReadingsThatWereLeftOutAreOffToo) {
   JobResult result = with_noise(7);
   for (std::size_t i = readings - 3; i < readings; ++i)
     left_of(result)[i] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(far_off_at_the_end(*result.diagnoses.front()), "");
+  EXPECT_FALSE(far_off_at_the_end(result).empty());
 }
 
 TEST(EndsOfStream, OutliersThatComeInSuchNumbersElsewhereAreNoStep) {
   JobResult result = with_noise(7);
   for (const std::size_t end : {readings, readings / 2})
     for (std::size_t i = end - 4; i < end; ++i) left_of(result)[i] += 8.0 * sigma_mm;
-  EXPECT_EQ(far_off_at_the_end(*result.diagnoses.front()), "");
+  EXPECT_TRUE(far_off_at_the_end(result).empty());
 }
 
 TEST(EndsOfStream, OneOutlierIsNoStep) {
   JobResult result = with_noise(7);
   left_of(result).back() = 50.0 * sigma_mm;
-  EXPECT_EQ(far_off_at_the_end(*result.diagnoses.front()), "");
+  EXPECT_TRUE(far_off_at_the_end(result).empty());
 }
 
-TEST(LeftUnnamed, MoreThanHalfAgainTheNoiseIsNoNoise) {
+TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
   JobResult result = with_noise(7);
   Diagnosis& diagnosis = *result.diagnoses.front();
   diagnosis.noise.source = "revolution differences";
   diagnosis.noise.sigma_mm = sigma_mm, diagnosis.noise.u_sigma_mm = 0.05 * sigma_mm;
   diagnosis.gain.rms_after_mm = 1.6 * sigma_mm;  // 1.5 (1 + 2 · 0.05) = 1.65
-  EXPECT_EQ(left_unnamed(diagnosis), "");
+  EXPECT_TRUE(left_unexplained(result).empty());
   diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
-  EXPECT_TRUE(left_unnamed(diagnosis).starts_with("what was found leaves 1.7 µm"))
-      << left_unnamed(diagnosis);
+  const Reasons found = left_unexplained(result);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(words_of(found.front(), result.job).starts_with("seat: what was found leaves 1.7 µm"))
+      << words_of(found.front(), result.job);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "correct/margin.hpp"
+#include "format/reason_words.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -84,10 +85,11 @@ TEST(Remedy, OfTooFewRowsIsRows) {
   tool.rows_per_revolution = 12;
   const ActuatorMargin margin = make_correction(far_axis(), cylinder(), tool, {}).margin;
   ASSERT_FALSE(margin.follows);
-  const std::string says = margin.remedy;
-  int rows = 0;
-  ASSERT_EQ(std::sscanf(says.c_str(), "it would with %d rows a revolution", &rows), 1) << says;
-  EXPECT_EQ(says.find("rpm"), std::string::npos) << says;
+  ASSERT_EQ(margin.remedies.size(), 1u);
+  const Reason& remedy = margin.remedies.front();
+  ASSERT_EQ(remedy.code, ReasonCode::follows_with_rows) << words_of(remedy);
+  EXPECT_TRUE(remedy.parts.empty()) << "no speed would do";
+  const int rows = static_cast<int>(remedy.number("rows")->value);
   tool.rows_per_revolution = rows;
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, {}).margin.follows);
   // Unfiltered, A (π/M)²/2 of 250 µm is 1 µm at M = 35; the actuator filters some of it.
@@ -102,13 +104,13 @@ TEST(Remedy, OfTooFewSetPointsIsTheSamplingAndTheSpeed) {
   actuator.sampling_hz = 500.0;
   const ActuatorMargin margin = make_correction(far_axis(), cylinder(), tool, actuator).margin;
   ASSERT_FALSE(margin.follows);
-  double hz = 0.0, rpm = 0.0;
-  ASSERT_EQ(std::sscanf(margin.remedy.c_str(),
-                        "it would with set-points at %lf Hz (sampling_hz), or at %lf rpm or less",
-                        &hz, &rpm),
-            2)
-      << margin.remedy;
-  tool.speed_rpm = rpm;
+  ASSERT_EQ(margin.remedies.size(), 1u);
+  const Reason& remedy = margin.remedies.front();
+  ASSERT_EQ(remedy.code, ReasonCode::follows_with_set_points) << words_of(remedy);
+  ASSERT_EQ(remedy.parts.size(), 1u);
+  ASSERT_EQ(remedy.parts.front().code, ReasonCode::at_speed_or_less);
+  const double hz = remedy.number("rate")->value;
+  tool.speed_rpm = remedy.parts.front().number("speed")->value;
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
   tool.speed_rpm = 600.0, actuator.sampling_hz = hz;
   EXPECT_TRUE(make_correction(far_axis(), cylinder(), tool, actuator).margin.follows);
@@ -117,8 +119,9 @@ TEST(Remedy, OfTooFewSetPointsIsTheSamplingAndTheSpeed) {
 TEST(Remedy, OfAStrokeThatIsTooSmallIsNone) {
   Actuator actuator;
   actuator.stroke_mm = 0.1;
-  EXPECT_EQ(make_correction(far_axis(), cylinder(), ToolSetup{}, actuator).margin.remedy,
-            "it would not at any speed");
+  const Reasons remedies =
+      make_correction(far_axis(), cylinder(), ToolSetup{}, actuator).margin.remedies;
+  EXPECT_EQ(words_of(remedies, ", or "), "it would not at any speed");
 }
 
 }  // namespace

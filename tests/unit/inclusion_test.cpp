@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "correct/profile.hpp"
+#include "format/reason_words.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/effect.hpp"
 
@@ -26,25 +27,31 @@ JobResult asked(const Finding& finding) {
   return result;
 }
 
+Inclusion inclusion_of(const JobResult& result) {
+  return included_motions(result).inclusions.at(0);
+}
+
+std::string why_of(const JobResult& result) { return words_of(*inclusion_of(result).why); }
+
 TEST(Inclusion, AMotionOfTheSpindleAloneIsFollowed) {
   JobResult result = asked(spindle_lobes());
-  const auto motions = included_motions(result);
+  const auto motions = included_motions(result).motions;
   ASSERT_EQ(motions.size(), 1u);
-  EXPECT_TRUE(result.inclusions.at(0).included);
+  EXPECT_TRUE(inclusion_of(result).included);
 }
 
 TEST(Inclusion, AClassThatHoldsTheFormIsRefusedByName) {
   Finding finding = spindle_lobes();
   finding.rivals = {{"part.roundness", 0.0, 0.0, 0.5, true}};
   JobResult result = asked(finding);
-  EXPECT_TRUE(included_motions(result).empty());
-  EXPECT_TRUE(result.inclusions.at(0).refused);
-  EXPECT_NE(result.inclusions.at(0).why.find("part.roundness"), std::string::npos);
+  EXPECT_TRUE(included_motions(result).motions.empty());
+  EXPECT_TRUE(inclusion_of(result).refused);
+  EXPECT_NE(why_of(result).find("part.roundness"), std::string::npos);
   finding.term.effect = find_effect("probe.nonlinearity");
   finding.rivals = {{"spindle.radial_synchronous", 0.0, 0.0, 0.5, true}};
   result = asked(finding);
-  EXPECT_TRUE(included_motions(result).empty());
-  EXPECT_NE(result.inclusions.at(0).why.find("probe.nonlinearity"), std::string::npos);
+  EXPECT_TRUE(included_motions(result).motions.empty());
+  EXPECT_NE(why_of(result).find("probe.nonlinearity"), std::string::npos);
 }
 
 // Beside a whole order chance keeps a line of a free order in the class: seen are 0.1 to 2 %.
@@ -54,29 +61,29 @@ TEST(Inclusion, WhatIsPossibleByChanceAloneForbidsNothing) {
   finding.rivals = {{"environment.vibration", 1.8, -2.7, 0.010, true},
                     {"spindle.asynchronous", 1.0, -2.4, 0.008, true}};
   JobResult result = asked(finding);
-  EXPECT_EQ(included_motions(result).size(), 1u);
-  EXPECT_TRUE(result.inclusions.at(0).included);
-  EXPECT_NE(result.inclusions.at(0).why.find("environment.vibration"), std::string::npos);
-  EXPECT_NE(result.inclusions.at(0).why.find("0.018"), std::string::npos);
+  EXPECT_EQ(included_motions(result).motions.size(), 1u);
+  EXPECT_TRUE(inclusion_of(result).included);
+  EXPECT_NE(why_of(result).find("environment.vibration"), std::string::npos);
+  EXPECT_NE(why_of(result).find("0.018"), std::string::npos);
   // Together above the risk of a go they forbid, though each is below.
   finding.rivals[0].probability = finding.rivals[1].probability = 0.03;
   result = asked(finding);
-  EXPECT_TRUE(included_motions(result).empty());
-  EXPECT_TRUE(result.inclusions.at(0).refused);
+  EXPECT_TRUE(included_motions(result).motions.empty());
+  EXPECT_TRUE(inclusion_of(result).refused);
 }
 
 TEST(Inclusion, WhatWasNotFoundIsNoRefusal) {
   JobResult result = asked(example::tilt_motion());
-  EXPECT_TRUE(included_motions(result).empty());
-  EXPECT_FALSE(result.inclusions.at(0).refused);
-  EXPECT_EQ(result.inclusions.at(0).why, "it was not found");
+  EXPECT_TRUE(included_motions(result).motions.empty());
+  EXPECT_FALSE(inclusion_of(result).refused);
+  EXPECT_EQ(inclusion_of(result).why->code, ReasonCode::not_found);
 }
 
 TEST(Inclusion, AToolBesideTheProbesDirectionIsRefused) {
   JobResult result = asked(spindle_lobes());
   result.job.tool.angle_from_probe_rad = 0.5;
-  EXPECT_TRUE(included_motions(result).empty());
-  EXPECT_TRUE(result.inclusions.at(0).refused);
+  EXPECT_TRUE(included_motions(result).motions.empty());
+  EXPECT_TRUE(inclusion_of(result).refused);
 }
 
 // A slide's path is known where it was probed; a motion of the spindle is the same everywhere.
@@ -91,8 +98,8 @@ TEST(Inclusion, AMotionOfTheMachineIsFollowedWithinTheProbedLength) {
       result.job.target->z_start_mm = diagnosis.z_mid_mm;
       result.job.target->z_end_mm = diagnosis.z_mid_mm + (beyond ? 2.0 : 1.0) * diagnosis.z_half_mm;
       const bool refused = beyond && finding.term.effect->frame == EffectFrame::machine;
-      EXPECT_EQ(included_motions(result).empty(), refused) << id;
-      EXPECT_EQ(result.inclusions.at(0).refused, refused) << id;
+      EXPECT_EQ(included_motions(result).motions.empty(), refused) << id;
+      EXPECT_EQ(inclusion_of(result).refused, refused) << id;
     }
   }
 }
@@ -102,7 +109,7 @@ TEST(Inclusion, AMotionOfTheMachineIsFollowedWithinTheProbedLength) {
 /// programmed profile, whatever the angle.
 TEST(Inclusion, TheCutPartIsTrueOnBothSides) {
   JobResult result = asked(spindle_lobes());
-  const auto motions = included_motions(result);
+  const auto motions = included_motions(result).motions;
   const TargetSurface& target = *result.job.target;
   for (const double turn : {0.0, two_pi / 2.0}) {
     ToolSetup tool = result.job.tool;

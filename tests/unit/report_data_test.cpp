@@ -45,7 +45,8 @@ TEST(ReportPageText, PlacesInTextsAreLeftAlone) {
 TEST(ReportPageText, HostileNamesAddNoElement) {
   JobResult hostile = example::cone_job(100);
   const std::string plain = render_report(hostile);
-  hostile.job.name = hostile.verdict.line = hostile.job.references.front().name = "</script><img>";
+  hostile.job.name = hostile.job.references.front().name = "</script><img>";
+  hostile.verdict.reasons = {{ReasonCode::cut_refused, {}, {}, {{"why", hostile.job.name}}}};
   const std::string page = render_report(hostile);
   for (const char* element : {"</script", "<script", "<img"}) {
     EXPECT_EQ(count(page, element), count(plain, element)) << element;

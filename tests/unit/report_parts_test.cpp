@@ -9,6 +9,7 @@
 
 #include "job/files/job_results.hpp"
 #include "job/files/job_toml.hpp"
+#include "job/files/job_words.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
 #include "report/stream_report.hpp"
@@ -75,15 +76,17 @@ bool holds(const json& list, const std::string& text) {
 TEST(ReportWarnings, ReservationsComeFirstAndAreOffTheLine) {
   JobResult result = example::cone_job(100);
   result.verdict.decision = Decision::go_with_reservations;
-  result.verdict.reservations = {"a bow was seen in one pass", "the noise is larger than stated"};
-  result.verdict.line =
-      "GO with reservations: 1 µm; a bow was seen in one pass; the noise is "
-      "larger than stated";
+  result.verdict.reasons = {{ReasonCode::no_target}};
+  result.verdict.reservations = {{ReasonCode::undiagnosed_correlated, {0}},
+                                 {ReasonCode::gauge_shows_no_radius, {0}}};
+  const std::vector<std::string> said = sentences_of(result.verdict.reservations, result.job);
   const json data = report_data(result);
-  EXPECT_EQ(data["verdict"]["line"], "GO with reservations: 1 µm");
+  EXPECT_EQ(data["verdict"]["line"], "GO with reservations: identified, no target to correct");
+  EXPECT_EQ(verdict_line(result),
+            "GO with reservations: identified, no target to correct; " + said[0] + "; " + said[1]);
   ASSERT_GE(data["warnings"].size(), 2u);
-  EXPECT_EQ(data["warnings"][0]["text"], "a bow was seen in one pass");
-  EXPECT_EQ(data["warnings"][1]["text"], "the noise is larger than stated");
+  EXPECT_EQ(data["warnings"][0]["text"], said[0]);
+  EXPECT_EQ(data["warnings"][1]["text"], said[1]);
 }
 
 TEST(ReportWarnings, TheSameOfTwoReferencesIsSaidOnce) {
@@ -102,9 +105,12 @@ TEST(ReportNext, SaysWhatToDo) {
   EXPECT_TRUE(holds(next_data(example::rank_deficient_job()), "Mend what the verdict names"));
   JobResult unproven = example::cone_job(100);
   unproven.verdict.decision = Decision::not_proven;
-  unproven.verdict.what_would_prove = "about 4000 readings instead of 1500 would prove it";
+  const Reason more{ReasonCode::more_readings, {}, {{"needed", 4000.0}, {"now", 1500.0}}};
+  Reason reason{ReasonCode::tolerance_not_proven};
+  reason.remedies = {{ReasonCode::more_would_prove, {}, {}, {}, {more}}};
+  unproven.verdict.reasons = {reason};
   const json steps = next_data(unproven);
-  EXPECT_EQ(steps[0], unproven.verdict.what_would_prove);
+  EXPECT_EQ(steps[0], "about 4000 readings instead of 1500 would prove it");
   EXPECT_FALSE(holds(steps, "Run table.csv"));
 }
 

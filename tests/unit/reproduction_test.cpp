@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "job/files/job_words.hpp"
 #include "job/verdict.hpp"
 #include "support/diagnosis_example.hpp"
 
@@ -25,16 +26,17 @@ JobResult resimulated(bool wrong_way) {
 }
 
 TEST(Reproduction, AModelThatReproducesTheReadingsKeepsTheGo) {
-  const Verdict verdict = decide(resimulated(false));
-  EXPECT_TRUE(verdict.go());
-  EXPECT_EQ(verdict.line.rfind("GO: coaxiality ", 0), 0u) << verdict.line;
+  JobResult result = resimulated(false);
+  result.verdict = decide(result);
+  EXPECT_TRUE(result.verdict.go());
+  EXPECT_EQ(verdict_line(result).rfind("GO: coaxiality ", 0), 0u) << verdict_line(result);
 }
 
 TEST(Reproduction, OneThatIsWorseThanTheIdealSurfaceIsNoGo) {
-  const JobResult result = resimulated(true);
-  const Verdict verdict = decide(result);
-  EXPECT_FALSE(verdict.go());
-  const std::string& line = verdict.line;
+  JobResult result = resimulated(true);
+  result.verdict = decide(result);
+  EXPECT_FALSE(result.verdict.go());
+  const std::string line = verdict_line(result);
   EXPECT_EQ(line.rfind("NO-GO: seat: what was found does not reproduce the readings: ", 0), 0u);
   const Comparison& c = result.resimulations.front()->comparison;
   char share[32];
@@ -49,7 +51,7 @@ TEST(Reproduction, WhatIsRefutedIsNotHeldAgainstATolerance) {
   JobResult result = resimulated(true);
   for (const double tolerance_mm : {1e-6, 1.0}) {
     result.job.coaxiality_tolerance_mm = tolerance_mm;
-    EXPECT_NE(decide(result).line.find("does not reproduce"), std::string::npos) << tolerance_mm;
+    EXPECT_EQ(decide(result).reasons.at(0).code, ReasonCode::not_reproduced) << tolerance_mm;
   }
   result.job.target.reset();
   result.target_axis.reset();
@@ -68,7 +70,7 @@ TEST(Reproduction, WithoutASimulationNothingIsRefuted) {
 TEST(Reproduction, AnActuatorThatCannotFollowIsSaidFirst) {
   JobResult result = resimulated(true);
   result.correction->margin.follows = false;
-  EXPECT_EQ(decide(result).line.rfind("NO-GO: the actuator cannot follow", 0), 0u);
+  EXPECT_EQ(decide(result).reasons.at(0).code, ReasonCode::actuator_cannot_follow);
 }
 
 TEST(Reproduction, HalfWayBackAndBeyondChance) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "job/files/job_words.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -55,17 +56,17 @@ TEST(SensorDoubts, LobesInPhaseWithTheEccentricityMakeNoWrongGo) {
       if (result.verdict.go()) {
         ++cut;
         EXPECT_LE(coaxiality_mm_of(result, eccentric_mm), tolerance_mm)
-            << eccentric_mm << " " << two_mm << " " << three_mm << ": " << result.verdict.line;
+            << eccentric_mm << " " << two_mm << " " << three_mm << ": " << verdict_line(result);
       }
     }
   EXPECT_GT(cut, 0) << "the loop would hold nothing";
   const JobResult one = job_of_lobes(0.1, 2e-3, 2e-3, 0.0);  // for a sensor's error 6 µm off
-  EXPECT_EQ(one.verdict.decision, Decision::not_proven) << one.verdict.line;
+  EXPECT_EQ(one.verdict.decision, Decision::not_proven) << verdict_line(one);
 }
 
 TEST(SensorDoubts, LobesElsewhereAreAGo) {
   const JobResult result = job_of_lobes(0.03, 1e-3, 2e-3, 0.7);
-  EXPECT_TRUE(result.verdict.go()) << result.verdict.line;
+  EXPECT_TRUE(result.verdict.go()) << verdict_line(result);
   EXPECT_LE(coaxiality_mm_of(result, 0.03), tolerance_mm);
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "diagnose/files/diagnosis_text.hpp"
+#include "job/files/job_words.hpp"
 #include "support/diagnosis_example.hpp"
 
 namespace trueaxis {
@@ -18,6 +19,15 @@ Finding slipped(std::vector<FitParameter> parameters) {
   finding.probability = 1.0;
   finding.axis_shift = {0.022, 5e-4, "mm", ""};
   return finding;
+}
+
+std::string objection(const JobResult& result) {
+  const auto reason = slip_objection(result);
+  return reason ? words_of(*reason, result.job) : "";
+}
+
+std::string moved(const JobResult& result) {
+  return words_of(moved_part(result), "; ", result.job);
 }
 
 JobResult found(const std::vector<Finding>& findings) {
@@ -39,32 +49,32 @@ JobResult unsure(const std::vector<Finding>& findings) {
 TEST(Slip, OneThatIsSureIsNoObjection) {
   const Finding step = slipped(
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
-  EXPECT_EQ(slip_objection(found({step})), "");
-  EXPECT_EQ(moved_part(found({step})),
+  EXPECT_EQ(objection(found({step})), "");
+  EXPECT_EQ(moved(found({step})),
             "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: the axis is that of "
             "the part as it now stands");
-  EXPECT_EQ(moved_part(unsure({step})), "");
+  EXPECT_EQ(moved(unsure({step})), "");
 }
 
 TEST(Slip, TwoOrOneWithRivalsAreNotSure) {
   Finding step = slipped({example::parameter("dx", 0.012, 0.003, "mm")});
-  EXPECT_NE(slip_objection(found({step, step})), "");
+  EXPECT_NE(objection(found({step, step})), "");
   step.rivals = {{"part.bow", 0.4, 1.1, 0.37, false}};
-  EXPECT_NE(slip_objection(found({step})), "");
+  EXPECT_NE(objection(found({step})), "");
 }
 
 TEST(Slip, AStepIsGivenAsItsLength) {
   // 3-4-5: u of the length is that along its direction, √(0.6² 3² + 0.8² 1²) = 1.97 µm.
   const Finding step = slipped(
       {example::parameter("dx", 0.012, 0.003, "mm"), example::parameter("dy", 0.016, 0.001, "mm")});
-  EXPECT_EQ(slip_objection(unsure({step})),
+  EXPECT_EQ(objection(unsure({step})),
             "seat: the part slipped in the chuck at 12.0 s by 20.0 ± 3.9 µm: clamp it again and "
             "probe again");
 }
 
 TEST(Slip, ATurnIsGivenInDegrees) {
   const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
-  EXPECT_EQ(slip_objection(unsure({turn})),
+  EXPECT_EQ(objection(unsure({turn})),
             "seat: the part slipped in the chuck at 12.0 s by 9.5 ± 1.0°: clamp it again and probe "
             "again");
 }
@@ -72,7 +82,7 @@ TEST(Slip, ATurnIsGivenInDegrees) {
 TEST(Slip, AFaceSlipsAlongZAndTilts) {
   Finding seat = slipped({example::parameter("dz", -0.00801, 6e-5, "mm")});
   seat.term.effect = find_effect("part.seat_slip");
-  const auto said = [&] { return moved_part(found({seat})); };
+  const auto said = [&] { return moved(found({seat})); };
   EXPECT_EQ(said(),
             "seat: the part slipped in the chuck at 12.0 s by -8.01 ± 0.12 µm along Z: the axis is "
             "that of the part as it now stands");
@@ -92,7 +102,7 @@ TEST(Slip, AMemberOfTheClassMayHaveBeenOne) {
   bow.term.effect = find_effect("part.bow");
   bow.rivals = {{"part.slip", 0.4, 1.1, 0.37, false}};
   EXPECT_EQ(
-      slip_objection(found({bow})),
+      objection(found({bow})),
       "seat: the part may have slipped in the chuck, which the data cannot tell from part.bow "
       "(probability of the slip 0.37): clamp it again and probe again");
 }
@@ -101,14 +111,14 @@ TEST(Slip, TheNamedOneGoesBeforeThePossibleOne) {
   Finding bow = example::tilt_motion();
   bow.rivals = {{"part.slip", 0.4, 1.1, 0.37, false}};
   const Finding turn = slipped({example::parameter("turn", 9.46, 0.5, "deg")});
-  EXPECT_NE(slip_objection(found({bow, turn})).find("the part slipped"), std::string::npos);
+  EXPECT_NE(objection(found({bow, turn})).find("the part slipped"), std::string::npos);
 }
 
 TEST(Slip, NoSlipNoObjection) {
-  EXPECT_EQ(slip_objection(found({example::lobes(), example::tilt_motion()})), "");
+  EXPECT_EQ(objection(found({example::lobes(), example::tilt_motion()})), "");
   JobResult face = example::diagnosed_job(100);
   face.diagnoses = {std::nullopt};
-  EXPECT_EQ(slip_objection(face), "");
+  EXPECT_EQ(objection(face), "");
 }
 
 TEST(Slip, TheTextSaysWhoseAxisItIs) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "job/files/job_toml.hpp"
+#include "job/files/job_words.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/job.hpp"
 #include "trueaxis/virtual_lathe.hpp"
@@ -110,7 +111,7 @@ TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
   job.datums = {{"A", "B"}};
   job.coaxiality_tolerance_mm = 0.2;  // what the seats themselves are off it, over the cut, is 0.1
   const JobResult result = run_job(job, streams);
-  ASSERT_TRUE(result.target_axis) << result.verdict.line;
+  ASSERT_TRUE(result.target_axis) << verdict_line(result);
   const Eigen::Vector4d own = least_squares_of(streams);
   for (const double z : {0.0, 50.0, 112.0}) {
     const auto [x, y] = result.target_axis->axis.axis.at(z);
@@ -122,7 +123,7 @@ TEST(TargetDatum, ACommonDatumIsLeastSquaresOfBothSeats) {
   EXPECT_LT(result.target_axis->remainders[0].coaxiality_mm, 1e-12);
   EXPECT_EQ(result.datum->references.size(), 2U);
   EXPECT_GT(result.datum->references[0].coaxiality_mm, 1e-3) << "what the seat itself is off";
-  EXPECT_EQ(result.verdict.decision, Decision::go) << result.verdict.line;
+  EXPECT_EQ(result.verdict.decision, Decision::go) << verdict_line(result);
 }
 
 /// A seat in the middle that stands beside the line of the two others counts the same however
@@ -151,7 +152,7 @@ TEST(TargetDatum, AFaceFirstGivesTheDirection) {
   Job job = job_of({{"A", SurfaceKind::cylinder}, {"C", SurfaceKind::plane}});
   job.datums = {{"C"}, {"A"}};
   const JobResult result = run_job(job, {seat(20.0, 0.0, stands, 5), shoulder(-1e-4, 3e-4)});
-  ASSERT_TRUE(result.target_axis) << result.verdict.line;
+  ASSERT_TRUE(result.target_axis) << verdict_line(result);
   const Axis& axis = result.target_axis->axis.axis;
   const double u_slope = std::sqrt(result.target_axis->axis.covariance(AxisRow::slope_x, AxisRow::slope_x));
   EXPECT_LT(u_slope, 2e-5) << "else the seat's own direction, 5e-4 elsewhere, would pass";
@@ -182,7 +183,7 @@ TEST(TargetDatum, TheAssociationOfAReferenceMovesTheCut) {
   const JobResult plain = run_job(job, {stream});
   job.references[0].association = Criterion::minimum_circumscribed;
   const JobResult result = run_job(job, {stream});
-  ASSERT_TRUE(result.target_axis && plain.target_axis) << result.verdict.line;
+  ASSERT_TRUE(result.target_axis && plain.target_axis) << verdict_line(result);
   for (const double z : {1.0, 11.0}) {
     const double by =
         result.target_axis->axis.axis.at(z)[0] - plain.target_axis->axis.axis.at(z)[0];
@@ -193,7 +194,7 @@ TEST(TargetDatum, TheAssociationOfAReferenceMovesTheCut) {
 }
 
 bool says(const JobResult& result, const std::string& part) {
-  return result.verdict.line.find(part) != std::string::npos;
+  return verdict_line(result).find(part) != std::string::npos;
 }
 
 /// A seat that was probed in another clamping stands elsewhere: nothing shows it but the other
@@ -205,11 +206,11 @@ TEST(TargetDatum, SeatsThatShareNoAxisAreNoDatum) {
   job.datums = {{"A", "B"}};
   const JobResult common = run_job(job, streams);
   EXPECT_EQ(common.verdict.decision, Decision::not_proven);
-  EXPECT_TRUE(says(common, "share no axis")) << common.verdict.line;
+  EXPECT_TRUE(says(common, "share no axis")) << verdict_line(common);
   job.datums = {{"A"}};
   const JobResult alone = run_job(job, streams);
   EXPECT_EQ(alone.verdict.decision, Decision::go_with_reservations);
-  EXPECT_TRUE(says(alone, "off the datum A")) << alone.verdict.line;
+  EXPECT_TRUE(says(alone, "off the datum A")) << verdict_line(alone);
 }
 
 /// A slip while B is probed leaves A where the part stood before.
@@ -230,8 +231,8 @@ TEST(TargetDatum, ASlipLeavesTheOtherReferencesBehind) {
   job.datums = {{"A"}};
   const JobResult result =
       run_job(job, {seat(20.0, 0.0, at, 1), virtual_lathe::simulate(scenario)});
-  EXPECT_FALSE(result.verdict.go()) << result.verdict.line;
-  EXPECT_TRUE(says(result, "slipped while B was probed")) << result.verdict.line;
+  EXPECT_FALSE(result.verdict.go()) << verdict_line(result);
+  EXPECT_TRUE(says(result, "slipped while B was probed")) << verdict_line(result);
 }
 
 std::string refusal_of(const std::string& reference, const std::string& target) {

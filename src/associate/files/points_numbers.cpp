@@ -71,7 +71,7 @@ class Chooser {
     }
     for (const NumberColumn& axis : axes)
       if (unit_.empty() && !unit.empty() && axis.array->unit.empty()) unit.clear();
-    if (unit.empty()) refuse("it says no unit of its coordinates");
+    if (unit.empty()) refuse("it says no unit of its coordinates", Missing::unit);
     return of(unit);
   }
 
@@ -106,16 +106,18 @@ class Chooser {
     return axes;
   }
 
-  [[noreturn]] void refuse(const std::string& why) const {
-    const bool chosen = !array_.empty() && why.find("--array") == std::string::npos;
+  /// What the file does not tell, so that an option must.
+  enum class Missing { array, unit };
+
+  [[noreturn]] void refuse(const std::string& why, Missing missing = Missing::array) const {
+    const bool unit_alone = missing == Missing::unit;
     throw InputError(std::vector<Diagnostic>{
         {path_, 0, 0, why},
         {path_, 0, 0, "was read as " + file_.kind + " with " + listed(file_)},
         {path_, 0, 0,
-         "the option" + std::string(why.starts_with("it says") ? "" : "s") +
-             " that would read it:" +
-             (why.starts_with("it says") ? (chosen ? " --array " + array_ : "")
-                                         : " --array NAME or --array X,Y,Z") +
+         "the option" + std::string(unit_alone ? "" : "s") + " that would read it:" +
+             (unit_alone ? (array_.empty() ? "" : " --array " + array_)
+                         : " --array NAME or --array X,Y,Z") +
              (unit_.empty() &&
                       std::ranges::all_of(
                           columns_, [](const auto& column) { return column.array->unit.empty(); })

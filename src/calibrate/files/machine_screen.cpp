@@ -110,7 +110,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
   return text;
 }
 
-std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
+std::string machine_diagnosis_line(const MachineDiagnosis& d, const char* arrow) {
   const std::size_t found = d.findings.size(), unexplained = d.unexplained.size();
   std::string text = d.verdict == DiagnosisVerdict::ideal
                          ? "IDEAL: nothing was found beside the location errors"
@@ -119,23 +119,31 @@ std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
                                        found + unexplained, found + unexplained == 1 ? "" : "s");
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
   if (d.blocks > 0 || d.rms_before_mm > 0.0)
-    text +=
-        fmt::format("; RMS {} -> {}, held out {} -> {}", um(d.rms_before_mm), um(d.rms_after_mm),
-                    um(d.held_out_before_mm.value), um(d.held_out_after_mm.value));
-  return text + "\n" + machine_findings_screen(d);
+    text += fmt::format("; RMS {} {} {}, held out {} {} {}", um(d.rms_before_mm), arrow,
+                        um(d.rms_after_mm), um(d.held_out_before_mm.value), arrow,
+                        um(d.held_out_after_mm.value));
+  return text;
 }
 
-std::string next_screen(const MachineDiagnosis& d) {
+std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
+  return machine_diagnosis_line(d, "->") + "\n" + machine_findings_screen(d);
+}
+
+std::string next_plan_text(const MachineDiagnosis& d, PlanBy by) {
   const auto plan = std::ranges::find(d.plans, d.next_plan, &MachinePlan::code);
   if (d.next_plan.empty() || plan == d.plans.end())
-    return "next   nothing: no plan shows or tells apart anything more\n";
-  return fmt::format("next   {}, {} ({} readings, {:.0f} min)\n", plan->code, plan->what,
+    return "nothing: no plan shows or tells apart anything more";
+  return fmt::format("{}{} ({} readings, {:.0f} min)",
+                     by == PlanBy::code ? plan->code + ", " : "Measure ", plan->what,
                      plan->visits.size(), plan->minutes);
 }
 
+std::string next_screen(const MachineDiagnosis& d) {
+  return "next   " + next_plan_text(d, PlanBy::code) + "\n";
+}
+
 std::string machine_advice_screen(const MachineDiagnosis& d) {
-  std::string text = "N" + next_screen(d).substr(1);
-  text.replace(0, 7, "NEXT: ");
+  std::string text = "NEXT: " + next_plan_text(d, PlanBy::code) + "\n";
   std::size_t shown = 0;
   for (const MachinePlan& plan : d.plans) {
     if (shown++ == most_plans) break;

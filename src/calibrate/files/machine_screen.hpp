@@ -13,12 +13,17 @@ namespace trueaxis {
 std::string calibration_screen(const Calibration& calibration);
 
 /// Without the next measurement, which may depend on what is weighed on a program.
+/// Its first line; `arrow` stands between before and after.
+std::string machine_diagnosis_line(const MachineDiagnosis& diagnosis, const char* arrow);
 std::string machine_diagnosis_screen(const MachineDiagnosis& diagnosis);
 
 /// The findings and what these positions do not show, a few lines.
 std::string machine_findings_screen(const MachineDiagnosis& diagnosis);
 
 /// "next   …": the measurement that shows and separates most.
+/// The measurement that tells most, by the code of its plan or by what is done.
+enum class PlanBy { code, deed };
+std::string next_plan_text(const MachineDiagnosis& diagnosis, PlanBy by);
 std::string next_screen(const MachineDiagnosis& diagnosis);
 
 std::string machine_advice_screen(const MachineDiagnosis& diagnosis);

@@ -7,6 +7,7 @@
 
 #include "base/never.hpp"
 #include "correct/files/table_files.hpp"
+#include "format/reason_words.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -160,7 +161,8 @@ std::string correction_preview(const Correction& correction) {
           fixed(margin.bandwidth_hz, 2) + " Hz\n";
   text += "following   " + following_text(margin) + '\n';
   text += margin.follows ? "follows     yes"
-                         : "follows     no: " + margin.breaks + "; " + margin.remedy;
+                         : "follows     no: " + words_of(margin.breaks, "; ") + "; " +
+                               words_of(margin.remedies, ", or ");
   return text + ", " + speed_text(margin) + '\n';
 }
 

@@ -32,6 +32,14 @@ std::string source_line(const char* name, const std::optional<double>& sigma_mm)
   return sigma_mm ? std::string(", ") + name + " " + um(*sigma_mm) : "";
 }
 
+/// A cone whose axis the readings determine and whose taper they do not.
+bool may_be_cylinder(const FitResult& fit) {
+  if (fit.surface != SurfaceKind::cone || fit.status != FitStatus::rank_deficient) return false;
+  for (const char* of_axis : {"x0", "y0", "l", "m"})
+    if (!fit.parameter(of_axis).determined()) return false;
+  return !fit.parameter("half_angle").determined();
+}
+
 std::string rejected_lines(const char* head, const std::vector<Rejected>& rejected) {
   constexpr std::size_t listed = 3;
   std::string rows;
@@ -132,8 +140,7 @@ std::string next_text(const NextMeasurement& next) {
 std::string advice_text(const Diagnosis& d) {
   std::string text = wrapped("", diagnosis_line(d));
   // What a measurement would tell of a cone says nothing of what is a cylinder.
-  if (d.baseline.status == FitStatus::rank_deficient &&
-      d.baseline.message.find("--surface cylinder") != std::string::npos)
+  if (may_be_cylinder(d.baseline))
     return text + "\nNext\n" +
            wrapped("  ",
                    "take it for a cylinder: --surface cylinder, in a job surface = "

@@ -128,12 +128,9 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
           cleaned.axis_noise_covariance.by_rows[i * 4 + j];
   }
   for (FitParameter& d : result.derived) {
-    if (d.name.starts_with("offset") || d.name.ends_with("offset") ||
-        d.name.find("offset") != std::string::npos) {
+    if (d.name == "offset_at_min_z" || d.name == "offset_at_max_z") {
       const double z =
-          d.name.find("start") != std::string::npos || d.name.find("min") != std::string::npos
-              ? result.position_min_mm
-              : result.position_max_mm;
+          d.name == "offset_at_min_z" ? result.position_min_mm : result.position_max_mm;
       d.estimate.u = std::max(d.estimate.u, result.axis.u_at(z));
       continue;
     }

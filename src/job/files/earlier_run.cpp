@@ -8,7 +8,15 @@
 #include "format/json.hpp"
 
 namespace trueaxis {
+namespace {
 
+/// A file that a run wrote, as its result.json names it under `files`.
+struct WrittenFile {
+  std::string name, hash;  ///< in the folder of the results; content_hash() of what was written
+};
+
+/// What the run that left `result_path` wrote beside it and `now` does not name; empty where there
+/// is no such result. Names that are no plain ones are passed over.
 std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
                                               const std::vector<ResultFile>& now) {
   std::error_code error;
@@ -26,6 +34,52 @@ std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
     if (plain && std::ranges::find(now, file, &ResultFile::name) == now.end())
       earlier.push_back({file, hash.get<std::string>()});
   }
+  return earlier;
+}
+
+EarlierRun take_away_earlier(Outputs& outputs, const Job& job,
+                             const std::vector<ResultFile>& files) {
+  EarlierRun said;
+  for (const WrittenFile& file : files_of_earlier_run(outputs.in_folder("result.json"), files)) {
+    const std::string place = outputs.in_folder(file.name);
+    const bool table =
+        file.name == "table.csv" ||
+        std::ranges::find(job.outputs, file.name, &ControlTable::file) != job.outputs.end();
+    if (table || !std::filesystem::exists(place)) continue;
+    if (outputs.remove_unchanged(place, file.hash)) {
+      said.removed += "gone   " + place + ": of an earlier job\n";
+    } else {
+      said.kept += "warning: " + place +
+                   " is of an earlier job and was changed since: it stays, and is none of this "
+                   "result\n";
+    }
+  }
+  return said;
+}
+
+}  // namespace
+
+void name_job_files(Outputs& outputs, const Job& job, const std::string& folder) {
+  outputs.reads(job.path);
+  for (const JobReference& reference : job.references) outputs.reads(reference.stream);
+  for (const ControlTable& output : job.outputs)
+    if (!output.template_path.empty()) outputs.reads(output.template_path);
+  outputs.into(folder);
+  for (const ResultName& file : job_file_names(job))
+    outputs.may_write_in_folder(file.name, file.schema);
+  outputs.may_write_in_folder("report.html", "trueaxis.report");
+}
+
+EarlierRun write_job_files(Outputs& outputs, const JobResult& result,
+                           const std::vector<ResultFile>& files) {
+  for (const ResultFile& file : files) outputs.write(outputs.in_folder(file.name), file.text);
+  if (!has_table(result)) {
+    outputs.remove_earlier(outputs.in_folder("table.csv"));
+    for (const ControlTable& output : result.job.outputs)
+      outputs.remove_earlier(outputs.in_folder(output.file));
+  }
+  EarlierRun earlier = take_away_earlier(outputs, result.job, files);
+  outputs.commit();
   return earlier;
 }
 

@@ -4,18 +4,23 @@
 #include <string>
 #include <vector>
 
+#include "format/outputs.hpp"
 #include "job/files/job_results.hpp"
 
 namespace trueaxis {
 
-/// A file that a run wrote, as its result.json names it under `files`.
-struct WrittenFile {
-  std::string name, hash;  ///< in the folder of the results; content_hash() of what was written
+/// All that a run of the job reads and may write, into a folder.
+void name_job_files(Outputs& outputs, const Job& job, const std::string& folder);
+
+/// What is said of the files of an earlier job.
+struct EarlierRun {
+  std::string removed, kept;
 };
 
-/// What the run that left `result_path` wrote beside it and `now` does not name; empty where there
-/// is no such result. Names that are no plain ones are passed over.
-std::vector<WrittenFile> files_of_earlier_run(const std::string& result_path,
-                                              const std::vector<ResultFile>& now);
+/// The files of a result into their folder. Tables stand there only when they may be run; what an
+/// earlier job wrote there and this one does not goes as it was written, and is named where it was
+/// changed since.
+EarlierRun write_job_files(Outputs& outputs, const JobResult& result,
+                           const std::vector<ResultFile>& files);
 
 }  // namespace trueaxis

@@ -15,9 +15,9 @@
 #include "job/beyond_probed.hpp"
 #include "job/cut_files.hpp"
 #include "job/files/datum_axes_files.hpp"
+#include "job/files/job_words.hpp"
 #include "job/files/part_form_files.hpp"
 #include "job/files/seats_files.hpp"
-#include "job/one_surface.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
@@ -42,8 +42,10 @@ Json verdict_object(const JobResult& result) {
   Json json{
       {"go", v.go()},
       {"decision", to_string(v.decision)},
-      {"line", v.line},
-      {"reservations", v.reservations},
+      {"line", verdict_line(result)},
+      {"reasons", reasons_array(v.reasons, result.job)},
+      {"reservations", sentences_of(v.reservations, result.job)},
+      {"reserved", reasons_array(v.reservations, result.job)},
       {"file", v.file},
       {"files", cut_files_array(v)},
       {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
@@ -51,8 +53,8 @@ Json verdict_object(const JobResult& result) {
       {"coaxiality_at_least", with_unit(v.lower_mm, "mm")},
       {"coaxiality_at_most", with_unit(v.upper_mm, "mm")},
       {"risk", nonconformity_risk},
-      {"what_would_prove", v.what_would_prove},
-      {"moved", v.moved},
+      {"what_would_prove", words_of(v.what_would_prove(), "; ", result.job)},
+      {"moved", words_of(v.moved, "; ", result.job)},
       {"coverage_factor", v.coverage_factor}};
   if (!result.correction)  // nothing is cut: no number, not a 0
     for (const char* of_cut :
@@ -88,9 +90,10 @@ Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) 
 }
 
 /// The datum system of the target, and what its axis leaves at the references.
-Json datum_object(const TargetDatum& datum) {
-  return {
-      {"name", datum.name}, {"how", datum.how}, {"remainders", remainders_array(datum.references)}};
+Json datum_object(const JobResult& result) {
+  return {{"name", result.datum->name},
+          {"how", datum_words(result)},
+          {"remainders", remainders_array(result.datum->references)}};
 }
 
 /// The references held against each other: what is apart beyond its U, and why nothing may be cut.
@@ -108,7 +111,7 @@ Json agreement_object(const JobResult& result) {
     pairs.push_back(std::move(pair));
   }
   return {{"disagreements", pairs},
-          {"reason", result.agreement.reason},
+          {"reason", result.agreement.reason ? words_of(*result.agreement.reason, result.job) : ""},
           {"odds", number(result.agreement.odds)}};
 }
 
@@ -140,7 +143,8 @@ Json inclusions_array(const std::vector<Inclusion>& inclusions) {
                     {"reference", i.reference},
                     {"included", i.included},
                     {"refused", i.refused},
-                    {"why", i.why}});
+                    {"code", i.why ? Json(to_string(i.why->code)) : Json(nullptr)},
+                    {"why", i.why ? words_of(*i.why) : ""}});
   }
   return list;
 }
@@ -191,8 +195,10 @@ Json correction_object(const Correction& correction) {
           {"harmonics", harmonics},
           {"margin",
            {{"follows", m.follows},
-            {"breaks", m.breaks},
-            {"remedy", m.remedy},
+            {"breaks", words_of(m.breaks, "; ")},
+            {"remedy", words_of(m.remedies, ", or ")},
+            {"broken", reasons_array(m.breaks, Spoken{})},
+            {"remedies", reasons_array(m.remedies, Spoken{})},
             {"max_speed", with_unit(m.max_speed_rpm, "rpm")},
             {"stroke_used", with_unit(m.stroke_used_mm, "mm")},
             {"stroke_available", with_unit(m.stroke_available_mm, "mm")},
@@ -241,15 +247,15 @@ Json job_object(const JobResult& result) {
   }
   json["references"] = references;
   json["forms_met"] = forms_met(result);
-  if (result.fits.size() > 1 || !result.agreement.reason.empty())
+  if (result.fits.size() > 1 || result.agreement.reason)
     json["agreement"] = agreement_object(result);
   if (result.fits.size() > 1 && !result.job.target) json["seats_apart"] = seats_apart_array(result);
   if (result.target_axis)
     json["target_axis"] = target_axis_object(*result.target_axis, *result.job.target);
-  if (result.datum) json["datum"] = datum_object(*result.datum);
+  if (result.datum) json["datum"] = datum_object(result);
   if (result.correction) {
     json["correction"] = correction_object(*result.correction);
-    json["correction"]["between_rows"]["coarse"] = coarse_rows(result);
+    json["correction"]["between_rows"]["coarse"] = coarse_rows_words(result);
   }
   if (!result.inclusions.empty()) json["included"] = inclusions_array(result.inclusions);
   return json;
@@ -298,7 +304,7 @@ std::vector<ResultFile> files_beside(const JobResult& result) {
         {readings_file(result.job, i), residuals_csv(result.streams[i], *result.diagnoses[i],
                                                      &result.resimulations[i]->readings)});
   }
-  if (!result.correction || !result.verdict.go()) return files;
+  if (!has_table(result)) return files;
   for (std::size_t i = 0; i < result.job.outputs.size(); ++i) {
     const ControlTable& output = result.job.outputs[i];
     const MadeControlTable& made = result.control_files[i];
@@ -314,6 +320,8 @@ std::vector<ResultFile> files_beside(const JobResult& result) {
 
 }  // namespace
 
+bool has_table(const JobResult& result) { return result.correction && result.verdict.go(); }
+
 std::vector<ResultFile> job_files(const JobResult& result) {
   std::vector<ResultFile> files = files_beside(result);
   files.insert(files.begin(), {"result.json", job_json(result, files)});
@@ -322,12 +330,12 @@ std::vector<ResultFile> job_files(const JobResult& result) {
 
 std::string inclusion_text(const Inclusion& i) {
   return (i.included ? "followed " : "not followed ") + i.effect +
-         (i.reference.empty() ? "" : " of " + i.reference) + (i.why.empty() ? "" : ": " + i.why) +
-         "\n";
+         (i.reference.empty() ? "" : " of " + i.reference) +
+         (i.why ? ": " + words_of(*i.why) : "") + "\n";
 }
 
 std::string job_text(const JobResult& result) {
-  std::string text = result.verdict.line + "\n\n";
+  std::string text = verdict_line(result) + "\n\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i)
     text +=
         fit_text(result.fits[i]) + diagnosis_text_of(result, i) +
@@ -335,15 +343,15 @@ std::string job_text(const JobResult& result) {
         (i < result.datum_axes.size() ? datum_axes_text(result.datum_axes[i], fit_used(result, i))
                                       : "") +
         "\n";
-  if (result.datum) text += "datum       " + result.datum->name + ": " + result.datum->how + "\n";
+  if (result.datum) text += "datum       " + result.datum->name + ": " + datum_words(result) + "\n";
   if (!result.job.target && result.fits.size() > 1) text += seats_apart_screen(result);
   for (const Disagreement& d : result.agreement.disagreements)
-    text += "references  " + how_apart(result, d) + "\n";
+    text += "references  " + words_of(how_apart(d), result.job) + "\n";
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion      " + inclusion_text(inclusion);
   if (result.correction) {
     text += correction_preview(*result.correction) + "\n";
-    if (const std::string rows = coarse_rows(result); !rows.empty())
+    if (const std::string rows = coarse_rows_words(result); !rows.empty())
       text += "rows        " + rows + "\n";
   }
   return text;

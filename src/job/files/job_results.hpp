@@ -31,6 +31,9 @@ std::vector<ResultName> job_file_names(const Job& job);
 /// readings, and, when there is a go, the files for controls that the job asks for and table.csv.
 std::vector<ResultFile> job_files(const JobResult& result);
 
+/// Whether the files hold a table, which is there to be run.
+bool has_table(const JobResult& result);
+
 /// "followed spindle.radial_synchronous of seat", or why it is not.
 std::string inclusion_text(const Inclusion& inclusion);
 

@@ -13,6 +13,7 @@
 #include "job/agreement.hpp"
 #include "job/cut_files.hpp"
 #include "job/files/job_results.hpp"
+#include "job/files/job_words.hpp"
 #include "job/files/part_form_files.hpp"
 #include "job/files/seats_files.hpp"
 #include "job/references.hpp"
@@ -58,7 +59,12 @@ std::string tool_screen(const ActuatorMargin& margin) {
                          ? "the actuator follows to " + (margin.following_mm < least_mm
                                                              ? "less than " + um(least_mm)
                                                              : um(margin.following_mm))
-                         : "the actuator cannot follow: " + margin.breaks);
+                         : "the actuator cannot follow: " + words_of(margin.breaks, "; "));
+}
+
+/// "seat: "; nothing of a reference without a name.
+std::string named(const JobReference& reference) {
+  return reference.name.empty() ? "" : reference.name + ": ";
 }
 
 /// What the cut is about where the job says more than the references.
@@ -66,16 +72,16 @@ std::string datum_screen(const JobResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.associated.size(); ++i)
     if (result.associated[i])
-      text += fmt::format("datum  {}{} association\n", of_reference(result, i),
+      text += fmt::format("datum  {}{} association\n", named(result.job.references[i]),
                           name_of(*result.job.references[i].association));
-  if (result.datum) text += "datum  " + result.datum->name + ": " + result.datum->how + "\n";
+  if (result.datum) text += "datum  " + result.datum->name + ": " + datum_words(result) + "\n";
   return text;
 }
 
 /// The measurement that the diagnoses ask for, the most telling of them.
 std::string next_screen(const JobResult& result) {
-  if (!result.verdict.what_would_prove.empty())
-    return "next   " + result.verdict.what_would_prove + "\n";
+  if (const Reasons would = result.verdict.what_would_prove(); !would.empty())
+    return "next   " + words_of(would, "; ", result.job) + "\n";
   const NextMeasurement* best = nullptr;
   for (const auto& diagnosis : result.diagnoses) {
     if (!diagnosis || diagnosis->next.plan.empty() || diagnosis->findings.empty()) continue;
@@ -93,20 +99,20 @@ std::string next_screen(const JobResult& result) {
 }  // namespace
 
 std::string job_screen(const JobResult& result) {
-  std::string text = result.verdict.line + "\n";
-  for (const std::string& reservation : result.verdict.reservations)
-    text += "but    " + reservation + "\n";
+  std::string text = verdict_line(result) + "\n";
+  for (const Reason& reservation : result.verdict.reservations)
+    text += "but    " + words_of(reservation, result.job) + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
   const std::string apart = result.job.target ? "" : seats_apart_screen(result);
   text += apart;
   for (const Disagreement& d : result.agreement.disagreements)
-    if (apart.empty()) text += "apart  " + how_apart(result, d) + "\n";
+    if (apart.empty()) text += "apart  " + words_of(how_apart(d), result.job) + "\n";
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);
   if (result.correction) {
     text += tool_screen(result.correction->margin);
-    if (const std::string rows = coarse_rows(result); !rows.empty())
+    if (const std::string rows = coarse_rows_words(result); !rows.empty())
       text += "rows   " + rows + "\n";
   }
   return text + next_screen(result);

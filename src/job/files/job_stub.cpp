@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "job/evidence.hpp"
+#include "format/reason_words.hpp"
+#include "job/files/stream_job.hpp"
 #include "measure/seats.hpp"
 
 namespace trueaxis {
@@ -23,7 +24,7 @@ std::string reference_text(const std::string& file, const std::string& name,
       "name = \"{}\"\n"
       "stream = '{}'\n"
       "surface = \"{}\"      # {}\n",
-      name.empty() ? surface : name, file, surface, evidence.why);
+      name.empty() ? surface : name, file, surface, words_of(evidence.why));
   if (seat)
     text += fmt::format("z_from_mm = {:.10g}\nz_to_mm = {:.10g}\n", seat->z.from_mm, seat->z.to_mm);
   if (stream.kind == StreamKind::lateral) text += "feature = \"shaft\"        # or \"bore\"\n";

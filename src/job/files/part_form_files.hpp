@@ -15,9 +15,6 @@ Json part_form_object(const PartForm& form);
 /// @param name of the reference; empty: the only one
 std::string part_form_screen(const PartForm& form, const std::string& name);
 
-/// A screen of one reference with that line above the one of its axis.
-std::string screen_with_form(std::string screen, const PartForm& form);
-
 /// The file of a diagnosis, with `form`.
 std::string diagnosis_with_form(const Diagnosis& diagnosis, const PartForm& form);
 

@@ -112,12 +112,6 @@ std::string part_form_screen(const PartForm& form, const std::string& name) {
   return text + "\n";
 }
 
-std::string screen_with_form(std::string screen, const PartForm& form) {
-  const std::size_t axis = screen.find("\naxis   ");
-  const std::size_t at = axis == std::string::npos ? screen.size() : axis + 1;
-  return screen.insert(at, part_form_screen(form, ""));
-}
-
 std::string part_form_text(const PartForm& form) {
   std::string text;
   const auto line = [&](const std::string& one) { text += layout::wrapped("form        ", one); };

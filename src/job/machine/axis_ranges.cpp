@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/machine/axis_ranges.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace trueaxis::machine_job {
@@ -49,12 +47,6 @@ bool beyond_measured(const AxisRange& range) {
   const double leeway = std::max(leeway_share * span, rotary ? leeway_rad : leeway_mm);
   return (*range.program)[0] < range.measured_low - leeway ||
          (*range.program)[1] > range.measured_high + leeway;
-}
-
-std::string range_text(AxisName axis, double low, double high) {
-  const double unit = is_rotary(axis) ? rad_per_deg : 1.0;
-  return fmt::format("{} from {:.4g} to {:.4g} {}", letter_of(axis), low / unit, high / unit,
-                     is_rotary(axis) ? "deg" : "mm");
 }
 
 }  // namespace trueaxis::machine_job

@@ -14,7 +14,4 @@ std::vector<AxisRange> axis_ranges(const MachineJob& job, const std::vector<Prog
 /// measured. A rotary axis that was measured over 300° is known all round.
 bool beyond_measured(const AxisRange& range);
 
-/// "X from -60 to 15 mm".
-std::string range_text(AxisName axis, double low, double high);
-
 }  // namespace trueaxis::machine_job

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/machine/machine_doubts.hpp"
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -16,12 +15,18 @@ namespace {
 constexpr double same_length_mm = 0.5;
 constexpr std::size_t most_named = 3;
 
-std::string um_text(double length_mm) { return fmt::format("{:.3g} µm", length_mm / mm_per_um); }
-
-std::string beyond_text(const AxisRange& range) {
-  return fmt::format("the program has {} and it was measured {}",
-                     range_text(range.axis, (*range.program)[0], (*range.program)[1]),
-                     range_text(range.axis, range.measured_low, range.measured_high).substr(2));
+/// Where the program has an axis and where it was measured, as at the edge.
+Reason beyond(const AxisRange& range, ReasonCode code) {
+  const bool rotary = is_rotary(range.axis);
+  const double unit = rotary ? rad_per_deg : 1.0;
+  const char* name = rotary ? "deg" : "mm";
+  return {code,
+          {},
+          {{"program_low", (*range.program)[0] / unit, name},
+           {"program_high", (*range.program)[1] / unit, name},
+           {"measured_low", range.measured_low / unit, name},
+           {"measured_high", range.measured_high / unit, name}},
+          {{"axis", std::string(1, letter_of(range.axis))}, {"unit", name}}};
 }
 
 /// The axis that takes the tip along by what was found and no program corrects.
@@ -53,9 +58,9 @@ std::set<double> measured_lengths_mm(const MachineJob& job) {
   return lengths;
 }
 
-std::string tool_reservation(const MachineJobResult& result) {
+std::optional<Reason> tool_reservation(const MachineJobResult& result) {
   const std::set<double> measured = measured_lengths_mm(result.job);
-  if (measured.empty()) return "";
+  if (measured.empty()) return {};
   for (const ProgramEnd& end : result.compensation->ends) {
     const double length = end.setting.tool_length_mm;
     if (end.rapid || (length > *measured.begin() - same_length_mm &&
@@ -63,87 +68,100 @@ std::string tool_reservation(const MachineJobResult& result) {
       continue;
     const double beyond_mm =
         std::min(std::abs(length - *measured.begin()), std::abs(length - *measured.rbegin()));
-    return fmt::format(
-        "line {} cuts with a tool of {:.6g} mm, {:.3g} mm from the lengths that were measured: a "
-        "tilt of the spindle of 0.2 mrad, which they do not show, would move its tip by {}",
-        end.line, length, beyond_mm, um_text(beyond_mm * CalibrationOptions{}.largest_angle_rad));
+    return Reason{ReasonCode::tool_length_not_measured,
+                  {},
+                  {{"line", static_cast<double>(end.line)},
+                   {"length", length, "mm"},
+                   {"beyond", beyond_mm, "mm"},
+                   {"moved", beyond_mm * CalibrationOptions{}.largest_angle_rad, "mm"}}};
   }
-  return "";
+  return {};
 }
 
-std::string rivals_text(const MachineFinding& found) {
+Reason not_told(const MachineFinding& found) {
   std::vector<std::string> names;
   for (const Rival& rival : found.rivals) names.push_back(rival.effect);
   const std::size_t more = names.size() > most_named ? names.size() - most_named : 0;
   names.resize(names.size() - more);
-  std::string text = fmt::format("{} is not told from {}{}", found.effect, fmt::join(names, ", "),
-                                 more > 0 ? fmt::format(" and {} more", more) : "");
+  Reason reason{ReasonCode::finding_not_told,
+                {},
+                {},
+                {{"effect", found.effect}, {"rivals", fmt::format("{}", fmt::join(names, ", "))}}};
+  if (more > 0) reason.numbers = {{"more", static_cast<double>(more)}};
   if (found.separate_with && !found.separate_with->plan.empty())
-    text += fmt::format(" (plan {} tells them apart: {})", found.separate_with->plan,
-                        found.separate_with->what);
-  return text;
+    reason.names.insert(reason.names.end(), {{"plan", found.separate_with->plan},
+                                             {"what", found.separate_with->what}});
+  return reason;
 }
-
-}  // namespace
-
-namespace {
 
 /// Where the part stands as a whole has six numbers, which the errors of three points and fewer,
 /// nine numbers and fewer, are nearly taken up by: what is left of them says nothing.
-std::string too_few_cuts(const ProgramCompensation& compensation) {
+std::optional<Reason> too_few_cuts(const ProgramCompensation& compensation) {
   constexpr std::ptrdiff_t fewest = 4;
   const auto cuts =
       std::ranges::count_if(compensation.ends, [](const ProgramEnd& end) { return !end.rapid; });
-  return cuts >= fewest ? std::string()
-                        : fmt::format(
-                              "the program has {} cutting moves, of which nothing is left "
-                              "beside where the part stands; {} are the fewest",
-                              cuts, fewest);
+  if (cuts >= fewest) return {};
+  return Reason{ReasonCode::too_few_cuts,
+                {},
+                {{"cuts", static_cast<double>(cuts)}, {"fewest", static_cast<double>(fewest)}}};
 }
 
 }  // namespace
 
-std::string machine_objection(const MachineJobResult& result) {
+std::optional<Reason> machine_objection(const MachineJobResult& result) {
   const Calibration& base = result.diagnosis.baseline;
-  if (!base.converged) return "the errors were not found: " + base.message;
-  if (!result.implausible.empty()) return result.implausible;
-  if (!result.compensation) return "";
-  if (result.compensation->unreachable.empty()) return too_few_cuts(*result.compensation);
+  if (!base.converged)
+    return Reason{ReasonCode::errors_not_found, {}, {}, {{"message", base.message}}};
+  if (!result.implausible.empty())
+    return Reason{ReasonCode::errors_implausible, {}, {}, {{"why", result.implausible}}};
+  if (!result.compensation) return {};
   const auto& blocks = result.compensation->unreachable;
-  return fmt::format("{} of the program's blocks cannot be reached, the first in line {}: {}",
-                     blocks.size(), blocks.front().line, blocks.front().why);
+  if (blocks.empty()) return too_few_cuts(*result.compensation);
+  return Reason{ReasonCode::blocks_unreachable,
+                {},
+                {{"blocks", static_cast<double>(blocks.size())},
+                 {"line", static_cast<double>(blocks.front().line)}},
+                {{"why", blocks.front().why}}};
 }
 
-std::string extrapolated(const MachineJobResult& result) {
+std::optional<Reason> extrapolated(const MachineJobResult& result) {
   for (const MachineFinding& found : result.diagnosis.findings)
     for (const ErrorTerm& error : found.errors)
       for (const AxisRange& range : result.ranges)
         if (error.name.component && error.name.body == index_of(range.axis) &&
-            beyond_measured(range))
-          return fmt::format(
-              "{} was found, {}: what it is beyond is not known; measure where the part is cut",
-              found.effect, beyond_text(range));
-  return "";
+            beyond_measured(range)) {
+          Reason reason = beyond(range, ReasonCode::found_not_measured_there);
+          reason.names.push_back({"effect", found.effect});
+          return reason;
+        }
+  return {};
 }
 
-std::vector<std::string> machine_reservations(const MachineJobResult& result) {
-  std::vector<std::string> all;
+Reasons machine_reservations(const MachineJobResult& result) {
+  Reasons all;
   for (const MachineFinding& found : result.diagnosis.findings) {
-    if (!found.rivals.empty()) all.push_back(rivals_text(found));
+    if (!found.rivals.empty()) all.push_back(not_told(found));
     if (!is_machine_error(found.term))
-      all.push_back(fmt::format("{} was found: {}", found.effect, found.consequence));
+      all.push_back({ReasonCode::finding_counted,
+                     {},
+                     {},
+                     {{"effect", found.effect}, {"consequence", found.consequence}}});
   }
-  all.insert(all.end(), result.diagnosis.remarks.begin(), result.diagnosis.remarks.end());
+  for (const std::string& remark : result.diagnosis.remarks)
+    all.push_back({ReasonCode::remark, {}, {}, {{"text", remark}}});
   for (const QualityCheck& check : result.diagnosis.checks)
-    if (check.found) all.push_back(check.effect + ": " + check.text);
+    if (check.found)
+      all.push_back(
+          {ReasonCode::check_found, {}, {}, {{"check", check.effect}, {"text", check.text}}});
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
-    all.push_back(fmt::format("{} of {} that no effect explains, counted with U", one.pattern,
-                              um_text(one.amplitude.value)));
+    all.push_back({ReasonCode::pattern_counted,
+                   {},
+                   {{"amplitude", one.amplitude.value, "mm"}},
+                   {{"pattern", one.pattern}}});
   for (const AxisRange& range : result.ranges)
-    if (beyond_measured(range))
-      all.push_back(beyond_text(range) + ": errors of the axis beyond are not known");
+    if (beyond_measured(range)) all.push_back(beyond(range, ReasonCode::axis_not_measured_there));
   if (result.compensation)
-    if (std::string why = tool_reservation(result); !why.empty()) all.push_back(std::move(why));
+    if (auto why = tool_reservation(result)) all.push_back(std::move(*why));
   return all;
 }
 
@@ -160,40 +178,40 @@ double not_corrected_mm(const MachineJobResult& result, const MachineModel& mode
   return sum;
 }
 
-std::vector<std::string> machine_remarks(const MachineJobResult& result) {
-  std::vector<std::string> all;
+Reasons machine_remarks(const MachineJobResult& result) {
+  Reasons all;
   const auto& held = result.diagnosis.baseline.not_determined;
   const bool places = std::ranges::any_of(held, [](const NotDetermined& one) {
     return std::ranges::find(one.members, "ball") != one.members.end();
   });
   if (places)
-    all.emplace_back(
-        "Where the part stands as a whole is not known, as no ball's place is: the "
-        "numbers are of the part without that, and hold once its zero point is probed on this "
-        "machine.");
+    all.push_back(
+        {ReasonCode::place_of_part_unknown, {}, {}, {}, {{ReasonCode::of_the_part_alone}}});
   if (measured_lengths_mm(result.job).size() == 1)
-    all.emplace_back(
-        "One length of tool does not show the direction of the spindle: it shows where the tip "
-        "is, and directions are those of the errors that were found.");
+    all.push_back({ReasonCode::one_tool_length, {}, {}, {}, {{ReasonCode::of_found_directions}}});
   const bool no_u = std::ranges::any_of(result.job.known.terms,
                                         [](const ErrorTerm& term) { return !(term.u > 0.0); });
-  const auto& unsaid = result.job.remarks_of_known;
-  all.insert(all.end(), unsaid.begin(), unsaid.end());
-  if (no_u) all.emplace_back("Errors known beforehand that state no u are taken as exact.");
-  if (result.compensation && !result.compensation->singular.empty())
-    all.push_back(fmt::format(
-        "At a pole of the machine {} blocks keep the tip and leave up to {:.3g} deg of direction.",
-        result.compensation->singular.size(),
-        std::ranges::max(result.compensation->singular, {}, &SingularBlock::direction_left_rad)
-                .direction_left_rad /
-            rad_per_deg));
+  for (const std::string& unsaid : result.job.remarks_of_known)
+    all.push_back({ReasonCode::remark, {}, {}, {{"text", unsaid}}});
+  if (no_u) all.push_back({ReasonCode::known_without_u});
+  if (!result.compensation || result.compensation->singular.empty()) return all;
+  const auto& poles = result.compensation->singular;
+  all.push_back(
+      {ReasonCode::at_a_pole,
+       {},
+       {{"blocks", static_cast<double>(poles.size())},
+        {"left", std::ranges::max(poles, {}, &SingularBlock::direction_left_rad).direction_left_rad,
+         "rad"}}});
   return all;
 }
 
-std::string next_plan_text(const MachineDiagnosis& diagnosis) {
+std::optional<Reason> next_plan(const MachineDiagnosis& diagnosis) {
   const auto plan = std::ranges::find(diagnosis.plans, diagnosis.next_plan, &MachinePlan::code);
-  if (diagnosis.next_plan.empty() || plan == diagnosis.plans.end()) return "";
-  return fmt::format("plan {}: {} ({:.0f} min)", plan->code, plan->what, plan->minutes);
+  if (diagnosis.next_plan.empty() || plan == diagnosis.plans.end()) return {};
+  return Reason{ReasonCode::plan,
+                {},
+                {{"minutes", plan->minutes, "min"}},
+                {{"plan", plan->code}, {"what", plan->what}}};
 }
 
 }  // namespace trueaxis::machine_job

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "job/machine/tip_uncertainty.hpp"
 
 namespace trueaxis::machine_job {
 
-/// Why there is no go, whatever the tolerance; empty: nothing speaks against it.
-std::string machine_objection(const MachineJobResult& result);
+/// Why there is no go, whatever the tolerance.
+std::optional<Reason> machine_objection(const MachineJobResult& result);
 
-/// An error that was found on a part of an axis' travel and that the program uses beyond it; empty:
-/// there is none.
-std::string extrapolated(const MachineJobResult& result);
+/// An error that was found on a part of an axis' travel and that the program uses beyond it.
+std::optional<Reason> extrapolated(const MachineJobResult& result);
 
 /// What leaves a go with reservations.
-std::vector<std::string> machine_reservations(const MachineJobResult& result);
+Reasons machine_reservations(const MachineJobResult& result);
 
 /// What was found and no program corrects: the sizes of reversals and drifts at the tip, and the
 /// patterns that no effect explains.
@@ -24,9 +23,9 @@ double not_corrected_mm(const MachineJobResult& result, const MachineModel& mode
                         const std::vector<Stand>& stands);
 
 /// What holds for the numbers whatever the verdict.
-std::vector<std::string> machine_remarks(const MachineJobResult& result);
+Reasons machine_remarks(const MachineJobResult& result);
 
-/// "plan L2: the same positions with a tool 70 mm longer (17 min)"; empty: no plan tells more.
-std::string next_plan_text(const MachineDiagnosis& diagnosis);
+/// "plan L2: the same positions with a tool 70 mm longer (17 min)"; none: no plan tells more.
+std::optional<Reason> next_plan(const MachineDiagnosis& diagnosis);
 
 }  // namespace trueaxis::machine_job

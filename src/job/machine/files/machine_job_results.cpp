@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/machine/files/machine_job_results.hpp"
 
+#include <cctype>
 #include <filesystem>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
@@ -8,6 +9,7 @@
 #include "compensate/files/compensation_text.hpp"
 #include "format/text_layout.hpp"
 #include "format/toml_header.hpp"
+#include "job/files/job_words.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -21,9 +23,15 @@ Json at_line(double value_mm, std::size_t line) {
 
 Json verdict_json(const MachineJobResult& result) {
   const MachineJobVerdict& v = result.verdict;
-  Json json{{"go", v.go()},   {"decision", to_string(v.decision)},
-            {"line", v.line}, {"reservations", v.reservations},
-            {"next", v.next}, {"remarks", result.remarks}};
+  Json json{{"go", v.go()},
+            {"decision", to_string(v.decision)},
+            {"line", machine_verdict_line(v)},
+            {"reasons", reasons_array(v.reasons, Spoken{})},
+            {"reservations", sentences_of(v.reservations, {})},
+            {"reserved", reasons_array(v.reservations, Spoken{})},
+            {"next", machine_next_words(v)},
+            {"next_steps", reasons_array(v.next, Spoken{})},
+            {"remarks", sentences_of(result.remarks, {})}};
   if (result.tips.empty()) return json;
   json["tip_before"] = at_line(v.before_mm, v.before_line);
   json["tip_after"] = at_line(v.after_mm, v.after_line);
@@ -58,6 +66,20 @@ Json ranges_json(const MachineJobResult& result) {
 }
 
 }  // namespace
+
+std::string machine_verdict_line(const MachineJobVerdict& verdict) {
+  std::string line = decision_line(verdict.decision, verdict.reasons);
+  for (const Reason& one : verdict.reservations)
+    if (verdict.go()) line += "; " + words_of(one);
+  return line;
+}
+
+std::string machine_next_words(const MachineJobVerdict& verdict) {
+  std::string text = words_of(verdict.next, "; ");
+  if (text.empty()) return text;
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text.ends_with('.') ? text : text + '.';
+}
 
 std::string new_program_name(const MachineJob& job) {
   if (!job.program) return "";
@@ -103,12 +125,12 @@ std::string job_compensation_json(const MachineJobResult& result) {
 }
 
 std::string machine_job_text(const MachineJobResult& result) {
-  std::string text = result.verdict.line + "\n";
-  text += layout::wrapped("next    ", result.verdict.next) + "\n";
+  std::string text = machine_verdict_line(result.verdict) + "\n";
+  text += layout::wrapped("next    ", machine_next_words(result.verdict)) + "\n";
   text += machine_diagnosis_text(result.diagnosis);
   if (result.compensation && result.compensation->unreachable.empty())
     text += compensation_text(*result.compensation);
-  for (const std::string& remark : result.remarks) text += layout::wrapped("", remark) + '\n';
+  for (const Reason& remark : result.remarks) text += layout::wrapped("", words_of(remark)) + '\n';
   return text;
 }
 

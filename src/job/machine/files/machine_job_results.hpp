@@ -23,4 +23,10 @@ std::string job_compensation_json(const MachineJobResult& result);
 /// For a terminal: the verdict's line, findings, program.
 std::string machine_job_text(const MachineJobResult& result);
 
+/// The first line of the result.
+std::string machine_verdict_line(const MachineJobVerdict& verdict);
+
+/// What to do now, a sentence.
+std::string machine_next_words(const MachineJobVerdict& verdict);
+
 }  // namespace trueaxis

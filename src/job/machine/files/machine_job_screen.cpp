@@ -5,15 +5,17 @@
 
 #include "calibrate/files/machine_screen.hpp"
 #include "compensate/files/compensation_screen.hpp"
+#include "format/reason_words.hpp"
+#include "job/machine/files/machine_job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
 std::string machine_job_screen(const MachineJobResult& result) {
   const MachineJobVerdict& verdict = result.verdict;
-  std::string text = verdict.line + "\n";
-  for (const std::string& reservation : verdict.reservations)
-    text += "but    " + reservation + "\n";
+  std::string text = machine_verdict_line(verdict) + "\n";
+  for (const Reason& reservation : verdict.reservations)
+    text += "but    " + words_of(reservation) + "\n";
   text += machine_findings_screen(result.diagnosis);
   if (!result.tips.empty()) {
     const double U_um = verdict.U_mm / mm_per_um;
@@ -25,9 +27,11 @@ std::string machine_job_screen(const MachineJobResult& result) {
   }
   if (result.compensation && result.compensation->unreachable.empty())
     text += changes_screen(*result.compensation);
-  for (const std::string& remark : result.remarks)
-    text += "note   " + remark.substr(0, remark.find(": ")) + "\n";
-  return text + "next   " + verdict.next + "\n";
+  for (Reason remark : result.remarks) {
+    remark.parts.clear();  // what it means in detail
+    text += "note   " + words_of(remark) + "\n";
+  }
+  return text + "next   " + machine_next_words(verdict) + "\n";
 }
 
 }  // namespace trueaxis

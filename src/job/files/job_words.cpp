@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "job/files/job_words.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "job/cut_files.hpp"
+
+namespace trueaxis {
+namespace {
+
+std::vector<SpokenReference> spoken(const Job& job) {
+  std::vector<SpokenReference> out;
+  for (const JobReference& one : job.references)
+    out.push_back({one.name, std::filesystem::path(one.stream).filename().string()});
+  return out;
+}
+
+const char* head_of(Decision decision) {
+  switch (decision) {
+    case Decision::identified:
+      return "DONE: ";
+    case Decision::untoleranced:
+      return "DONE, no tolerance given: ";
+    case Decision::go:
+      return "GO: ";
+    case Decision::go_with_reservations:
+      return "GO with reservations: ";
+    case Decision::not_proven:
+      return "NOT PROVEN: ";
+    case Decision::no_go:
+      break;
+  }
+  return "NO-GO: ";
+}
+
+/// Of a cut that is not run only what is not of the cut is said beside the reason.
+bool is_on_the_line(const Reason& reservation, const Verdict& verdict) {
+  const ReasonCode code = reservation.code;
+  return verdict.go() || code == ReasonCode::form_not_met || code == ReasonCode::form_not_proven ||
+         code == ReasonCode::form_not_judged;
+}
+
+bool is_face(const IdentifiedJob& job, const std::string& name) {
+  const auto found = std::ranges::find(job.job.references, name, &JobReference::name);
+  return job.fits[static_cast<std::size_t>(found - job.job.references.begin())].surface ==
+         SurfaceKind::plane;
+}
+
+}  // namespace
+
+std::string words_of(const Reason& reason, const Job& job) { return words_of(reason, spoken(job)); }
+
+std::string words_of(const Reasons& reasons, std::string_view between, const Job& job) {
+  return words_of(reasons, between, spoken(job));
+}
+
+Json reasons_array(const Reasons& reasons, const Job& job) {
+  return reasons_array(reasons, spoken(job));
+}
+
+std::vector<std::string> sentences_of(const Reasons& reasons, const Job& job) {
+  std::vector<std::string> out;
+  for (const Reason& one : reasons) out.push_back(words_of(one, job));
+  return out;
+}
+
+std::string decision_line(Decision decision, const Reasons& reasons, const Job& job) {
+  return head_of(decision) + words_of(reasons, "; ", job);
+}
+
+std::string verdict_line_alone(const JobResult& result) {
+  return decision_line(result.verdict.decision, result.verdict.reasons, result.job);
+}
+
+std::string verdict_line(const JobResult& result) {
+  std::string line = verdict_line_alone(result);
+  for (const Reason& one : result.verdict.reservations)
+    if (is_on_the_line(one, result.verdict)) line += "; " + words_of(one, result.job);
+  return line;
+}
+
+std::string coarse_rows_words(const PlannedJob& job) {
+  const auto coarse = coarse_rows(job);
+  return coarse ? words_of(*coarse) : "";
+}
+
+std::string datum_words(const IdentifiedJob& job) {
+  const DatumSystem& datums = job.job.datums;
+  const std::string first = fmt::format("{}", fmt::join(datums.front(), " and "));
+  if (is_face(job, datums.front().front()))
+    return datums.size() < 2
+               ? fmt::format("the direction is that of {}", first)
+               : fmt::format("the direction is that of {}, the place that of {} held to it", first,
+                             fmt::join(datums[1], " and "));
+  std::string how =
+      datums.front().size() < 2
+          ? fmt::format("the axis is that of {}", first)
+          : fmt::format(
+                "{} share one axis with radii of their own, by least squares, each by its "
+                "weight however many readings it has",
+                first);
+  if (datums.size() > 1)
+    how += fmt::format("; {} fixes Z, which no axis depends on", fmt::join(datums[1], " and "));
+  return how;
+}
+
+void word_unknown_axes(JobResult& result) {
+  for (std::size_t i = 0; i < result.axis_unknown.size(); ++i) {
+    if (!result.axis_unknown[i]) continue;
+    const std::string code = to_string(result.axis_unknown[i]->code),
+                      words = words_of(*result.axis_unknown[i], result.job);
+    Diagnosis& diagnosis = *result.diagnoses[i];
+    for (FitResult* fit :
+         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
+      for (auto* parameters : {&fit->parameters, &fit->derived})
+        for (FitParameter& one : *parameters)
+          if (one.estimate.why_not == code) one.estimate.why_not = words;
+  }
+}
+
+}  // namespace trueaxis
