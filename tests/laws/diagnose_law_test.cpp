@@ -134,7 +134,7 @@ double largest_size(const LatheCase& c) {
 /// Whether a form of the search has all that the case plants: the rest of a step is averaged over.
 bool is_searched(const LatheCase& c) {
   const Effect* effect = find_effect(c.id);
-  return std::ranges::any_of(effect->search.forms, [&](const Form& form) {
+  return std::ranges::any_of(effect->search.forms, [&](const SearchForm& form) {
     for (std::size_t j = 0; j < c.linear.size(); ++j)
       if (c.linear[j] != 0.0 && !form.free.empty() &&
           std::ranges::find(form.free, j) == form.free.end())

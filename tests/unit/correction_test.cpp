@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "correct/profile.hpp"
+#include "format/reason_words.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/surface.hpp"
 
@@ -42,7 +43,7 @@ TEST(Correction, OfAnAxisThatIsTheSpindlesIsZero) {
       ASSERT_NEAR(correction.rows.command_mm[i], 0.0, 1e-12);
     }
     EXPECT_TRUE(correction.harmonics.empty());
-    EXPECT_TRUE(correction.margin.follows) << correction.margin.breaks;
+    EXPECT_TRUE(correction.margin.follows) << words_of(correction.margin.breaks, "; ");
   }
 }
 

@@ -56,9 +56,12 @@ TEST(DatumAxes, ARidgeDrawsTheCircumscribedAxisByHalfOfIt) {
 }
 
 TEST(DatumAxes, AreNoneWhereNoValuesOfFormAreAskedFor) {
-  JobResult result = ridged();
-  result.forms.clear();
-  EXPECT_TRUE(datum_axes(result, 0).empty());
+  for (const bool asked : {false, true}) {
+    JobResult given = ridged();
+    given.job.values_of_form = asked;
+    const JobResult result = run_job(given.job, given.streams);
+    EXPECT_EQ(result.datum_axes.size(), asked ? 1U : 0U);
+  }
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST(EndsOfStream, NoiseIsTakenForAMovedPartOnceInAThousandStreams) {
   constexpr unsigned seed = 1, streams = 2000;
   unsigned alarms = 0;
   for (unsigned i = 0; i < streams; ++i)
-    alarms += !far_off_at_the_end(*with_noise(seed + i).diagnoses.front()).empty();
+    alarms += far_off_of_stream({}, *with_noise(seed + i).diagnoses.front()).has_value();
   // Binomial: of 2000 at 10⁻³ more than 8 once in 10 000 times.
   EXPECT_LE(alarms, 8U) << "seeds from " << seed;
 }
@@ -47,7 +47,7 @@ TEST(EndsOfStream, AStepInTheLastReadingsIsSaid) {
   const Reasons found = far_off_at_the_end(result);
   ASSERT_EQ(found.size(), 1u);
   const std::string said = words_of(found.front(), result.job);
-  EXPECT_TRUE(said.starts_with("seat: 4 of the last 8 readings")) << said;
+  EXPECT_TRUE(said.starts_with("taper seat: 4 of the last 8 readings")) << said;
   EXPECT_NE(said.find("the part may have slipped there"), std::string::npos);
 }
 
@@ -81,7 +81,7 @@ TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
   diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
   const Reasons found = left_unexplained(result);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(words_of(found.front(), result.job).starts_with("seat: what was found leaves 1.7 µm"))
+  EXPECT_TRUE(words_of(found.front(), result.job).starts_with("taper seat: what was found leaves 1.7 µm"))
       << words_of(found.front(), result.job);
 }
 

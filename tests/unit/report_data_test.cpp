@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "job/files/job_words.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "report/page.hpp"
 #include "report/report.hpp"
@@ -301,7 +302,7 @@ TEST(ReportData, EmptyPartsStayQuiet) {
   EXPECT_FALSE(nothing.contains("correction"));
   for (const JobResult& one : {result, JobResult{}}) {
     const std::string page = render_report(one);
-    EXPECT_NE(page.find(escape_html(one.verdict.line)), std::string::npos);
+    EXPECT_NE(page.find(escape_html(verdict_line(one))), std::string::npos);
     EXPECT_EQ(count(page, "<html"), 1u);
     EXPECT_EQ(count(page, "</html>"), 1u);
     EXPECT_EQ(count(page, ">nan"), 0u);
