@@ -158,7 +158,7 @@ struct Effect {
   std::string_view title = {};
   Slot slot = Slot::part;
   EffectFrame frame = EffectFrame::part;
-  EffectTerm term = {};                 ///< how it is computed; monostate for a check
+  EffectTerm term = {};           ///< how it is computed; monostate for a check
   std::string_view formula = {};  ///< the term as text
   std::vector<EffectParameter> parameters = {};
   std::string_view signature = {};
@@ -218,7 +218,7 @@ struct TermValue {
 
   /// Amplitudes in the order of parameters(), 0 where not free; mm, rad, s. Empty: not fitted.
   std::vector<double> linear;
-  Covariance covariance;       ///< of `linear`; empty: not fitted
+  Covariance covariance;  ///< of `linear`; empty: not fitted
 
   /// Linear parameters of the effect; of a pattern those of cos and sin, or of the bump.
   std::vector<LinearParameter> parameters() const;

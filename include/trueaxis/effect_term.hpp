@@ -137,8 +137,9 @@ struct Response {
   Of of = Of::gain;
 };
 
-using EffectTerm = std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime,
-                          GrowthInTime, PartStep, ArgumentShift, ProbeLine, Response>;
+using EffectTerm =
+    std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime, GrowthInTime,
+                 PartStep, ArgumentShift, ProbeLine, Response>;
 
 /// A parameter in which X_M is linear, near zero.
 struct LinearParameter {

@@ -69,8 +69,8 @@ struct MachineFinding : NamedFinding {
   std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
   std::string formula;            ///< of the term in its parameters
   std::vector<MachineShape> shape;
-  Covariance covariance;  ///< of `parameters`
-  bool likely_order = true;        ///< its order is 95 % likely among its aliases, 1/n² an order n
+  Covariance covariance;     ///< of `parameters`
+  bool likely_order = true;  ///< its order is 95 % likely among its aliases, 1/n² an order n
   std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
   double size = 0.0;                              ///< amplitude, mm or rad
 

@@ -112,7 +112,7 @@ inline void scale_by_dx_d(TermPort port, const TermContext& at, std::span<double
   if (axial) std::fill_n(made.begin(), at.size(), -1.0);
   const double* factor = port == TermPort::c             ? at.dx_dc.data()
                          : port == TermPort::z && !axial ? at.dx_dz.data()
-                                                     : made.data();
+                                                         : made.data();
   for (double* column : columns) {
     for (std::size_t i = 0; i < at.size(); ++i) column[i] *= factor[i];
   }

@@ -109,9 +109,9 @@ std::optional<Reason> far_off_of_stream(const ProbeStream&, const Diagnosis& dia
 
 constinit const JobCheck left_out_at_an_end{"left_out_at_an_end", CheckedAt::references,
                                             Weight::leaves_open, of_left_out,
-                                             of_streams<left_out_of_stream>};
+                                            of_streams<left_out_of_stream>};
 constinit const JobCheck far_off_at_the_end{"far_off_at_the_end", CheckedAt::references,
                                             Weight::leaves_open, of_far_off,
-                                             of_streams<far_off_of_stream>};
+                                            of_streams<far_off_of_stream>};
 
 }  // namespace trueaxis

@@ -39,7 +39,7 @@ AxisCovariance noise_of(const PlannedJob& result, std::size_t i) {
 /// Covariance with the noise of `times` as many readings over `longer` times the length, which
 /// turns the axis less about the place where position and slope are uncorrelated.
 AxisCovariance with_more(const AxisEstimate& axis, const AxisCovariance& noise, double times,
-                     double longer) {
+                         double longer) {
   const Eigen::Map<const Matrix4> whole(axis.covariance.data()), part(noise.data());
   const double slope2 = part(2, 2) + part(3, 3);
   const double lever = slope2 > 0.0 ? -(part(0, 2) + part(1, 3)) / slope2 : 0.0;

@@ -68,8 +68,7 @@ Json ellipse_data(const AxisEstimate& estimate, double z_mm) {
   using enum AxisRow;
   const double xx = c(x, x) + 2.0 * dz * c(x, slope_x) + dz * dz * c(slope_x, slope_x);
   const double yy = c(y, y) + 2.0 * dz * c(y, slope_y) + dz * dz * c(slope_y, slope_y);
-  const double xy =
-      c(x, y) + dz * (c(x, slope_y) + c(y, slope_x)) + dz * dz * c(slope_x, slope_y);
+  const double xy = c(x, y) + dz * (c(x, slope_y) + c(y, slope_x)) + dz * dz * c(slope_x, slope_y);
   const double middle = 0.5 * (xx + yy), half = std::hypot(0.5 * (xx - yy), xy);
   return {{"u_long_mm", std::sqrt(middle + half)},
           {"u_short_mm", std::sqrt(std::max(0.0, middle - half))},

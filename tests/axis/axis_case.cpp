@@ -274,7 +274,9 @@ Judged judge(const Case& of, const AxisEstimate& axis) {
     const std::array<double, 2> at = axis.axis.at(z);
     for (const int c : {0, 1}) {
       const auto i = static_cast<std::size_t>(2 * end + c), k = static_cast<std::size_t>(c);
-      const auto cov = [&](std::size_t a, std::size_t b) { return axis.covariance.by_rows[a * 4 + b]; };
+      const auto cov = [&](std::size_t a, std::size_t b) {
+        return axis.covariance.by_rows[a * 4 + b];
+      };
       out.error_mm[i] = at[k] - truth[i];
       out.u_mm[i] = std::sqrt(std::max(
           0.0, cov(k, k) + 2.0 * lever * cov(k, k + 2) + lever * lever * cov(k + 2, k + 2)));

@@ -24,10 +24,10 @@ ErrorCovariance drawn_covariance(const Machine& machine, Draw& draw,
       const ErrorName component{true, d, body};
       if (draw.whole(0, 1) == 0)
         amounts.push_back({component, Shape::legendre, draw.whole(1, 3), rotary ? -3.0 : -500.0,
-                               rotary ? 3.0 : 500.0});
+                           rotary ? 3.0 : 500.0});
       else
         amounts.push_back({component, draw.whole(0, 1) == 0 ? Shape::cosine : Shape::sine,
-                               draw.whole(1, 4), 0.0, rotary ? two_pi : 700.0});
+                           draw.whole(1, 4), 0.0, rotary ? two_pi : 700.0});
     }
   }
   for (std::size_t d = 0; d < 6; ++d) {

@@ -88,7 +88,8 @@ inline void read_surface(ProbeStream& stream, FitResult& fit, const Revolved& su
   fit.input_hash = stream.input_hash;
   fit.source = stream.source;
   for (const AxisRow i : {AxisRow::x, AxisRow::y}) fit.axis.covariance(i, i) = 1.7e-4 * 1.7e-4;
-  for (const AxisRow i : {AxisRow::slope_x, AxisRow::slope_y}) fit.axis.covariance(i, i) = 9e-6 * 9e-6;
+  for (const AxisRow i : {AxisRow::slope_x, AxisRow::slope_y})
+    fit.axis.covariance(i, i) = 9e-6 * 9e-6;
 }
 
 inline FitResult cone_fit(ProbeStream& stream) {

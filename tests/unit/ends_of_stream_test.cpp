@@ -81,7 +81,8 @@ TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
   diagnosis.gain.rms_after_mm = 1.7 * sigma_mm;
   const Reasons found = left_unexplained(result);
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_TRUE(words_of(found.front(), result.job).starts_with("taper seat: what was found leaves 1.7 µm"))
+  EXPECT_TRUE(
+      words_of(found.front(), result.job).starts_with("taper seat: what was found leaves 1.7 µm"))
       << words_of(found.front(), result.job);
 }
 

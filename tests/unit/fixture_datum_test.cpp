@@ -148,8 +148,7 @@ TEST(FixtureDatum, UncertaintyOfPointsCovers) {
     for (std::size_t k = 0; k < 3; ++k) {
       const ProbedDatum probed = fit_datum(k, points_of(draw, datums, k, 2e-3, 20), "points");
       for (std::size_t e = 0; e < 3; ++e)
-        inside += std::abs(probed.errors[e] - truth(datums, k, e)) <=
-                  2.0 * probed.covariance.u(e);
+        inside += std::abs(probed.errors[e] - truth(datums, k, e)) <= 2.0 * probed.covariance.u(e);
     }
   }
   EXPECT_NEAR(inside / 900.0, 0.938, 0.042) << "seed " << seed;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "job/files/job_words.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
+#include "job/files/job_words.hpp"
 #include "report/page.hpp"
 #include "report/report.hpp"
 #include "report/thinning.hpp"

@@ -147,9 +147,9 @@ TEST(Intersect, RearRootIsTheFrontRootHalfATurnOn) {
 TEST(AxisEstimate, UncertaintyIsThatOfTheWorseDirection) {
   AxisEstimate estimate{{0, 0, 0, 0, 10.0}, {}};
   estimate.covariance.by_rows = {4e-6, 0,    0, 0,  //
-                         0,    1e-6, 0, 0,  //
-                         0,    0,    0, 0,  //
-                         0,    0,    0, 1e-8};
+                                 0,    1e-6, 0, 0,  //
+                                 0,    0,    0, 0,  //
+                                 0,    0,    0, 1e-8};
   // At z_ref: x with u = 2 µm. 100 mm away: y with sqrt(1e-6 + 1e4·1e-8).
   EXPECT_NEAR(estimate.u_at(10.0), 2e-3, 1e-15);
   EXPECT_NEAR(estimate.u_at(110.0), std::sqrt(1.01e-4), 1e-12);

@@ -42,7 +42,8 @@ std::vector<Reference> three_references() {
 
 TEST(TargetAxis, OneReferenceIsItsOwnTarget) {
   Reference reference{"bore", {{0.2, -0.1, 1e-3, 2e-3, 30.0}, {}}, 1.0, 0.0};
-  for (int i = 0; i < 4; ++i) reference.axis.covariance.by_rows[static_cast<std::size_t>(5 * i)] = 1e-6;
+  for (int i = 0; i < 4; ++i)
+    reference.axis.covariance.by_rows[static_cast<std::size_t>(5 * i)] = 1e-6;
   const TargetAxis target = solve_target_axis(std::vector{reference}, 0.0, 50.0);
   for (const double z : {0.0, 25.0, 50.0}) {
     EXPECT_NEAR(target.axis.axis.at(z)[0], reference.axis.axis.at(z)[0], 1e-15);

@@ -154,7 +154,8 @@ TEST(TargetDatum, AFaceFirstGivesTheDirection) {
   const JobResult result = run_job(job, {seat(20.0, 0.0, stands, 5), shoulder(-1e-4, 3e-4)});
   ASSERT_TRUE(result.target_axis) << verdict_line(result);
   const Axis& axis = result.target_axis->axis.axis;
-  const double u_slope = std::sqrt(result.target_axis->axis.covariance(AxisRow::slope_x, AxisRow::slope_x));
+  const double u_slope =
+      std::sqrt(result.target_axis->axis.covariance(AxisRow::slope_x, AxisRow::slope_x));
   EXPECT_LT(u_slope, 2e-5) << "else the seat's own direction, 5e-4 elsewhere, would pass";
   EXPECT_NEAR(axis.slope_x, -1e-4, 5.0 * u_slope);
   EXPECT_NEAR(axis.slope_y, 3e-4, 5.0 * u_slope);

@@ -45,8 +45,7 @@ MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptio
   plan.covariance = out.covariance;
   for (std::size_t i = 0; i < out.uncertain.size(); ++i)  // before it: the plausible sizes
     for (std::size_t j = 0; j < out.uncertain.size(); ++j)
-      out.covariance(i, j) =
-          i == j ? out.uncertain[i].prior * out.uncertain[i].prior : 0.0;
+      out.covariance(i, j) = i == j ? out.uncertain[i].prior * out.uncertain[i].prior : 0.0;
   out.plans.insert(out.plans.begin(), std::move(plan));
   out.next_plan = "B1";
   return out;

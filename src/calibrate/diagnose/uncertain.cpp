@@ -36,10 +36,9 @@ std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDia
   return out;
 }
 
-Covariance covariance_of(const TipFit& fit, const Problem& problem,
-                                  const Geometry& geometry, const MatrixXd& base,
-                                  const std::vector<UncertainParameter>& uncertain,
-                                  double variance) {
+Covariance covariance_of(const TipFit& fit, const Problem& problem, const Geometry& geometry,
+                         const MatrixXd& base, const std::vector<UncertainParameter>& uncertain,
+                         double variance) {
   const auto count = static_cast<Index>(uncertain.size());
   if (count == 0) return {};
   const auto known = static_cast<Index>(fit.unknowns.size());

@@ -13,9 +13,8 @@ std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDia
 
 /// Their covariance after a measurement, by rows, places beside them free (Eq. 189). Empty of none.
 /// @param base columns of all unknowns per largest size, then of the places, over σ
-Covariance covariance_of(const TipFit& fit, const Problem& problem,
-                                  const Geometry& geometry, const Eigen::MatrixXd& base,
-                                  const std::vector<UncertainParameter>& uncertain,
-                                  double variance);
+Covariance covariance_of(const TipFit& fit, const Problem& problem, const Geometry& geometry,
+                         const Eigen::MatrixXd& base,
+                         const std::vector<UncertainParameter>& uncertain, double variance);
 
 }  // namespace trueaxis::calibrate_detail

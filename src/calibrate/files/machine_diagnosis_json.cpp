@@ -24,8 +24,7 @@ Json rival_json(const Rival& rival) {
 }
 
 /// The covariance in the units of `linear`.
-Json linear_json(const std::vector<CalibratedParameter>& parameters,
-                 const Covariance& covariance) {
+Json linear_json(const std::vector<CalibratedParameter>& parameters, const Covariance& covariance) {
   Json linear = Json::array(), rows = Json::array();
   const auto to_edge = [&](std::size_t i) {
     return parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;

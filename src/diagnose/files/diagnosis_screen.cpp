@@ -103,8 +103,8 @@ std::string diagnosis_screen(const Diagnosis& d, const std::string& before_axis)
   if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
   std::string text = line("", verdict_line(d));
   for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
-  text += findings_screen(d, most_findings) + before_axis + axis_screen(d.extended) +
-          unseen_screen(d);
+  text +=
+      findings_screen(d, most_findings) + before_axis + axis_screen(d.extended) + unseen_screen(d);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += line("check  ", check.text + " [" + check.effect + "]");
   const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));

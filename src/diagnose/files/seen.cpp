@@ -66,8 +66,8 @@ std::string of_harmonic(const Harmonic& harmonic, const TermShape& shape, const 
   std::string along;
   switch (harmonic.envelope) {
     case Harmonic::Envelope::constant:
-      along =
-          harmonic.port == TermPort::z ? "along Z with the slope of the surface" : "the same along Z";
+      along = harmonic.port == TermPort::z ? "along Z with the slope of the surface"
+                                           : "the same along Z";
       break;
     case Harmonic::Envelope::growing:
       along = growing ? "changing along Z" : "the same along Z";

@@ -43,8 +43,8 @@ double tests_of(const SearchRange& range, bool alone) {
 
 /// Of M angles lobes of the order M/2 show one column in place of two: which of the linear
 /// parameters those are. Their other phase is nowhere.
-std::vector<std::size_t> visible(const Effect& effect, const SearchForm& form, const TermShape& shape,
-                                 const Problem& problem) {
+std::vector<std::size_t> visible(const Effect& effect, const SearchForm& form,
+                                 const TermShape& shape, const Problem& problem) {
   if (!problem.resolution.half_seen || shape.order != problem.resolution.half_seen)
     return form.free;
   const bool cosine =
@@ -59,8 +59,8 @@ std::vector<std::size_t> visible(const Effect& effect, const SearchForm& form, c
 }
 
 /// @param alone one start of each form
-void add_form(const Effect& effect, const SearchForm& form, TermShape shape, bool alone, double tests,
-              const Problem& problem, std::vector<Hypothesis>& list) {
+void add_form(const Effect& effect, const SearchForm& form, TermShape shape, bool alone,
+              double tests, const Problem& problem, std::vector<Hypothesis>& list) {
   if (problem.resolution.degrees < form.degrees || !can_start(form.starts, problem)) return;
   const std::vector<std::size_t> free = visible(effect, form, shape, problem);
   const auto add = [&] { list.push_back(of_effect(effect, shape, free, tests)); };

@@ -42,7 +42,8 @@ struct Sampled {
   bool another = true;     ///< no other scan has the same lines
 };
 
-Sampled sampled(SpectralLine::In in, const LinearisationPoint& point, const Resolution& resolution) {
+Sampled sampled(SpectralLine::In in, const LinearisationPoint& point,
+                const Resolution& resolution) {
   Sampled out;
   if (resolution.sections) return out;
   const bool several = !resolution.one_variable;

@@ -50,7 +50,9 @@ Json covariance_object(const FitResult& result) {
     if (!withdrawn(result.parameters[i]) || values.empty()) continue;
     for (std::size_t j = 0; j < count; ++j) values(i, j) = values(j, i) = none;
   }
-  return {{"order", order}, {"matrix", matrix({values.data(), values.size() * values.size()}, std::max<std::size_t>(1, count))}};
+  return {{"order", order},
+          {"matrix", matrix({values.data(), values.size() * values.size()},
+                            std::max<std::size_t>(1, count))}};
 }
 
 Json budget(const FitResult& result) {
@@ -104,14 +106,14 @@ Json shape_object(const FitResult& result) {
 
 Json axis_object(const AxisEstimate& estimate) {
   const Axis& axis = estimate.axis;
-  return {
-      {"x", with_unit(axis.x_mm, "mm")},
-      {"y", with_unit(axis.y_mm, "mm")},
-      {"slope_x", with_unit(axis.slope_x, "1")},
-      {"slope_y", with_unit(axis.slope_y, "1")},
-      {"z_ref", with_unit(axis.z_ref_mm, "mm")},
-      {"covariance",
-       {{"order", {"x", "y", "slope_x", "slope_y"}}, {"matrix", matrix(estimate.covariance.by_rows, 4)}}}};
+  return {{"x", with_unit(axis.x_mm, "mm")},
+          {"y", with_unit(axis.y_mm, "mm")},
+          {"slope_x", with_unit(axis.slope_x, "1")},
+          {"slope_y", with_unit(axis.slope_y, "1")},
+          {"z_ref", with_unit(axis.z_ref_mm, "mm")},
+          {"covariance",
+           {{"order", {"x", "y", "slope_x", "slope_y"}},
+            {"matrix", matrix(estimate.covariance.by_rows, 4)}}}};
 }
 
 /// The file, what was taken of it that nothing says, and what of it was not used.

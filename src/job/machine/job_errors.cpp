@@ -27,8 +27,8 @@ ErrorCovariance covariance_of(const MachineFinding& found) {
   for (std::size_t i = 0; i < at.size(); ++i)
     for (std::size_t j = 0; j < at.size(); ++j)
       out(i, j) = !found.covariance.empty() ? found.covariance(at[i], at[j])
-                  : i == j ? std::pow(found.parameters[at[i]].estimate.u, 2)
-                           : 0.0;
+                  : i == j                  ? std::pow(found.parameters[at[i]].estimate.u, 2)
+                                            : 0.0;
   return out;
 }
 

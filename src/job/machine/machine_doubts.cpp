@@ -89,8 +89,8 @@ Reason not_told(const MachineFinding& found) {
                 {{"effect", found.effect}, {"rivals", fmt::format("{}", fmt::join(names, ", "))}}};
   if (more > 0) reason.numbers = {{"more", static_cast<double>(more)}};
   if (found.separate_with && !found.separate_with->plan.empty())
-    reason.names.insert(reason.names.end(), {{"plan", found.separate_with->plan},
-                                             {"what", found.separate_with->what}});
+    reason.names.insert(reason.names.end(),
+                        {{"plan", found.separate_with->plan}, {"what", found.separate_with->what}});
   return reason;
 }
 
