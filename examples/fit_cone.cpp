@@ -15,7 +15,9 @@ int main() {
   trueaxis::FitOptions options;
   options.surface = trueaxis::SurfaceKind::cone;
   const trueaxis::FitResult result = trueaxis::fit(stream, options);
-  for (const auto& [name, estimate] : result.parameters)
-    std::printf("%-10s %11.6f ± %.6f %s\n", name.c_str(), estimate.value, 2.0 * estimate.u,
-                estimate.unit.c_str());
+  for (const auto& [name, inside] : result.parameters) {
+    const trueaxis::Estimate at_edge = trueaxis::at_edge(inside);  // degrees for rad
+    std::printf("%-10s %11.6f ± %.6f %s\n", name.c_str(), at_edge.value, 2.0 * at_edge.u,
+                at_edge.unit.c_str());
+  }
 }

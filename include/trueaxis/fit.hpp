@@ -62,7 +62,7 @@ struct Rejected {
   std::string why;      ///< e.g. "31.2 µm off, 9.1 σ"
 };
 
-/// One named parameter in the conventions of the contract (edge units: mm, deg, 1).
+/// One named parameter, mm, rad and 1; `at_edge` has angles in degrees.
 struct FitParameter {
   std::string name;
   Estimate estimate;

@@ -197,7 +197,7 @@ inline constexpr std::size_t reason_codes = static_cast<std::size_t>(ReasonCode:
 /// "part_slipped"
 const char* to_string(ReasonCode code);
 
-/// A number that a reason rests on. Inside mm, rad, s; parameters of a finding as at the edge.
+/// A number that a reason rests on. Inside: mm, rad, s.
 struct ReasonNumber {
   const char* name;
   double value = 0.0;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 
 /// Factors between the units of the edge and those inside (mm, rad, s). Degrees, µm, inch and
 /// diameter exist at the edge only: multiply on the way in, divide on the way out.
@@ -23,7 +24,7 @@ inline constexpr double mm_per_m = 1000.0;
 struct Estimate {
   double value = std::numeric_limits<double>::quiet_NaN();
   double u = std::numeric_limits<double>::quiet_NaN();  ///< standard uncertainty, k = 1
-  std::string unit;     ///< unit of value and u, as at the edge ("mm", "deg", "1")
+  std::string unit;     ///< of value and u, inside: "mm", "rad", "s", "1"
   std::string why_not;  ///< why value or u is missing; empty when both are there
 
   /// Ends of the probabilistically symmetric coverage interval (JCGM 101, 7.7) where value ± U is
@@ -37,6 +38,22 @@ struct Estimate {
                     : coverage_factor * u;
   }
 };
+
+/// From an angle inside to one at the edge, in degrees; 1 for any other unit.
+inline double edge_factor(std::string_view unit) { return unit == "rad" ? 1.0 / rad_per_deg : 1.0; }
+
+/// As files and screens have it: an angle in degrees, and what is per angle.
+inline Estimate at_edge(Estimate inside) {
+  const bool angle = inside.unit == "rad", per_angle = inside.unit == "mm/(rad)";
+  if (!angle && !per_angle) return inside;
+  const double factor = angle ? 1.0 / rad_per_deg : rad_per_deg;
+  inside.value *= factor;
+  inside.u *= factor;
+  if (inside.interval)
+    for (double& end : *inside.interval) end *= factor;
+  inside.unit = angle ? "deg" : "mm/(deg)";
+  return inside;
+}
 
 /// Decimals that show U with two digits (GUM 7.2.6), at least `least`; U of 0 or NaN shows `least`.
 inline int decimals_of(double U, int least = 3) {

@@ -13,7 +13,6 @@ namespace trueaxis {
 /// only infinity.
 inline bool is_never(double size, std::string_view unit) {
   const double largest = unit == "mm"    ? 1000.0
-                         : unit == "deg" ? 180.0
                          : unit == "rad" ? 3.14
                          : unit == "s"   ? 1000.0
                          : unit == "rpm" ? 1e4

@@ -18,9 +18,9 @@ void add_apex_interval(std::vector<FitParameter>& parameters, const Covariance& 
   if (!k.determined() || !std::isfinite(k.u)) return;
   const auto row = static_cast<std::size_t>(apex - parameters.begin()),
              column = static_cast<std::size_t>(angle - parameters.begin());
-  const double half_angle_rad = angle->estimate.value * rad_per_deg;
-  // ∂ ln tan α/∂α in edge units: what is wanted of tan α are its covariances relative to itself.
-  const double relative = 2.0 * rad_per_deg / std::sin(2.0 * half_angle_rad);
+  const double half_angle_rad = angle->estimate.value;
+  // ∂ ln tan α/∂α in rad: what is wanted of tan α are its covariances relative to itself.
+  const double relative = 2.0 / std::sin(2.0 * half_angle_rad);
   const double with_tan = relative * covariance(row, column);
   const double squared = coverage_factor * coverage_factor;
   const double left = 1.0 - squared * std::pow(relative * angle->estimate.u, 2);

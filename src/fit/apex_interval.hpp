@@ -7,8 +7,8 @@
 
 namespace trueaxis {
 
-/// Gives the apex k of a cone its coverage interval, of value and covariance of the parameters in
-/// edge units (Eq. 36a); surfaces without an apex, and an apex without value or u, stay as they
+/// Gives the apex k of a cone its coverage interval, of value and covariance of the parameters
+/// (Eq. 36a); surfaces without an apex, and an apex without value or u, stay as they
 /// are. Without an interval stays too a k whose half angle is within `coverage_factor` u of zero.
 void add_apex_interval(std::vector<FitParameter>& parameters, const Covariance& covariance,
                        double coverage_factor);

@@ -199,7 +199,7 @@ void report_derived(const Standing& last, FitResult& result) {
   const Eigen::Vector2d slope(line.slope_x, line.slope_y);
   const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
   result.derived.push_back(
-      {"tilt", {std::atan(slope.norm()) / rad_per_deg, u / rad_per_deg, "deg", ""}});
+      {"tilt", {std::atan(slope.norm()), u, "rad", ""}});
 }
 
 void report_rms(FitResult& result) {

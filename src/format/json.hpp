@@ -41,8 +41,14 @@ inline NameAndUnit name_and_unit(std::string_view name) {
   return {std::string(name), "1"};
 }
 
-/// {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is missing.
-inline Json to_json(const Estimate& estimate) {
+/// A size in mm or rad as files have it: mm or degrees.
+inline Json edge_size(double value, const std::string& unit) {
+  return with_unit(value * edge_factor(unit), unit == "rad" ? "deg" : unit.c_str());
+}
+
+/// At the edge: {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is missing.
+inline Json to_json(const Estimate& inside) {
+  const Estimate estimate = at_edge(inside);
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};
   if (estimate.interval) json["interval"] = *estimate.interval;
   if (!estimate.why_not.empty()) json["why"] = estimate.why_not;
@@ -59,6 +65,11 @@ inline Estimate estimate_from(const Json& json) {
   Estimate estimate{number_from(json.at("value")), number_from(json.at("u")), json.at("unit"),
                     json.value("why", "")};
   if (json.contains("interval")) estimate.interval = json.at("interval");
+  if (estimate.unit == "deg") {
+    estimate.value *= rad_per_deg;
+    estimate.u *= rad_per_deg;
+    estimate.unit = "rad";
+  }
   return estimate;
 }
 

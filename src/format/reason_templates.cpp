@@ -66,10 +66,10 @@ std::string_view template_of(ReasonCode code) {
       {slip_unsure, "the part slipped, and where it is now is not known"},
       {moved_across, "{by:um:pm} µm"},
       {moved_along_z, "{by:um:pm} µm along Z"},
-      {moved_tilt, "{by::pm}° of tilt"},
-      {moved_turn, "{by::pm}°"},
+      {moved_tilt, "{by:deg:pm}° of tilt"},
+      {moved_turn, "{by:deg:pm}°"},
       {moved_radius, "{by:um:pm} µm of radius"},
-      {moved_taper, "{by::pm}° of taper"},
+      {moved_taper, "{by:deg:pm}° of taper"},
       {slipped_between_references,
        "the part slipped while {name} was probed, and the other references may have been probed "
        "before: probe all of them again as the part now stands"},
@@ -201,7 +201,7 @@ std::string_view template_of(ReasonCode code) {
       {cone_at_last, "taken for a cone"},
       {no_taper_seen, "taken for a cylinder: no taper is seen; {remedies}"},
       {taper_seen,
-       "taken for a {surface}: <half angle {half_angle::of U}° ± {half_angle.U::two}°><the radius "
+       "taken for a {surface}: <half angle {half_angle:deg:of U}° ± {half_angle.U:deg:two}°><the radius "
        "changes by {change:um:.4g} µm over {length::.4g} mm of Z><; {remedies}>"},
       {not_one_surface,
        "is not one {surface}: {parts:; }. A jump at the same C and another Z is the shape of "

@@ -42,7 +42,7 @@ SurfaceEvidence surface_by_evidence(const ProbeStream& stream) {
   const double length = length_mm(stream);
   Reason why{ReasonCode::taper_seen, {}, {}, {{"surface", to_string(surface)}}};
   if (half_angle.determined() && std::isfinite(half_angle.u))
-    why.numbers = {{"half_angle", std::abs(half_angle.value), "deg",
+    why.numbers = {{"half_angle", std::abs(half_angle.value), "rad",
                     half_angle.expanded(cone.coverage_factor)}};
   else
     why.numbers = {{"change", taper * length, "mm"}, {"length", length, "mm"}};

@@ -38,10 +38,10 @@ Reasons how_far(const Finding& finding, double k) {
   const auto of = [&](std::string_view name) { return parameter_of(finding, name); };
   add(ReasonCode::moved_across, length_of(of("dx"), of("dy")), "mm");
   add(ReasonCode::moved_along_z, of("dz"), "mm");
-  add(ReasonCode::moved_tilt, length_of(of("tilt_x"), of("tilt_y")), "deg");
-  add(ReasonCode::moved_turn, of("turn"), "deg");
+  add(ReasonCode::moved_tilt, length_of(of("tilt_x"), of("tilt_y")), "rad");
+  add(ReasonCode::moved_turn, of("turn"), "rad");
   add(ReasonCode::moved_radius, of("dr"), "mm");
-  add(ReasonCode::moved_taper, of("taper"), "deg");
+  add(ReasonCode::moved_taper, of("taper"), "rad");
   return parts;
 }
 

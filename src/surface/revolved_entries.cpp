@@ -20,7 +20,7 @@ class Cone final : public RevolvedSurface {
       const auto full = expand(w);
       const auto n = report_line(full, out);
       out[4] = frame_.position_ref_mm / n - full.radius / full.tan;
-      out[5] = atan(abs(full.tan)) / rad_per_deg;
+      out[5] = atan(abs(full.tan));
     });
   }
 };
@@ -65,7 +65,7 @@ CatalogueEntry cone_entry() {
                          StreamKind::lateral,
                          true,
                          {"x0", "y0", "l", "m", "k", "half_angle"},
-                         {"mm", "mm", "1", "1", "mm", "deg"}});
+                         {"mm", "mm", "1", "1", "mm", "rad"}});
 }
 
 CatalogueEntry cylinder_entry() {

@@ -54,7 +54,7 @@ double u_of_half_angle_deg(const NoiseCase& noise) {
   const LawCase c = part(1.0);
   for (std::uint64_t i = 0; i < cones; ++i)
     sum += fit(probed(c, noise, first_seed + i), options_of(c)).parameter("half_angle").u;
-  return sum / cones;
+  return sum / cones / rad_per_deg;
 }
 
 bool holds(const Estimate& estimate, double truth) {
@@ -198,7 +198,7 @@ TEST(ApexInterval, FollowsTheUncertaintyOfADiagnosis) {
     return after.shape.radius_mm / (after.shape.axis.z_ref_mm - end_mm);
   };
   EXPECT_NE(angle.u, d.baseline.parameter("half_angle").u);
-  EXPECT_NEAR(0.5 * (tan_of(k.interval->back()) - tan_of(k.interval->front())) / rad_per_deg,
+  EXPECT_NEAR(0.5 * (tan_of(k.interval->back()) - tan_of(k.interval->front())),
               coverage * angle.u, 0.01 * coverage * angle.u);
 }
 

@@ -60,7 +60,7 @@ TEST(Degenerate, ASmallHalfAngleIsDeterminedWithoutNoise) {
     const FitResult result = fit(probe(c), options_of(c));
     ASSERT_EQ(result.status, FitStatus::converged) << result.message;
     // 1e-15 of 20 mm over a lever of 20 mm, in degrees: 1e-13.
-    EXPECT_NEAR(parameter(result, "half_angle").value, std::abs(angle), 1e-12);
+    EXPECT_NEAR(parameter(result, "half_angle").value / rad_per_deg, std::abs(angle), 1e-12);
   }
 }
 

@@ -124,7 +124,7 @@ std::vector<double> expected_parameters(const LawCase& c) {
     values.push_back(c.radius_mm);
   } else {
     values.push_back(z / n - c.radius_mm / std::tan(c.half_angle_rad()));
-    values.push_back(std::abs(c.half_angle_deg));
+    values.push_back(std::abs(c.half_angle_rad()));
   }
   return values;
 }

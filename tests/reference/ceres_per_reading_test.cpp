@@ -70,8 +70,7 @@ std::vector<double> lengths_mm(std::vector<double> p, double length_mm) {
 std::vector<double> engine_parameters(const FitResult& result) {
   std::vector<double> p;
   for (const FitParameter& parameter : result.parameters) {
-    const bool angle = parameter.estimate.unit == "deg";
-    p.push_back(parameter.estimate.value * (angle ? rad_per_deg : 1.0));
+    p.push_back(parameter.estimate.value);
   }
   return p;
 }

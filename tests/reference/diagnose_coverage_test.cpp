@@ -95,7 +95,7 @@ TEST(DiagnoseEffects, UCovers) {
     if (!e) return;
     ++asked[what];
     const double off =
-        e->unit == "deg" ? std::remainder(e->value - truth, 360.0) : e->value - truth;
+        e->unit == "rad" ? std::remainder(e->value - truth, two_pi) : e->value - truth;
     covered[what] += std::abs(off) <= 2.0 * e->u;
   };
   for (int s = 0; s < streams; ++s) {
@@ -107,7 +107,7 @@ TEST(DiagnoseEffects, UCovers) {
       if ((f.effect() == "part.roundness" || f.effect() == "spindle.radial_synchronous") && order &&
           order->value == 3.0) {
         ask("amplitude", testing::parameter_of(f, "amplitude"), amplitude_mm);
-        ask("phase", testing::parameter_of(f, "phase"), phase_rad / rad_per_deg);
+        ask("phase", testing::parameter_of(f, "phase"), phase_rad);
       }
       const std::optional<Estimate> frequency = hertz_of(f);
       if (frequency && std::abs(frequency->value - line_hz) < 0.5 / turns)

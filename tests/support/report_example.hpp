@@ -39,8 +39,11 @@ inline double contact_mm(const Revolved& cone, double c_rad, double z_mm) {
   return along + std::sqrt(radius * radius - across * across);
 }
 
+/// An angle is given in degrees.
 inline FitParameter parameter(std::string name, double value, double u, std::string unit) {
-  return {std::move(name), {value, u, std::move(unit), ""}};
+  const bool angle = unit == "deg";
+  const double inside = angle ? rad_per_deg : 1.0;
+  return {std::move(name), {inside * value, inside * u, angle ? "rad" : std::move(unit), ""}};
 }
 
 inline ProbeStream helix(std::size_t readings, double length_mm) {

@@ -11,7 +11,7 @@ Json covariance_json(const Calibration& c) {
   Json names = Json::array(), rows = Json::array();
   const std::size_t n = c.parameters.size();
   const auto factor = [&](std::size_t i) {
-    return c.parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+    return edge_factor(c.parameters[i].estimate.unit);
   };
   for (std::size_t i = 0; i < n; ++i) {
     names.push_back(c.parameters[i].name);
@@ -29,17 +29,17 @@ Json calibrated_json(const std::vector<CalibratedParameter>& parameters) {
   for (const CalibratedParameter& one : parameters)
     if (one.u_noise > 0.0)
       json[one.name]["u_noise"] =
-          number(one.u_noise / (one.estimate.unit == "rad" ? rad_per_deg : 1.0));
+          number(one.u_noise * edge_factor(one.estimate.unit));
   return json;
 }
 
 Json components_json(const Calibration& c) {
   Json json = Json::object();
   for (const CalibratedComponent& one : c.components) {
-    Json& entry = json[one.name] = edge(one.rms);
+    Json& entry = json[one.name] = to_json(one.rms);
     entry["rms"] = entry["value"];
     entry.erase("value");
-    entry["plausible"] = number(one.plausible / (one.rms.unit == "rad" ? rad_per_deg : 1.0));
+    entry["plausible"] = number(one.plausible * edge_factor(one.rms.unit));
     entry["shown"] = one.shown;
   }
   return json;
@@ -61,9 +61,9 @@ Json read_out_json(const AxisReadOut& one) {
   for (const AxisReadOut::Order& order : one.orders)
     orders.push_back({{"order", order.order},
                       {"amplitude", with_unit(factor * order.amplitude(), unit)},
-                      {"cos", edge(order.cos)},
-                      {"sin", edge(order.sin)}});
-  for (const Estimate& coefficient : one.polynomial) polynomial.push_back(edge(coefficient));
+                      {"cos", to_json(order.cos)},
+                      {"sin", to_json(order.sin)}});
+  for (const Estimate& coefficient : one.polynomial) polynomial.push_back(to_json(coefficient));
   return {{"axis", std::string(1, letter_of(one.axis))},
           {"readings", one.readings},
           {"range", {{"low", factor * one.low}, {"high", factor * one.high}, {"unit", unit}}},

@@ -10,24 +10,9 @@
 /// What the results of a calibration and of a diagnosis write alike.
 namespace trueaxis {
 
-/// A size in mm or rad as files have it: mm or degrees.
-inline Json edge_size(double value, const std::string& unit) {
-  return unit == "rad" ? with_unit(value / rad_per_deg, "deg") : with_unit(value, unit.c_str());
-}
-
-inline Json edge(const Estimate& inside) {
-  const bool angle = inside.unit == "rad";
-  const double factor = angle ? 1.0 / rad_per_deg : 1.0;
-  Estimate out = inside;
-  out.value *= factor;
-  out.u *= factor;
-  if (angle) out.unit = "deg";
-  return to_json(out);
-}
-
 inline Json parameters_json(const std::vector<CalibratedParameter>& parameters) {
   Json json = Json::object();
-  for (const CalibratedParameter& one : parameters) json[one.name] = edge(one.estimate);
+  for (const CalibratedParameter& one : parameters) json[one.name] = to_json(one.estimate);
   return json;
 }
 

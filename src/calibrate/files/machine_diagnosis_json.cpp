@@ -27,7 +27,7 @@ Json rival_json(const Rival& rival) {
 Json linear_json(const std::vector<CalibratedParameter>& parameters, const Covariance& covariance) {
   Json linear = Json::array(), rows = Json::array();
   const auto to_edge = [&](std::size_t i) {
-    return parameters[i].estimate.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
+    return edge_factor(parameters[i].estimate.unit);
   };
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     Json one = edge_size(parameters[i].estimate.value, parameters[i].estimate.unit);
@@ -78,7 +78,7 @@ Json consequences_json(const MachineDiagnosis& d) {
 
 Json unexplained_json(const MachineUnexplained& one) {
   return {{"pattern", one.pattern},
-          {"amplitude", edge(one.amplitude)},
+          {"amplitude", to_json(one.amplitude)},
           {"p_value", number(one.p_value)},
           {"term", linear_json(one.parameters, one.covariance)}};
 }

@@ -131,11 +131,8 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
   std::vector<FitParameter> out;
   const bool determined = is_determined(joint, term);
   for (std::size_t v = 0; v < values.size(); ++v) {
-    const bool angle = values[v].unit == "rad";
-    const double factor = angle ? 1.0 / rad_per_deg : 1.0;
     FitParameter p{values[v].name,
-                   {values[v].value * factor, std::sqrt(variance[v]) * factor,
-                    angle ? "deg" : values[v].unit, ""}};
+                   {values[v].value, std::sqrt(variance[v]), values[v].unit, ""}};
     if (!determined && p.name != "onset")
       p.estimate = {.unit = p.estimate.unit,
                     .why_not = "the readings after it do not show all that moved"};

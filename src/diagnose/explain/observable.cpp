@@ -45,9 +45,8 @@ Typical typical_of(const Effect& effect, const SearchForm& form, const Linearisa
   if (!form.told.empty() && form.starts.parameter)
     shape.*form.starts.parameter = value_in(form.starts.in, form.starts.values.front(), point);
   const LinearParameter linear = linear_parameters(effect.term, shape)[0];
-  const bool angle = linear.unit == "rad";
-  return {of_effect(effect, shape, form.free), size_of(effect, linear), angle ? "deg" : linear.unit,
-          angle ? 1.0 / rad_per_deg : 1.0, std::string(form.told)};
+  return {of_effect(effect, shape, form.free), size_of(effect, linear), linear.unit,
+          std::string(form.told)};
 }
 
 /// The share of columns that is left beside others, RMS.
@@ -150,13 +149,13 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
       worst = std::max(worst, axis_shift(point, change, Eigen::MatrixXd::Zero(n, n)).value_mm);
     }
     h.axis_bias_mm = worst * t.size;
-    h.entry.axis_bias_per_unit = {worst / t.edge, 0.0, "mm/(" + t.unit + ")", ""};
+    h.entry.axis_bias_per_unit = {worst, 0.0, "mm/(" + t.unit + ")", ""};
     h.entry.axis_bias_typical = {h.axis_bias_mm, 0.0, "mm", ""};
     h.entry.detectable_unit = t.unit;
     const double at_threshold = model.family.threshold(problem.false_alarm);
     const double times = lambda > 0.0 ? std::sqrt(at_threshold / lambda) : beyond_sense;
     h.entry.detectable =
-        times < beyond_sense ? times * t.size * t.edge : std::numeric_limits<double>::infinity();
+        times < beyond_sense ? times * t.size : std::numeric_limits<double>::infinity();
     const double share = whole > 0.0 ? std::sqrt(kept / whole) : 0.0;
     if (!can) {
       h.entry.why = why;
@@ -172,14 +171,15 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
                                                         : effect.absorbed_by);
       h.entry.why = fmt::format("absorbed by {}: {} of it is left", by, percent_left(share));
     } else {
-      const bool small = t.unit == "mm" && h.entry.detectable < 1.0;
-      h.entry.why =
-          "too small beside the noise at " +
-          or_never(h.entry.detectable, t.unit,
-                   fmt::format("its typical size: found from {:.3g} {} on",
-                               small ? h.entry.detectable / mm_per_um : h.entry.detectable,
-                               small ? "µm" : t.unit),
-                   "any size that occurs");
+      const bool small = t.unit == "mm" && h.entry.detectable < 1.0, angle = t.unit == "rad";
+      const double shown = h.entry.detectable * (small ? 1.0 / mm_per_um : edge_factor(t.unit));
+      h.entry.why = "too small beside the noise at " +
+                    or_never(h.entry.detectable, t.unit,
+                             fmt::format("its typical size: found from {:.3g} {} on", shown,
+                                         small   ? "µm"
+                                         : angle ? "deg"
+                                                 : t.unit),
+                             "any size that occurs");
     }
     h.entry.why.insert(0, t.form);
     out.push_back(std::move(h));

@@ -15,8 +15,7 @@ namespace trueaxis::diagnose_detail {
 struct Typical {
   Hypothesis hypothesis;
   double size = 0.0;  ///< of its first linear parameter, inside units
-  std::string unit;   ///< of that parameter at the edge
-  double edge = 1.0;  ///< edge value of one inside unit
+  std::string unit;   ///< of that parameter
   std::string form;   ///< which of its forms, where it has several
 };
 

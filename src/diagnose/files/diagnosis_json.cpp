@@ -74,13 +74,18 @@ Json unexplained_object(const Unexplained& u) {
   return json;
 }
 
+Json detectable_object(const NotObservable& n) {
+  Json json = edge_size(n.detectable, n.detectable_unit);
+  if (!std::isfinite(n.detectable)) json["why"] = "no size of it would be found";
+  return json;
+}
+
 Json not_observable_object(const NotObservable& n) {
   return {{"effect", n.effect},
           {"why", n.why},
           {"axis_bias_per_unit", estimate_object(n.axis_bias_per_unit)},
           {"axis_bias_typical", estimate_object(n.axis_bias_typical)},
-          {"detectable", quantity_object(n.detectable, n.detectable_unit.c_str(),
-                                         "no size of it would be found")},
+          {"detectable", detectable_object(n)},
           {"separate_with", maybe(n.separate_with)}};
 }
 

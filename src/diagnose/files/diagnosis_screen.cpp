@@ -80,10 +80,11 @@ std::string unseen_screen(const Diagnosis& d) {
         sizes.size() == most)
       continue;
     const bool milli = n.detectable_unit == "s" && size < 1.0;
-    const std::string unit = milli ? "ms" : n.detectable_unit;
+    const Estimate shown = at_edge({size, 0.0, n.detectable_unit, ""});
     sizes.push_back((n.detectable_unit == "mm" ? um(size)
-                     : unit == "1"             ? fmt::format("{:.2g}", size)
-                                   : fmt::format("{:.2g} {}", milli ? 1e3 * size : size, unit)) +
+                     : milli                   ? fmt::format("{:.2g} ms", 1e3 * size)
+                     : shown.unit == "1"       ? fmt::format("{:.2g}", size)
+                                         : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
                     " of " + n.effect);
   }
   return sizes.empty() ? ""

@@ -16,18 +16,13 @@ constexpr PatternKind pattern_kinds[] = {{Pattern::Kind::fourier_legendre, "four
                                          {Pattern::Kind::line, "line"},
                                          {Pattern::Kind::bump, "bump"}};
 
-/// Edge units: an angle in degrees.
-double edge_of(const LinearParameter& parameter) {
-  return parameter.unit == "rad" ? 1.0 / rad_per_deg : 1.0;
-}
-
 Json linear_array(const TermValue& term) {
   Json list = Json::array();
   const auto parameters = term.parameters();
   expects(parameters.size() == term.linear.size(), "a value for every linear parameter");
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     const bool angle = parameters[i].unit == "rad";
-    Json entry = quantity_object(edge_of(parameters[i]) * term.linear[i],
+    Json entry = quantity_object(edge_factor(parameters[i].unit) * term.linear[i],
                                  angle ? "deg" : parameters[i].unit.c_str(), "not determined");
     entry["name"] = parameters[i].name;
     list.push_back(entry);
@@ -43,7 +38,7 @@ Json covariance_array(const TermValue& term) {
     Json row = Json::array();
     for (std::size_t j = 0; j < parameters.size(); ++j)
       row.push_back(
-          number(edge_of(parameters[i]) * edge_of(parameters[j]) * term.covariance(i, j)));
+          number(edge_factor(parameters[i].unit) * edge_factor(parameters[j].unit) * term.covariance(i, j)));
     rows.push_back(row);
   }
   return rows;

@@ -26,7 +26,7 @@ bool is_small_length(const Effect& effect, const FitParameter& parameter) {
 }
 
 std::string parameter_text(const Effect& effect, const FitParameter& p, double k) {
-  const Estimate& e = p.estimate;
+  const Estimate e = at_edge(p.estimate);
   std::string name = p.name;
   for (std::size_t i = 0; i + 1 < name.size(); ++i) {  // amplitude_2 keeps its number
     if (name[i] == '_' && (name[i + 1] < '0' || name[i + 1] > '9')) name[i] = ' ';
@@ -190,7 +190,8 @@ std::string separating_text(const Separating& s) {
   return text;
 }
 
-std::string axis_bias_per_unit_text(const Estimate& axis_bias) {
+std::string axis_bias_per_unit_text(const Estimate& inside) {
+  const Estimate axis_bias = at_edge(inside);
   if (!axis_bias.determined()) return axis_bias.why_not.empty() ? "not known" : axis_bias.why_not;
   if (axis_bias.unit.rfind("mm/", 0) != 0)
     return fmt::format("{:.2g} ", axis_bias.value) + axis_bias.unit;

@@ -40,7 +40,7 @@ std::string size_text(const Finding& finding, double k) {
   // tilting motion seems to turn.
   if (size == nullptr || size->estimate.expanded(k) > std::abs(size->estimate.value))
     return um(finding.rms_mm) + " RMS";
-  const Estimate& e = size->estimate;
+  const Estimate e = at_edge(size->estimate);
   const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
   return plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
 }

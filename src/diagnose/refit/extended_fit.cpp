@@ -30,14 +30,14 @@ ProbeStream cleaned(const ProbeStream& stream, const ObservationMask& mask,
   return out;
 }
 
-/// ∂(derived quantity)/∂(x, y, slopes at mid length; radius; tan of the half angle), edge units.
+/// ∂(derived quantity)/∂(x, y, slopes at mid length; radius; tan of the half angle).
 Eigen::RowVectorXd derived_slope(const std::string& name, const Axis& axis) {
   Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(6);
   if (name == "radius_mid") g(4) = 1.0;
   const double slope = std::hypot(axis.slope_x, axis.slope_y);
   if (name == "tilt" && slope > 0.0) {
-    g(2) = axis.slope_x / slope / rad_per_deg;
-    g(3) = axis.slope_y / slope / rad_per_deg;
+    g(2) = axis.slope_x / slope;
+    g(3) = axis.slope_y / slope;
   }
   return g;
 }

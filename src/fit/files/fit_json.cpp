@@ -47,8 +47,10 @@ Json covariance_object(const FitResult& result) {
   Json order = Json::array();
   for (std::size_t i = 0; i < count; ++i) {
     order.push_back(result.parameters[i].name);
-    if (!withdrawn(result.parameters[i]) || values.empty()) continue;
-    for (std::size_t j = 0; j < count; ++j) values(i, j) = values(j, i) = none;
+    if (values.empty()) continue;
+    const double to_edge =
+        withdrawn(result.parameters[i]) ? none : edge_factor(result.parameters[i].estimate.unit);
+    for (std::size_t j = 0; j < count; ++j) values(i, j) *= to_edge, values(j, i) *= to_edge;
   }
   return {{"order", order},
           {"matrix", matrix({values.data(), values.size() * values.size()},
@@ -60,8 +62,8 @@ Json budget(const FitResult& result) {
   for (const BudgetLine& line : result.budget) {
     Json u = Json::object();
     for (std::size_t i = 0; i < line.u.size(); ++i) {
-      u[result.parameters[i].name] = with_unit(withdrawn(result.parameters[i]) ? none : line.u[i],
-                                               result.parameters[i].estimate.unit.c_str());
+      u[result.parameters[i].name] = edge_size(withdrawn(result.parameters[i]) ? none : line.u[i],
+                                               result.parameters[i].estimate.unit);
     }
     lines.push_back({{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}});
   }

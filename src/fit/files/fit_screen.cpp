@@ -22,7 +22,7 @@ std::string parameter_line(const FitResult& result, const std::string& name,
   for (const auto* list : {&result.parameters, &result.derived}) {
     const auto found = std::ranges::find(*list, name, &FitParameter::name);
     if (found == list->end()) continue;
-    const Estimate& e = found->estimate;
+    const Estimate e = at_edge(found->estimate);
     const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
     return padded(label, 7) +
            plus_minus(e, result.coverage_factor, small ? 1.0 / mm_per_um : 1.0,

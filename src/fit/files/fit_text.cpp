@@ -29,7 +29,7 @@ std::string ends(const Estimate& e, double U) {
 
 void append_parameters(std::string& text, const std::vector<FitParameter>& parameters, double k) {
   for (const FitParameter& p : parameters) {
-    const Estimate& e = p.estimate;
+    const Estimate e = at_edge(p.estimate);
     const double U = e.expanded(k);
     if (!e.determined()) {
       append(text, "  {:<16} {:>16}  {}\n", p.name, "-", e.why_not);
@@ -48,7 +48,7 @@ void append_set_up(std::string& text, const SetUpFit& one, double k) {
   append(text, "  {:<16}", "set-up " + std::to_string(one.set_up.number));
   text += one.side == Root::rear ? " rear: " : " front:";
   for (const FitParameter& p : one.parameters) {
-    const Estimate& e = p.estimate;
+    const Estimate e = at_edge(p.estimate);
     const double U = e.expanded(k);
     text += &p == one.parameters.data() ? " " : ", ";
     if (!e.determined() || !std::isfinite(U)) {

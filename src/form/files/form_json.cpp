@@ -12,15 +12,14 @@ namespace {
 Json value_json(const FormValue& one) {
   Json json{{"name", one.name}};
   if (!one.reference.empty()) json["reference"] = one.reference;
-  const bool angle = one.estimate.unit == "rad";
-  const double factor = angle ? 1.0 / rad_per_deg : 1.0;
-  json["value"] = number(factor * one.estimate.value);
-  json["u"] = number(factor * one.estimate.u);
-  json["unit"] = angle ? "deg" : one.estimate.unit;
-  json["bias_by_noise"] = number(factor * one.bias_mm);
-  if (one.estimate.interval) {
-    json["why"] = one.estimate.why_not;
-    json["at_most"] = number(factor * one.estimate.interval->back());
+  const Estimate edge = at_edge(one.estimate);
+  json["value"] = number(edge.value);
+  json["u"] = number(edge.u);
+  json["unit"] = edge.unit;
+  json["bias_by_noise"] = number(edge_factor(one.estimate.unit) * one.bias_mm);
+  if (edge.interval) {
+    json["why"] = edge.why_not;
+    json["at_most"] = number(edge.interval->back());
   }
   return json;
 }

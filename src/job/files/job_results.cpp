@@ -103,8 +103,7 @@ Json agreement_object(const JobResult& result) {
   for (const Disagreement& d : result.agreement.disagreements) {
     Json pair{{"first", result.job.references[d.first].name},
               {"second", result.job.references[d.second].name},
-              {"tilt", to_json(Estimate{d.tilt_rad / rad_per_deg, d.U_tilt_rad / k / rad_per_deg,
-                                        "deg", ""})},
+              {"tilt", to_json(Estimate{d.tilt_rad, d.U_tilt_rad / k, "rad", ""})},
               {"p_value", d.p_value}};
     if (d.U_offset_mm > 0.0)
       pair["offset"] = to_json(Estimate{d.offset_mm, d.U_offset_mm / k, "mm", ""});

@@ -14,16 +14,15 @@ constexpr std::array<const char*, 2> of_section[] = {
     {"RONt", "MZCI"}, {"RONq", "LSCI"}, {"eccentricity", "LSCI"}};
 
 Json value_object(const FormValue& one) {
-  const bool angle = one.estimate.unit == "rad";
-  const double factor = angle ? 1.0 / rad_per_deg : 1.0;
-  Json json{{"value", number(factor * one.estimate.value)},
-            {"u", number(factor * one.estimate.u)},
-            {"unit", angle ? "deg" : one.estimate.unit},
-            {"bias_by_noise", number(factor * one.bias_mm)}};
+  const Estimate edge = at_edge(one.estimate);
+  Json json{{"value", number(edge.value)},
+            {"u", number(edge.u)},
+            {"unit", edge.unit},
+            {"bias_by_noise", number(edge_factor(one.estimate.unit) * one.bias_mm)}};
   if (!one.reference.empty()) json["reference"] = one.reference;
-  if (one.estimate.interval) {
-    json["why"] = one.estimate.why_not;
-    json["at_most"] = number(factor * one.estimate.interval->back());
+  if (edge.interval) {
+    json["why"] = edge.why_not;
+    json["at_most"] = number(edge.interval->back());
   }
   return json;
 }

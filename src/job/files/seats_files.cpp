@@ -21,10 +21,9 @@ double towards_deg(double x_mm, double y_mm) {
   return deg < 0.0 ? deg + 360.0 : deg;
 }
 
-/// Of a line's slopes: the angle to the spindle axis and its u in the worse direction, degrees.
+/// Of a line's slopes: the angle to the spindle axis and its u in the worse direction.
 Estimate tilt_of(const AxisEstimate& axis) {
-  return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)) / rad_per_deg,
-          axis.u_slope() / rad_per_deg, "deg", ""};
+  return {std::atan(std::hypot(axis.axis.slope_x, axis.axis.slope_y)), axis.u_slope(), "rad", ""};
 }
 
 Json offset_object(const AxisOffset& at) {
@@ -75,8 +74,7 @@ Json seats_apart_array(const JobResult& result) {
                        to_json(Estimate{d.coaxiality_mm(s), d.u_coaxiality_mm(s), "mm", ""})}});
     list.push_back({{"first", result.job.references[d.first].name},
                     {"second", result.job.references[d.second].name},
-                    {"angle", to_json(Estimate{d.tilt_rad / rad_per_deg, d.u_tilt_rad / rad_per_deg,
-                                               "deg", ""})},
+                    {"angle", to_json(Estimate{d.tilt_rad, d.u_tilt_rad, "rad", ""})},
                     {"at", both}});
   }
   return list;
