@@ -7,16 +7,27 @@ pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(INTERCHANGE REQUIRED IMPORTED_TARGET libzip pugixml hdf5 matio libmd)
 
 file(GLOB TRUEAXIS_ASSETS CONFIGURE_DEPENDS src/report/*.js src/report/*.css src/report/*.html)
+# Words, JSON and pages take as long to optimise as to compile and are written once a run; what reads and writes whole
+# streams is optimised in full.
+set(TRUEAXIS_WORDS ${TRUEAXIS_FILES})
+list(FILTER TRUEAXIS_WORDS EXCLUDE REGEX "/src/(format|recording|interchange|measure)/|\\.S$")
+list(REMOVE_ITEM TRUEAXIS_FILES ${TRUEAXIS_WORDS})
+add_library(trueaxis_words OBJECT ${TRUEAXIS_WORDS})
+target_compile_options(trueaxis_words PRIVATE $<$<CONFIG:Release>:-O1>)
 add_library(trueaxis_lib STATIC ${TRUEAXIS_FILES})
 add_library(trueaxis::trueaxis ALIAS trueaxis_lib)
 set_target_properties(trueaxis_lib PROPERTIES OUTPUT_NAME trueaxis EXPORT_NAME trueaxis)
-target_include_directories(trueaxis_lib PRIVATE src)
-target_compile_definitions(trueaxis_lib PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
-target_link_libraries(trueaxis_lib PUBLIC trueaxis_core PRIVATE $<BUILD_INTERFACE:trueaxis_flags>
-  Eigen3::Eigen nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH PkgConfig::INTERCHANGE)
+foreach(target trueaxis_words trueaxis_lib)
+  target_include_directories(${target} PRIVATE src)
+  target_compile_definitions(${target} PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
+  target_link_libraries(${target} PUBLIC trueaxis_core PRIVATE $<BUILD_INTERFACE:trueaxis_flags> Eigen3::Eigen
+    nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus fmt::fmt PkgConfig::XXHASH PkgConfig::INTERCHANGE)
+  trueaxis_compile_rooms_as_one(${target})
+endforeach()
+target_sources(trueaxis_lib PRIVATE $<TARGET_OBJECTS:trueaxis_words>)
+trueaxis_read_once(trueaxis_words <nlohmann/json.hpp> <fmt/format.h> <map>)
 set_source_files_properties(src/report/assets.S PROPERTIES COMPILE_DEFINITIONS TRUEAXIS_ECHARTS="${TRUEAXIS_ECHARTS}"
   OBJECT_DEPENDS "${TRUEAXIS_ECHARTS};${TRUEAXIS_ASSETS}")
-trueaxis_compile_rooms_as_one(trueaxis_lib)
 
 # A journal says which build wrote it: a hash of the library's files, one small source.
 file(GLOB_RECURSE TRUEAXIS_PRIVATE_HEADERS CONFIGURE_DEPENDS src/*.hpp)
@@ -42,14 +53,17 @@ target_link_libraries(trueaxis_studies PUBLIC trueaxis_lib PRIVATE trueaxis_flag
 trueaxis_compile_rooms_as_one(trueaxis_studies)
 set_source_files_properties(studies/published/assets.S PROPERTIES OBJECT_DEPENDS "${TRUEAXIS_STUDY_SCRIPTS}")
 
+# The commands, once for both programs. CLI11 is all headers: they are read once, and what they make is not worth optimising.
 file(GLOB TRUEAXIS_CLI CONFIGURE_DEPENDS src/cli/*.cpp)
-add_executable(trueaxis ${TRUEAXIS_CLI})
-target_include_directories(trueaxis PRIVATE src)
-target_compile_definitions(trueaxis PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}")
-target_link_libraries(trueaxis PRIVATE trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
-# CLI11 is all headers: they are read once, and what they make is not worth optimising.
-target_compile_options(trueaxis PRIVATE $<$<CONFIG:Release>:-O1>)
-trueaxis_read_once(trueaxis <CLI/CLI.hpp>)
+list(REMOVE_ITEM TRUEAXIS_CLI "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
+add_library(trueaxis_cli STATIC ${TRUEAXIS_CLI})
+target_include_directories(trueaxis_cli PUBLIC src)
+target_compile_definitions(trueaxis_cli PUBLIC TRUEAXIS_VERSION="${PROJECT_VERSION}")
+target_link_libraries(trueaxis_cli PUBLIC trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
+target_compile_options(trueaxis_cli PUBLIC $<$<CONFIG:Release>:-O1>)
+trueaxis_read_once(trueaxis_cli <CLI/CLI.hpp>)
+add_executable(trueaxis src/cli/main.cpp)
+target_link_libraries(trueaxis PRIVATE trueaxis_cli)
 # What is made of its tables of options is installed beside it.
 add_custom_command(TARGET trueaxis POST_BUILD
   COMMAND trueaxis completion bash > "${PROJECT_BINARY_DIR}/trueaxis.bash"
@@ -60,10 +74,7 @@ add_custom_command(TARGET trueaxis POST_BUILD
 find_package(MPI QUIET COMPONENTS CXX)
 if(MPI_CXX_FOUND)
   file(GLOB TRUEAXIS_MPI CONFIGURE_DEPENDS src/mpi/*.cpp)
-  add_executable(trueaxis-mpi ${TRUEAXIS_MPI} src/cli/check.cpp src/cli/guarded.cpp src/cli/progress.cpp
-    src/cli/screen.cpp src/cli/sweep_run.cpp)
-  target_include_directories(trueaxis-mpi PRIVATE src)
-  target_compile_definitions(trueaxis-mpi PRIVATE TRUEAXIS_VERSION="${PROJECT_VERSION}"
-    OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-  target_link_libraries(trueaxis-mpi PRIVATE trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog MPI::MPI_CXX)
+  add_executable(trueaxis-mpi ${TRUEAXIS_MPI})
+  target_compile_definitions(trueaxis-mpi PRIVATE OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
+  target_link_libraries(trueaxis-mpi PRIVATE trueaxis_cli MPI::MPI_CXX)
 endif()
