@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What a decision rests on, as data. The words of a code are in `job/files/reason_words.cpp` and
+/// What a decision rests on, as data. The words of a code are in `format/reason_templates.cpp` and
 /// nowhere else; JSON carries the code, so that a program acts on it without reading a sentence.
 namespace trueaxis {
 

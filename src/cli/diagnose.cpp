@@ -67,8 +67,7 @@ int execute(const Options& options) {
   diagnose_options.false_alarm = options.false_alarm;
   Diagnosis diagnosis = diagnose(stream, diagnose_options);
   if (const auto why = why_axis_unknown(stream, diagnosis))
-    for (FitResult* fit : {&diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      withhold_axis(*fit, words_of(*why));
+    withhold_axis(diagnosis, words_of(*why));
   const PartForm form = part_form({stream, &diagnosis}, diagnose_options.fit, {});
   waiting.reset();
   expect_enough_readings(diagnosis.baseline);

@@ -8,7 +8,6 @@
 #include "job/cut_checks.hpp"
 #include "job/datum_doubts.hpp"
 #include "job/doubts.hpp"
-#include "job/ends_of_stream.hpp"
 #include "job/model_doubts.hpp"
 #include "job/outcome_checks.hpp"
 #include "job/references.hpp"
@@ -24,8 +23,7 @@ std::span<const JobCheck* const> checks() {
       &material_between, &stock, &cut_too_far, &actuator_follows, &uncertainty_known,
       &motions_allowed, &findings_reproduced,
       // Not proven.
-      &slipped_between_references, &datum_members_apart, &left_out_at_an_end, &far_off_at_the_end,
-      &moves_in_pass, &left_unexplained, &moves_with_axis, &few_angles, &improbable_and_far,
+      &slipped_between_references, &datum_members_apart, &axis_known, &improbable_and_far,
       &sensor_or_eccentricity,
       // With reservations.
       &axes_open, &undiagnosed_correlated, &noise_over_stated, &bow_or_vibration,

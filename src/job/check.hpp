@@ -76,11 +76,4 @@ Reasons first_diagnosed(const IdentifiedJob& job, Find find) {
   });
 }
 
-/// What `find` gives of the stream and the diagnosis of the first reference that it gives any of.
-template <auto find>
-Reasons of_streams(const CheckInput& in) {
-  return first_diagnosed(
-      in.job, [&](std::size_t i) { return find(in.job.streams.at(i), *in.job.diagnoses[i]); });
-}
-
 }  // namespace trueaxis

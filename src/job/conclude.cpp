@@ -50,7 +50,7 @@ void plan_cut(PlannedJob& plan) {
 PlannedJob planned(IdentifiedJob identified) {
   PlannedJob plan{std::move(identified)};
   require_stock(plan);
-  if (slip_objection(plan) && !plan.agreement.disagreements.empty()) plan.agreement = {};
+  if (!part_slipped(plan).empty() && !plan.agreement.disagreements.empty()) plan.agreement = {};
   if (!first_found(Weight::forbids, CheckedAt::references, {plan, {}}).empty()) return plan;
   try {
     for (std::size_t i = 0; i < plan.fits.size(); ++i)
@@ -70,9 +70,9 @@ void withhold_axes(JobResult& result) {
     Diagnosis& diagnosis = *result.diagnoses[i];
     result.axis_unknown[i] = why_axis_unknown(result.streams[i], diagnosis);
     if (!result.axis_unknown[i]) continue;
-    for (FitResult* fit :
-         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      withhold_axis(*fit, to_string(result.axis_unknown[i]->code));
+    const char* code = to_string(result.axis_unknown[i]->code);
+    withhold_axis(result.fits[i], code);
+    withhold_axis(diagnosis, code);
   }
 }
 

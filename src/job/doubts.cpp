@@ -2,6 +2,7 @@
 #include "job/doubts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <variant>
@@ -131,18 +132,30 @@ constexpr Threshold of_beats[] = {least_beats};
 constexpr Threshold of_angles[] = {least_angles, angles_apart};
 constexpr Threshold of_move[] = {{"moved", 1.0, "of U", "what is less is within it"}};
 
+constinit const AxisDoubt slip_unsure{"slip_unsure", {}, slip_unsure_of};
+constinit const AxisDoubt moves_in_pass{"moves_in_pass", of_move, moved_in_pass_of};
+constinit const AxisDoubt moves_with_axis{"moves_with_axis", of_beats, moves_with_axis_of};
+constinit const AxisDoubt few_angles{"few_angles", of_angles, few_angles_in};
+
+Reasons find_axis_unknown(const CheckInput& in) {
+  return first_diagnosed(in.job, [&](std::size_t i) {
+    return why_axis_unknown(in.job.streams.at(i), *in.job.diagnoses[i]);
+  });
+}
+
 }  // namespace
 
-constinit const JobCheck moves_in_pass{"moves_in_pass", CheckedAt::references, Weight::leaves_open,
-                                       of_move, of_streams<moved_in_pass_of>};
-constinit const JobCheck left_unexplained{"left_unexplained", CheckedAt::references,
-                                          Weight::leaves_open, of_left,
-                                          of_streams<left_unexplained_of>};
-constinit const JobCheck moves_with_axis{"moves_with_axis", CheckedAt::references,
-                                         Weight::leaves_open, of_beats,
-                                         of_streams<moves_with_axis_of>};
-constinit const JobCheck few_angles{"few_angles", CheckedAt::references, Weight::leaves_open,
-                                    of_angles, of_streams<few_angles_in>};
+constinit const AxisDoubt left_unexplained{"left_unexplained", of_left, left_unexplained_of};
+
+constinit const JobCheck axis_known{
+    "axis_known", CheckedAt::references, Weight::leaves_open, {}, find_axis_unknown};
+
+std::span<const AxisDoubt* const> axis_doubts() {
+  static constexpr std::array all{&slip_unsure,   &left_out_at_an_end, &far_off_at_the_end,
+                                  &moves_in_pass, &left_unexplained,   &moves_with_axis,
+                                  &few_angles};
+  return all;
+}
 
 Reason measure(const NextMeasurement& next) {
   return {ReasonCode::measure, {}, {}, {{"plan", next.plan}, {"what", next.what}}};
@@ -172,9 +185,8 @@ std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const do
 }
 
 std::optional<Reason> why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {
-  for (const auto find : {slip_unsure_of, left_out_of_stream, far_off_of_stream, moved_in_pass_of,
-                          left_unexplained_of, moves_with_axis_of, few_angles_in})
-    if (auto why = find(stream, diagnosis)) return why;
+  for (const AxisDoubt* doubt : axis_doubts())
+    if (auto why = (*doubt)(stream, diagnosis)) return why;
   return {};
 }
 
@@ -185,6 +197,11 @@ void withhold_axis(FitResult& fit, const std::string& why) {
       estimate = {.unit = estimate.unit, .why_not = why};
     }
   }
+}
+
+void withhold_axis(Diagnosis& diagnosis, const std::string& why) {
+  for (FitResult* fit : {&diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
+    withhold_axis(*fit, why);
 }
 
 }  // namespace trueaxis

@@ -9,28 +9,33 @@
 
 namespace trueaxis {
 
+/// One way in which the axis of a diagnosed stream is not known, although its fit has one.
+struct AxisDoubt {
+  const char* id;
+  std::span<const Threshold> thresholds;
+  std::optional<Reason> (*find)(const ProbeStream&, const Diagnosis&);
+
+  std::optional<Reason> operator()(const ProbeStream& stream, const Diagnosis& diagnosis) const {
+    return find(stream, diagnosis);
+  }
+};
+
 /// All that was found leaves half as much again as the noise that repeats, revolutions or a
 /// standing spindle show of it.
-extern const JobCheck left_unexplained;
+extern const AxisDoubt left_unexplained;
 
-/// A pattern of no known cause at one undulation per revolution, or anything found so near to it
-/// that it hardly beats with the eccentricity over the stream: the axis takes its amplitude in,
-/// whatever its u says; or a line of at most three cycles.
-extern const JobCheck moves_with_axis;
+/// All of them: a slip that is not sure or at an end, a move within a pass by more than U of the
+/// axis (Eq. 314), what is left unexplained, a pattern or a finding that goes with the
+/// eccentricity, angles so few that lobes are no different from one.
+std::span<const AxisDoubt* const> axis_doubts();
 
-/// The part moved within a pass, by more than U of the axis (Eq. 314).
-extern const JobCheck moves_in_pass;
-
-/// A lateral stream has at most six angles, the same in every revolution or nearly so: lobes one
-/// more or one less than that are no different from an eccentricity.
-extern const JobCheck few_angles;
+/// No reference has a doubt of its axis.
+extern const JobCheck axis_known;
 
 /// The measurement that a diagnosis asks for, as a remedy.
 Reason measure(const NextMeasurement& next);
 
-/// Why the axis of a diagnosed stream is not known, although its fit has one: a slip that is not
-/// sure or at an end, a move, what goes with the eccentricity, what is left unexplained, or angles
-/// so few that lobes are no different from it. Every command asks here.
+/// The first doubt of a diagnosed stream. Every command asks here.
 std::optional<Reason> why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis);
 
 /// The same of a stream without a diagnosis.
@@ -38,7 +43,9 @@ std::optional<Reason> few_angles_of(const ProbeStream& stream);
 std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const double> left_mm,
                                    const FitResult& fit);
 
-/// Takes the numbers of the axis out of a fit, and leaves those of its shape.
+/// Takes the numbers of the axis out of a fit, or of all fits of a diagnosis, and leaves those of
+/// its shape.
 void withhold_axis(FitResult& fit, const std::string& why);
+void withhold_axis(Diagnosis& diagnosis, const std::string& why);
 
 }  // namespace trueaxis

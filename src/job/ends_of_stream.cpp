@@ -60,12 +60,7 @@ std::size_t far_in_last(const std::vector<bool>& far) {
   return p * static_cast<double>(std::size(limits)) < off_by_chance.value ? here : 0;
 }
 
-constexpr Threshold of_left_out[] = {mostly, gathered, hardly};
-constexpr Threshold of_far_off[] = {off_by_chance};
-
-}  // namespace
-
-std::optional<Reason> left_out_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis) {
+std::optional<Reason> left_out_at_end(const ProbeStream& stream, const Diagnosis& diagnosis) {
   if (stream.size() == 0) return {};
   std::vector<bool> left_out(stream.size(), false);
   for (const auto* rows : {&diagnosis.baseline.rejected, &diagnosis.noise.masked})
@@ -86,7 +81,7 @@ std::optional<Reason> left_out_of_stream(const ProbeStream& stream, const Diagno
   return {};
 }
 
-std::optional<Reason> far_off_of_stream(const ProbeStream&, const Diagnosis& diagnosis) {
+std::optional<Reason> far_off_at_end(const ProbeStream&, const Diagnosis& diagnosis) {
   const std::vector<double>& left_mm = diagnosis.residual_after_mm;
   if (left_mm.size() < 4 * least_end) return {};
   std::vector<double> there;
@@ -107,11 +102,12 @@ std::optional<Reason> far_off_of_stream(const ProbeStream&, const Diagnosis& dia
   return {};
 }
 
-constinit const JobCheck left_out_at_an_end{"left_out_at_an_end", CheckedAt::references,
-                                            Weight::leaves_open, of_left_out,
-                                            of_streams<left_out_of_stream>};
-constinit const JobCheck far_off_at_the_end{"far_off_at_the_end", CheckedAt::references,
-                                            Weight::leaves_open, of_far_off,
-                                            of_streams<far_off_of_stream>};
+constexpr Threshold of_left_out[] = {mostly, gathered, hardly};
+constexpr Threshold of_far_off[] = {off_by_chance};
+
+}  // namespace
+
+constinit const AxisDoubt left_out_at_an_end{"left_out_at_an_end", of_left_out, left_out_at_end};
+constinit const AxisDoubt far_off_at_the_end{"far_off_at_the_end", of_far_off, far_off_at_end};
 
 }  // namespace trueaxis

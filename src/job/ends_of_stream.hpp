@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
-#include "job/check.hpp"
+#include "job/doubts.hpp"
 
 namespace trueaxis {
 
@@ -11,12 +9,10 @@ namespace trueaxis {
 // the last end the part stands elsewhere now.
 
 /// Outliers gather at an end of a pass.
-std::optional<Reason> left_out_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis);
-extern const JobCheck left_out_at_an_end;
+extern const AxisDoubt left_out_at_an_end;
 
 /// Several of the last eight readings lie farther off than in any other eight, and than their share
 /// elsewhere makes once in a thousand streams.
-std::optional<Reason> far_off_of_stream(const ProbeStream& stream, const Diagnosis& diagnosis);
-extern const JobCheck far_off_at_the_end;
+extern const AxisDoubt far_off_at_the_end;
 
 }  // namespace trueaxis

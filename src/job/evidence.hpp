@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// The surface that a stream's readings are of, and why. A job takes no sphere.
+/// The surface that a stream's readings are of, and why.
 struct SurfaceEvidence {
   SurfaceKind surface = SurfaceKind::cone;
   Reason why;
@@ -15,8 +15,7 @@ struct SurfaceEvidence {
 
 /// A face is a plane, a stream without a change of Z a section. Else a cone where its half angle
 /// is beyond 3 u and the radius changes over the probed length by more than a thousandth of the
-/// length, which is more than a slide or a worn bed makes of a cylinder; else a cylinder. A sphere
-/// where one leaves a tenth of what these do.
+/// length, which is more than a slide or a worn bed makes of a cylinder; else a cylinder.
 SurfaceEvidence surface_by_evidence(const ProbeStream& stream);
 
 }  // namespace trueaxis

@@ -65,7 +65,7 @@ double AxisOffset::size_mm() const { return std::hypot(x_mm, y_mm); }
 
 bool axis_is_known(const PlannedJob& result, std::size_t reference) {
   const bool slipped = reference < result.diagnoses.size() && result.diagnoses[reference] &&
-                       result.diagnoses[reference]->slip() && slip_objection(result).has_value();
+                       result.diagnoses[reference]->slip() && !part_slipped(result).empty();
   return !slipped && fit_used(result, reference).axis_known() && !result.agreement.reason;
 }
 

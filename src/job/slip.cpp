@@ -67,8 +67,20 @@ std::optional<Reason> possible(const Diagnosis& diagnosis, std::size_t i, const 
 }
 
 Reasons find_unsure_slip(const CheckInput& in) {
-  std::optional<Reason> slip = slip_objection(in.job);
-  return slip ? Reasons{std::move(*slip)} : Reasons{};
+  const IdentifiedJob& job = in.job;
+  std::optional<Reason> perhaps;
+  for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
+    if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i])) continue;
+    const Diagnosis& diagnosis = *job.diagnoses[i];
+    if (const Finding* slip = diagnosis.slip()) {
+      perhaps = slipped(i, *slip, diagnosis.baseline.coverage_factor, ReasonCode::part_slipped);
+      break;
+    }
+    for (const Finding& finding : diagnosis.findings)
+      if (!perhaps) perhaps = possible(diagnosis, i, finding);
+  }
+  if (perhaps) perhaps->remedies = {{ReasonCode::clamp_again}};
+  return perhaps ? Reasons{std::move(*perhaps)} : Reasons{};
 }
 
 }  // namespace
@@ -87,22 +99,6 @@ bool is_sure_slip(const Diagnosis& diagnosis) {
       return is_slip(diagnosis, id);
     });
   });
-}
-
-std::optional<Reason> slip_objection(const IdentifiedJob& job) {
-  std::optional<Reason> perhaps;
-  for (std::size_t i = 0; i < job.diagnoses.size(); ++i) {
-    if (!job.diagnoses[i] || is_sure_slip(*job.diagnoses[i])) continue;
-    const Diagnosis& diagnosis = *job.diagnoses[i];
-    if (const Finding* slip = diagnosis.slip()) {
-      perhaps = slipped(i, *slip, diagnosis.baseline.coverage_factor, ReasonCode::part_slipped);
-      break;
-    }
-    for (const Finding& finding : diagnosis.findings)
-      if (!perhaps) perhaps = possible(diagnosis, i, finding);
-  }
-  if (perhaps) perhaps->remedies = {{ReasonCode::clamp_again}};
-  return perhaps;
 }
 
 Reasons moved_part(const IdentifiedJob& job) {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "job/check.hpp"
 
 namespace trueaxis {
 
-/// Why no table may be cut after a slip that is not sure: one that is merely in a finding's class,
-/// that is not the only one, that has rivals, or beside which a pattern is not explained. One that
-/// a reference's diagnosis names goes before one in a class.
-std::optional<Reason> slip_objection(const IdentifiedJob& job);
+/// No slip that is not sure, after which no table may be cut: one that is merely in a finding's
+/// class, that is not the only one, that has rivals, or beside which a pattern is not explained.
+/// One that a reference's diagnosis names goes before one in a class.
 extern const JobCheck part_slipped;
 
 /// That the part moved, when and by how much, where that is sure: the axis is that of the part as

@@ -113,8 +113,8 @@ Json warnings_data(const JobResult& result) {
   Warnings warnings;
   for (const Reason& one : result.verdict.reservations) warnings.add(words_of(one, result.job));
   warnings.add(words_of(result.verdict.moved, "; ", result.job));
-  if (const auto slip = slip_objection(result); slip && !is_of_slip(result.verdict))
-    warnings.add(words_of(*slip, result.job) + ". So no axis is given");
+  if (const Reasons slip = part_slipped(result); !slip.empty() && !is_of_slip(result.verdict))
+    warnings.add(words_of(slip, "; ", result.job) + ". So no axis is given");
   for (const Inclusion& inclusion : result.inclusions) {
     std::string text = inclusion_text(inclusion);
     while (text.ends_with('\n')) text.pop_back();
@@ -136,7 +136,7 @@ Json next_data(const JobResult& result) {
   if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
   if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
   if (result.correction) return steps;
-  const bool moved = slip_objection(result).has_value();
+  const bool moved = !part_slipped(result).empty();
   if (result.fits.size() == 1 && !moved)
     if (const std::string tap = tap_text(fit_used(result, 0)); !tap.empty())
       steps.push_back("To centre the part by hand: " + tap);

@@ -96,7 +96,7 @@ Json target_data(const JobResult& result) {
   const std::vector<Remainder> left = result.datum         ? result.datum->references
                                       : result.target_axis ? result.target_axis->remainders
                                                            : std::vector<Remainder>{};
-  const bool unsure = slip_objection(result).has_value();
+  const bool unsure = !part_slipped(result).empty();
   for (std::size_t i = 0; i < result.fits.size(); ++i) {
     const FitResult& fit = fit_used(result, i);
     const bool slipped =

@@ -78,6 +78,10 @@ TEST_F(Faces, ArePlayedBackAndAdvisedOn) {
   simulated("face", face_with("[[effect]]\nid = \"part.face_cone\"\namplitude_um = 3\n"));
   ASSERT_EQ(command("diagnose face.csv --surface plane --json face.json").exit_code, 0);
   EXPECT_TRUE(in_class(result("face.json").at("findings"), "slide.xz_squareness"));
+  // A face has a tilt for an axis, and its form comes last.
+  const std::string screen = command("diagnose face.csv --surface plane").out;
+  ASSERT_TRUE(contains(screen, "\nform ")) << screen;
+  EXPECT_LT(screen.find("\ntilt "), screen.find("\nform ")) << screen;
   const CommandStreams again = command("simulate --from face.json --compare");
   EXPECT_EQ(again.exit_code, 0) << again.err;
   // A cone and a slide out of square part beyond the axis, and nowhere else.

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "job/check.hpp"
+#include "job/doubts.hpp"
 #include "support/places.hpp"
 
 namespace trueaxis {
@@ -106,15 +107,17 @@ TEST(ReasonWords, AReasonAsDataHasItsCodeNumbersAndUnits) {
 
 TEST(Checks, EachHasItsOwnNameAndSaysWhereItsLimitsComeFrom) {
   std::set<std::string> ids;
-  for (const JobCheck* check : checks()) {
-    EXPECT_TRUE(ids.insert(check->id).second) << check->id;
-    EXPECT_NE(check->find, nullptr) << check->id;
-    for (const Threshold& limit : check->thresholds) {
-      EXPECT_GT(limit.value, 0.0) << check->id << " " << limit.name;
-      EXPECT_STRNE(limit.source, "") << check->id << " " << limit.name;
-      EXPECT_STRNE(limit.unit, "") << check->id << " " << limit.name;
+  const auto expect_stated = [&](const auto& check) {
+    EXPECT_TRUE(ids.insert(check.id).second) << check.id;
+    EXPECT_NE(check.find, nullptr) << check.id;
+    for (const Threshold& limit : check.thresholds) {
+      EXPECT_GT(limit.value, 0.0) << check.id << " " << limit.name;
+      EXPECT_STRNE(limit.source, "") << check.id << " " << limit.name;
+      EXPECT_STRNE(limit.unit, "") << check.id << " " << limit.name;
     }
-  }
+  };
+  for (const JobCheck* check : checks()) expect_stated(*check);
+  for (const AxisDoubt* doubt : axis_doubts()) expect_stated(*doubt);
   EXPECT_GE(ids.size(), 20u);
 }
 

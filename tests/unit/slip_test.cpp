@@ -22,8 +22,7 @@ Finding slipped(std::vector<FitParameter> parameters) {
 }
 
 std::string objection(const JobResult& result) {
-  const auto reason = slip_objection(result);
-  return reason ? words_of(*reason, result.job) : "";
+  return words_of(part_slipped(result), "; ", result.job);
 }
 
 std::string moved(const JobResult& result) {

@@ -285,7 +285,8 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
         "far as the model does";
   }
   out.u_sigma_mm = out.sigma_mm / std::sqrt(2.0 * std::max(independent, 1.0));
-  if (out.source != "residuals of the extended model" && residual > 1.25 * out.sigma_mm) {
+  const bool measured = out.stationary_mm || out.repeated_mm || out.revolutions_mm;
+  if (measured && residual > 1.25 * out.sigma_mm) {
     out.note = fmt::format(
         "the extended model leaves {:.3g} µm where the {} shows {:.3g} µm: something is left that "
         "no hypothesis has named",

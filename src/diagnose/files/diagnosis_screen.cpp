@@ -100,25 +100,26 @@ std::string excluded_screen(const Diagnosis& d) {
   return text;
 }
 
-std::string diagnosis_screen(const Diagnosis& d, const std::string& before_axis) {
+std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
   if (d.baseline.status != FitStatus::converged) return line("", diagnosis_line(d));
   std::string text = line("", verdict_line(d));
   for (const std::string& note : d.baseline.input_notes) text += line("input  ", note);
-  text +=
-      findings_screen(d, most_findings) + before_axis + axis_screen(d.extended) + unseen_screen(d);
+  const bool tilt_alone = d.extended.surface == SurfaceKind::plane && d.extended.axis_known();
+  text += findings_screen(d, most_findings) + (tilt_alone ? "" : form) + axis_screen(d.extended) +
+          unseen_screen(d);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += line("check  ", check.text + " [" + check.effect + "]");
   const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));
   if (d.verdict == DiagnosisVerdict::ideal)
-    return text + (sure ? "next   nothing: the axis may be used\n"
-                        : "next   probe more: these readings give the axis no uncertainty\n");
-  if (!d.next.plan.empty())
+    text += sure ? "next   nothing: the axis may be used\n"
+                 : "next   probe more: these readings give the axis no uncertainty\n";
+  else if (!d.next.plan.empty())
     text +=
         line("next   ",
              fmt::format("{}: {:.0f} min, and then the right cause is named with a probability "
                          "of {}",
                          d.next.what, std::ceil(d.next.minutes), probability(d.next.power_after)));
-  return text;
+  return text + (tilt_alone ? form : "");
 }
 
 }  // namespace trueaxis

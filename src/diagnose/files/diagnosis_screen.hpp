@@ -9,8 +9,8 @@ namespace trueaxis {
 
 /// A diagnosis in some ten lines for a person: verdict, what was seen and its causes, the axis,
 /// what to do next. Lines are not broken (the command does). diagnosis_text() has the rest.
-/// @param before_axis lines that stand before that of the axis
-std::string diagnosis_screen(const Diagnosis& diagnosis, const std::string& before_axis = {});
+/// @param form lines of the form: they stand before the axis, and last where a tilt is all of it
+std::string diagnosis_screen(const Diagnosis& diagnosis, const std::string& form = {});
 
 /// The part of it about what was seen, at most `most` findings.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);

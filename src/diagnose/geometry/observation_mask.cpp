@@ -113,7 +113,7 @@ Resolution resolution_of(const LinearisationPoint& point, const ObservationMask&
       out.per_turn = std::min(out.per_turn, pass.readings_per_revolution);
   }
   if (out.per_turn == 1e9) out.per_turn = static_cast<double>(point.size());
-  out.sections = mask.block == "a section";
+  out.sections = !section_starts(point).empty();
   if (out.sections)
     out.per_turn = static_cast<double>(point.size()) / static_cast<double>(mask.folds());
   out.whole = std::abs(out.per_turn - std::round(out.per_turn)) < 1e-4;

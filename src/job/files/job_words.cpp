@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "job/cut_files.hpp"
+#include "job/doubts.hpp"
 
 namespace trueaxis {
 namespace {
@@ -110,14 +111,9 @@ std::string datum_words(const IdentifiedJob& job) {
 void word_unknown_axes(JobResult& result) {
   for (std::size_t i = 0; i < result.axis_unknown.size(); ++i) {
     if (!result.axis_unknown[i]) continue;
-    const std::string code = to_string(result.axis_unknown[i]->code),
-                      words = words_of(*result.axis_unknown[i], result.job);
-    Diagnosis& diagnosis = *result.diagnoses[i];
-    for (FitResult* fit :
-         {&result.fits[i], &diagnosis.baseline, &diagnosis.named, &diagnosis.extended})
-      for (auto* parameters : {&fit->parameters, &fit->derived})
-        for (FitParameter& one : *parameters)
-          if (one.estimate.why_not == code) one.estimate.why_not = words;
+    const std::string words = words_of(*result.axis_unknown[i], result.job);
+    withhold_axis(result.fits[i], words);
+    withhold_axis(*result.diagnoses[i], words);
   }
 }
 
