@@ -81,11 +81,8 @@ int execute(const Options& options) {
   if (!options.result.printed() && !options.verbose)
     print_screen(
         diagnosis_screen(diagnosis, broken_fit(diagnosis) ? "" : part_form_screen(form, "")));
-  if (const FitResult* fit = broken_fit(diagnosis)) {
-    std::cerr << stream.source << ": " << to_string(fit->status) << ": " << fit->message << '\n';
-    return numerical;
-  }
-  return done;
+  const FitResult* broken = broken_fit(diagnosis);
+  return exit_code_of(broken ? *broken : diagnosis.extended, stream.source);
 }
 
 /// Options of a stream beside --machine would be passed over in silence.

@@ -79,12 +79,7 @@ int execute(const Options& options) {
                                            ? "next   " + diagnose_command(options) +
                                                  ": what the surface does not explain\n"
                                            : std::string()));
-  if (result.status != FitStatus::converged) {
-    std::cerr << stream.source << ": " << to_string(result.status) << ": " << result.message
-              << '\n';
-    return numerical;
-  }
-  return done;
+  return exit_code_of(result, stream.source);
 }
 
 }  // namespace

@@ -27,4 +27,14 @@ int guarded(const std::function<int()>& run) {
   }
 }
 
+int exit_code_of(const FitResult& fit, const std::string& source) {
+  if (fit.status != FitStatus::converged) {
+    std::cerr << source << ": " << to_string(fit.status) << ": " << fit.message << '\n';
+    return numerical;
+  }
+  if (fit.axis_known()) return done;
+  std::cerr << "refused: " << source << ": the axis is not known\n";
+  return refused;
+}
+
 }  // namespace trueaxis::cli

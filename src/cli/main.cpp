@@ -32,7 +32,8 @@ int run(int argc, char** argv) {
       "correct."};
   app.set_version_flag("--version", "trueaxis " TRUEAXIS_VERSION);
   app.footer(
-      "Exit codes: 0 done, 1 refused or tolerance not met, 2 usage, 3 input, 4 numerical, 70 a "
+      "Exit codes: 0 done, 1 refused, tolerance not met or axis not known, 2 usage, 3 input, 4 "
+      "numerical, 70 a "
       "bug.");
   int code = done;
   for (const auto add : {add_run,     add_init,      add_import,   add_fit,        add_diagnose,

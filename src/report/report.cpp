@@ -58,16 +58,11 @@ Json header_data(const JobResult& result) {
   return lines;
 }
 
-/// A title up to what explains it: "roundness of the part".
-std::string short_title(std::string_view title) {
-  return std::string(title.substr(0, title.find(':')));
-}
-
 /// Ids of effects and codes of measurements in words, for texts that hold them.
 Json words_data() {
   Json words{{"effects", Json::object()}, {"measurements", Json::object()}};
   for (const Effect& effect : effect_catalogue())
-    words["effects"][std::string(effect.id)] = short_title(effect.title);
+    words["effects"][std::string(effect.id)] = short_title(effect);
   for (const Separator& separator : separators())
     words["measurements"][std::string(separator.code)] = std::string(separator.what);
   return words;

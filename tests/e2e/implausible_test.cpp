@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <numbers>
 #include <random>
 #include <sstream>
 
@@ -11,6 +12,7 @@
 namespace trueaxis::testing {
 namespace {
 
+using own_probe::contact_mm;
 using own_probe::helix;
 using own_probe::Part;
 using own_probe::Stream;
@@ -209,6 +211,33 @@ TEST_F(Implausible, AnAxisThatIsNotKnownIsNotPrinted) {
   const std::vector<AxisLine> axis = axis_of(done.out);
   EXPECT_EQ(axis.empty(), done.exit_code != 0) << done.out;
   for (const AxisLine& at : axis) expect_near(at, after);
+}
+
+// What takes the axis from a file or the screen learns by the exit code that there is none.
+TEST_F(Implausible, AnAxisThatIsNotKnownIsNoSuccess) {
+  const Part after{.x_mm = 0.1, .y_mm = 0.05};
+  file("part.csv", clamped_anew({}, after, 7).text());
+  const CommandStreams fitted = command("fit part.csv --surface cylinder --json fit.json");
+  EXPECT_EQ(fitted.exit_code, 1) << fitted.out;
+  EXPECT_TRUE(contains(fitted.out, "axis   not known: ")) << fitted.out;
+  EXPECT_EQ(fitted.err, "refused: part.csv: the axis is not known\n");
+  EXPECT_TRUE(result("fit.json").at("axis").at("x").at("value").is_null());
+
+  // Of four angles an eccentricity and three lobes are one column.
+  Stream four = helix({});
+  for (std::size_t i = 0; i < four.size(); ++i) {
+    const double before = four.c_deg[i] / 180.0 * std::numbers::pi, z = four.z_mm[i];
+    const double quarters = static_cast<double>(i);
+    four.x_mm[i] +=
+        contact_mm({}, 0.5 * std::numbers::pi * quarters, z) - contact_mm({}, before, z);
+    four.c_deg[i] = 90.0 * quarters;
+  }
+  file("four.csv", four.text());
+  for (const char* const line : {"diagnose four.csv --surface cylinder", "run four.csv -o four"}) {
+    const CommandStreams done = command(line);
+    EXPECT_EQ(done.exit_code, 1) << line << done.out;
+    EXPECT_TRUE(axis_of(done.out).empty()) << done.out;
+  }
 }
 
 // RONt of 5 µm of three lobes and 2 µm of five is 11.6 µm. 36.7 readings carry 5 UPR.

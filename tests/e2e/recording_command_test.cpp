@@ -202,6 +202,27 @@ TEST_F(RecordingCommand, RowsWithoutAValueAreLeftOutWhenAsked) {
   }
 }
 
+// A job says it by a key of the reference; without it the job is refused.
+TEST_F(RecordingCommand, AJobLeavesRowsWithoutAValueOutWhenAsked) {
+  shaft("own.csv", [](int i, double x, double c, double z) {
+    const std::string good = plain(i, x, c, z);
+    return with_mistakes(i, good, good.substr(good.find(',')));
+  });
+  const std::string seat = "[[reference]]\nstream = \"own.csv\"\nsurface = \"cylinder\"\n";
+  for (const char* const key : {"", "drop_invalid = false\n"}) {
+    file("job.toml", seat + key);
+    expect_input_error("run job.toml -o out", "6 rows have no value");
+  }
+  file("job.toml", seat + "drop_invalid = true\n");
+  const CommandStreams done = command("run job.toml -o out");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  const std::string out = std::regex_replace(done.out, std::regex("\n +"), " ");
+  EXPECT_TRUE(contains(out, "in lines 8, 20, 43-45, 303")) << out;
+  const nlohmann::json fit = result("out/result.json").at("references")[0].at("fit");
+  EXPECT_EQ(fit.at("points"), 714);
+  EXPECT_NEAR(x_of(fit), x0_mm, sixfold_mm);
+}
+
 // Half of the rows are no slip of a spreadsheet, and a decimal comma is a value.
 TEST_F(RecordingCommand, RowsAreNotLeftOutThatShouldNotBe) {
   shaft("half.csv", [](int i, double x, double c, double z) {

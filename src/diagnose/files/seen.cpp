@@ -9,12 +9,16 @@
 #include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/text_layout.hpp"
-#include "trueaxis/effect.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 
 using namespace layout;
+
+std::string short_title(const Effect& effect) {
+  return std::string(effect.title.substr(0, effect.title.find(':')));
+}
+
 namespace {
 
 template <class... F>
@@ -43,11 +47,6 @@ std::string size_text(const Finding& finding, double k) {
   const Estimate& e = size->estimate;
   const bool small = e.unit == "mm" && std::abs(e.value) < 1.0;
   return plus_minus(e, k, small ? 1.0 / mm_per_um : 1.0, small ? "µm" : e.unit);
-}
-
-/// A title up to what explains it: "roundness of the part".
-std::string short_title(const Effect& effect) {
-  return std::string(effect.title.substr(0, effect.title.find(':')));
 }
 
 /// Whether what may grow along Z does, by more than its U.

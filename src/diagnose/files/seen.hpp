@@ -6,8 +6,12 @@
 #include <vector>
 
 #include "trueaxis/diagnosis.hpp"
+#include "trueaxis/effect.hpp"
 
 namespace trueaxis {
+
+/// A title up to what explains it: "roundness of the part".
+std::string short_title(const Effect& effect);
 
 /// What a finding looks like in the readings, its size with U and no cause: "3 undulations per
 /// revolution, 4.11 ± 0.16 µm, the same along Z".
