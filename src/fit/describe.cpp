@@ -198,8 +198,7 @@ void report_derived(const Standing& last, FitResult& result) {
   if (no_direction) return;
   const Eigen::Vector2d slope(line.slope_x, line.slope_y);
   const double u = u_of_norm(slope, axis.bottomRightCorner<2, 2>());
-  result.derived.push_back(
-      {"tilt", {std::atan(slope.norm()), u, "rad", ""}});
+  result.derived.push_back({"tilt", {std::atan(slope.norm()), u, "rad", ""}});
 }
 
 void report_rms(FitResult& result) {

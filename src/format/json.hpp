@@ -46,7 +46,8 @@ inline Json edge_size(double value, const std::string& unit) {
   return with_unit(value * edge_factor(unit), unit == "rad" ? "deg" : unit.c_str());
 }
 
-/// At the edge: {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is missing.
+/// At the edge: {"value", "u", "unit"}, "interval" where value ± U is none, "why" where a number is
+/// missing.
 inline Json to_json(const Estimate& inside) {
   const Estimate estimate = at_edge(inside);
   Json json{{"value", number(estimate.value)}, {"u", number(estimate.u)}, {"unit", estimate.unit}};

@@ -201,7 +201,8 @@ std::string_view template_of(ReasonCode code) {
       {cone_at_last, "taken for a cone"},
       {no_taper_seen, "taken for a cylinder: no taper is seen; {remedies}"},
       {taper_seen,
-       "taken for a {surface}: <half angle {half_angle:deg:of U}° ± {half_angle.U:deg:two}°><the radius "
+       "taken for a {surface}: <half angle {half_angle:deg:of U}° ± {half_angle.U:deg:two}°><the "
+       "radius "
        "changes by {change:um:.4g} µm over {length::.4g} mm of Z><; {remedies}>"},
       {not_one_surface,
        "is not one {surface}: {parts:; }. A jump at the same C and another Z is the shape of "

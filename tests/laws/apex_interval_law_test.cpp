@@ -198,8 +198,8 @@ TEST(ApexInterval, FollowsTheUncertaintyOfADiagnosis) {
     return after.shape.radius_mm / (after.shape.axis.z_ref_mm - end_mm);
   };
   EXPECT_NE(angle.u, d.baseline.parameter("half_angle").u);
-  EXPECT_NEAR(0.5 * (tan_of(k.interval->back()) - tan_of(k.interval->front())),
-              coverage * angle.u, 0.01 * coverage * angle.u);
+  EXPECT_NEAR(0.5 * (tan_of(k.interval->back()) - tan_of(k.interval->front())), coverage * angle.u,
+              0.01 * coverage * angle.u);
 }
 
 }  // namespace

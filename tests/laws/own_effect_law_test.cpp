@@ -82,8 +82,7 @@ TEST(OwnEffect, IsFoundByItsEntry) {
   EXPECT_EQ(found.effect(), five_at_the_ends.id);
   const double tolerance = five_u_mm(stream, 0.2);  // ∫ u⁴ over −1 … 1 is 2/5
   EXPECT_NEAR(parameter_of(found, "amplitude")->value, amplitude_mm, tolerance);
-  EXPECT_NEAR(parameter_of(found, "phase")->value, phase_rad,
-              tolerance / amplitude_mm);
+  EXPECT_NEAR(parameter_of(found, "phase")->value, phase_rad, tolerance / amplitude_mm);
 
   const std::string named = "five undulations towards both ends: grind both ends again";
   EXPECT_NE(diagnosis_screen(known).find(named), std::string::npos) << diagnosis_screen(known);

@@ -54,8 +54,7 @@ TEST(OwnSurface, AConeIsTheCataloguesCone) {
       EXPECT_NEAR(a.u, b.u, 1e-4 * a.u) << name;
     }
     const Estimate& taper = own.parameter("taper");
-    EXPECT_NEAR(std::atan(taper.value), cone.parameter("half_angle").value,
-                1e-3 * taper.u);
+    EXPECT_NEAR(std::atan(taper.value), cone.parameter("half_angle").value, 1e-3 * taper.u);
     EXPECT_NEAR(own.parameter("radius_at_0").value / taper.value, -cone.parameter("k").value,
                 1e-3 * cone.parameter("k").u);
   }

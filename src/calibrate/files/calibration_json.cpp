@@ -10,9 +10,7 @@ namespace {
 Json covariance_json(const Calibration& c) {
   Json names = Json::array(), rows = Json::array();
   const std::size_t n = c.parameters.size();
-  const auto factor = [&](std::size_t i) {
-    return edge_factor(c.parameters[i].estimate.unit);
-  };
+  const auto factor = [&](std::size_t i) { return edge_factor(c.parameters[i].estimate.unit); };
   for (std::size_t i = 0; i < n; ++i) {
     names.push_back(c.parameters[i].name);
     Json row = Json::array();
@@ -28,8 +26,7 @@ Json calibrated_json(const std::vector<CalibratedParameter>& parameters) {
   Json json = parameters_json(parameters);
   for (const CalibratedParameter& one : parameters)
     if (one.u_noise > 0.0)
-      json[one.name]["u_noise"] =
-          number(one.u_noise * edge_factor(one.estimate.unit));
+      json[one.name]["u_noise"] = number(one.u_noise * edge_factor(one.estimate.unit));
   return json;
 }
 

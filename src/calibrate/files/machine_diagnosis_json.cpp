@@ -26,9 +26,7 @@ Json rival_json(const Rival& rival) {
 /// The covariance in the units of `linear`.
 Json linear_json(const std::vector<CalibratedParameter>& parameters, const Covariance& covariance) {
   Json linear = Json::array(), rows = Json::array();
-  const auto to_edge = [&](std::size_t i) {
-    return edge_factor(parameters[i].estimate.unit);
-  };
+  const auto to_edge = [&](std::size_t i) { return edge_factor(parameters[i].estimate.unit); };
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     Json one = edge_size(parameters[i].estimate.value, parameters[i].estimate.unit);
     one["name"] = parameters[i].name;

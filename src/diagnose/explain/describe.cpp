@@ -131,8 +131,7 @@ std::vector<FitParameter> parameters_of(const Problem& problem, const Model& mod
   std::vector<FitParameter> out;
   const bool determined = is_determined(joint, term);
   for (std::size_t v = 0; v < values.size(); ++v) {
-    FitParameter p{values[v].name,
-                   {values[v].value, std::sqrt(variance[v]), values[v].unit, ""}};
+    FitParameter p{values[v].name, {values[v].value, std::sqrt(variance[v]), values[v].unit, ""}};
     if (!determined && p.name != "onset")
       p.estimate = {.unit = p.estimate.unit,
                     .why_not = "the readings after it do not show all that moved"};

@@ -18,7 +18,7 @@ using namespace layout;
 std::string detectable_text(const NotObservable& n) {
   if (is_never(n.detectable, n.detectable_unit)) return "no size";
   const bool small = n.detectable_unit == "mm" && n.detectable < 1.0;
-  const std::string unit = small                         ? "µm"
+  const std::string unit = small                        ? "µm"
                            : n.detectable_unit == "1"   ? ""
                            : n.detectable_unit == "rad" ? "deg"
                                                         : n.detectable_unit;

@@ -37,8 +37,8 @@ Json covariance_array(const TermValue& term) {
   for (std::size_t i = 0; i < parameters.size() && !term.covariance.empty(); ++i) {
     Json row = Json::array();
     for (std::size_t j = 0; j < parameters.size(); ++j)
-      row.push_back(
-          number(edge_factor(parameters[i].unit) * edge_factor(parameters[j].unit) * term.covariance(i, j)));
+      row.push_back(number(edge_factor(parameters[i].unit) * edge_factor(parameters[j].unit) *
+                           term.covariance(i, j)));
     rows.push_back(row);
   }
   return rows;

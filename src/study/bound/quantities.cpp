@@ -83,8 +83,8 @@ std::vector<Quantity> quantities(SurfaceKind surface) {
   const SurfaceInfo& info = surface_info(surface);
   std::vector<Quantity> out;
   for (std::size_t i = 0; i < info.parameters.size(); ++i)
-    out.push_back(
-        {std::string(info.parameters[i]), info.units[i] == "rad" ? "deg" : std::string(info.units[i])});
+    out.push_back({std::string(info.parameters[i]),
+                   info.units[i] == "rad" ? "deg" : std::string(info.units[i])});
   if (surface == SurfaceKind::plane || surface == SurfaceKind::section) return out;
   for (const char* name : {"x_at_min_z", "y_at_min_z", "x_at_max_z", "y_at_max_z"})
     out.push_back({name, "mm"});
