@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "math/golden_section.hpp"
+
 namespace trueaxis {
 
 /// The largest of a function on [0, 1], by `count` + 1 even points (2 or more parts): of them, and
@@ -49,23 +51,7 @@ class LargestOnWay {
     } else if (peak != i) {
       return at_[peak];  // it falls from the end on
     }
-    return golden_section(s - part_, s + part_);
-  }
-
-  double golden_section(double low, double high) const {
-    constexpr double golden = 0.61803398874989485;
-    double a = high - golden * (high - low), b = low + golden * (high - low);
-    double of_a = of_(a), of_b = of_(b);
-    for (int round = 0; round < 24; ++round) {
-      if (of_a > of_b) {
-        high = b, b = a, of_b = of_a;
-        a = high - golden * (high - low), of_a = of_(a);
-      } else {
-        low = a, a = b, of_a = of_b;
-        b = low + golden * (high - low), of_b = of_(b);
-      }
-    }
-    return std::fmax(of_a, of_b);
+    return golden_section(of_, s - part_, s + part_, 24).largest;
   }
 
   const Of& of_;

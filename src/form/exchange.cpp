@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "form/exchange.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "math/linear_algebra.hpp"
+#include "math/dual_simplex.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -16,12 +16,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 /// How far off the walls are that an exchange starts from, over the largest value.
 constexpr double wall_over_largest = 1e4;
 constexpr double least_pivot = 1e-10;
-
-double largest_of(std::span<const double> y) {
-  double largest = 0.0;
-  for (const double value : y) largest = std::max(largest, std::abs(value));
-  return largest;
-}
 
 }  // namespace
 
@@ -44,20 +38,45 @@ void Exchange::begin() {
   for (std::ptrdiff_t k = 0; k < objective_.size(); ++k) active_.push_back({-1 - k, 1});
 }
 
-/// g of the constraint g·x ≥ limit. One-sided unknowns are those of the circumscribed problem; an
-/// inscribed one is that of −y.
-Eigen::VectorXd Exchange::gradient(const Active& one) const {
-  if (one.reading < 0) return Eigen::VectorXd::Unit(objective_.size(), -1 - one.reading);
-  Eigen::VectorXd g(objective_.size());
-  g.head(rows_->cols()) = one.side * rows_->row(one.reading).transpose();
-  if (criterion_ == Criterion::minimum_zone) g[rows_->cols()] = 1.0;
-  return g;
-}
+namespace {
 
-double Exchange::limit(const Active& one, std::span<const double> y, double wall) const {
-  if (one.reading < 0) return -wall;
-  return one.side * y[static_cast<std::size_t>(one.reading)];
-}
+/// Readings as constraints, one-sided unknowns those of the circumscribed problem; an inscribed one
+/// is that of −y. Walls hold what no reading does.
+class Constraints {
+ public:
+  Constraints(const Exchange::Rows& rows, std::span<const double> y, bool zone)
+      : rows_(rows), y_(y.data(), rows.rows()), zone_(zone), largest_(y_.cwiseAbs().maxCoeff()) {}
+
+  Eigen::VectorXd column(const Exchange::Active& one) const {
+    const Eigen::Index p = rows_.cols(), n = zone_ ? p + 1 : p;
+    if (one.reading < 0) return Eigen::VectorXd::Unit(n, -1 - one.reading);
+    Eigen::VectorXd g(n);
+    g.head(p) = one.side * rows_.row(one.reading).transpose();
+    if (zone_) g[p] = 1.0;
+    return g;
+  }
+  double cost(const Exchange::Active& one) const {
+    return one.reading < 0 ? -(wall_over_largest * largest_ + 1e-12) : one.side * y_[one.reading];
+  }
+  /// The reading that is broken most.
+  std::optional<Exchange::Active> entering(const Eigen::VectorXd& x, int) const {
+    const Eigen::VectorXd off = y_ - rows_ * x.head(rows_.cols());
+    const double t = zone_ ? x[rows_.cols()] : 0.0;
+    Eigen::Index high = 0, low = 0;
+    const double above = off.maxCoeff(&high) - t, below = -off.minCoeff(&low) - t;
+    const bool from_below = zone_ && below > above;
+    if ((from_below ? below : above) <= 16.0 * epsilon * largest_) return {};
+    return Exchange::Active{from_below ? low : high, from_below ? -1 : 1};
+  }
+
+ private:
+  const Exchange::Rows& rows_;
+  Eigen::Map<const Eigen::VectorXd> y_;
+  bool zone_;
+  double largest_;
+};
+
+}  // namespace
 
 Nearest Exchange::least_squares(std::span<const double> y) const {
   const Eigen::Map<const Eigen::VectorXd> values(y.data(), static_cast<Eigen::Index>(y.size()));
@@ -80,49 +99,13 @@ Nearest Exchange::operator()(std::span<const double> given) {
   std::vector<double> y(given.begin(), given.end());
   if (criterion_ == Criterion::maximum_inscribed)
     for (double& value : y) value = -value;
-  const double largest = largest_of(y), wall = wall_over_largest * largest + 1e-12;
-  const double rounding = 16.0 * epsilon * largest;
-  const Eigen::Index n = objective_.size(), p = rows_->cols();
-  Eigen::MatrixXd basis(n, n);
-  Eigen::VectorXd right(n), x(n), multipliers(n);
-  const Eigen::Map<const Eigen::VectorXd> values(y.data(), rows_->rows());
-  for (int round = 0; round < most_exchanges; ++round) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const Active& one = active_[static_cast<std::size_t>(j)];
-      basis.col(j) = gradient(one);
-      right[j] = limit(one, y, wall);
-    }
-    const linear::Triangles solver(basis);
-    x = solver.solve_transposed(right);
-    multipliers = solver.solve(objective_);
-    // The reading that is broken most comes in.
-    const Eigen::VectorXd off = values - *rows_ * x.head(p);
-    const double t = zone ? x[p] : 0.0;
-    Eigen::Index high = 0, low = 0;
-    const double above = off.maxCoeff(&high) - t, below = -off.minCoeff(&low) - t;
-    const bool from_below = zone && below > above;
-    if ((from_below ? below : above) <= rounding) break;
-    const Active incoming{from_below ? low : high, from_below ? -1 : 1};
-    // The first whose multiplier it brings to zero goes out.
-    const Eigen::VectorXd mu = solver.solve(gradient(incoming));
-    Eigen::Index leaves = -1;
-    for (Eigen::Index j = 0; j < n; ++j) {
-      if (mu[j] <= least_pivot) continue;
-      if (leaves < 0) {
-        leaves = j;
-        continue;
-      }
-      const double a = std::max(0.0, multipliers[j]) * mu[leaves];
-      const double b = std::max(0.0, multipliers[leaves]) * mu[j];
-      if (a < b || (a == b && mu[j] > mu[leaves])) leaves = j;
-    }
-    if (leaves < 0) break;  // nothing can go: what is left is rounding
-    active_[static_cast<std::size_t>(leaves)] = incoming;
-  }
-  Nearest nearest{x.head(p), {}, true};
+  Constraints constraints(*rows_, y, zone);
+  const auto [x, multipliers, solved] =
+      dual_simplex(objective_, active_, constraints, most_exchanges);
+  Nearest nearest{x.head(rows_->cols()), {}, true};
   if (criterion_ == Criterion::maximum_inscribed) nearest.q = -nearest.q;
   const int turned = criterion_ == Criterion::maximum_inscribed ? -1 : 1;
-  for (Eigen::Index j = 0; j < n; ++j) {
+  for (Eigen::Index j = 0; j < objective_.size(); ++j) {
     const Active& one = active_[static_cast<std::size_t>(j)];
     if (one.reading < 0)
       nearest.determined = nearest.determined && std::abs(multipliers[j]) < least_pivot;

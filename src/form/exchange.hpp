@@ -32,6 +32,11 @@ struct Nearest {
 class Exchange {
  public:
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  /// A reading that holds on one side.
+  struct Active {
+    std::ptrdiff_t reading;  ///< < 0: −1 − k, the wall of unknown k
+    int side;
+  };
 
   /// @param rows φ_k(i), a row a reading, the first column 1
   Exchange(Rows rows, Criterion criterion);
@@ -43,12 +48,6 @@ class Exchange {
   std::vector<double> off(std::span<const double> y, const Nearest& nearest) const;
 
  private:
-  struct Active {
-    std::ptrdiff_t reading;  ///< < 0: −1 − k, the wall at −`wall` of unknown k
-    int side;
-  };
-  Eigen::VectorXd gradient(const Active& one) const;
-  double limit(const Active& one, std::span<const double> y, double wall) const;
   void begin();
   Nearest least_squares(std::span<const double> y) const;
 

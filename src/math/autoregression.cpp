@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/golden_section.hpp"
 #include "math/gram.hpp"
 #include "math/statistics.hpp"
 #include "math/wide_gram.hpp"
@@ -80,21 +81,12 @@ class Likelihood {
   WhitenedGram whitened_;
 };
 
-/// Where a likelihood is largest, by the golden section. (Brent's parabolas step over to another
-/// maximum: a slip of 100 µm was then again a noise that rings.)
+/// Where a likelihood is largest. (Brent's parabolas step over to another maximum: a slip of 100 µm
+/// was then again a noise that rings.)
 template <typename Function>
-double maximise(Function f, double low, double high) {
-  constexpr double golden = 0.6180339887498949;
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double fa = f(a), fb = f(b);
-  for (int i = 0; i < 16; ++i) {
-    if (fa > fb) {
-      high = b, b = a, fb = fa, a = high - golden * (high - low), fa = f(a);
-    } else {
-      low = a, a = b, fa = fb, b = low + golden * (high - low), fb = f(b);
-    }
-  }
-  return 0.5 * (low + high);
+double maximise(const Function& f, double low, double high) {
+  const GoldenSection found = golden_section(f, low, high, 16);
+  return 0.5 * (found.low + found.high);
 }
 
 }  // namespace
