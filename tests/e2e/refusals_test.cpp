@@ -34,7 +34,8 @@ class Refusals : public CommandTest, public ::testing::WithParamInterface<std::s
     }
     for (const std::string& line : wrong.prepare) {
       const CommandStreams done = command(line);
-      ASSERT_EQ(done.exit_code, 0) << line << '\n' << done.out << done.err;
+      // 1: its files are written, and its axis is not known.
+      ASSERT_LE(done.exit_code, 1) << line << '\n' << done.out << done.err;
     }
     for (const RefusalCase::Edit& edit : wrong.edits) {
       std::string text = read_text(folder_ / edit.file);

@@ -28,7 +28,7 @@ struct SetUpBench {
     std::vector<double> out{*chucking.x0_mm - shift * l / n, *chucking.y0_mm - shift * m / n, l, m};
     if (is_cone()) {
       out.push_back(*scenario.part.apex_mm + shift / n);
-      out.push_back(scenario.part.half_angle_rad / rad_per_deg);
+      out.push_back(scenario.part.half_angle_rad);
     } else {
       out.push_back(scenario.part.radius_mm);
     }
@@ -48,10 +48,6 @@ struct SetUpBench {
     } else {
       scenario.part.half_angle_rad += by;
     }
-  }
-  /// A reported unit over the unit of nudge().
-  double unit_of(std::size_t parameter) const {
-    return is_cone() && parameter == parameter_count() - 1 ? 1.0 / rad_per_deg : 1.0;
   }
 
   /// A helix over the part's length [low, high] in a new set-up.

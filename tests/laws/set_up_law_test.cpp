@@ -134,11 +134,10 @@ TEST_P(SetUpLaw, UncertaintyIsTheCramerRaoBoundAndCovers) {
       covered[j] += std::abs(error) <= 2.0 * estimate.u ? 1 : 0;
       sum[j] += error, sum2[j] += error * error;
       if (trial == 0) {
-        const double unit = bench.unit_of(j);
         const auto row = static_cast<Eigen::Index>(j);
         // x0, y0 of a shifted set-up are read at Z = 0, not at the shift: no bound of their own.
         if (i >= 2 || bench.scenario.plan.setups[s].z_shift_mm == 0.0) {
-          EXPECT_NEAR(estimate.u / result.sigma_mm * sigma_mm, unit * std::sqrt(bound(row, row)),
+          EXPECT_NEAR(estimate.u / result.sigma_mm * sigma_mm, std::sqrt(bound(row, row)),
                       1e-3 * estimate.u)
               << "parameter " << j;
         }
@@ -157,7 +156,7 @@ TEST_P(SetUpLaw, UncertaintyIsTheCramerRaoBoundAndCovers) {
     const std::size_t s = j < 4 * axes ? j / 4 : 0;
     if (j < 4 * axes && j % 4 < 2 && bench.scenario.plan.setups[s].z_shift_mm != 0.0) continue;
     const auto row = static_cast<Eigen::Index>(j);
-    const double u = bench.unit_of(j) * std::sqrt(bound(row, row));
+    const double u = std::sqrt(bound(row, row));
     EXPECT_NEAR(sum[j] / trials, 0.0, 4.0 * u / std::sqrt(trials));
     // The variance of 200 normal errors is χ² of 200: relative standard deviation √(2/200) = 0.1.
     EXPECT_NEAR(std::sqrt(sum2[j] / trials) / u, 1.0, 4.0 * 0.05);

@@ -92,7 +92,7 @@ Trial run_trial(ProbeStream stream, const SurfaceCase& c, Loss loss, int number)
   Trial trial;
   trial.converged = result.status == FitStatus::converged;
   for (std::size_t j = 0; trial.converged && j < c.part.size(); ++j) {
-    const Estimate& estimate = result.parameters[j].estimate;
+    const Estimate estimate = at_edge(result.parameters[j].estimate);
     trial.error.push_back(estimate.value - c.part[j]);
     trial.covered.push_back(std::abs(trial.error[j]) <= result.coverage_factor * estimate.u);
   }

@@ -107,7 +107,7 @@ TEST(ScenarioWords, AnEarlierWordIsToldTheNameOfToday) {
 TEST(Never, SizesThatNothingHasAreSaidInWords) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(or_never(50225.0, "mm", "50225 mm", "no size"), "no size");
-  EXPECT_EQ(or_never(4e8, "deg", "4e8 deg", "no size"), "no size");
+  EXPECT_EQ(or_never(4e8, "rad", "4e8 rad", "no size"), "no size");
   EXPECT_EQ(or_never(18180.9, "rpm", "18180.9 rpm", "at every speed"), "at every speed");
   EXPECT_EQ(or_never(infinity, "Hz", "inf", "none"), "none");
   EXPECT_EQ(or_never(7.35, "mm", "7.35 mm", "no size"), "7.35 mm");

@@ -68,6 +68,8 @@ def program(include):
     for path in sorted(glob.glob(os.path.join(include, "trueaxis", "*.hpp"))):
         with open(path) as file:
             for scopes, one in declarations(file.read()):
+                if one.startswith("template "):
+                    continue  # the header has all of it
                 one = re.sub(r"^(explicit|virtual|static|inline|constexpr) ", "", one)
                 head = re.fullmatch(r"(.*?)(operator ?\(\)|operator ?[^\s(]+|~?\w+) ?\((.*)\)((?: const| noexcept)*)", one)
                 if not head:
