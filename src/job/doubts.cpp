@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <variant>
 
@@ -115,7 +116,11 @@ std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagno
 }
 
 std::optional<Reason> moved_in_pass_of(const ProbeStream& stream, const Diagnosis& diagnosis) {
-  return moved_reason(stream, diagnosis.residual_after_mm, diagnosis.extended);
+  std::vector<double> left_mm = diagnosis.residual_after_mm;
+  for (const Rejected& outlier : diagnosis.noise.masked)  // it moves the centre of its turn
+    if (outlier.row >= 1 && outlier.row <= left_mm.size())
+      left_mm[outlier.row - 1] = std::numeric_limits<double>::quiet_NaN();
+  return moved_reason(stream, left_mm, diagnosis.extended);
 }
 
 std::optional<Reason> slip_unsure_of(const ProbeStream&, const Diagnosis& diagnosis) {

@@ -83,9 +83,10 @@ std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& 
                         : diagnosis.verdict == DiagnosisVerdict::effects ? "effects"
                                                                          : "unexplained";
   const bool ideal = fitted && diagnosis.verdict == DiagnosisVerdict::ideal;
-  return page(
-      std::move(result), outcome, first_line(diagnosis_screen(diagnosis)),
-      ideal ? Json::array({"Nothing more is needed: the axis may be used."}) : Json::array());
+  return page(std::move(result), outcome, first_line(diagnosis_screen(diagnosis)),
+              ideal && diagnosis.extended.axis_known()
+                  ? Json::array({"Nothing more is needed: the axis may be used."})
+                  : Json::array());
 }
 
 }  // namespace trueaxis

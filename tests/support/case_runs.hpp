@@ -78,13 +78,14 @@ Answer timed_answer(const std::string& command, const std::filesystem::path& jso
   const CommandResult ran = shell(command);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   Answer answer;
+  const bool answered = ran.exit_code <= 1;  // 1: the axis is not known, and all else is written
   try {
-    if (ran.exit_code == 0) answer = read(read_json(json));
+    if (answered) answer = read(read_json(json));
   } catch (const std::exception& wrong) {
     answer = Answer{};
     answer.text = wrong.what();
   }
-  if (ran.exit_code != 0) {
+  if (!answered) {
     answer.exit_code = ran.exit_code;
     answer.text = ran.output.substr(0, 400);
   }

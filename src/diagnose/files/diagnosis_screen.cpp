@@ -111,8 +111,9 @@ std::string diagnosis_screen(const Diagnosis& d, const std::string& form) {
     if (check.found) text += line("check  ", check.text + " [" + check.effect + "]");
   const bool sure = std::isfinite(d.extended.axis.u_at(d.extended.position_max_mm));
   if (d.verdict == DiagnosisVerdict::ideal)
-    text += sure ? "next   nothing: the axis may be used\n"
-                 : "next   probe more: these readings give the axis no uncertainty\n";
+    text += !d.extended.axis_known() ? ""
+            : sure                   ? "next   nothing: the axis may be used\n"
+                   : "next   probe more: these readings give the axis no uncertainty\n";
   else if (!d.next.plan.empty())
     text +=
         line("next   ",
