@@ -88,6 +88,7 @@ enum class ReasonCode {
   pattern_with_axis,
   finding_with_axis,
   few_angles,
+  sensor_at_limit,
   undiagnosed_correlated,
   noise_over_stated,
   bow_or_vibration,

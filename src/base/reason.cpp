@@ -24,6 +24,7 @@ constexpr std::string_view names =
     "motion_refused not_told_from_forbidden not_repeating seen_on_a_face seen_along_x "
     "tool_off_probe_line beyond_probed_length named_otherwise shown_by_another may_be_forbidden "
     "not_found not_reproduced left_unexplained pattern_with_axis finding_with_axis few_angles "
+    "sensor_at_limit "
     "undiagnosed_correlated noise_over_stated bow_or_vibration axis_open finding_has_rival "
     "pattern_without_cause axis_open_beyond_tolerance improbable_and_far sensor_or_eccentricity "
     "axis_of_cut_not_stated datum_members_apart reference_off_datum form_not_met "

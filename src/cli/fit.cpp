@@ -7,6 +7,7 @@
 
 #include "base/counted.hpp"
 #include "cli/check.hpp"
+#include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
 #include "cli/fit_criterion.hpp"
 #include "cli/guarded.hpp"
@@ -17,9 +18,7 @@
 #include "fit/files/fit_files.hpp"
 #include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
-#include "format/reason_words.hpp"
 #include "format/shell.hpp"
-#include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/stream_job.hpp"
 #include "report/stream_report.hpp"
@@ -62,11 +61,7 @@ int execute(const Options& options) {
                                 counted(stream.size(), "reading") + " of " + stream.source);
   std::optional<Waiting> waiting("fit of " + stream.source);
   const FitOptions chosen = options.association.chosen();
-  FitResult result = fit(stream, chosen);
-  if (const auto why = moved_reason(stream, result.residual_mm, result))
-    withhold_axis(result, words_of(*why));
-  if (const auto why = few_angles_of(stream); why && result.axis_known())
-    result.notes.push_back(words_of(*why));
+  const FitResult result = checked_fit(stream, chosen);
   waiting.reset();
   expect_enough_readings(result);
   if (!json.empty()) outputs.write(json, fit_json(result));

@@ -5,9 +5,11 @@
 #include <iostream>
 
 #include "associate/files/stream_association.hpp"
+#include "cli/checked_fit.hpp"
 #include "cli/guarded.hpp"
 #include "format/outputs.hpp"
 #include "job/files/stream_job.hpp"
+#include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -62,6 +64,12 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
+  // What the readings cannot be, they are by no criterion.
+  const FitResult along_probe = checked_fit(readings, association.chosen());
+  if (along_probe.status != FitStatus::converged) return exit_code_of(along_probe, readings.source);
+  for (const auto& [name, estimate] : along_probe.parameters)
+    if (!along_probe.axis_known() && !estimate.why_not.empty())
+      throw Refusal(readings.source + ": " + estimate.why_not);
   const StreamAssociation found = associate_stream(
       readings, surface_from_id(association.surface), criterion_of(name),
       {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});

@@ -110,9 +110,7 @@ void unwrap_reading(ProbeStream& stream) {
 
 void turn_as_reading_does(ProbeStream& stream) {
   const Wave wave(stream);
-  // What goes once a revolution of C as written is left by any other: a ninth of the square is too
-  // much for a misreading.
-  if (!(wave.turns > 0.0) || 9.0 * wave.share(1.0) > 1.0) return;
+  if (!(wave.turns > 0.0)) return;
   const double step = 0.25 / std::max(wave.turns, 1.0);
   double best = 1.0, most = 0.0;
   for (double order = lowest_order; order <= highest_order; order += step) {
@@ -127,9 +125,14 @@ void turn_as_reading_does(ProbeStream& stream) {
         most = power;
         best = order;
       }
+  // A line beside one revolution takes part of its square, one farther off none: then a ninth of it
+  // going once a revolution of C as written is too much for a misreading.
+  const bool beside = std::abs(best - 1.0) < 4.0 * step;
+  if (!beside && 9.0 * wave.share(1.0) > 1.0) return;
   constexpr double lobes = 0.02;
   const double whole = std::round(best);
-  if (whole >= 1.0 && std::abs(best - whole) < std::max(lobes, step)) return;
+  if (whole >= 2.0 && std::abs(best - whole) < std::max(lobes, step)) return;
+  if (std::abs(best - 1.0) < step) return;
   for (double& c : stream.c_rad) c *= best;
 }
 

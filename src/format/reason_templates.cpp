@@ -159,6 +159,11 @@ std::string_view template_of(ReasonCode code) {
       {few_angles,
        "{ref}{angles::.0f} angles, the same in every revolution or nearly so, cannot tell "
        "{lobes::.0f} lobes from an eccentricity: probe at {enough::.0f} angles or more"},
+      {sensor_at_limit,
+       "{ref}{count::.0f} readings stand at {limit::.6f} mm, where the sensor's range ends, and "
+       "falsify the axis: a diagnosis leaves them out, or bring the part within the range and "
+       "probe "
+       "again"},
       {undiagnosed_correlated,
        "{ref}its readings are not diagnosed, and what they leave correlates"},
       {noise_over_stated,

@@ -12,6 +12,7 @@
 #include "job/ends_of_stream.hpp"
 #include "job/slip.hpp"
 #include "measure/angles_alike.hpp"
+#include "measure/column_checks.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
 
@@ -187,6 +188,16 @@ std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const do
                 {},
                 {{"size", step->size_mm, "mm"}, {"row", static_cast<double>(step->reading + 1)}},
                 {{"text", moved_text(*step)}}};
+}
+
+std::optional<Reason> sensor_limit_of(const ProbeStream& stream) {
+  const LimitsMet met = limits_met(stream);
+  if (!stream.x_convention || !met.saturates) return {};
+  const bool high = met.at_high >= met.at_low;
+  return Reason{ReasonCode::sensor_at_limit,
+                {},
+                {{"count", static_cast<double>(high ? met.at_high : met.at_low)},
+                 {"limit", high ? met.high_mm : met.low_mm, "mm"}}};
 }
 
 std::optional<Reason> why_axis_unknown(const ProbeStream& stream, const Diagnosis& diagnosis) {

@@ -43,6 +43,9 @@ std::optional<Reason> few_angles_of(const ProbeStream& stream);
 std::optional<Reason> moved_reason(const ProbeStream& stream, std::span<const double> left_mm,
                                    const FitResult& fit);
 
+/// A sensor at the end of its range; a diagnosis leaves those readings out.
+std::optional<Reason> sensor_limit_of(const ProbeStream& stream);
+
 /// Takes the numbers of the axis out of a fit, or of all fits of a diagnosis, and leaves those of
 /// its shape.
 void withhold_axis(FitResult& fit, const std::string& why);

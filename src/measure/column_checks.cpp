@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/statistics.hpp"
+#include "measure/column_order.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -17,6 +18,7 @@ constexpr double shown_angle_rad = two_pi / 6.0;
 constexpr double rows_by_chance = 1e-3;
 constexpr double often = 0.3;  // share of the rows
 constexpr double many_steps = 10.0;
+constexpr double few_at_a_limit = 5.0, more_at_a_limit = 12.0;  // readings; of those of any value
 constexpr double largest_machine_mm = 20e3;
 
 /// Readings in a row that show the same value.
@@ -115,6 +117,19 @@ std::string stuck_probe(const ProbeStream& stream) {
       longest.size(), longest.begin + 1, longest.end, longest.turned_rad / two_pi);
 }
 
+LimitsMet limits_met(const ProbeStream& stream) {
+  LimitsMet met;
+  const auto [low, high] = range_of(stream.reading_mm);
+  met.low_mm = low, met.high_mm = high;
+  met.at_high = static_cast<std::size_t>(std::ranges::count(stream.reading_mm, high));
+  met.at_low = static_cast<std::size_t>(std::ranges::count(stream.reading_mm, low));
+  const std::size_t distinct = distinct_values(stream.reading_mm).count;
+  const double repeats = static_cast<double>(stream.size()) / static_cast<double>(distinct);
+  met.saturates = static_cast<double>(std::max(met.at_low, met.at_high)) >
+                  std::max(few_at_a_limit, more_at_a_limit * repeats);
+  return met;
+}
+
 std::string repeated_rows(const ProbeStream& stream) {
   std::size_t repeated = 0, held = 0;
   std::vector<double> changes;
@@ -196,8 +211,8 @@ std::string lost_decimal_point(const ProbeStream& stream) {
 
 std::string column_objection(const ProbeStream& stream) {
   if (!stream.x_convention) return "";  // who fills a stream in a program may model anything
-  for (const auto& check :
-       {stuck_probe, no_such_size, repeated_rows, counts_rows, lost_decimal_point, unit_changes})
+  for (const auto& check : {stuck_probe, no_such_size, repeated_rows, counts_rows,
+                            lost_decimal_point, unit_changes, column_out_of_order})
     if (std::string why = check(stream); !why.empty()) return why;
   return "";
 }

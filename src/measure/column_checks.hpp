@@ -20,6 +20,15 @@ double usual_step(const std::vector<double>& column);
 /// A limit of the sensor that is met again and again is saturation, which the diagnosis handles.
 std::string stuck_probe(const ProbeStream& stream);
 
+/// Readings at the very extremes of a stream that is not empty; a sensor at the end of its range
+/// shows more of them than noise puts there.
+struct LimitsMet {
+  double low_mm = 0.0, high_mm = 0.0;
+  std::size_t at_low = 0, at_high = 0;
+  bool saturates = false;
+};
+LimitsMet limits_met(const ProbeStream& stream);
+
 /// Rows that repeat the row before, or a probe that is read more slowly than C; empty: neither.
 std::string repeated_rows(const ProbeStream& stream);
 

@@ -162,6 +162,36 @@ TEST_F(Implausible, CylinderFittedToACone) {
   EXPECT_TRUE(contains(done.out, "use --surface cone")) << done.out;
 }
 
+TEST_F(Implausible, FitAloneRefusesColumnsInAnotherOrderAndASensorAtItsLimit) {
+  Stream sorted = helix({}), c_shuffled = helix({}), z_shuffled = helix({}), scaled = helix({}),
+         limited = helix({});
+  std::ranges::sort(sorted.x_mm);
+  std::ranges::shuffle(c_shuffled.c_deg, std::mt19937_64(1));
+  std::ranges::shuffle(z_shuffled.z_mm, std::mt19937_64(2));
+  for (double& c : scaled.c_deg) c *= 0.98;
+  std::vector<double> ordered = limited.x_mm;
+  std::ranges::sort(ordered);
+  for (double& x : limited.x_mm) x = std::min(x, ordered[ordered.size() * 7 / 10]);
+  const struct {
+    const Stream& stream;
+    const char* why;
+  } cases[] = {{sorted, "X_M never turns back"},
+               {c_shuffled, "C jumps at random"},
+               {z_shuffled, "Z jumps at random"},
+               {scaled, "C has another unit"},
+               {limited, "where the sensor's range ends"}};
+  for (const auto& [stream, why] : cases) {
+    file("part.csv", stream.text());
+    for (const char* line : {"fit part.csv --surface cylinder",
+                             "fit part.csv --surface cylinder --criterion minimum_zone"}) {
+      const CommandStreams done = command(line);
+      EXPECT_NE(done.exit_code, 0) << why;
+      EXPECT_TRUE(contains(done.out + done.err, why)) << done.out << done.err;
+      EXPECT_TRUE(axis_of(done.out).empty()) << done.out;
+    }
+  }
+}
+
 TEST_F(Implausible, EveryCommandRefusesIt) {
   Stream stream = helix(cone);
   std::swap(stream.x_mm, stream.z_mm);

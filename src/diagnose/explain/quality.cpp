@@ -10,6 +10,7 @@
 #include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
 #include "math/statistics.hpp"
+#include "measure/column_checks.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -201,15 +202,11 @@ QualityCheck result(DataCheck check, bool found, std::string text) {
   return {std::string(entry_of(check).id), found, std::move(text)};
 }
 
-/// Readings at the very extreme, more than noise puts there.
-QualityCheck saturation(const ProbeStream& stream, const DistinctValues& indication) {
-  const auto [low, high] = range_of(stream.reading_mm);
-  const auto top = std::ranges::count(stream.reading_mm, high);
-  const auto bottom = std::ranges::count(stream.reading_mm, low);
-  const double repeats = static_cast<double>(stream.size()) / static_cast<double>(indication.count);
-  const bool found = static_cast<double>(std::max(top, bottom)) > std::max(5.0, 12.0 * repeats);
-  return result(DataCheck::saturation, found,
-                fmt::format("{} readings at the largest value, {} at the smallest", top, bottom));
+QualityCheck saturation(const ProbeStream& stream) {
+  const LimitsMet met = limits_met(stream);
+  return result(
+      DataCheck::saturation, met.saturates,
+      fmt::format("{} readings at the largest value, {} at the smallest", met.at_high, met.at_low));
 }
 
 /// The step of a rounded indication, and whether its error was found as a period of the reading.
@@ -302,7 +299,7 @@ std::vector<QualityCheck> check_quality(const IdealModel& ideal, const Joint& jo
   const LinearisationPoint& point = joint.equations.point();
   const ObservationMask& mask = joint.equations.mask();
   const ProbeStream& stream = ideal.stream;
-  std::vector<QualityCheck> list{saturation(stream, ideal.indication),
+  std::vector<QualityCheck> list{saturation(stream),
                                  quantisation(ideal.indication.step, joint, noise.sigma_mm)};
   list.push_back(result(DataCheck::outliers, !noise.masked.empty() && noise.interruptions.empty(),
                         rows_text(noise.masked, residual_mm)));

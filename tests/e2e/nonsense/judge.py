@@ -22,14 +22,13 @@ import columns  # noqa: F401
 import known  # noqa: F401
 from lathe import CASES
 
-# Known to be wrong with every command: the play of a probe looks as a lag in one pass, and no cause of the catalogue has it; two parts by turns
-# have an axis in between.
-NO_ONE_SEES = ("play_of_10_um", "parts_in_turn_by_revolution")
+# Known to be wrong with every command: the play of a probe looks as a lag in one pass, and no cause of the catalogue has it.
+NO_ONE_SEES = ("play_of_10_um",)
 
 AXIS = re.compile(r"^(?:axis  | {6}) x (-?[\d.e+-]+) µm, y (-?[\d.e+-]+) µm, U ([\d.e+-]+) µm"
                   r"(?: at Z (-?[\d.]+) mm)?$", re.M)
 # What fit alone does not see and diagnose and run do.
-FOR_DIAGNOSIS = {"probe_saturates", "smoothed_over_9", "x_sorted_alone", "z_shuffled", "c_times_0.98", "c_shuffled"}
+FOR_DIAGNOSIS = {"smoothed_over_9"}
 SECTION_MM = 8.0  # of a stream without a length
 
 
