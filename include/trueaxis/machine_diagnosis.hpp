@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -122,6 +123,7 @@ struct UncertainParameter {
 
 struct MachineDiagnosis {
   DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
+  std::map<std::string, std::string> titles;  ///< of every effect that was looked for, by its id
   Calibration baseline;                       ///< what is always fitted
   std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
   /// To predict the tip with: given, always fitted and found together; where something is

@@ -17,20 +17,12 @@ function errorSize({value, u, unit}) {
   return isNumber(u) && u > 0 ? `${text} ± ${significant(2 * u * factor, 2)}${nbsp}${shown}` : `${text}${nbsp}${shown}`;
 }
 
-function effectWords(effect) {
-  const [name, form] = effect.split('.');
-  if (name === 'reversal') return `difference between the two senses of ${form}`;
-  if (name === 'drift') return `drift of the tip along ${form}`;
-  if (effect === 'ball.slip') return 'a step of the ball on the table';
-  const words = errorWords(name);
-  if (!form) return words;
-  const order = form.replace(/\D/g, '');
-  return `${words}, ${form.startsWith('harmonic') ? `${order} times a turn` : `degree ${order}`}`;
-}
+/** What an effect or an error is called; its name where it has no other. */
+const wordsOf = (name) => Object.hasOwn(data.words, name) ? data.words[name] : name;
+const named = (name) => Object.hasOwn(data.words, name) ? `${data.words[name]} (${name})` : name;
+worded = (text) => text.replace(/(?<![\w.(])\w+(?:[.*]\w+)?(?![\w.]\w|\))/g, named);
 
-worded = (text) => text.replace(/(?<![\w.(])(?:(?:reversal|drift)\.[XYZABC]|ball\.slip|(?:E[XYZABC]{2}|[XYZABC]0[XYZABCSW])(?:\.\w+)?)(?![\w.]\w|\))/g, (id) => effectWords(id) ? `${effectWords(id)} (${id})` : id);
-
-const withWords = (effect) => element('span', {}, effectWords(effect) || effect, element('small', {}, effect));
+const withWords = (effect) => element('span', {}, wordsOf(effect), element('small', {}, effect));
 const planWords = (plans, code) => plans.find((p) => p.plan === code)?.what ?? code;
 
 function machineFindingCard(finding, number, plans) {
@@ -38,7 +30,7 @@ function machineFindingCard(finding, number, plans) {
     ['Part of the readings (RMS)', micrometres(finding.rms.value)],
     ['False-alarm probability (all hypotheses counted)', finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)]];
   const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
-  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(effectWords(finding.effect) || finding.effect)}`, element('small', {}, finding.effect)), facts(list),
+  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(wordsOf(finding.effect))}`, element('small', {}, finding.effect)), facts(list),
     table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
     finding.alias ? paragraph(`These positions read ${worded(finding.alias)} alike.`) : null,
     finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
@@ -64,11 +56,12 @@ const mindedOf = ({remarks = [], checks = []}) => [...remarks, ...checks.filter(
 
 /** What was found, in a line each, with what explains it as well. */
 function findingsSection({diagnosis}) {
-  const {verdict, findings, unexplained} = diagnosis;
+  const {verdict, findings, unexplained, consequences} = diagnosis;
   const items = findings.map((f) => {
-    const rivals = f.rivals.slice(0, 3).map((r) => `${effectWords(r.effect) || r.effect} (${chance(r.probability)})`);
-    return element('li', {}, element('strong', {}, sentence(effectWords(f.effect) || f.effect)), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
-      rivals.length ? ` Or: ${rivals.join('; ')}${f.rivals.length > 3 ? `; or ${f.rivals.length - 3} more` : ''}.` : '');
+    const rivals = f.rivals.slice(0, 3).map((r) => `${wordsOf(r.effect)} (${chance(r.probability)})`);
+    return element('li', {}, element('strong', {}, sentence(wordsOf(f.effect))), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
+      rivals.length ? ` Or: ${rivals.join('; ')}${f.rivals.length > 3 ? `; or ${f.rivals.length - 3} more` : ''}.` : '',
+      consequences[f.effect] ? ` ${sentence(consequences[f.effect])}` : '');
   });
   unexplained.forEach((u) => items.push(element('li', {}, element('strong', {}, `Unexplained: ${u.pattern}`), ` ${errorSize(u.amplitude)}.`)));
   return section('diagnosis', 'What the measurement shows', paragraph(machineVerdicts[verdict] ?? verdict), items.length ? element('ul', {class: 'seen'}, items) : null);
@@ -86,7 +79,7 @@ function findingsFold({diagnosis}) {
 function notObservableRows({not_observable: all, plans}) {
   const alike = new Map();
   all.forEach((one) => { const key = JSON.stringify([one.why, one.separate_with]); alike.set(key, [...(alike.get(key) ?? []), one]); });
-  return [...alike.values()].map((group) => [group.map((one) => `${effectWords(one.effect) || one.effect} (${one.effect})`).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
+  return [...alike.values()].map((group) => [group.map((one) => named(one.effect)).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
 }
 
 function rangesTable(ranges) {

@@ -9,6 +9,7 @@
 #include "calibrate/files/machine_screen.hpp"
 #include "job/files/job_words.hpp"
 #include "job/machine/files/machine_job_results.hpp"
+#include "machine/error_words.hpp"
 #include "report/page.hpp"
 #include "report/thinning.hpp"
 
@@ -134,6 +135,20 @@ Json part_data(const PartDisplacement& part) {
   return {{"shift_um", std::move(shift)}, {"turn_urad", std::move(turn)}};
 }
 
+/// What a page calls the machine's errors and effects, by their names.
+Json words_data(const MachineJobResult& result) {
+  Json words(result.diagnosis.titles);
+  std::vector<std::size_t> bodies{spindle_body, workpiece_body};
+  for (const MachineAxis& axis : result.job.machine.axes) bodies.push_back(index_of(axis.name));
+  for (const std::size_t body : bodies)
+    for (std::size_t direction = 0; direction < 6; ++direction)
+      for (const bool component : {false, true}) {
+        const ErrorName name{component, direction, body};
+        if (!component || body < axis_count) words[to_string(name)] = in_words(name);
+      }
+  return words;
+}
+
 std::string title_of(const MachineJob& job) { return job.name.empty() ? job.path : job.name; }
 
 }  // namespace
@@ -151,6 +166,7 @@ Json machine_report_data(const MachineJobResult& result) {
       {"verdict", verdict_data(result)},
       {"inputs", run.at("inputs")},
       {"ranges", run.at("ranges")},
+      {"words", words_data(result)},
       {"maps", maps_data(result)},
       {"diagnosis", Json::parse(machine_diagnosis_json(result.diagnosis, result.job.machine))}};
   for (const auto& [label, text] : result.job.header) data["header"].push_back({label, text});

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <iostream>
 
+#include "calibrate/files/machine_diagnosis_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
+#include "report/machine_report.hpp"
 #include "support/ball_bench.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
@@ -26,6 +29,7 @@ MachineEffect lift_by_tilt() {
                              AxisName::A};
   own.parameters = {"cos", "sin"};
   own.formula = "cos cos(6 A) + sin sin(6 A)";
+  own.shape = {{"order", 6.0, "1"}};
   own.low = 1e-3, own.high = 0.02;
   own.consequence = "tighten the clamp of A";
   return own;
@@ -73,6 +77,25 @@ TEST(OwnMachineEffect, IsFoundByItsEntryAndNamedWithItsConsequence) {
   EXPECT_NEAR(one.size, amplitude_mm, 4.0 * u);
   EXPECT_LT(u, 0.1 * amplitude_mm);
   EXPECT_EQ(found.verdict, DiagnosisVerdict::effects);
+}
+
+// Screen, file and page have its words from the entry, and nothing else has to know it.
+TEST(OwnMachineEffect, IsCalledByItsTitleEverywhere) {
+  const MachineMeasurement data = lifted(amplitude_mm);
+  const MachineEffect own[] = {lift_by_tilt()};
+  MachineDiagnoseOptions options;
+  options.own_effects = own;
+  MachineJobResult result;
+  result.job.machine = trunnion();
+  result.diagnosis = diagnose_machine(result.job.machine, std::span(&data, 1), options);
+  const std::string screen = machine_diagnosis_screen(result.diagnosis);
+  EXPECT_NE(screen.find("the table lifts as A tilts: tighten the clamp of A\n"), std::string::npos)
+      << screen;
+  const Json file = machine_diagnosis_object(result.diagnosis, result.job.machine);
+  EXPECT_EQ(file.at("titles").at("own.lift_by_tilt"), "the table lifts as A tilts");
+  EXPECT_EQ(file.at("consequences").at("own.lift_by_tilt"), "tighten the clamp of A");
+  EXPECT_EQ(machine_report_data(result).at("words").at("own.lift_by_tilt"),
+            "the table lifts as A tilts");
 }
 
 // What the entry adds: without it no name of the catalogue is right, and nothing is named alone.

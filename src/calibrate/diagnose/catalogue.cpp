@@ -7,6 +7,7 @@
 #include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
+#include "machine/error_words.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -37,8 +38,6 @@ std::string consequence_of(const ErrorName& error, AxisName axis) {
 MachineEffect component(const ErrorName& error, AxisName axis, const char* kind, int order) {
   MachineEffect out;
   out.id = to_string(error) + '.' + kind + std::to_string(order);
-  out.title =
-      to_string(error) + ", " + kind + ' ' + std::to_string(order) + " of " + letter_of(axis);
   out.term = ErrorOfPosition{error, {}, {}};
   out.unit = error.angular() ? "rad" : "mm";
   const double median = plausible_rms(error, axis) / order;
@@ -54,6 +53,7 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
   const char* const unit = is_rotary(axis) ? "rad" : "mm";
   for (int degree = squareness ? 2 : 1; degree <= last; ++degree) {
     MachineEffect one = component(error, axis, "poly", degree);
+    one.title = in_words(error) + ", degree " + std::to_string(degree);
     std::get<ErrorOfPosition>(one.term).functions = {legendre(degree, range.low, range.high)};
     one.parameters = {"legendre"};
     one.formula = "legendre P_degree((2 q - low - high)/(high - low))";
@@ -67,6 +67,8 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
 void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
   for (int order = 1; order <= last_order; ++order) {
     MachineEffect one = component(error, axis, "harmonic", order);
+    one.title = in_words(error) + ", " + (order == 1 ? "once" : std::to_string(order) + " times") +
+                " per revolution";
     const auto n = static_cast<double>(order);
     std::get<ErrorOfPosition>(one.term).functions = {FourierError{{{n, 1.0, 0.0}}, two_pi},
                                                      FourierError{{{n, 0.0, 1.0}}, two_pi}};
@@ -159,6 +161,12 @@ std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
   out.push_back(std::move(slip));
   out.insert(out.end(), own.begin(), own.end());
   return out;
+}
+
+std::map<std::string, std::string> titles_of(std::span<const MachineEffect> catalogue) {
+  std::map<std::string, std::string> titles;
+  for (const MachineEffect& effect : catalogue) titles[effect.id] = effect.title;
+  return titles;
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -157,6 +157,7 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
   const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
   const std::vector<MachineEffect> catalogue =
       machine_effects(fit->problem, timed, options.own_effects);
+  out.titles = titles_of(catalogue);
   Found found = find_terms(*fit, geometry, catalogue, options, timed);
   leave_out_what_warms(found);
   out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;

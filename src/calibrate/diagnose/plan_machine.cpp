@@ -27,6 +27,7 @@ MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptio
       weighted_jacobian(fit.problem, fit.given, fit.unknowns, fit.problem.start);
   const std::vector<MachineEffect> catalogue =
       machine_effects(fit.problem, true, options.own_effects);
+  out.titles = titles_of(catalogue);
   const auto terms =
       effect_terms(fit.problem, geometry_of(fit.problem, fit.given, fit.problem.start), catalogue);
   const Regression regression(terms, determined_columns(all, fit.unknowns.size()),

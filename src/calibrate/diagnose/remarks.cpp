@@ -52,8 +52,9 @@ std::string data_row(const TipFit& fit, Index equation) {
 }  // namespace
 
 void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding) {
-  if (term.shape.empty() || term.shape.front().name != "order") return;
-  const std::size_t axis = term.errors.front().name.body;
+  const auto* error = term.of ? std::get_if<ErrorOfPosition>(&term.of->term) : nullptr;
+  if (!error || term.shape.empty() || term.shape.front().name != "order") return;
+  const std::size_t axis = error->of ? index_of(*error->of) : error->error.body;
   VectorXd position(static_cast<Index>(problem.rows.size()));
   for (std::size_t i = 0; i < problem.rows.size(); ++i)
     position[static_cast<Index>(i)] = problem.rows[i].axes[axis];
@@ -61,7 +62,7 @@ void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& fin
   const MatrixXd basis = waves(position, static_cast<int>(own));
   double sum = 1.0 / (own * own);
   for (int order = 5; order <= highest_alias; ++order) {
-    if (!within(waves(position, order), basis)) continue;
+    if (order == own || !within(waves(position, order), basis)) continue;
     sum += 1.0 / (order * order);
     finding.alias += (finding.alias.empty() ? "order " : ", ") + std::to_string(order);
   }

@@ -74,6 +74,22 @@ Json consequences_json(const MachineDiagnosis& d) {
   return json;
 }
 
+/// What the causes that were found, their rivals and what is not seen are called.
+Json titles_json(const MachineDiagnosis& d) {
+  Json json = Json::object();
+  const auto add = [&](const std::string& effect) {
+    if (const auto title = d.titles.find(effect); title != d.titles.end())
+      json[effect] = title->second;
+  };
+  for (const MachineFinding& finding : d.findings) {
+    for (const std::string& member : finding.members()) add(member);
+    for (const auto& pair : finding.pairs)
+      for (const std::string& one : pair) add(one);
+  }
+  for (const MachineNotObservable& one : d.not_observable) add(one.effect);
+  return json;
+}
+
 Json unexplained_json(const MachineUnexplained& one) {
   return {{"pattern", one.pattern},
           {"amplitude", to_json(one.amplitude)},
@@ -174,6 +190,7 @@ Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine)
           {"inputs", inputs_json(d.baseline)},
           {"options", options_json(d)},
           {"verdict", to_string(d.verdict)},
+          {"titles", titles_json(d)},
           {"consequences", consequences_json(d)},
           {"baseline", baseline_json(d.baseline)},
           {"extended", {{"parameters", parameters_json(d.extended)}}},

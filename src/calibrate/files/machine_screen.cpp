@@ -34,18 +34,24 @@ std::string small_estimate(const std::string& name, const Estimate& estimate, do
          layout::plus_minus(estimate, k, angle ? 1e6 : 1.0 / mm_per_um, angle ? "µrad" : "µm");
 }
 
-std::string finding_screen(const MachineFinding& finding) {
+/// The cause, its size and its rivals; then in words, with what follows from it.
+std::string finding_screen(const MachineDiagnosis& d, const MachineFinding& finding) {
   const std::string& unit = finding.parameters.front().estimate.unit;
   std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect,
                                  small(finding.size, unit), um(finding.rms_mm));
-  if (finding.rivals.empty()) return text + "\n";
-  std::vector<std::string> rivals;
-  for (const Rival& rival : finding.rivals)
-    rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
-  return text + "; not told from " + some_of(rivals, most_rivals) +
-         (!finding.separate_with || finding.separate_with->plan.empty()
-              ? ", and no plan tells them apart\n"
-              : ", plan " + finding.separate_with->plan + " tells\n");
+  if (!finding.rivals.empty()) {
+    std::vector<std::string> rivals;
+    for (const Rival& rival : finding.rivals)
+      rivals.push_back(rival.effect + " (" + layout::probability(rival.probability) + ")");
+    text += "; not told from " + some_of(rivals, most_rivals) +
+            (!finding.separate_with || finding.separate_with->plan.empty()
+                 ? ", and no plan tells them apart"
+                 : ", plan " + finding.separate_with->plan + " tells");
+  }
+  const auto title = d.titles.find(finding.effect);
+  if (title == d.titles.end()) return text + "\n";
+  return text + "\n       - " + title->second +
+         (finding.consequence.empty() ? "" : ": " + finding.consequence) + "\n";
 }
 
 std::string read_out_screen(const AxisReadOut& one) {
@@ -94,7 +100,7 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
   std::string text;
   std::size_t shown = 0;
   for (const MachineFinding& finding : d.findings)
-    if (shown++ < most_findings) text += finding_screen(finding);
+    if (shown++ < most_findings) text += finding_screen(d, finding);
   for (const MachineUnexplained& one : d.unexplained)
     if (shown++ < most_findings)
       text += fmt::format("seen   {}, {}, without a known cause\n", one.pattern,
