@@ -153,9 +153,9 @@ std::string_view template_of(ReasonCode code) {
        "{ref}a pattern of {amplitude:um:.2g} µm near one undulation per revolution has no known "
        "cause, and the axis goes with it: {remedies}"},
       {finding_with_axis,
-       "{ref}{effect} is so near to once a revolution that over the stream it gains at most "
-       "{turns::.2g} turns on the part or its eccentricity, and cannot be told from a shift of "
-       "the axis: {remedies}"},
+       "{ref}{effect} is so slow or so near to once a revolution that over the stream it gains at "
+       "most {turns::.2g} turns on the part or its eccentricity, and cannot be told from a shift "
+       "of the axis: {remedies}"},
       {few_angles,
        "{ref}{angles::.0f} angles, the same in every revolution or nearly so, cannot tell "
        "{lobes::.0f} lobes from an eccentricity: probe at {enough::.0f} angles or more"},

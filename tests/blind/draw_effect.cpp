@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "blind/by_entry.hpp"
 #include "blind/families.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -171,6 +172,8 @@ Effect draw_effect(std::string_view id, const Bench& bench, std::mt19937_64& ran
                   : id.starts_with("part.")  ? draw_part(id, bench, draw)
                   : id.starts_with("probe.") ? draw_probe(id, bench, draw)
                                              : draw_machine(id, draw);
+  if (const ByEntry* known = known_by_entry(id); known && !known->shape.empty())
+    effect.parameters[std::string(known->shape)] = known->value(draw.unit());
   for (const Size& size : family(id).sizes) {
     effect.parameters.try_emplace(std::string(size.name), size.typical_most);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "blind/by_entry.hpp"
 #include "trueaxis/effect.hpp"
 
 namespace trueaxis::blind {
@@ -39,6 +40,20 @@ std::vector<Effect> pair(const Effect& effect, const char* phase) {
   return {with(effect, phase, 0.0), with(effect, phase, 0.5 * pi)};
 }
 
+// A size each, and with a phase its cos and sin.
+std::vector<Effect> directions(const ByEntry& of, const Effect& shaped) {
+  const auto parameters = virtual_lathe::find_effect_kind(shaped.id).parameters;
+  const bool phased = std::ranges::find(parameters, "phase_rad",
+                                        &virtual_lathe::LatheParameter::name) != parameters.end();
+  std::vector<Effect> list;
+  for (const Size& size : of.family.sizes) {
+    const Effect one = only(shaped, {{std::string(size.name).c_str(), 0.1 * size.typical_most}});
+    for (const Effect& each : phased ? pair(one, "phase_rad") : std::vector<Effect>{one})
+      list.push_back(each);
+  }
+  return list;
+}
+
 std::vector<Effect> lobing(const Effect& effect) {
   const double jaws = effect.parameters.at("jaws");
   std::vector<Effect> list;  // four angles of the jaws: both harmonics with phases of their own
@@ -54,9 +69,8 @@ std::vector<Effect> straightness(const Effect& effect) {
   return list;
 }
 
-}  // namespace
-
-const std::vector<Family>& families() {
+/// Those that the judge has words of its own for.
+const std::vector<Family>& tabled() {
   static const std::vector<Family> list{
       {"part.chuck_lobing", {{"amplitude_mm", 0.1}}},
       {"part.roundness", {{"amplitude_mm", 0.02}, {"growth_mm", 0.02}}},
@@ -88,6 +102,36 @@ const std::vector<Family>& families() {
       {"thermal.drift", {{"rate_mm_per_s", 0.01 / 600.0}, {"amplitude_mm", 0.01}}},
       {"environment.vibration", {{"amplitude_mm", 0.005}}},
   };
+  return list;
+}
+
+/// The others that a lateral surface shows.
+const std::vector<ByEntry>& by_their_entries() {
+  static const std::vector<ByEntry> list = [] {
+    std::vector<ByEntry> out;
+    for (const trueaxis::Effect& entry : effect_catalogue())
+      if (!entry.check && entry.needs.stream.value_or(StreamKind::lateral) == StreamKind::lateral &&
+          std::ranges::find(tabled(), entry.id, &Family::id) == tabled().end())
+        out.push_back(by_entry(entry));
+    return out;
+  }();
+  return list;
+}
+
+}  // namespace
+
+const ByEntry* known_by_entry(std::string_view id) {
+  const auto& list = by_their_entries();
+  const auto found = std::ranges::find(list, id, [](const ByEntry& one) { return one.entry->id; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+const std::vector<Family>& families() {
+  static const std::vector<Family> list = [] {
+    std::vector<Family> all = tabled();
+    for (const ByEntry& one : by_their_entries()) all.push_back(one.family);
+    return all;
+  }();
   return list;
 }
 
@@ -165,6 +209,7 @@ std::vector<Effect> directions(const Effect& shaped) {
   }
   const Family& of = family(id);
   const std::string name(of.sizes.front().name);
+  if (const ByEntry* known = known_by_entry(id)) return directions(*known, shaped);
   if (name == "amplitude_mm" && id != "part.taper") {
     return pair(only(shaped, {{"amplitude_mm", um}}), "phase_rad");
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "blind/blind_case.hpp"
+#include "blind/by_entry.hpp"
 #include "blind/goals.hpp"
 #include "blind/rival.hpp"
 #include "blind/size.hpp"
@@ -106,6 +107,47 @@ TEST(Judge, OnePassOfAConeAbsorbsWhatTheCatalogueSays) {
     const Effect effect = draw_effect(id, bench, random);
     EXPECT_LT(lambda(bench, effect, {}, sigma_mm, false), absorbed_lambda) << id;
   }
+}
+
+// An effect that no table of the judge has is judged by its entry: that has what the tables say,
+// but for sizes beside the first that an entry states as one.
+TEST(Judge, AnEntryHasTheSizesOfTheTable) {
+  for (const Family& of : families()) {
+    const ByEntry by = by_entry(*find_effect(of.id));
+    for (const Size& size : of.sizes) {
+      const auto found = std::ranges::find(by.family.sizes, size.name, &Size::name);
+      if (found != by.family.sizes.end())
+        EXPECT_DOUBLE_EQ(found->typical_most, size.typical_most) << of.id << ' ' << size.name;
+      else
+        EXPECT_NE(size.name, of.sizes.front().name) << of.id;
+    }
+  }
+}
+
+TEST(Judge, FindsALineByItsEntry) {
+  const Bench bench = bench_of(PlanId::p3);
+  std::mt19937_64 random(11);
+  int lines = 0;
+  for (const Family& of : families()) {
+    const ByEntry by = by_entry(*find_effect(of.id));
+    if (!by.entry->line) continue;
+    ASSERT_FALSE(by.shape.empty()) << of.id;
+    const std::string shape(by.shape);
+    const Effect truth = draw_effect(of.id, bench, random);
+    const Residue left = residue(bench, {truth, {}, sigma_mm});
+    double nearest = 1.0;  // relative
+    for (const Effect& one : mimics(bench, by, left))
+      nearest =
+          std::min(nearest, std::abs(one.parameters.at(shape) / truth.parameters.at(shape) - 1.0));
+    const Effect refined{of.id.data(), {{shape, truth.parameters.at(shape)}}};
+    const auto bracket = refinement(bench, by, refined);
+    ASSERT_TRUE(bracket) << of.id;
+    const double span =
+        bracket->relative ? bracket->span : bracket->span / truth.parameters.at(shape);
+    EXPECT_LT(nearest, span) << of.id;  // the search goes on from there
+    ++lines;
+  }
+  EXPECT_GE(lines, 6);
 }
 
 TEST(Judge, EveryKindOfCaseCanBeMadeAgainFromItsSeed) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <numbers>
 
+#include "blind/by_entry.hpp"
 #include "blind/rival.hpp"
 #include "blind/spectrum.hpp"
 
@@ -111,6 +112,7 @@ std::vector<Effect> lobing(const std::vector<int>& orders) {
 }  // namespace
 
 std::vector<Effect> mimics(const Bench& bench, const std::string& id, const Residue& of) {
+  if (const ByEntry* known = known_by_entry(id)) return mimics(bench, *known, of);
   const auto scan = [&](const Eigen::VectorXd& x, double low, double high) {
     return lines(bench, of, {x, {low, high}}, false);
   };

@@ -8,15 +8,10 @@
 #include <numbers>
 #include <optional>
 
+#include "blind/by_entry.hpp"
+
 namespace trueaxis::blind {
 namespace {
-
-/// A shape parameter that is refined: over a bracket of ± `span` (`relative`: a factor).
-struct Refinement {
-  const char* name;
-  double span;
-  bool relative;
-};
 
 std::optional<Refinement> refinement(const Bench& bench, const Effect& shaped) {
   const auto bin = [](const Eigen::VectorXd& x) {
@@ -26,6 +21,7 @@ std::optional<Refinement> refinement(const Bench& bench, const Effect& shaped) {
     return Refinement{name, bin(x) * shaped.parameters.at(name) / (2.0 * std::numbers::pi), true};
   };
   const std::string& id = shaped.id;
+  if (const ByEntry* known = known_by_entry(id)) return refinement(bench, *known, shaped);
   if (id == "spindle.asynchronous") return Refinement{"order", bin(bench.c_rad()), false};
   if (id == "environment.vibration") {
     return Refinement{"frequency_hz", bin(bench.time_s()) / (2.0 * std::numbers::pi), false};

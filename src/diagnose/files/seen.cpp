@@ -118,7 +118,7 @@ std::string seen_text(const Finding& finding, double k) {
                        : fmt::format("a spiral of {:.4g} mm a turn, {}", shape.period_mm, size);
           },
           [&](const PeriodicInTime&) {
-            return fmt::format("a vibration of {:.4g} Hz, {}", shape.frequency_hz, size);
+            return fmt::format("an oscillation of {:.4g} Hz, {}", shape.frequency_hz, size);
           },
           [&](const GrowthInTime&) { return "a drift with time, " + size; },
           [&](const PartStep&) { return "the part moved " + date_text(finding) + ", " + size; },
