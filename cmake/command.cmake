@@ -53,7 +53,7 @@ target_link_libraries(trueaxis_studies PUBLIC trueaxis_lib PRIVATE trueaxis_flag
 trueaxis_compile_rooms_as_one(trueaxis_studies)
 set_source_files_properties(studies/published/assets.S PROPERTIES OBJECT_DEPENDS "${TRUEAXIS_STUDY_SCRIPTS}")
 
-# The commands, once for both programs. CLI11 is all headers: they are read once, and what they make is not worth optimising.
+# The commands, once for both programs. CLI11 is all headers, and what they make is not worth optimising.
 file(GLOB TRUEAXIS_CLI CONFIGURE_DEPENDS src/cli/*.cpp)
 list(REMOVE_ITEM TRUEAXIS_CLI "${PROJECT_SOURCE_DIR}/src/cli/main.cpp")
 add_library(trueaxis_cli STATIC ${TRUEAXIS_CLI})
@@ -61,7 +61,7 @@ target_include_directories(trueaxis_cli PUBLIC src)
 target_compile_definitions(trueaxis_cli PUBLIC TRUEAXIS_VERSION="${PROJECT_VERSION}")
 target_link_libraries(trueaxis_cli PUBLIC trueaxis_studies trueaxis_flags CLI11::CLI11 fmt::fmt glog)
 target_compile_options(trueaxis_cli PUBLIC $<$<CONFIG:Release>:-O1>)
-trueaxis_read_once(trueaxis_cli <CLI/CLI.hpp>)
+trueaxis_compile_rooms_as_one(trueaxis_cli)
 add_executable(trueaxis src/cli/main.cpp)
 target_link_libraries(trueaxis PRIVATE trueaxis_cli)
 # What is made of its tables of options is installed beside it.

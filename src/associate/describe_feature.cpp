@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "associate/distance_kernel.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis {
 namespace {
@@ -50,7 +51,7 @@ ParameterMatrix covariance_of(const LeastSquares& fit, const PointCloud& cloud) 
   const Parameters per = step_lengths(fit.placed.shape, cloud).cwiseInverse();
   const ParameterMatrix h = per.asDiagonal() * fit.normal.jtj * per.asDiagonal();
   const double variance = freedom > 0.0 ? fit.normal.sum_of_squares / freedom : nan;
-  return variance * (per.asDiagonal() * h.inverse() * per.asDiagonal());
+  return variance * (per.asDiagonal() * linear::inverse(h) * per.asDiagonal());
 }
 
 Feature uncertainty_of(const Placed& placed, const PointCloud& cloud,

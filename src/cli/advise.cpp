@@ -31,7 +31,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct AdviseArguments {
   std::vector<std::string> data;  ///< a stream or a job; with --machine measurements, or none
   MachineDiagnosed machine;
   StreamOptions stream;
@@ -52,7 +52,7 @@ Diagnosis advise(const ProbeStream& stream, const FitOptions& fit, double false_
   return diagnosis;
 }
 
-int exit_code_of(const Diagnosis& diagnosis) {
+int exit_code_of_advice(const Diagnosis& diagnosis) {
   return diagnosis.baseline.status == FitStatus::converged ? done : numerical;
 }
 
@@ -64,7 +64,7 @@ void advise_on_tolerance(IdentifiedJob job) {
             << layout::wrapped("  ", verdict_line(conclude(std::move(job))));
 }
 
-int advise_job(const Options& options) {
+int advise_job(const AdviseArguments& options) {
   const std::string content = read_file(options.stream.path);
   if (is_machine_job(content, options.stream.path)) {
     const MachineJob job = read_machine_job_toml(content, options.stream.path);
@@ -94,14 +94,14 @@ int advise_job(const Options& options) {
             .value();
     result.fits.push_back(diagnosis.baseline);
     result.resimulations.emplace_back();
-    worst = std::max(worst, exit_code_of(diagnosis));
+    worst = std::max(worst, exit_code_of_advice(diagnosis));
   }
   if (worst == done) advise_on_tolerance(std::move(result));
   return worst;
 }
 
 /// Options of the one beside the other would be passed over in silence.
-bool is_of_machine(const CLI::App& command, const Options& options) {
+bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
   if (!machine && options.data.empty()) throw CLI::RequiredError("stream");
   if (!machine && options.data.size() > 1)
@@ -125,7 +125,7 @@ bool is_of_machine(const CLI::App& command, const Options& options) {
 void add_advise(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("advise", "the next measurement, and what every other one would tell");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AdviseArguments>();
   command->add_option(
       "stream", options->data,
       "probe stream (CSV), '-' for standard input, or a job (.toml); with --machine "
@@ -174,7 +174,8 @@ void add_advise(CLI::App& app, int& exit_code) {
                                        " readings and propose the next measurement");
       return;
     }
-    exit_code = exit_code_of(advise(stream, options->association.chosen(), options->false_alarm));
+    exit_code =
+        exit_code_of_advice(advise(stream, options->association.chosen(), options->false_alarm));
   });
 }
 

@@ -12,7 +12,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct AxesArguments {
   MachineOptions machine;
   TableOutput output;
   std::string targets;
@@ -41,7 +41,7 @@ std::vector<std::vector<AxisPositions>> solve(const MachineModel& model,
   return solutions;
 }
 
-int execute(const Options& options) {
+int execute(const AxesArguments& options) {
   const MachineFile file = options.machine.read_machine();
   const MachineModel model(file.machine);
   const Setting setting = options.machine.setting_of(file.machine);
@@ -56,7 +56,7 @@ int execute(const Options& options) {
 void add_axes(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "axes", "axis positions that put the tool of the nominal machine at points of a tool path");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AxesArguments>();
   options->machine.add_machine_to(*command);
   command->add_option("points", options->targets, "tool positions (CSV): x,y,z,i,j,k")->required();
   command->add_flag("--all", options->all,

@@ -18,12 +18,12 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct AxisBiasArguments {
   std::string scenario, folder;
   bool force = false, check = false;
 };
 
-int execute(const Options& options) {
+int execute(const AxisBiasArguments& options) {
   const std::string& path = options.scenario;
   virtual_lathe::Scenario scenario = study::axis_bias_reference();
   std::string hash = content_hash("");
@@ -67,7 +67,7 @@ int execute(const Options& options) {
 void add_axis_bias(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "axis-bias", "what each effect does to the axis when the model lacks it, and when it has it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AxisBiasArguments>();
   command->add_option("scenario", options->scenario,
                       "part and plan (TOML); default: those of the catalogue's figures");
   command

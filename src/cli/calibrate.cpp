@@ -24,14 +24,14 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct CalibrateArguments {
   MachineOptions machine;
   std::vector<std::string> data;
   std::string output, json;
   bool force = false, verbose = false, check = false;
 };
 
-int execute(const Options& options) {
+int execute(const CalibrateArguments& options) {
   Outputs outputs(options.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.data) outputs.reads(path);
@@ -79,7 +79,7 @@ int execute(const Options& options) {
 void add_calibrate(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("calibrate", "the errors of a machine from measurements on it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CalibrateArguments>();
   options->machine.add_machine_to(*command);
   command
       ->add_option("data", options->data,

@@ -28,7 +28,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct CompensateArguments {
   std::string program, output, json, method = "exact", rotary = "moved";
   MachineOptions machine;
   std::optional<double> tolerance_um, arcs_mm;
@@ -36,8 +36,9 @@ struct Options {
   bool force = false, verbose = false, check = false;
 };
 
-std::vector<CompensationInput> inputs_of(const Options& options, const std::string& program,
-                                         const MachineFile& machine, const ErrorsOfFiles& errors) {
+std::vector<CompensationInput> inputs_of(const CompensateArguments& options,
+                                         const std::string& program, const MachineFile& machine,
+                                         const ErrorsOfFiles& errors) {
   std::vector<CompensationInput> inputs{{options.program, content_hash(program)},
                                         {options.machine.machine, machine.hash}};
   for (std::size_t i = 0; i < errors.hashes.size(); ++i)
@@ -45,7 +46,7 @@ std::vector<CompensationInput> inputs_of(const Options& options, const std::stri
   return inputs;
 }
 
-int execute(const Options& options) {
+int execute(const CompensateArguments& options) {
   Outputs outputs(options.force);
   outputs.reads(options.program);
   outputs.reads(options.machine.machine);
@@ -102,7 +103,7 @@ int execute(const Options& options) {
   return done;
 }
 
-void add_accuracy(CLI::App& command, Options& options) {
+void add_accuracy(CLI::App& command, CompensateArguments& options) {
   command.add_option("--method", options.method, "exact, or differential: Δq = -J⁻¹ L (exact)")
       ->check(CLI::IsMember({"exact", "differential"}));
   command
@@ -136,7 +137,7 @@ void add_compensate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "compensate",
       "rewrites a program for a machine with errors, byte for byte but for positions");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CompensateArguments>();
   command->add_option("program", options->program, "a program of ISO 6983 words")->required();
   command->add_option("--machine", options->machine.machine, "the machine (TOML)")->required();
   options->machine.add_errors_to(*command);

@@ -22,7 +22,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct CorrectArguments {
   std::string fit, target, table, diagnosis;
   StreamOptions stream;  ///< path empty: as the diagnosis names it
   double ball_radius_mm = 0.0;
@@ -51,7 +51,7 @@ Diagnosis read_diagnosis(const std::string& text, const std::string& path) {
                              "): no correction from it");
 }
 
-Identified identified(const Options& options) {
+Identified identified(const CorrectArguments& options) {
   const std::string text = read_file(options.fit);
   Identified out;
   if (is_diagnosis(text)) {
@@ -80,7 +80,8 @@ Identified identified(const Options& options) {
 }
 
 /// The job of the one reference: as `run` would have it, with the stream read again.
-IdentifiedJob result_of(const Options& options, Job job, Identified found, Outputs& outputs) {
+IdentifiedJob result_of(const CorrectArguments& options, Job job, Identified found,
+                        Outputs& outputs) {
   if (!is_diagnosed(found.fit.surface))
     throw InputError(options.fit, std::string("is of a ") + to_string(found.fit.surface) +
                                       ", about which nothing is cut: probe a cylinder or cone");
@@ -117,7 +118,7 @@ IdentifiedJob result_of(const Options& options, Job job, Identified found, Outpu
   return result;
 }
 
-int execute(const Options& options) {
+int execute(const CorrectArguments& options) {
   Outputs outputs(options.force);
   Identified found = identified(options);
   IdentifiedJob job =
@@ -151,7 +152,7 @@ int execute(const Options& options) {
 
 void add_correct(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("correct", "the fast-tool-servo table of a fit");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CorrectArguments>();
   command
       ->add_option("fit", options->fit,
                    "result of 'diagnose --json', or of 'fit --json' with --diagnosis or --ideal")

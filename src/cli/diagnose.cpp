@@ -27,7 +27,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct DiagnoseArguments {
   std::vector<std::string> data;  ///< a stream, or the measurements of a machine
   StreamOptions stream;
   AssociationOptions association;
@@ -44,7 +44,7 @@ const FitResult* broken_fit(const Diagnosis& diagnosis) {
   return nullptr;
 }
 
-int execute(const Options& options) {
+int execute(const DiagnoseArguments& options) {
   const auto& [json, residuals, report, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
@@ -96,7 +96,7 @@ void expect_of_machine(const CLI::App& command) {
 }
 
 /// A machine's measurements, or one stream of a surface.
-int execute_either(const CLI::App& command, Options& options, bool surface_said) {
+int execute_either(const CLI::App& command, DiagnoseArguments& options, bool surface_said) {
   MachineDiagnosed& run = options.machine;
   if (!run.machine.machine.empty()) {
     expect_of_machine(command);
@@ -135,7 +135,7 @@ void add_diagnose(CLI::App& app, int& exit_code) {
       "diagnose",
       "find and name what the ideal surface misses in a stream, or the model of a "
       "machine in measurements on it");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<DiagnoseArguments>();
   command
       ->add_option("stream", options->data,
                    "probe stream (CSV), '-' for standard input; with --machine the measurements "

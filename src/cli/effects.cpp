@@ -13,7 +13,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct EffectsArguments {
   std::string id;
   bool json = false, markdown = false;
 };
@@ -25,7 +25,7 @@ const Effect& known_effect(const std::string& id) {
                                    fmt::join(nearest_effects(id), ", ")));
 }
 
-int execute(const Options& options) {
+int execute(const EffectsArguments& options) {
   std::vector<const Effect*> chosen;
   if (!options.id.empty()) chosen.push_back(&known_effect(options.id));
   if (options.markdown) {
@@ -46,7 +46,7 @@ int execute(const Options& options) {
 void add_effects(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("effects", "list what the ideal surface misses, or explain one effect");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<EffectsArguments>();
   command->add_option("id", options->id, "effect to explain, as part.bow");
   command->add_flag("--markdown", options->markdown,
                     "print the whole catalogue as docs/effects.md");

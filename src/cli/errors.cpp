@@ -17,7 +17,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct ErrorsArguments {
   MachineOptions machine;
   std::string at, json, output, format = "toml", output_sign;
   int points = 101;
@@ -51,14 +51,15 @@ std::string schema_of(const std::string& format) {
   return format == "toml" ? "trueaxis.errors" : "trueaxis." + format;
 }
 
-std::string converted(const Options& options, const Machine& machine, const ErrorModel& errors) {
+std::string converted(const ErrorsArguments& options, const Machine& machine,
+                      const ErrorModel& errors) {
   const auto sign = sign_of(options.output_sign);
   if (options.format == "toml") return errors_toml(errors, &machine);
   return options.format == "isg" ? isg_csv_text(errors, machine, *sign, options.points)
                                  : etalon_text(errors, machine, *sign, options.points);
 }
 
-int execute(const Options& options) {
+int execute(const ErrorsArguments& options) {
   if (options.format != "toml" && !options.output.empty() && options.output_sign.empty())
     throw CLI::ValidationError("--output-sign",
                                "is needed: an " + options.format + " file does not say its sign");
@@ -88,7 +89,7 @@ int execute(const Options& options) {
 void add_errors(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("errors", "the errors of a machine at a position, by name (ISO 230-1)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ErrorsArguments>();
   options->machine.add_machine_to(*command);
   options->machine.add_errors_to(*command);
   command->add_option("--at", options->at,

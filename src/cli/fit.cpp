@@ -26,7 +26,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct FitArguments {
   StreamOptions stream;
   AssociationOptions association;
   ResultOptions result;
@@ -35,7 +35,7 @@ struct Options {
 };
 
 /// The command that was typed, as one that diagnoses.
-std::string diagnose_command(const Options& options) {
+std::string diagnose_command(const FitArguments& options) {
   std::vector<std::string> words =
       typed_command(*options.stream.command,
                     {"--json", "--residuals", "--report", "--force", "--verbose", "--check"});
@@ -43,7 +43,7 @@ std::string diagnose_command(const Options& options) {
   return shell_line(words);
 }
 
-int execute(const Options& options) {
+int execute(const FitArguments& options) {
   const auto& [json, residuals, report, force] = options.result;
   Outputs outputs(force);
   outputs.reads(options.stream.path);
@@ -81,7 +81,7 @@ int execute(const Options& options) {
 
 void add_fit(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("fit", "associate a surface with a probe stream");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitArguments>();
   options->stream.add_to(*command);
   options->stream.add_range_to(*command);
   options->association.add_to(*command, true)->required();

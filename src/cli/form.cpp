@@ -22,7 +22,7 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct FormArguments {
   StreamOptions stream;
   FormOptions form;
   std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile,
@@ -49,7 +49,7 @@ void parse_band(const std::string& text, FormOptions& form) {
   if (!(form.low_upr >= 1.0 && form.high_upr > form.low_upr && form.high_upr <= 1500.0)) refuse();
 }
 
-FormOptions chosen(const Options& options) {
+FormOptions chosen(const FormArguments& options) {
   FormOptions form = options.form;
   form.filter = options.filter == "none"     ? ProfileFilter::none
                 : options.filter == "robust" ? ProfileFilter::robust_gaussian
@@ -64,7 +64,7 @@ FormOptions chosen(const Options& options) {
   return form;
 }
 
-FormResult of_points(const Options& options, const FormOptions& form) {
+FormResult of_points(const FormArguments& options, const FormOptions& form) {
   const PointText points = read_points(options.stream.path, options.unit, options.array);
   Element element = Element::circle;
   for (std::size_t i = 0; i < element_names.size(); ++i)
@@ -82,7 +82,7 @@ FormResult of_points(const Options& options, const FormOptions& form) {
   }
 }
 
-FormResult assessed(const Options& options, const FormOptions& form) {
+FormResult assessed(const FormArguments& options, const FormOptions& form) {
   if (!options.element.empty()) return of_points(options, form);
   const ProbeStream stream = options.stream.read();
   expect_one_surface(stream, SurfaceKind::cylinder, RangesAs::options);
@@ -92,7 +92,7 @@ FormResult assessed(const Options& options, const FormOptions& form) {
   return assess_form(stream, form, &datum);
 }
 
-int execute(const Options& options) {
+int execute(const FormArguments& options) {
   const auto tolerances = parse_form_tolerances(options.tolerances);
   const FormOptions form = chosen(options);
   Outputs outputs(options.force);
@@ -115,7 +115,7 @@ int execute(const Options& options) {
   return verdict.met ? done : refused;
 }
 
-void add_filter(CLI::App& command, Options& options) {
+void add_filter(CLI::App& command, FormArguments& options) {
   command
       .add_option("--filter", options.filter,
                   "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none")
@@ -132,7 +132,7 @@ void add_filter(CLI::App& command, Options& options) {
       ->check(a_length());
 }
 
-void add_rest(CLI::App& command, Options& options) {
+void add_rest(CLI::App& command, FormArguments& options) {
   command.add_flag("--bore", options.form.bore, "probed from inside");
   command
       .add_option("--ball-radius", options.form.ball_radius_mm,
@@ -179,7 +179,7 @@ void add_rest(CLI::App& command, Options& options) {
 void add_form(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "form", "roundness, cylindricity, straightness, flatness and run-out (ISO 12181, 1101)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FormArguments>();
   options->stream.add_to(*command,
                          "probe stream (CSV), or points x y z (with --element); '-' for standard "
                          "input");

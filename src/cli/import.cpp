@@ -19,19 +19,19 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct ImportArguments {
   StreamOptions stream;
   std::string output, job;
   bool force = false;
 };
 
 /// Beside the stream, with another ending.
-std::string job_place(const Options& options) {
+std::string job_place(const ImportArguments& options) {
   if (!options.job.empty() || options.output == "-") return options.job;
   return std::filesystem::path(options.output).replace_extension(".toml").string();
 }
 
-int execute(const Options& options) {
+int execute(const ImportArguments& options) {
   const std::string job = job_place(options);
   const ImportedRecording imported =
       import_recording(options.stream.path, options.stream.recording());
@@ -59,7 +59,7 @@ int execute(const Options& options) {
 void add_import(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "import", "another program's recording as a stream, and a job to begin with");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportArguments>();
   options->stream.add_to(*command,
                          "spreadsheet (CSV or text), LinuxCNC probe log or halsampler file, DPRNT, "
                          "camonitor, TwinCAT Scope");

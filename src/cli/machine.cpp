@@ -12,12 +12,12 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct MachineArguments {
   std::string input, output, errors_output;
   bool force = false;
 };
 
-int execute(const Options& options) {
+int execute(const MachineArguments& options) {
   const MachineFile file = read_machine_toml(options.input);
   if (!file.denavit_hartenberg)
     throw InputError(options.input, "has no [[dh]] rows: it is in the zero-position form already");
@@ -45,7 +45,7 @@ int execute(const Options& options) {
 void add_machine(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "machine", "a Denavit-Hartenberg table made a machine in the zero-position form");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MachineArguments>();
   command->add_option("dh", options->input, "a machine with [[dh]] rows (TOML)")->required();
   command->add_option("-o,--output", options->output, "write the machine here (TOML)")
       ->check(a_place())

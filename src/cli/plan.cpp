@@ -42,7 +42,7 @@ struct Simple {
   }
 };
 
-struct Options {
+struct PlanArguments {
   std::string scenario, json;
   Simple simple;
   std::vector<std::string> free;
@@ -79,7 +79,7 @@ class PlanProgress {
   std::size_t done_ = 0;
 };
 
-int execute(Options options) {
+int execute(PlanArguments options) {
   study::PlanningTask& task = options.task;
   std::string hash = content_hash("");
   if (options.scenario.empty()) {
@@ -143,7 +143,7 @@ void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
 void add_plan(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "plan", "which length, readings and probe an uncertainty of the axis needs");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlanArguments>();
   auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
   command->add_option("--goal-um", options->goal_um, "largest U of the axis over the length")
       ->check(more_than_0())

@@ -13,13 +13,13 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct PoseArguments {
   MachineOptions machine;
   TableOutput output;
   std::string positions;
 };
 
-int execute(const Options& options) {
+int execute(const PoseArguments& options) {
   const MachineFile file = options.machine.read_machine();
   const ErrorsOfFiles read_errors = options.machine.read_errors_of(file);
   std::cerr << notes_screen(read_errors.remarks);
@@ -45,7 +45,7 @@ int execute(const Options& options) {
 void add_pose(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("pose", "where the tool of a machine with errors is in the part");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PoseArguments>();
   options->machine.add_machine_to(*command);
   command->add_option("positions", options->positions, "axis positions (CSV): X[mm],A[deg]…")
       ->required();

@@ -29,13 +29,13 @@
 namespace trueaxis::cli {
 namespace {
 
-int exit_code_of(const JobResult& result) {
+int exit_code_of_job(const JobResult& result) {
   const bool fitted = std::ranges::all_of(
       result.fits, [](const FitResult& fit) { return fit.status == FitStatus::converged; });
   return !fitted ? numerical : result.verdict.go() && forms_met(result) ? done : refused;
 }
 
-struct Options {
+struct RunArguments {
   StreamOptions stream;  ///< `path` is the job's, or a stream's
   AssociationOptions association;
   CLI::Option* surface = nullptr;
@@ -44,7 +44,7 @@ struct Options {
 };
 
 /// What the options say of a stream that is read without a job.
-Job job_of_options(const Options& options) {
+Job job_of_options(const RunArguments& options) {
   const StreamReadOptions said = options.stream.said();
   StreamReading read{said.diameter, said.indication, said.nominal_radius_mm, options.stream.columns,
                      options.stream.skip};
@@ -72,7 +72,7 @@ void print(const JobResult& result, const Outputs& outputs, const std::vector<Re
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
 }
 
-int run_lathe(Job job, const Options& options, bool of_stream) {
+int run_lathe(Job job, const RunArguments& options, bool of_stream) {
   const bool surface_known = !of_stream || options.surface->count() > 0;
   if (!surface_known) job.references.front().name = "SURFACE";  // until the readings tell
   Outputs outputs(options.force);
@@ -102,10 +102,10 @@ int run_lathe(Job job, const Options& options, bool of_stream) {
   const EarlierRun earlier = write_job_files(outputs, result, files);
   waiting.reset();
   print(result, outputs, files, earlier, options.verbose);
-  return exit_code_of(result);
+  return exit_code_of_job(result);
 }
 
-int execute(const Options& options) {
+int execute(const RunArguments& options) {
   const std::string& path = options.stream.path;
   if (!is_job(path)) return run_lathe(job_of_options(options), options, true);
   const std::string content = read_file(path);
@@ -133,7 +133,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "run",
       "the whole job: of a lathe fit, diagnosis, correction, report; of a machine "
       "of several axes diagnosis, errors, program, report");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunArguments>();
   options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
   options->stream.add_range_to(*command);
   options->surface = options->association.add_to(*command);

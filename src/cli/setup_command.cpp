@@ -13,13 +13,13 @@
 namespace trueaxis::cli {
 namespace {
 
-struct Options {
+struct SetupArguments {
   std::string path, errors, json;
   int decimals = 6;
   bool force = false, verbose = false, check = false;
 };
 
-int execute(const Options& options, const SetupCommand& which) {
+int execute(const SetupArguments& options, const SetupCommand& which) {
   const SetupResult result = which.solve(options.path, options.decimals);
   Outputs outputs(options.force);
   for (const SetupSource& source : result.sources) outputs.reads(source.file);
@@ -49,7 +49,7 @@ int execute(const Options& options, const SetupCommand& which) {
 
 void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code) {
   CLI::App* command = app.add_subcommand(which.name, which.description);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SetupArguments>();
   command->add_option("file", options->path, which.file)->required();
   command
       ->add_option("-o,--output", options->errors,

@@ -25,14 +25,14 @@ namespace {
 
 namespace lathe = virtual_lathe;
 
-struct Options {
+struct SimulateArguments {
   std::string scenario, stream, truth, table, program, json;
   std::optional<std::uint64_t> seed;
   bool force = false, check = false;
 };
 
 /// The stream of a simulation, and what the virtual lathe knows of it.
-void check_outputs(Outputs& outputs, const Options& options) {
+void check_outputs(Outputs& outputs, const SimulateArguments& options) {
   outputs.reads(options.scenario);
   outputs.may_write(options.stream, "trueaxis.stream");
   outputs.may_write(options.truth, "trueaxis.truth");
@@ -40,7 +40,7 @@ void check_outputs(Outputs& outputs, const Options& options) {
 }
 
 /// The part is cut with the table first, then probed as the scenario plans.
-void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
+void simulate_cut(const lathe::Scenario& scenario, const SimulateArguments& options) {
   Outputs outputs(options.force);
   lathe::CutProgram program = *scenario.cut;
   if (!options.table.empty()) program.table = options.table;
@@ -66,7 +66,7 @@ void simulate_cut(const lathe::Scenario& scenario, const Options& options) {
 }
 
 /// A scenario with `[machine]`.
-int simulate_machine(const Options& options, MachineScenarioKind kind) {
+int simulate_machine(const SimulateArguments& options, MachineScenarioKind kind) {
   const bool cuts = kind == MachineScenarioKind::cut;
   if (!options.truth.empty() || !options.table.empty())
     throw InputError(options.scenario,
@@ -82,7 +82,7 @@ int simulate_machine(const Options& options, MachineScenarioKind kind) {
   return cuts ? simulate_machine_cut(of_machine) : simulate_measurement(of_machine);
 }
 
-int execute(const Options& options) {
+int execute(const SimulateArguments& options) {
   const MachineScenarioKind kind = machine_scenario_kind(options.scenario);
   const bool cuts = kind == MachineScenarioKind::cut;
   if (options.stream.empty() && !cuts) throw CLI::RequiredError("--output");
@@ -123,7 +123,7 @@ void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "simulate",
       "probe a part in the virtual lathe; measure, or cut a program, on a virtual machine");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateArguments>();
   auto from = std::make_shared<SimulateFromOptions>();
   auto* scenario = command->add_option("scenario", options->scenario, "scenario (TOML)");
   auto* diagnosis =

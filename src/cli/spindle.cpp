@@ -29,7 +29,7 @@ struct OrderRange {
   int low = 2, high = 100;
 };
 
-struct Options {
+struct SpindleArguments {
   std::vector<std::string> streams;
   StreamOptions meaning;
   std::vector<double> angles_deg;
@@ -58,7 +58,7 @@ std::optional<OrderRange> parse_orders(const std::string& text) {
   return range;
 }
 
-int propose(const Options& options, const OrderRange& orders) {
+int propose(const SpindleArguments& options, const OrderRange& orders) {
   ProposeOptions task;
   if (options.sensors > 0)
     task.sensors = options.sensors;
@@ -75,7 +75,7 @@ int propose(const Options& options, const OrderRange& orders) {
 bool is_job(const std::string& path) { return path.ends_with(".toml"); }
 
 /// A job says all of it: beside it neither streams nor what tells of them.
-void expect_job_alone(const CLI::App& command, const Options& options) {
+void expect_job_alone(const CLI::App& command, const SpindleArguments& options) {
   const auto job = std::ranges::find_if(options.streams, is_job);
   if (job == options.streams.end()) return;
   if (options.streams.size() > 1)
@@ -91,7 +91,7 @@ void expect_job_alone(const CLI::App& command, const Options& options) {
 }
 
 /// What the command line says, or the job that it names.
-SpindleJob job_of(const Options& options, const OrderRange& orders) {
+SpindleJob job_of(const SpindleArguments& options, const OrderRange& orders) {
   if (is_job(options.streams.front())) return read_spindle_toml(options.streams.front());
   SpindleJob job;
   job.streams = options.streams;
@@ -107,7 +107,7 @@ SpindleJob job_of(const Options& options, const OrderRange& orders) {
   return job;
 }
 
-int separate(const Options& options, const OrderRange& orders) {
+int separate(const SpindleArguments& options, const OrderRange& orders) {
   SpindleJob job = job_of(options, orders);
   job.read.several_sensors = true;
   std::vector<ProbeStream> streams;
@@ -140,7 +140,7 @@ int separate(const Options& options, const OrderRange& orders) {
   return done;
 }
 
-int execute(const Options& options) {
+int execute(const SpindleArguments& options) {
   const auto orders = parse_orders(options.orders);
   if (!orders)
     throw CLI::ValidationError("--orders", options.orders + " is no range of orders such as 2-100");
@@ -152,7 +152,7 @@ int execute(const Options& options) {
   return separate(options, *orders);
 }
 
-void add_estimate(CLI::App& command, Options& options) {
+void add_estimate(CLI::App& command, SpindleArguments& options) {
   command
       .add_option("--sensitive-deg", options.sensitive_deg,
                   "direction of the tool from +X towards +Y (0)")
@@ -183,7 +183,7 @@ void add_estimate(CLI::App& command, Options& options) {
 void add_spindle(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "spindle", "form of the part and error motion of the spindle, separated (ISO 230-7)");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SpindleArguments>();
   command->add_option("stream", options->streams,
                       "probe streams (CSV) of one section: several sensors, set-ups, reversal, an "
                       "axial sensor; or one job (.toml)");

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis {
 namespace {
 
@@ -60,9 +62,8 @@ Seen seen_from(const Axis& target, const Reference& reference, double z_start_mm
     out.factor.setConstant(std::nan(""));
     return out;
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(covariance);
-  out.factor = eigen.eigenvectors() *
-               eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal().toDenseMatrix();
+  const auto [variances, axes] = linear::spectrum(covariance);
+  out.factor = linear::scaled_columns(axes, variances.cwiseMax(0.0).cwiseSqrt());
   return out;
 }
 

@@ -227,7 +227,7 @@ void polish(const JointModel& model, const LossScale& loss, Minimum& minimum) {
     factorise<Eigen::Dynamic>(minimum.normal, r, z);
     const double curvature = std::clamp(minimum.normal.curvature, least_curvature, 1.0);
     if (z.squaredNorm() / curvature <= enough * minimum.normal.sum_rho) return;
-    const Eigen::VectorXd step = r.colPivHouseholderQr().solve(z) / curvature;
+    const Eigen::VectorXd step = linear::pivoted_least_squares(r, z) / curvature;
     Minimum next = minimum;
     for (Eigen::Index j = 0; j < p; ++j) next.working[static_cast<std::size_t>(j)] += step(j);
     next.normal = model.accumulate(next.working, loss);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "math/dual_simplex.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::form {
@@ -24,7 +25,7 @@ Exchange::Exchange(Rows rows, Criterion criterion)
   expects(rows_->rows() >= rows_->cols() && rows_->cols() > 0, "more readings than unknowns");
   const Eigen::Index p = rows_->cols();
   if (criterion_ == Criterion::gaussian) {
-    normal_.compute(rows_->transpose() * *rows_);
+    normal_ = rows_->transpose() * *rows_;
     return;
   }
   // A zone has its half width as one unknown more, which is to be least; else it is the size.
@@ -80,8 +81,11 @@ class Constraints {
 
 Nearest Exchange::least_squares(std::span<const double> y) const {
   const Eigen::Map<const Eigen::VectorXd> values(y.data(), static_cast<Eigen::Index>(y.size()));
-  Eigen::VectorXd q = normal_.solve(rows_->transpose() * values);
-  q += normal_.solve(rows_->transpose() * (values - *rows_ * q));  // refined once
+  const auto solved = [&](const Eigen::VectorXd& left) {
+    return linear::solve_normal(normal_, Eigen::VectorXd(rows_->transpose() * left));
+  };
+  Eigen::VectorXd q = solved(values);
+  q += solved(values - *rows_ * q);  // refined once
   return {q, {}, true};
 }
 

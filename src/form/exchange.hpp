@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -54,7 +54,7 @@ class Exchange {
   std::shared_ptr<const Rows> rows_;  ///< shared by copies, which only start elsewhere
   Criterion criterion_;
   Eigen::VectorXd objective_;
-  Eigen::LDLT<Eigen::MatrixXd> normal_;
+  Eigen::MatrixXd normal_;
   std::vector<Active> active_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "math/linear_algebra.hpp"
 #include "math/lower_triangle.hpp"
 
 namespace trueaxis::infer {
@@ -72,15 +73,15 @@ Solution solve(const Eigen::MatrixXd& gram, const Columns& columns) {
       normal(i, j) = gram(a, static_cast<Eigen::Index>(columns[static_cast<std::size_t>(j)]));
   }
   const Matrix unit = scale.asDiagonal() * normal * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(unit);
+  const auto [values, vectors] = linear::spectrum(unit);
   Eigen::VectorXd inverse(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const bool there = eigen.eigenvalues()(i) > undetermined;
-    inverse(i) = there ? 1.0 / eigen.eigenvalues()(i) : 0.0;
+    const bool there = values(i) > undetermined;
+    inverse(i) = there ? 1.0 / values(i) : 0.0;
     out.rank += there;
   }
-  out.inverse = scale.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
-                eigen.eigenvectors().transpose() * scale.asDiagonal();
+  out.inverse = scale.asDiagonal() * vectors * inverse.asDiagonal() * vectors.transpose() *
+                scale.asDiagonal();
   out.coefficients = out.inverse * right;
   out.rss = gram(0, 0) - right.dot(out.coefficients);
   return out;
@@ -132,9 +133,9 @@ Score score(const Projection& projection, const Columns& columns) {
     take(left(0, 0), right(0));
     return out;
   }
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(left);
-  const Eigen::VectorXd along = eigen.eigenvectors().transpose() * right;
-  for (Eigen::Index i = 0; i < n; ++i) take(eigen.eigenvalues()(i), along(i));
+  const auto [values, vectors] = linear::spectrum(left);
+  const Eigen::VectorXd along = vectors.transpose() * right;
+  for (Eigen::Index i = 0; i < n; ++i) take(values(i), along(i));
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -46,8 +47,7 @@ At axis_at(const HeldAxis& held, double z_mm) {
 }
 
 double worse_direction(const Eigen::Matrix2d& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(eigen.eigenvalues()(1), 0.0));
+  return std::sqrt(std::max(linear::eigenvalues(covariance)(1), 0.0));
 }
 
 /// What an open number does to (x, y, slope_x, slope_y), times the width of its law.
@@ -86,14 +86,13 @@ double log_likelihood_of(std::span<const HeldAxis> axes, std::optional<OpenMista
     place(0, 2) = place(1, 3) = axes[i].z_mid_mm - z_mm;
     const Eigen::MatrixXd model = place.bottomRows(n);
     const Eigen::VectorXd value = at.value.tail(n);
-    const Eigen::LLT<Eigen::MatrixXd> factor(covariance.bottomRightCorner(n, n));
-    weight += model.transpose() * factor.solve(model);
-    weighted += model.transpose() * factor.solve(value);
-    sum += value.dot(factor.solve(value)) + 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+    const linear::Cholesky factor(covariance.bottomRightCorner(n, n));
+    weight += linear::transposed_product(model, factor.solve(model));
+    weighted += linear::transposed_product(model, factor.solve(value));
+    sum += value.dot(factor.solve(value)) + factor.log_determinant();
   }
-  const Eigen::LLT<Eigen::Matrix4d> common(weight);
-  sum += 2.0 * common.matrixLLT().diagonal().array().log().sum() -
-         weighted.dot(common.solve(weighted));
+  const linear::Cholesky common(weight);
+  sum += common.log_determinant() - weighted.dot(common.solve(Eigen::VectorXd(weighted)));
   return -0.5 * sum;
 }
 
@@ -117,12 +116,12 @@ Disagreement difference_of(const HeldAxis& first, const HeldAxis& second, double
   out.U_tilt_rad = coverage_factor * worse_direction(covariance.bottomRightCorner<2, 2>());
   double chi2 = 0.0;
   if (slopes_only) {
-    chi2 = apart.tail<2>().dot(covariance.bottomRightCorner<2, 2>().ldlt().solve(apart.tail<2>()));
+    chi2 = linear::weighed_square(apart.tail<2>(), covariance.bottomRightCorner<2, 2>());
   } else {
     out.offset_mm = apart.head<2>().norm();
     out.U_offset_mm = coverage_factor * worse_direction(covariance.topLeftCorner<2, 2>());
     out.between_mm = std::abs(first.z_mid_mm - second.z_mid_mm);
-    chi2 = apart.dot(covariance.ldlt().solve(apart));
+    chi2 = linear::weighed_square(apart, covariance);
   }
   const boost::math::chi_squared law(slopes_only ? 2.0 : 4.0);
   out.p_value = std::isfinite(chi2) ? cdf(complement(law, std::max(chi2, 0.0))) : 0.0;

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "job/references.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -46,7 +47,8 @@ Matrix4 metric_of(const PlannedJob& result, std::size_t i, double z_ref_mm) {
   normal /= static_cast<double>(stream.size());
   const Eigen::Index own = fit_used(result, i).surface == SurfaceKind::cone ? 2 : 1;
   const Eigen::MatrixXd of_own = normal.block(4, 4, own, own), mixed = normal.block(0, 4, 4, own);
-  return normal.topLeftCorner<4, 4>() - mixed * of_own.ldlt().solve(mixed.transpose());
+  return normal.topLeftCorner<4, 4>() -
+         linear::product(mixed, linear::solve_normal(of_own, Eigen::MatrixXd(mixed.transpose())));
 }
 
 /// (x, y, slopes) at another height.
@@ -82,8 +84,10 @@ Common common_axis(const PlannedJob& result, const NamesOfDatum& names, double z
 /// The same held to the direction of a face: what least squares leaves of x and y where the slopes
 /// are given.
 void hold_to_face(std::size_t face, Common& common) {
+  const Eigen::MatrixXd metric = common.metric;
   const Eigen::Matrix2d lever =
-      common.metric.topLeftCorner<2, 2>().ldlt().solve(common.metric.topRightCorner<2, 2>().eval());
+      linear::solve_normal(Eigen::MatrixXd(metric.topLeftCorner<2, 2>()),
+                           Eigen::MatrixXd(metric.topRightCorner<2, 2>()));
   for (Matrix4& share : common.share) {
     share.topRows<2>() += lever * share.bottomRows<2>();
     share.bottomRows<2>().setZero();

@@ -2,8 +2,20 @@
 #include "math/linear_algebra.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <limits>
 
 namespace trueaxis::linear {
+namespace {
+
+Eigen::CompleteOrthogonalDecomposition<MatrixXd> orthogonal(const MatrixXd& a, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> factors;
+  if (threshold > 0.0) factors.setThreshold(threshold);
+  factors.compute(a);
+  return factors;
+}
+
+}  // namespace
 
 MatrixXd product(const MatrixXd& a, const MatrixXd& b) { return a * b; }
 
@@ -31,6 +43,12 @@ MatrixXd orthonormal_basis(const MatrixXd& a, double threshold) {
   return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
 }
 
+MatrixXd orthonormal_basis_above(const MatrixXd& a, double least) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(a);
+  qr.setThreshold(least / std::max(qr.maxPivot(), std::numeric_limits<double>::min()));
+  return qr.householderQ() * MatrixXd::Identity(a.rows(), qr.rank());
+}
+
 MatrixXd beside(const MatrixXd& q, const MatrixXd& b) { return b - q * transposed_product(q, b); }
 
 VectorXd beside(const MatrixXd& q, const VectorXd& b) { return b - q * transposed_product(q, b); }
@@ -39,12 +57,16 @@ VectorXd pivoted_least_squares(const MatrixXd& a, const VectorXd& b) {
   return a.colPivHouseholderQr().solve(b);
 }
 
-VectorXd least_squares(const MatrixXd& a, const VectorXd& b) {
-  return a.completeOrthogonalDecomposition().solve(b);
+MatrixXd pivoted_least_squares(const MatrixXd& a, const MatrixXd& b) {
+  return a.colPivHouseholderQr().solve(b);
 }
 
-MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
-  return a.completeOrthogonalDecomposition().solve(b);
+VectorXd least_squares(const MatrixXd& a, const VectorXd& b, double threshold) {
+  return orthogonal(a, threshold).solve(b);
+}
+
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b, double threshold) {
+  return orthogonal(a, threshold).solve(b);
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& a) {
@@ -117,6 +139,12 @@ Spectrum spectrum(const MatrixXd& symmetric) {
 
 VectorXd eigenvalues(const MatrixXd& symmetric) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+SingularSystem singular_system(const MatrixXd& a, const VectorXd& b, double threshold) {
+  Eigen::JacobiSVD<MatrixXd> svd(a, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  if (threshold > 0.0) svd.setThreshold(threshold);
+  return {svd.singularValues(), svd.matrixV(), svd.solve(b), svd.rank()};
 }
 
 }  // namespace trueaxis::linear

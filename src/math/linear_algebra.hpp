@@ -32,16 +32,19 @@ MatrixXd propagated(const MatrixXd& a, const MatrixXd& c);
 /// Orthonormal columns that span those of A; pivots below `threshold` of the largest count as none
 /// (0: rounding).
 MatrixXd orthonormal_basis(const MatrixXd& a, double threshold = 0.0);
+/// The same with pivots below `least`, in the unit of A, as none.
+MatrixXd orthonormal_basis_above(const MatrixXd& a, double least);
 /// What orthonormal columns Q leave: B − Q QᵀB.
 MatrixXd beside(const MatrixXd& q, const MatrixXd& b);
 VectorXd beside(const MatrixXd& q, const VectorXd& b);
 
 /// The x of least |A x − b| with zeros where columns depend on others.
 VectorXd pivoted_least_squares(const MatrixXd& a, const VectorXd& b);
-/// The shortest x of least |A x − b|, whatever the rank of A.
-VectorXd least_squares(const MatrixXd& a, const VectorXd& b);
+MatrixXd pivoted_least_squares(const MatrixXd& a, const MatrixXd& b);
+/// The shortest x of least |A x − b|, whatever the rank of A (`threshold`: see orthonormal_basis).
+VectorXd least_squares(const MatrixXd& a, const VectorXd& b, double threshold = 0.0);
 /// The same, a column of B each.
-MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b);
+MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b, double threshold = 0.0);
 MatrixXd pseudo_inverse(const MatrixXd& a);
 /// Both, and the rank.
 struct ShortestSolution {
@@ -105,5 +108,14 @@ struct Spectrum {
 };
 Spectrum spectrum(const MatrixXd& symmetric);
 VectorXd eigenvalues(const MatrixXd& symmetric);
+/// A = U diag(σ) Vᵀ, σ descending; values below `threshold` of the largest count as none (0:
+/// rounding).
+struct SingularSystem {
+  VectorXd values;
+  MatrixXd right;  ///< V
+  VectorXd x;      ///< the shortest of least |A x − b|
+  Eigen::Index rank = 0;
+};
+SingularSystem singular_system(const MatrixXd& a, const VectorXd& b, double threshold = 0.0);
 
 }  // namespace trueaxis::linear

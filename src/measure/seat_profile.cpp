@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
 #include "trueaxis/units.hpp"
@@ -127,8 +128,8 @@ RobustCircle robust_circle(const ProbeStream& stream, const std::vector<std::siz
   constexpr int rounds = 12, rounds_of_huber = 6;
   for (int round = 0; round < rounds; ++round) {
     const Eigen::Matrix3d normal = basis.transpose() * weight.asDiagonal() * basis;
-    const Eigen::Vector3d found =
-        normal.ldlt().solve(basis.transpose() * weight.cwiseProduct(reading));
+    const Eigen::Vector3d found = linear::solve_normal(
+        normal, Eigen::Vector3d(basis.transpose() * weight.cwiseProduct(reading)));
     out.radius_mm = found[0], out.cos_mm = found[1], out.sin_mm = found[2];
     const Eigen::VectorXd off = reading - basis * found;
     out.scatter_mm =

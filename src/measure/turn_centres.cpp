@@ -8,6 +8,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -60,8 +61,8 @@ bool take_centre(const ProbeStream& stream, std::span<const double> value_mm, Tu
 
 /// Squares of the centres [first, last) about a model of `columns`, x and y together.
 double squares_about(const Eigen::MatrixXd& columns, const Eigen::MatrixX2d& centres) {
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver(columns);
-  return (centres - columns * solver.solve(centres)).squaredNorm();
+  const Eigen::MatrixXd model = linear::pivoted_least_squares(columns, Eigen::MatrixXd(centres));
+  return (centres - linear::product(columns, model)).squaredNorm();
 }
 
 /// Variance of a coordinate by second differences: what goes to and fro is no step.

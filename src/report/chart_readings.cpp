@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
 namespace {
-
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 bool finite(const Axis& axis) {
   return std::isfinite(axis.x_mm + axis.y_mm + axis.slope_x + axis.slope_y + axis.z_ref_mm);

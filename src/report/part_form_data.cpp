@@ -13,7 +13,7 @@ namespace trueaxis {
 namespace {
 
 constexpr std::size_t rows_shown = 12;    // of the sections, the worst
-constexpr std::size_t most_points = 720;  // of a polar plot
+constexpr std::size_t most_angles = 720;  // of a polar plot
 constexpr std::array<const char*, 2> shown[] = {
     {"RONt", "MZCI"},  {"CYLt", "MZCY"},        {"CONt", "MZCO"},     {"STRsa", ""},
     {"FLTt", "MZPL"},  {"runout_circular", ""}, {"runout_total", ""}, {"axial_runout_circular", ""},
@@ -112,7 +112,7 @@ Json worst_data(const FormResult& form) {
   if (worst.empty()) return nullptr;
   const SectionForm& section = form.sections[worst.front()];
   const FormProfile& profile = section.profile;
-  const std::size_t step = 1 + profile.angle_rad.size() / most_points;
+  const std::size_t step = 1 + profile.angle_rad.size() / most_angles;
   Json data{{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
             {"readings", section.readings},
             {"lobes", section.lobes},

@@ -6,11 +6,6 @@
 #include <limits>
 
 namespace trueaxis {
-namespace {
-
-constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
-
-}  // namespace
 
 std::size_t Bins::of(double value) const {
   const double place = (value - low) / width();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "format/json.hpp"
@@ -10,6 +11,9 @@ namespace trueaxis {
 
 /// More readings than this are shown as means of cells and envelopes of bins.
 inline constexpr std::size_t max_points = 20000;
+
+/// What a chart leaves out.
+inline constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 /// `value` to `decimals` places: keeps the page small and its bytes free of the last bits.
 double rounded(double value, int decimals);

@@ -48,6 +48,10 @@ std::function<Out(At)> with_values(Formula formula, Out (Formula::*)(At, Numbers
   };
 }
 
+inline constexpr auto form = &Chain::form;
+inline constexpr auto machine = &Chain::machine;
+inline constexpr auto response = &Chain::response;
+
 /// A formula in a slot of the chain: of what the slot is about, then of the effect's parameters, in
 /// the order of its entry.
 template <auto slot, class Formula>

@@ -7,9 +7,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-constexpr auto form = &Chain::form;
-constexpr auto machine = &Chain::machine;
-
 constexpr EffectEntry extra_table[] = {
     // Lobes that turn about the axis on their way along it.
     {"extra.spiral",

@@ -7,9 +7,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-constexpr auto form = &Chain::form;
-constexpr auto machine = &Chain::machine;
-
 constexpr EffectEntry face_table[] = {
     // Of a face s is the distance from its axis.
     {"part.face_saddle",

@@ -7,8 +7,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-constexpr auto machine = &Chain::machine;
-
 double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
 
 constexpr EffectEntry machine_table[] = {

@@ -7,8 +7,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-constexpr auto form = &Chain::form;
-
 constexpr EffectEntry part_table[] = {
     // A ring pressed at j points bends as 1/(n² − 1)² at n = j, 2j, …
     {"part.chuck_lobing",

@@ -8,8 +8,6 @@
 namespace trueaxis::virtual_lathe {
 namespace {
 
-constexpr auto response = &Chain::response;
-
 constexpr EffectEntry probe_table[] = {
     {"probe.height",
      "probe line at Y = height",

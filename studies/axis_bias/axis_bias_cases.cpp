@@ -200,7 +200,7 @@ void add_stated(std::vector<AxisBiasCase>& cases) {
       {"part.slip", "radial, at two thirds"}};
   std::string before;
   for (AxisBiasCase& one : cases) {
-    const Effect* effect = find_effect(one.effect);
+    const trueaxis::Effect* effect = find_effect(one.effect);
     const auto named = form_of.find(one.effect);
     const bool figure = named != form_of.end() ? one.form == named->second : one.effect != before;
     if (effect->axis_bias && figure) one.stated = effect->axis_bias->value;

@@ -56,15 +56,14 @@ Vector3d trilaterate(std::span<const Sight> sights) {
     mean_square -= right[i] / static_cast<double>(n);
   }
   right.array() += mean_square;
-  Eigen::JacobiSVD<MatrixXd> svd(left, Eigen::ComputeThinU | Eigen::ComputeThinV);
-  svd.setThreshold(1e-3);
-  const Vector3d flat = svd.solve(right);
-  if (svd.rank() == 3) {
+  const linear::SingularSystem system = linear::singular_system(left, right, 1e-3);
+  const Vector3d flat = system.x;
+  if (system.rank == 3) {
     Vector3d centre = m + flat;
     refine(sights, centre);
     return centre;
   }
-  Vector3d normal = svd.matrixV().col(2);
+  Vector3d normal = system.right.col(2);
   if (normal[2] < 0.0) normal = -normal;
   const double height = std::sqrt(std::max(0.0, mean_square - flat.squaredNorm()));
   Vector3d above = m + flat + height * normal, below = m + flat - height * normal;

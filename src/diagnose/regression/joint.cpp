@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis::diagnose_detail {
 namespace {
 
@@ -104,8 +106,7 @@ AxisUncertainty axis_uncertainty(const LinearisationPoint& point,
   for (const double u : {-1.0, 1.0}) {
     const Eigen::MatrixXd at = position_at(point, u);
     const Eigen::MatrixXd c = at * base_covariance.block(from, from, per, per) * at.transpose();
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(c);
-    worst.u_mm = std::max(worst.u_mm, std::sqrt(std::max(0.0, eigen.eigenvalues()(1))));
+    worst.u_mm = std::max(worst.u_mm, std::sqrt(std::max(0.0, linear::spectrum(c).values(1))));
     worst.rms_mm = std::max(worst.rms_mm, std::sqrt(std::max(0.0, c.trace())));
   }
   return worst;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "diagnose/search/causes.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -22,11 +23,9 @@ constexpr double coarse[] = {0.2, 0.05, 0.0};
 
 /// Directions of columns beyond those of `q`, which they join.
 Eigen::MatrixXd beyond(Eigen::MatrixXd& q, const Eigen::MatrixXd& columns) {
-  const Eigen::MatrixXd left = columns - q * (q.transpose() * columns);
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(left);
   const double whole = columns.colwise().norm().maxCoeff();
-  qr.setThreshold(left_alone * whole / std::max(qr.maxPivot(), 1e-12 * whole));
-  const Eigen::MatrixXd own = qr.householderQ() * Eigen::MatrixXd::Identity(q.rows(), qr.rank());
+  const Eigen::MatrixXd own =
+      linear::orthonormal_basis_above(linear::beside(q, columns), left_alone * whole);
   q.conservativeResize(Eigen::NoChange, q.cols() + own.cols());
   q.rightCols(own.cols()) = own;
   return own;

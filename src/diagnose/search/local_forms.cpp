@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "diagnose/regression/size_prior.hpp"
+#include "math/linear_algebra.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -136,14 +137,13 @@ Eigen::MatrixXd LocalForms::rows_of(const std::vector<Hypothesis>& terms, bool w
 std::vector<Hypothesis> LocalForms::beside(const std::vector<Hypothesis>& terms, std::size_t most,
                                            bool one_of_each) const {
   const Eigen::MatrixXd taken = rows_of(terms, true);
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(taken);
-  const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(taken.rows(), qr.rank());
-  const Eigen::VectorXd left = deviation_ - q * (q.transpose() * deviation_);
+  const Eigen::MatrixXd q = linear::orthonormal_basis(taken);
+  const Eigen::VectorXd left = linear::beside(q, deviation_);
   const Eigen::VectorXd norm2 = columns_.colwise().squaredNorm();
   const Eigen::VectorXd free2 =
       norm2 - Eigen::VectorXd((q.transpose() * columns_).colwise().squaredNorm());
   const Eigen::VectorXd right = columns_.transpose() * left;
-  const double rss = left.squaredNorm(), freedom = static_cast<double>(taken.rows() - qr.rank());
+  const double rss = left.squaredNorm(), freedom = static_cast<double>(taken.rows() - q.cols());
   struct Found {
     double criterion;
     std::size_t form;

@@ -9,6 +9,7 @@
 #include "diagnose/regression/noise.hpp"
 #include "diagnose/regression/size_prior.hpp"
 #include "diagnose/search/causes.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
@@ -58,10 +59,10 @@ Rows rows_of(const Problem& problem, const std::vector<double>& phi,
 ByRows orthonormal(const Matrix& columns) {
   const Eigen::VectorXd scale = columns.colwise().norm().cwiseMax(1e-300).cwiseInverse();
   const Matrix unit = scale.asDiagonal() * (columns.transpose() * columns) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(unit);
-  const Index there = (eigen.eigenvalues().array() > undetermined).count();
-  return columns * (scale.asDiagonal() * eigen.eigenvectors().rightCols(there) *
-                    eigen.eigenvalues().tail(there).cwiseSqrt().cwiseInverse().asDiagonal());
+  const auto [values, vectors] = linear::spectrum(unit);
+  const Index there = (values.array() > undetermined).count();
+  return columns * (scale.asDiagonal() * vectors.rightCols(there) *
+                    values.tail(there).cwiseSqrt().cwiseInverse().asDiagonal());
 }
 
 /// A step before a reading: what base and terms leave of its columns.

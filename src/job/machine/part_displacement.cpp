@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "math/linear_algebra.hpp"
+
 namespace trueaxis::machine_job {
 namespace {
 
@@ -27,21 +29,23 @@ RigidFit::RigidFit(std::span<const Eigen::Vector3d> points_mm)
   for (const Eigen::Vector3d& point : points_mm_)
     most = std::max(most, (point - middle_mm_).norm());
   if (most > 0.0) reach_mm_ = most;
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   for (const Eigen::Vector3d& point : points_mm_) {
     const auto columns = columns_at((point - middle_mm_) / reach_mm_);
-    normal += columns.transpose() * columns;
+    normal_ += columns.transpose() * columns;
   }
-  normal_.setThreshold(least_shown);
-  normal_.compute(normal);
 }
 
 RigidFit::Body RigidFit::nearest(const Displacements& displacements_mm) const {
   Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
   for (std::size_t i = 0; i < points_mm_.size(); ++i)
     right += columns_at((points_mm_[i] - middle_mm_) / reach_mm_).transpose() * displacements_mm[i];
-  const Eigen::Matrix<double, 6, 1> found = normal_.solve(right);
+  const Eigen::Matrix<double, 6, 1> found =
+      linear::least_squares(normal_, Eigen::VectorXd(right), least_shown);
   return {middle_mm_, found.head<3>(), found.tail<3>() / reach_mm_};
+}
+
+Eigen::MatrixXd RigidFit::Sums::bodies() const {
+  return linear::least_squares(fit_.normal_, right_, least_shown);
 }
 
 void RigidFit::Sums::add(const Eigen::Vector3d& point_mm,

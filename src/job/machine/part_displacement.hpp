@@ -31,7 +31,7 @@ class RigidFit {
     Sums(const RigidFit& fit, Eigen::Index columns)
         : fit_(fit), right_(Eigen::MatrixXd::Zero(6, columns)) {}
     void add(const Eigen::Vector3d& point_mm, const Eigen::Matrix3Xd& displacements_mm);
-    Eigen::MatrixXd bodies() const { return fit_.normal_.solve(right_); }
+    Eigen::MatrixXd bodies() const;
 
    private:
     const RigidFit& fit_;
@@ -46,7 +46,7 @@ class RigidFit {
   std::vector<Eigen::Vector3d> points_mm_;
   Eigen::Vector3d middle_mm_ = Eigen::Vector3d::Zero();
   double reach_mm_ = 1.0;  ///< of the points about their middle, so that all columns are lengths
-  Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<double, 6, 6>> normal_;
+  Eigen::Matrix<double, 6, 6> normal_ = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
 }  // namespace trueaxis::machine_job

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/linear_algebra.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/quantities.hpp"
 #include "trueaxis/error.hpp"
@@ -170,12 +171,11 @@ Eigen::MatrixXd inverse_information(const Eigen::MatrixXd& jacobian) {
   const Eigen::VectorXd scale = jacobian.colwise().norm().cwiseInverse();
   if (!scale.allFinite()) return {};
   const Eigen::MatrixXd scaled = jacobian * scale.asDiagonal();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
-  const Eigen::VectorXd values = svd.singularValues();
+  const auto [values, right, none_asked, rank] =
+      linear::singular_system(scaled, Eigen::VectorXd::Zero(scaled.rows()));
   constexpr double singular = 1e-8;  // derivatives carry about 1e-10 of their size
   if (!(values.minCoeff() > singular * values.maxCoeff())) return {};
-  const Eigen::MatrixXd root =
-      scale.asDiagonal() * svd.matrixV() * values.cwiseInverse().asDiagonal();
+  const Eigen::MatrixXd root = scale.asDiagonal() * right * values.cwiseInverse().asDiagonal();
   return root * root.transpose();
 }
 

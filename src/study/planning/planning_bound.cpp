@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/linear_algebra.hpp"
 #include "simulate/timeline.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/planning/planning_search.hpp"
@@ -69,12 +70,12 @@ WorstOfAxis worst_of_axis(const Scenario& scenario, const Bound& bound) {
     Eigen::Matrix2d covariance;
     covariance << c(0, 0), c(0, 1), c(1, 0), c(1, 1);
     if (!covariance.allFinite()) return {std::numeric_limits<double>::quiet_NaN(), {}};
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(covariance);
-    const double sd = std::sqrt(std::max(0.0, eigen.eigenvalues()(1)));
+    const auto [variances, directions] = linear::spectrum(covariance);
+    const double sd = std::sqrt(std::max(0.0, variances(1)));
     if (sd < worst.sd_mm) continue;
     worst = {sd, {}};
-    worst.weight[end] = eigen.eigenvectors()(0, 1);
-    worst.weight[end + 1] = eigen.eigenvectors()(1, 1);
+    worst.weight[end] = directions(0, 1);
+    worst.weight[end + 1] = directions(1, 1);
   }
   return worst;
 }

@@ -139,7 +139,7 @@ void visit_lists(Scenario& scenario, const Visit& visit) {
     visit(prefix + "m", cosine, at(setup.m));
   }
   index = 0;
-  for (Effect& effect : scenario.effects) {
+  for (virtual_lathe::Effect& effect : scenario.effects) {
     const std::string prefix = "effect." + std::to_string(index++) + '.';
     for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
       const std::string name(known.name);
