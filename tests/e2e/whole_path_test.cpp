@@ -130,8 +130,12 @@ TEST_F(WholePath, ArcsToo) {
     const auto was = PlainControl(corners).moves;
     double before = 0.0, after = 0.0;
     std::ptrdiff_t chords = 0;
-    for (const PlainMove& block : was)
-      if (!block.rapid) before = std::max(before, bc.off_mm(block, block.from, block.to));
+    std::vector<std::array<Vector3, 2>> ends;  // of the blocks, in the part
+    for (const PlainMove& block : was) {
+      if (block.rapid) continue;
+      before = std::max(before, bc.off_mm(block, block.from, block.to));
+      ends.push_back({bc.nominal(block.from), bc.nominal(block.to)});
+    }
     for (const PlainMove& chord : PlainControl(read_text(folder_ / "out.nc")).moves) {
       if (chord.rapid) continue;
       ++chords;
@@ -139,11 +143,10 @@ TEST_F(WholePath, ArcsToo) {
         AxisPositions q;
         for (std::size_t k = 0; k < axis_count; ++k)
           q[k] = std::lerp(chord.from[k], chord.to[k], s);
+        const Vector3 tip = bc.actual(q);
         double least = 1e9;
-        for (const PlainMove& block : was)
-          if (!block.rapid)
-            least = std::min(least, BcTrunnion::off_line(bc.actual(q), bc.nominal(block.from),
-                                                         bc.nominal(block.to)));
+        for (const auto& [from, to] : ends)
+          least = std::min(least, BcTrunnion::off_line(tip, from, to));
         after = std::max(after, least);
       }
     }
