@@ -92,24 +92,6 @@ function pathView(tips, {words, show, across, up}, magnified) {
 
 const pathViews = (tips) => element('div', {class: 'pair'}, Object.values(views).reverse().map((view) => pathView(tips, view, magnifiedBy(tips))));
 
-const directionWords = {X: 'along X', Y: 'along Y', Z: 'along Z', A: 'about X', B: 'about Y', C: 'about Z'};
-
-/** An error's name in words: ISO 230-1. */
-function errorWords(name) {
-  const [kind, direction, body] = kindOf(name);
-  if (!kind) return '';
-  const of = body === 'S' ? 'the spindle' : body === 'W' ? 'the workpiece' : `axis ${body}`;
-  if (kind === 'component') return direction === body ? `position of ${of}` : `${directionWords[direction]}, as ${body} moves`;
-  if (direction === body) return `zero of ${of}`;
-  return 'ABC'.includes(direction) ? `direction of ${of} ${directionWords[direction]}` : `place of ${of} ${directionWords[direction]}`;
-}
-
-function kindOf(name) {
-  const found = /^(?:E([XYZABC])([XYZABC])|([XYZABC])0([XYZABCSW]))/.exec(name);
-  if (!found) return [];
-  return found[1] ? ['component', found[1], found[2]] : ['location', found[3], found[4]];
-}
-
 /** What each error alone does to the tip on this program. */
 function errorBars(byError) {
   const shown = byError.filter(({tip}) => tip.value > 0).slice(0, 12);
@@ -118,11 +100,11 @@ function errorBars(byError) {
     grid: grid({top: 18, right: 56}),
     xAxis: axis('tip moved by at most, in µm', {min: 0, splitNumber: width < 480 ? 4 : 8}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map(({name}) => name), axisTick: {show: false}, splitLine: {show: false},
-      axisLabel: {color: colours.ink, interval: 0, formatter: (name) => `${errorWords(name)} (${name})`, ...(width < 480 ? {width: 116, overflow: 'break', fontSize: 10, lineHeight: 12} : {})}}),
+      axisLabel: {color: colours.ink, interval: 0, formatter: (name) => `${titleOf(name)} (${name})`, ...(width < 480 ? {width: 116, overflow: 'break', fontSize: 10, lineHeight: 12} : {})}}),
     series: [{name: 'alone', type: 'bar', barWidth: '62%', emphasis: {disabled: true}, itemStyle: {color: colours.series[0]},
       label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => significant(value, 3)}, data: shown.map(({tip}) => 1000 * tip.value)}],
   });
   return figure({caption: 'What each error does to the tip on this program when it is the only one, the largest of it; they add as vectors, and partly cancel.',
-    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${errorWords(name)} (${name}) ${um(1000 * tip.value)}`).join(', ')}.`,
+    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${titleOf(name)} (${name}) ${um(1000 * tip.value)}`).join(', ')}.`,
     size: 'bars', renderer: 'svg', build, height: (width) => 70 + (width < 480 ? 30 : 24) * shown.length});
 }
