@@ -33,11 +33,8 @@ struct Finding : NamedFinding {
   }
 };
 
-/// A pattern that no catalogued cause explains; it stays in the model as it is.
-struct Unexplained {
-  TermValue term;      ///< a pattern, fitted
-  Estimate amplitude;  ///< mm
-  double p_value = 1.0;
+struct Unexplained : UnnamedPattern {
+  TermValue term;  ///< a pattern, fitted
 };
 
 /// An effect that this plan cannot see at its typical size.
@@ -63,11 +60,8 @@ struct NoiseReport {
   std::vector<Rejected> interruptions;  ///< keyways, holes: first row of each and its sector
 };
 
-struct Gain {
-  double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  Interval held_out_before_mm, held_out_after_mm;  ///< blocks of revolutions or sections left out
-  std::string blocks;                              ///< what one block is, and how many
-  Interval held_out_ratio;                         ///< after / before, blocks paired
+struct Gain : Explained {
+  std::string blocks;  ///< of revolutions or sections: what one is, and how many
   double noise_floor_mm = 0.0;
   Estimate axis_shift;         ///< mm, largest over Z between the baseline's axis and the extended
   Estimate coaxiality_before;  ///< mm, of the part that a correction from the baseline would cut
@@ -98,8 +92,7 @@ struct AxisShare {
 };
 
 /// What the model gets wrong.
-struct Diagnosis {
-  DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
+struct Diagnosis : Conclusion {
   FitResult baseline;  ///< the ideal surface
   FitResult named;     ///< refitted with all findings as they are named
   /// Averaged over what may have caused the readings, each model by its probability: what is stated
@@ -109,17 +102,10 @@ struct Diagnosis {
   std::vector<Finding> findings;  ///< by axis_bias, the largest first
   std::vector<Unexplained> unexplained;
   std::vector<NotObservable> not_observable;
-  std::vector<std::string> remarks;  ///< what might be taken for an effect and is none
   NoiseReport noise;
-  std::vector<QualityCheck> checks;
   Gain gain;
   NextMeasurement next;
   std::vector<Separating> plans;  ///< every candidate measurement, best first
-
-  double false_alarm = 0.01;          ///< family-wise level of the verdict
-  std::size_t hypotheses = 0;         ///< columns tried one by one
-  double effective_hypotheses = 0.0;  ///< independent tests they are worth at this level
-  double threshold = 0.0;             ///< of a statistic with two degrees of freedom
 
   double z_mid_mm = 0.0, z_half_mm = 1.0;                     ///< u = (z − z_mid)/z_half
   std::vector<double> effect_mm;                              ///< of all terms, one per reading

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "trueaxis/units.hpp"
 
 /// What every diagnosis states, of a part on a lathe and of a machine alike.
 namespace trueaxis {
@@ -47,6 +50,12 @@ struct NamedFinding {
   std::vector<std::string> members_beside(std::string_view name) const;
 };
 
+/// A pattern that no catalogued cause explains; it stays in the model as it is.
+struct UnnamedPattern {
+  Estimate amplitude;  ///< mm; of an angle rad
+  double p_value = 1.0;
+};
+
 /// An effect that this plan cannot see at its typical size.
 struct UnseenEffect {
   std::string effect;       ///< id
@@ -68,10 +77,29 @@ struct Interval {
   double value = 0.0, low = 0.0, high = 0.0;
 };
 
+/// What the findings explain of the readings, and of blocks of them that were left out in turn.
+struct Explained {
+  double rms_before_mm = 0.0, rms_after_mm = 0.0;
+  Interval held_out_before_mm, held_out_after_mm;  ///< RMS
+  Interval held_out_ratio;                         ///< after / before, blocks paired
+};
+
 enum class DiagnosisVerdict { ideal, effects, unexplained };
 const char* to_string(DiagnosisVerdict verdict);
 
 /// @param unexplained whether a pattern is that no effect explains
 DiagnosisVerdict verdict_of(bool found, bool unexplained);
+
+/// What a diagnosis concludes beside its findings.
+struct Conclusion {
+  DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
+  std::vector<std::string> remarks;  ///< what might be taken for an effect and is none
+  std::vector<QualityCheck> checks;
+  double false_alarm = 0.01;          ///< family-wise level of the verdict
+  std::size_t hypotheses = 0;         ///< tried one by one
+  double effective_hypotheses = 0.0;  ///< independent tests they are worth at this level
+  double threshold =
+      0.0;  ///< of one test: its statistic with two degrees of freedom; of a machine p
+};
 
 }  // namespace trueaxis

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,6 +46,9 @@ using MachineTerm = std::variant<std::monostate, ErrorOfPosition, ErrorOfSense, 
 /// by.
 bool is_machine_error(const MachineTerm& term);
 
+/// The axis whose position or sense it is a function of; none: of the time or the row.
+std::optional<AxisName> axis_of(const MachineTerm& term);
+
 /// An entry of the catalogue of a machine: all that diagnosis, job, report and command know of an
 /// effect.
 struct MachineEffect {
@@ -63,27 +65,23 @@ struct MachineEffect {
 };
 
 struct MachineFinding : NamedFinding {
-  std::string effect;                           ///< of the best explanation
-  MachineTerm term{};                           ///< of its entry; monostate: a pattern
-  std::string consequence;                      ///< likewise
+  MachineEffect cause;                          ///< the entry of the best explanation
   std::vector<CalibratedParameter> parameters;  ///< cos and sin, legendre, x y z …; mm or rad
   std::vector<ErrorTerm> errors;  ///< as errors of the machine; empty: reversal, drift, slip
-  std::string formula;            ///< of the term in its parameters
-  std::vector<MachineShape> shape;
-  Covariance covariance;     ///< of `parameters`
-  bool likely_order = true;  ///< its order is 95 % likely among its aliases, 1/n² an order n
+  Covariance covariance;          ///< of `parameters`
+  bool likely_order = true;       ///< its order is 95 % likely among its aliases, 1/n² an order n
   std::vector<std::array<std::string, 2>> pairs;  ///< of effects that together are not told from it
   double size = 0.0;                              ///< amplitude, mm or rad
 
-  std::vector<std::string> members() const { return members_beside(effect); }
+  const std::string& effect() const { return cause.id; }
+  std::vector<std::string> members() const { return members_beside(effect()); }
 };
 
-struct MachineUnexplained {
-  std::string pattern;  ///< in words
-  Estimate amplitude;   ///< mm or rad
-  double p_value = 1.0;
-  std::vector<CalibratedParameter> parameters;
-  Covariance covariance;  ///< of `parameters`
+struct MachineUnexplained : UnnamedPattern {
+  std::string pattern;           ///< in words
+  bool may_have_a_name = false;  ///< it has the form of an effect, beside something unknown
+  std::vector<CalibratedParameter> parameters{};
+  Covariance covariance{};  ///< of `parameters`
 };
 
 /// An effect that these rows do not show. What shows it: `separate_with`.
@@ -121,9 +119,7 @@ struct UncertainParameter {
   double prior = 0.0;  ///< mm or rad
 };
 
-struct MachineDiagnosis {
-  DiagnosisVerdict verdict = DiagnosisVerdict::ideal;
-  std::map<std::string, std::string> titles;  ///< of every effect that was looked for, by its id
+struct MachineDiagnosis : Conclusion {
   Calibration baseline;                       ///< what is always fitted
   std::vector<CalibratedParameter> extended;  ///< its parameters beside all findings
   /// To predict the tip with: given, always fitted and found together; where something is
@@ -132,23 +128,20 @@ struct MachineDiagnosis {
   std::vector<MachineFinding> findings;  ///< the most significant first
   std::vector<MachineUnexplained> unexplained;
   std::vector<MachineNotObservable> not_observable;
-  std::vector<std::string> remarks;  ///< what might be taken for certain and is not
-  std::vector<QualityCheck> checks;
+  std::vector<MachineEffect> effects;  ///< the catalogue of what was looked for
   std::vector<MachinePlan> plans;
   std::string next_plan;  ///< the one to take next; empty: none is needed
   double noise_mm = 0.0;  ///< σ of one number as the residuals show it
-  double rms_before_mm = 0.0, rms_after_mm = 0.0;
-  Interval held_out_before_mm, held_out_after_mm;  ///< RMS of blocks that were left out
-  Interval held_out_ratio;                         ///< after / before, blocks paired
-  std::size_t blocks = 0;                          ///< of rotary positions, left out in turn
-  std::size_t hypotheses = 0;
-  double effective_hypotheses = 0.0;  ///< independent tests that those of effects are worth
-  double false_alarm = 0.01, threshold = 0.0;               ///< p of one test that is a finding
+  Explained gain;
+  std::size_t blocks = 0;                                   ///< of rotary positions, left out
   double typical_length_mm = 0.0, typical_angle_rad = 0.0;  ///< what was looked for
   /// Location errors, what was found and what these rows do not show, with their covariance after
   /// the measurement (Eq. 189); only where `covariances` is asked for.
   std::vector<UncertainParameter> uncertain;
   Covariance covariance;
+
+  /// The plan to take next; nullptr: none is needed.
+  const MachinePlan* next() const;
 };
 
 struct MachineDiagnoseOptions {

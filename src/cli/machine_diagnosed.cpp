@@ -67,7 +67,7 @@ Said said_of(const MachineDiagnosed& run, const Read& read) {
   } else {
     out.found = diagnose_machine(machine, read.data, options);
     expect_no_mistake(machine, read.data, options.calibration, out.found.baseline,
-                      out.found.rms_after_mm);
+                      out.found.gain.rms_after_mm);
   }
   out.found.remarks.insert(out.found.remarks.end(), read.given.remarks.begin(),
                            read.given.remarks.end());
@@ -204,7 +204,8 @@ int advise_machine_job(const MachineJob& job, bool verbose) {
   options.false_alarm = job.false_alarm;
   options.covariances = job.program.has_value();
   MachineDiagnosis found = diagnose_machine(job.machine, job.data, options);
-  expect_no_mistake(job.machine, job.data, options.calibration, found.baseline, found.rms_after_mm);
+  expect_no_mistake(job.machine, job.data, options.calibration, found.baseline,
+                    found.gain.rms_after_mm);
   if (!found.baseline.converged) {
     std::cerr << job.path << ": not converged: " << found.baseline.message << '\n';
     return numerical;

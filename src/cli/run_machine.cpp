@@ -80,7 +80,7 @@ int run_machine(MachineJob job, const RunMachineOptions& options) {
   known.errors = result.job.known;
   if (const std::string mistake =
           likely_mistake(result.job.machine, result.job.data, known, result.diagnosis.baseline,
-                         result.diagnosis.rms_after_mm);
+                         result.diagnosis.gain.rms_after_mm);
       !mistake.empty())
     throw Refusal(mistake);
   if (!result.diagnosis.baseline.converged) {

@@ -20,6 +20,13 @@ inline Json with_unit(double value, const char* unit) {
   return {{"value", number(value)}, {"unit", unit}};
 }
 
+/// The same, and `why` where the value is not finite.
+inline Json quantity_object(double value, const char* unit, const char* why = "not determined") {
+  Json json = with_unit(value, unit);
+  if (!std::isfinite(value)) json["why"] = why;
+  return json;
+}
+
 /// A name whose suffix is the unit inside, as a file has it: "half_angle_rad" is half_angle in deg.
 struct NameAndUnit {
   std::string name;

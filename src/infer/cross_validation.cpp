@@ -39,15 +39,15 @@ Interval interval(std::span<const HeldOutBlock> blocks, Statistic statistic) {
 
 }  // namespace
 
-CrossValidated cross_validated(std::span<const HeldOutBlock> blocks) {
-  CrossValidated out;
-  if (blocks.empty()) return out;
-  out.before = interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.before, b.rows); });
-  out.after = interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.after, b.rows); });
-  out.ratio = interval(blocks, [](const HeldOutBlock& b) {
+void cross_validate(std::span<const HeldOutBlock> blocks, Explained& out) {
+  if (blocks.empty()) return;
+  out.held_out_before_mm =
+      interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.before, b.rows); });
+  out.held_out_after_mm =
+      interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.after, b.rows); });
+  out.held_out_ratio = interval(blocks, [](const HeldOutBlock& b) {
     return b.before > 0.0 ? std::sqrt(b.after / b.before) : 1.0;
   });
-  return out;
 }
 
 }  // namespace trueaxis::infer

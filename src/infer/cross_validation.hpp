@@ -12,12 +12,8 @@ struct HeldOutBlock {
   double before = 0.0, after = 0.0, rows = 0.0;
 };
 
-/// Root mean squares of all blocks, with intervals of 95 % by the percentiles of 999 resamplings of
-/// whole blocks (block bootstrap, Efron and Tibshirani 1993; Eq. 101).
-struct CrossValidated {
-  Interval before, after;
-  Interval ratio;  ///< after / before, blocks paired
-};
-CrossValidated cross_validated(std::span<const HeldOutBlock> blocks);
+/// States the root mean squares of all blocks, with intervals of 95 % by the percentiles of 999
+/// resamplings of whole blocks (block bootstrap, Efron and Tibshirani 1993; Eq. 101).
+void cross_validate(std::span<const HeldOutBlock> blocks, Explained& out);
 
 }  // namespace trueaxis::infer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trueaxis/machine.hpp"
+#include "machine/error_name.hpp"
 
 namespace trueaxis {
 namespace {
@@ -11,6 +11,19 @@ constexpr std::string_view directions = "XYZABC", bodies = "XYZABCSW";
 std::string to_string(const ErrorName& name) {
   const char direction = directions[name.direction], body = bodies[name.body];
   return name.component ? std::string{'E', direction, body} : std::string{direction, '0', body};
+}
+
+std::string words_of(const ErrorName& name) {
+  const char direction = directions[name.direction], body = bodies[name.body];
+  const std::string of = body == 'S'   ? "the spindle"
+                         : body == 'W' ? "the workpiece"
+                                       : std::string("axis ") + body;
+  const bool own = direction == body;
+  const std::string where =
+      std::string(name.angular() ? "about " : "along ") + "XYZ"[name.direction % 3];
+  if (name.component) return own ? "position of " + of : where + ", as " + body + " moves";
+  if (own) return "zero of " + of;
+  return (name.angular() ? "direction of " : "place of ") + of + ' ' + where;
 }
 
 std::optional<ErrorName> parse_error_name(std::string_view text) {

@@ -27,6 +27,7 @@ trueaxis_report_js_begin:
     .incbin "report/part_form.js"
     .incbin "report/seats_charts.js"
     .incbin "report/reference.js"
+    .incbin "report/findings.js"
     .incbin "report/diagnosis_charts.js"
     .incbin "report/diagnosis.js"
     .incbin "report/target.js"
@@ -41,6 +42,7 @@ trueaxis_machine_js_begin:
     .incbin "report/page.js"
     .incbin "report/charts.js"
     .incbin "report/machine_charts.js"
+    .incbin "report/findings.js"
     .incbin "report/machine_diagnosis.js"
     .incbin "report/machine_report.js"
 trueaxis_machine_js_end:

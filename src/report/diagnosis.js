@@ -7,7 +7,6 @@ const diagnosisWords = {
   unexplained: 'The ideal surface misses something that no catalogued cause explains in full.',
 };
 
-const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)}${nbsp}%`;
 const spoken = (name) => name.replaceAll('_', ' ');
 
 /** "value ± U" of an estimate in the unit that suits its size, or why it is not there. */
@@ -31,20 +30,12 @@ function otherPlans({others = []}) {
   return others.map((o) => `; or ${o.what || data.words.measurements[o.plan]} (→ ${chance(o.power)}, ${minutes(o)})`).join('');
 }
 
-function classTable(finding, titles) {
-  const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
-  return table(members.length > 1 ? 'The data cannot tell these causes apart' : 'The one cause that explains it',
-    ['Cause', 'Chance'], members.map((member) => [
-      element('span', {}, titles[member.effect] ?? member.effect, member.structural ? '; the same readings, no amount of such data helps' : '', element('small', {}, member.effect)),
-      chance(member.probability)]));
-}
-
 function findingCard(finding, number, k, titles, face) {
   const {axis_shift: shift, cosmetic} = finding.axis_bias;
   const list = named(finding.parameters).map((p) => [spoken(p.name), estimated(p, k)]);
   list.push(['Part of the readings (RMS)', micrometres(finding.rms.value)],
     [face ? 'Tilt at the outer end when left out' : 'Axis shift when left out', estimated(shift, k)],
-    ['False-alarm probability (all hypotheses counted)', isNumber(finding.p_value) ? (finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)) : '–']);
+    falseAlarm(finding));
   const parts = [element('h4', {}, `${number}. ${finding.seen}`, cosmetic ? element('span', {class: 'pill neutral'}, face ? 'cosmetic for the run-out' : 'cosmetic for coaxiality') : null),
     facts(list), classTable(finding, titles)];
   if (finding.alias) parts.push(paragraph(`The sampling cannot tell it from ${finding.alias}.`, 'quiet'));
@@ -166,7 +157,7 @@ function notObservableTable({not_observable: all, titles}) {
   if (!list.length) return block('What these readings cannot show', rest);
   return block('What these readings cannot show', table('Effects that would stay hidden at their typical size, and what they would do to the axis',
     ['Effect', 'Why', 'Shown by', 'Axis shift', 'Seen from'], list.map((n) => [
-      element('span', {}, titles[n.effect], element('small', {}, n.effect)), worded(n.why),
+      titled(titles, n.effect), worded(n.why),
       n.separate_with?.plan ? n.separate_with.what || data.words.measurements[n.separate_with.plan] : '–',
       axisBiasUnit(n.axis_bias_per_unit), seenFrom(n)]), 3), rest);
 }
@@ -183,7 +174,7 @@ function noiseBlock({noise, checks, remarks, titles, options: {coverage_factor: 
   const found = checks.filter((check) => check.found);
   return block('Noise and quality of the data', facts(list), noise.note ? paragraph(noise.note, 'quiet') : null,
     found.length ? table('Checks that found something', ['Check', 'What was seen'],
-      found.map((check) => [element('span', {}, titles[check.effect], element('small', {}, check.effect)), check.text]), 2)
+      found.map((check) => [titled(titles, check.effect), check.text]), 2)
       : paragraph('No check of the data found anything.', 'quiet'),
     ...remarks.map((remark) => paragraph(`Not an effect: ${remark}.`)));
 }
@@ -206,10 +197,9 @@ function nextBlock({next_measurement: next, plans}) {
 /** What was seen, each with its causes, their chances and what follows: the page's short form of the findings. */
 function seenList({findings, unexplained, consequences = {}, options: {coverage_factor: k}}, face) {
   const most = 3;
-  const causes = (f) => [{effect: f.effect, probability: f.probability}, ...f.rivals];
   const cause = ({effect, probability}, alone) => element('li', {}, joined(`${worded(effect)}${alone ? '' : ` (${chance(probability)})`}`), consequences[effect] ? `: ${consequences[effect]}` : '');
   const items = findings.map((f) => {
-    const all = causes(f), {axis_shift: shift, cosmetic} = f.axis_bias;
+    const all = membersOf(f), {axis_shift: shift, cosmetic} = f.axis_bias;
     return element('li', {}, element('strong', {}, sentence(f.seen)), cosmetic ? ` Without effect on the ${face ? 'run-out' : 'coaxiality'}.` : isNumber(shift?.value) ? joined(` Left out it moves the ${face ? 'tilt' : 'axis'} by ${estimated(shift, k)}.`) : '',
       element('ul', {}, all.slice(0, most).map((one) => cause(one, all.length === 1)), all.length > most ? element('li', {}, `or ${all.length - most} more, less likely`) : null));
   });

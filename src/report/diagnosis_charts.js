@@ -60,7 +60,7 @@ const sectionDifferences = (readings, extended) => sectionChart(readings, [['bef
 
 /** Orders that have a name: of harmonics found, and of unexplained patterns. */
 const foundLines = ({findings, unexplained}) => [
-  ...findings.map((f) => ({order: f.parameters.order?.value, name: f.effect, words: worded(f.effect)})).filter(({order}) => isNumber(order)),
+  ...findings.map((f) => ({order: f.parameters.order?.value, name: f.name})).filter(({order}) => isNumber(order)),
   ...unexplained.map((u) => ({order: Math.abs(u.term.pattern.order ?? 0), name: 'unexplained'})).filter(({order}) => order > 0)];
 
 function spectrumChart(diagnosis, extended) {
@@ -72,7 +72,7 @@ function spectrumChart(diagnosis, extended) {
   const marks = new Map();
   foundLines(diagnosis).forEach((line) => {
     const i = nearest(line);
-    marks.set(i, [...(marks.get(i) ?? []), `${line.name.split('.').pop().replaceAll('_', ' ')} (${tick(Number(line.order.toPrecision(4)))})`]);
+    marks.set(i, [...(marks.get(i) ?? []), `${line.name} (${tick(Number(line.order.toPrecision(4)))})`]);
   });
   const end = tidy(Math.ceil(largest(order)));
   // Above the mark where there is room on either side, else beside it.

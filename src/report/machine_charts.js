@@ -100,11 +100,11 @@ function errorBars(byError) {
     grid: grid({top: 18, right: 56}),
     xAxis: axis('tip moved by at most, in µm', {min: 0, splitNumber: width < 480 ? 4 : 8}),
     yAxis: axis('', {type: 'category', inverse: true, data: shown.map(({name}) => name), axisTick: {show: false}, splitLine: {show: false},
-      axisLabel: {color: colours.ink, interval: 0, formatter: named, ...(width < 480 ? {width: 116, overflow: 'break', fontSize: 10, lineHeight: 12} : {})}}),
+      axisLabel: {color: colours.ink, interval: 0, formatter: (name) => `${titleOf(name)} (${name})`, ...(width < 480 ? {width: 116, overflow: 'break', fontSize: 10, lineHeight: 12} : {})}}),
     series: [{name: 'alone', type: 'bar', barWidth: '62%', emphasis: {disabled: true}, itemStyle: {color: colours.series[0]},
       label: {show: true, position: 'right', color: colours.ink, formatter: ({value}) => significant(value, 3)}, data: shown.map(({tip}) => 1000 * tip.value)}],
   });
   return figure({caption: 'What each error does to the tip on this program when it is the only one, the largest of it; they add as vectors, and partly cancel.',
-    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${named(name)} ${um(1000 * tip.value)}`).join(', ')}.`,
+    description: `Largest errors by name: ${shown.slice(0, 6).map(({name, tip}) => `${titleOf(name)} (${name}) ${um(1000 * tip.value)}`).join(', ')}.`,
     size: 'bars', renderer: 'svg', build, height: (width) => 70 + (width < 480 ? 30 : 24) * shown.length});
 }

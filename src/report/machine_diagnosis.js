@@ -6,7 +6,6 @@ const machineVerdicts = {
   effects: 'Beside the errors of location the machine has the errors named below.',
   unexplained: 'Beside the errors of location the machine does something that no catalogued effect explains in full.',
 };
-const chance = (p) => !isNumber(p) ? '–' : p < 0.001 ? '< 0.1 %' : `${significant(100 * p, 2)}${nbsp}%`;
 
 /** mm as µm, degrees as µrad: the sizes that errors of machines have. */
 function errorSize({value, u, unit}) {
@@ -17,24 +16,20 @@ function errorSize({value, u, unit}) {
   return isNumber(u) && u > 0 ? `${text} ± ${significant(2 * u * factor, 2)}${nbsp}${shown}` : `${text}${nbsp}${shown}`;
 }
 
-/** What an effect or an error is called; its name where it has no other. */
-const wordsOf = (name) => Object.hasOwn(data.words, name) ? data.words[name] : name;
-const named = (name) => Object.hasOwn(data.words, name) ? `${data.words[name]} (${name})` : name;
-worded = (text) => text.replace(/(?<![\w.(])\w+(?:[.*]\w+)?(?![\w.]\w|\))/g, named);
+const titleOf = (id) => data.titles[id] ?? id;
+const withTitle = (id) => titled(data.titles, id);
+worded = (text) => text.replace(/(?<![\w.(])[\w*]+(?:\.\w+)*(?![\w.]\w|\))/g, (id) => id in data.titles ? `${data.titles[id]} (${id})` : id);
 
-const withWords = (effect) => element('span', {}, wordsOf(effect), element('small', {}, effect));
-const planWords = (plans, code) => plans.find((p) => p.plan === code)?.what ?? code;
+const planWords = (code) => data.words.measurements[code] ?? code;
 
-function machineFindingCard(finding, number, plans) {
+function machineFindingCard(finding, number) {
   const list = [['Size', errorSize(finding.size)], ...Object.entries(finding.parameters).map(([name, p]) => [name, errorSize(p)]),
-    ['Part of the readings (RMS)', micrometres(finding.rms.value)],
-    ['False-alarm probability (all hypotheses counted)', finding.p_value < 0.001 ? '< 0.001' : significant(finding.p_value, 2)]];
-  const members = [{effect: finding.effect, probability: finding.probability}, ...finding.rivals];
-  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(wordsOf(finding.effect))}`, element('small', {}, finding.effect)), facts(list),
-    table(members.length > 1 ? 'The data cannot tell these apart' : 'The one effect that explains it', ['Effect', 'Chance'], members.map((m) => [withWords(m.effect), chance(m.probability)])),
+    ['Part of the readings (RMS)', micrometres(finding.rms.value)], falseAlarm(finding)];
+  return element('div', {class: 'card'}, element('h4', {}, `${number}. ${sentence(titleOf(finding.effect))}`, element('small', {}, finding.effect)), facts(list),
+    classTable(finding, data.titles),
     finding.alias ? paragraph(`These positions read ${worded(finding.alias)} alike.`) : null,
     finding.pairs?.length ? paragraph(`Nor are they told from two together: ${finding.pairs.map((pair) => pair.join(' with ')).join('; ')}.`, 'quiet') : null,
-    members.length > 1 ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(plans, finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
+    finding.rivals.length ? paragraph(finding.separate_with ? `To tell them apart: ${planWords(finding.separate_with)}.` : 'None of the plans tells them apart.') : null);
 }
 
 function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
@@ -45,7 +40,7 @@ function gainBlock({gain, noise, hypotheses, false_alarm: alarm}) {
 }
 
 function locationTable({extended, baseline}) {
-  const rows = Object.entries(extended.parameters).map(([name, p]) => [withWords(name), errorSize(p)]);
+  const rows = Object.entries(extended.parameters).map(([name, p]) => [withTitle(name), errorSize(p)]);
   if (!rows.length) return null;
   return block('Errors of location', paragraph(`Fitted together with what was found, ± U with k = 2. ${sentence(baseline.gauge)}`, 'quiet'),
     table('Where the axes stand and point, against the machine\'s file', ['Error', 'Size ± U'], rows));
@@ -58,8 +53,8 @@ const mindedOf = ({remarks = [], checks = []}) => [...remarks, ...checks.filter(
 function findingsSection({diagnosis}) {
   const {verdict, findings, unexplained, consequences} = diagnosis;
   const items = findings.map((f) => {
-    const rivals = f.rivals.slice(0, 3).map((r) => `${wordsOf(r.effect)} (${chance(r.probability)})`);
-    return element('li', {}, element('strong', {}, sentence(wordsOf(f.effect))), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
+    const rivals = f.rivals.slice(0, 3).map((r) => `${titleOf(r.effect)} (${chance(r.probability)})`);
+    return element('li', {}, element('strong', {}, sentence(titleOf(f.effect))), ` ${errorSize(f.size)}${f.rivals.length ? `, with a chance of ${chance(f.probability)}` : ''}.`,
       rivals.length ? ` Or: ${rivals.join('; ')}${f.rivals.length > 3 ? `; or ${f.rivals.length - 3} more` : ''}.` : '',
       consequences[f.effect] ? ` ${sentence(consequences[f.effect])}` : '');
   });
@@ -68,18 +63,18 @@ function findingsSection({diagnosis}) {
 }
 
 function findingsFold({diagnosis}) {
-  const {findings, unexplained, plans} = diagnosis;
-  const cards = findings.map((f, i) => machineFindingCard(f, i + 1, plans));
+  const {findings, unexplained} = diagnosis;
+  const cards = findings.map((f, i) => machineFindingCard(f, i + 1));
   unexplained.forEach((u) => cards.push(element('div', {class: 'card'}, element('h4', {}, `Unexplained: ${u.pattern}`), facts([['Amplitude', errorSize(u.amplitude)]]),
     paragraph('No effect explains it, so the program does not correct it: its amplitude is counted with the uncertainty.', 'quiet'))));
   return fold('findings', 'The diagnosis in full', cards.length ? element('div', {class: 'cards'}, cards) : null, gainBlock(diagnosis), locationTable(diagnosis));
 }
 
 /** Effects that share their reason and the plans that show them. */
-function notObservableRows({not_observable: all, plans}) {
+function notObservableRows({not_observable: all}) {
   const alike = new Map();
   all.forEach((one) => { const key = JSON.stringify([one.why, one.separate_with]); alike.set(key, [...(alike.get(key) ?? []), one]); });
-  return [...alike.values()].map((group) => [group.map((one) => named(one.effect)).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map((code) => planWords(plans, code)).join('; ') : 'none of the plans']);
+  return [...alike.values()].map((group) => [group.map((one) => `${titleOf(one.effect)} (${one.effect})`).join(', '), sentence(worded(group[0].why)), group[0].separate_with.length ? group[0].separate_with.map(planWords).join('; ') : 'none of the plans']);
 }
 
 function rangesTable(ranges) {
@@ -97,6 +92,6 @@ function unknownFold({diagnosis, ranges}) {
       ? table('Effects that would stay hidden at 10 µm or 50 µrad, and the measurement that shows them', ['Effect', 'Why', 'Shown by'], unseen, 3)
       : paragraph('Every effect that is looked for would have been found at 10 µm or 50 µrad.'),
     paragraph(next.plan ? `Next measurement: ${next.what} (${tick(Math.round(next.minutes))}${nbsp}min).` : 'No plan shows or separates anything more.')),
-    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withWords(one.class[0]), sentence(worded(one.why))]), 2)) : null,
+    held.length ? block('Held, because the measurement does not determine it', table('Errors of location that stay as they were given', ['Error', 'Why'], held.map((one) => [withTitle(one.class[0]), sentence(worded(one.why))]), 2)) : null,
     rangesTable(ranges));
 }

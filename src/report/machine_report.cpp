@@ -9,7 +9,7 @@
 #include "calibrate/files/machine_screen.hpp"
 #include "job/files/job_words.hpp"
 #include "job/machine/files/machine_job_results.hpp"
-#include "machine/error_words.hpp"
+#include "machine/error_name.hpp"
 #include "report/page.hpp"
 #include "report/thinning.hpp"
 
@@ -135,18 +135,17 @@ Json part_data(const PartDisplacement& part) {
   return {{"shift_um", std::move(shift)}, {"turn_urad", std::move(turn)}};
 }
 
-/// What a page calls the machine's errors and effects, by their names.
-Json words_data(const MachineJobResult& result) {
-  Json words(result.diagnosis.titles);
-  std::vector<std::size_t> bodies{spindle_body, workpiece_body};
-  for (const MachineAxis& axis : result.job.machine.axes) bodies.push_back(index_of(axis.name));
-  for (const std::size_t body : bodies)
-    for (std::size_t direction = 0; direction < 6; ++direction)
-      for (const bool component : {false, true}) {
+/// What every error and effect is called that a text may name.
+Json titles_data(const MachineDiagnosis& diagnosis) {
+  Json titles = Json::object();
+  for (const bool component : {false, true})
+    for (std::size_t body = 0; body < (component ? axis_count : workpiece_body + 1); ++body)
+      for (std::size_t direction = 0; direction < axis_count; ++direction) {
         const ErrorName name{component, direction, body};
-        if (!component || body < axis_count) words[to_string(name)] = in_words(name);
+        titles[to_string(name)] = words_of(name);
       }
-  return words;
+  for (const MachineEffect& effect : diagnosis.effects) titles[effect.id] = effect.title;
+  return titles;
 }
 
 std::string title_of(const MachineJob& job) { return job.name.empty() ? job.path : job.name; }
@@ -155,20 +154,23 @@ std::string title_of(const MachineJob& job) { return job.name.empty() ? job.path
 
 Json machine_report_data(const MachineJobResult& result) {
   const Json run = machine_job_object(result);
-  Json data{
-      {"schema", "trueaxis.machine_report/1"},
-      {"version", TRUEAXIS_VERSION},
-      {"title", title_of(result.job)},
-      {"file", result.job.path},
-      {"machine", result.job.machine.name},
-      {"chain", result.job.machine.chain},
-      {"header", Json::array()},
-      {"verdict", verdict_data(result)},
-      {"inputs", run.at("inputs")},
-      {"ranges", run.at("ranges")},
-      {"words", words_data(result)},
-      {"maps", maps_data(result)},
-      {"diagnosis", Json::parse(machine_diagnosis_json(result.diagnosis, result.job.machine))}};
+  Json data{{"schema", "trueaxis.machine_report/1"},
+            {"version", TRUEAXIS_VERSION},
+            {"title", title_of(result.job)},
+            {"file", result.job.path},
+            {"machine", result.job.machine.name},
+            {"chain", result.job.machine.chain},
+            {"header", Json::array()},
+            {"verdict", verdict_data(result)},
+            {"inputs", run.at("inputs")},
+            {"ranges", run.at("ranges")},
+            {"maps", maps_data(result)},
+            {"titles", titles_data(result.diagnosis)},
+            {"words", {{"measurements", Json::object()}}},
+            {"diagnosis", machine_diagnosis_object(result.diagnosis, result.job.machine)}};
+  data["diagnosis"].erase("effects");
+  for (const MachinePlan& plan : result.diagnosis.plans)
+    data["words"]["measurements"][plan.code] = plan.what;
   for (const auto& [label, text] : result.job.header) data["header"].push_back({label, text});
   if (!result.tips.empty()) data["tips"] = tips_data(result.tips);
   if (result.part) data["part"] = part_data(*result.part);
@@ -180,11 +182,10 @@ Json machine_report_data(const MachineJobResult& result) {
 }
 
 std::string render_machine_diagnosis_report(const MachineJobResult& result, const Json& program) {
-  constexpr const char* words[] = {"ideal", "effects", "unexplained"};
   const std::string line = machine_diagnosis_line(result.diagnosis, "→");
   Json data = machine_report_data(result);
   data["of"] = "diagnosis";
-  data["verdict"]["outcome"] = words[static_cast<std::size_t>(result.diagnosis.verdict)];
+  data["verdict"]["outcome"] = to_string(result.diagnosis.verdict);
   data["verdict"]["line"] = line;
   data["verdict"]["next"] = next_plan_text(result.diagnosis, PlanBy::deed);
   if (!program.is_null()) data["harm"] = program;

@@ -102,12 +102,12 @@ function programSection(all) {
 function harmSection({harm}) {
   if (!harm) return null;
   const rows = harm.by_effect.filter((one) => one.tip.value > 0).slice(0, 12).map((one) => [
-    withWords(one.effect), `${one.found ? 'found' : 'may hide'}: ${errorSize(one.size)}`,
+    withTitle(one.effect), `${one.found ? 'found' : 'may hide'}: ${errorSize(one.size)}`,
     micrometres(one.tip.value), one.tip.line
   ]);
   const U = `U (k${nbsp}=${nbsp}${harm.coverage_factor}) of the tip`;
   const plans = harm.plans.map(
-      ({plan, U_without_place_of_part: after}) => `${micrometres(after.value)} after measuring ${planWords(data.diagnosis.plans, plan)}`);
+      ({plan, U_without_place_of_part: after}) => `${micrometres(after.value)} after measuring ${planWords(plan)}`);
   return section(
       'program', 'On the program',
       paragraph(`${harm.file}, ${harm.blocks} positions. ${U}: ${micrometres(harm.U_without_place_of_part.value)}, without where the part stands${plans.length ? `; ${plans.join('; ')}` : ''}.`),

@@ -56,7 +56,7 @@ TEST(MachineDiagnosisCommand, HasTheKeysOfADiagnosis) {
   ASSERT_FALSE(of_surface.at("findings").empty());
   ASSERT_FALSE(of_machine.at("findings").empty());
   const json &one = of_surface.at("findings")[0], &other = of_machine.at("findings")[0];
-  expect_keys(one, other, {"axis_bias", "frame"});
+  expect_keys(one, other, {"axis_bias", "frame", "name"});
   expect_keys(one.at("term"), other.at("term"), {"slot"});
   expect_keys(of_surface.at("checks")[0], of_machine.at("checks")[0], {});
 }
@@ -73,6 +73,30 @@ TEST(MachineDiagnosisCommand, SaysTheTermWithItsNumbers) {
   EXPECT_LT(d.at("effective_hypotheses").get<double>(), d.at("hypotheses").get<double>());
   // Every 30 degrees order 10 reads as order 2.
   EXPECT_EQ(d.at("findings")[0].at("alias"), "order 10");
+}
+
+// Who reads the result takes no id apart: title, kind, axis and error of each are beside it.
+TEST(MachineDiagnosisCommand, SaysWhatIsBehindEveryId) {
+  const json d = diagnosed();
+  const json& effects = d.at("effects");
+  EXPECT_EQ(effects.at("EXC.harmonic2"), json({{"title", "along X, as C moves, 2 times a turn"},
+                                               {"kind", "position"},
+                                               {"axis", "C"},
+                                               {"error", "EXC"}}));
+  EXPECT_EQ(effects.at("reversal.C").at("kind"), "sense");
+  EXPECT_EQ(effects.at("reversal.C").at("axis"), "C");
+  EXPECT_EQ(effects.at("drift.Z").at("kind"), "drift");
+  EXPECT_TRUE(effects.at("drift.Z").at("axis").is_null());
+  EXPECT_EQ(effects.at("ball.slip").at("kind"), "step");
+  std::set<std::string> named;
+  for (const json& finding : d.at("findings"))
+    for (const std::string id : finding.at("class")) named.insert(id);
+  for (const json& unseen : d.at("not_observable")) named.insert(unseen.at("effect"));
+  EXPECT_GT(named.size(), 3U);
+  for (const std::string& id : named) {
+    ASSERT_TRUE(effects.contains(id)) << id;
+    EXPECT_NE(effects.at(id).at("title"), "") << id;
+  }
 }
 
 // EXC is a motion along X before C turns the part: its size is what it does to a tip, wherever the

@@ -81,13 +81,13 @@ TEST_F(MachineReportPage, NoGoOutOfLimits) {
 TEST_F(MachineReportPage, FindingsWithRivalsAndTheUnexplained) {
   MachineJobResult result = run_machine_job(blade_job());
   MachineFinding found = result.diagnosis.findings.front();
-  found.effect = "reversal.C";
+  found.cause.id = "reversal.C";
   found.errors.clear();
   found.separate_with.emplace().plan = "L2";
   found.rivals = {{"EYC.harmonic2", 1.0, 2.0, 0.3}, {"drift.Z", 1.0, 2.0, 0.1}};
   result.diagnosis.findings.push_back(found);
   result.diagnosis.unexplained.push_back(
-      {"order 5 of C along X", {0.004, 0.0005, "mm", ""}, 1e-4, {}, {}});
+      {{{0.004, 0.0005, "mm", ""}, 1e-4}, "order 5 of C along X"});
   result.verdict.reservations = {{ReasonCode::finding_not_told,
                                   {},
                                   {},

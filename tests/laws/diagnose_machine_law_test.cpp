@@ -32,7 +32,8 @@ MachineMeasurement measured(const ErrorModel& truth, const Machine& machine, Dra
 
 void print(const MachineDiagnosis& d) {
   for (const MachineFinding& f : d.findings) {
-    std::cout << f.effect << " p " << f.p_value << " size " << f.size << " prob " << f.probability;
+    std::cout << f.effect() << " p " << f.p_value << " size " << f.size << " prob "
+              << f.probability;
     for (const Rival& r : f.rivals) std::cout << " | " << r.effect << " d " << r.distance;
     std::cout << " [" << (f.separate_with ? f.separate_with->plan : "") << "]\n";
   }
@@ -113,7 +114,7 @@ TEST(DiagnoseMachineLaw, NamesWhatIsThere) {
     EXPECT_TRUE(may_be(found, one.name)) << one.name;
     EXPECT_EQ(found.findings.size(), 1U) << one.name;
     EXPECT_TRUE(found.unexplained.empty()) << one.name;
-    EXPECT_LT(found.held_out_after_mm.value, found.held_out_before_mm.value);
+    EXPECT_LT(found.gain.held_out_after_mm.value, found.gain.held_out_before_mm.value);
   }
 }
 

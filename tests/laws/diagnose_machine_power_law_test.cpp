@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "calibrate/diagnose/catalogue.hpp"
-#include "calibrate/diagnose/regression.hpp"
+#include "calibrate/diagnose/term.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
 #include "support/ball_bench.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
@@ -22,11 +22,11 @@ struct Tally {
 };
 
 /// Whether each of two effects has λ of 50 and more beside the other.
-bool told_beside(const Regression& regression, std::size_t term, const Eigen::VectorXd& mu,
+bool told_beside(const infer::Dictionary& dictionary, std::size_t term, const Eigen::VectorXd& mu,
                  const std::vector<std::pair<std::size_t, Eigen::VectorXd>>& others) {
   const auto left = [&](std::size_t a, const Eigen::VectorXd& of_a, std::size_t b) {
     const Eigen::MatrixXd products =
-        regression.gram()(regression.block(b).columns, regression.block(a).columns);
+        dictionary.gram()(dictionary.block(b).columns, dictionary.block(a).columns);
     return of_a.squaredNorm() - (products * of_a).squaredNorm();
   };
   return std::ranges::all_of(others, [&](const auto& other) {
@@ -55,18 +55,19 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
   const auto fit = fit_tips(machine, std::span(&data, 1), options, false, base);
   const Geometry geometry = geometry_of(fit->problem, base.errors, fit->solution.places);
   const auto terms = effect_terms(fit->problem, geometry, machine_effects(fit->problem, true));
-  const Regression regression(terms, fit->solution.jacobian, fit->problem.weights, 0.1, 0.2e-3);
+  const infer::Dictionary dictionary =
+      dictionary_of(terms, fit->solution.jacobian, fit->problem.weights, options);
   std::vector<std::string> put;
   std::vector<std::pair<std::size_t, Eigen::VectorXd>> places;
   const auto clean = data.deviation_mm;
   while (put.size() < static_cast<std::size_t>(effects)) {
     const auto t = static_cast<std::size_t>(draw.whole(0, static_cast<int>(terms.size()) - 1));
-    const auto& block = regression.block(t);
-    if (block.columns.empty() || std::ranges::find(put, terms[t].effect) != put.end()) continue;
+    const auto& block = dictionary.block(t);
+    if (block.columns.empty() || std::ranges::find(put, terms[t].effect()) != put.end()) continue;
     Eigen::VectorXd mu(static_cast<Eigen::Index>(block.columns.size()));
     for (auto& one : mu) one = draw.between(-1.0, 1.0);
     mu *= std::sqrt(draw.between(60.0, 400.0)) / mu.norm();
-    if (!told_beside(regression, t, mu, places)) {
+    if (!told_beside(dictionary, t, mu, places)) {
       put.clear();
       places.clear();
       data.deviation_mm = clean;
@@ -76,7 +77,7 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
     for (const Row& row : fit->problem.rows)
       for (std::size_t k = 0; k < 3; ++k)
         data.deviation_mm[row.row][k] += added[row.first + static_cast<Eigen::Index>(k)];
-    put.push_back(terms[t].effect);
+    put.push_back(terms[t].effect());
     places.emplace_back(t, mu);
   }
   const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
@@ -99,7 +100,7 @@ void one_case(std::uint64_t seed, int effects, Tally& tally) {
     for (const auto& one : put) std::cout << ' ' << one;
     std::cout << ", found";
     for (const auto& f : found.findings) {
-      std::cout << ' ' << f.effect << '(';
+      std::cout << ' ' << f.effect() << '(';
       for (const auto& r : f.rivals) std::cout << r.effect << ' ';
       std::cout << ')';
     }

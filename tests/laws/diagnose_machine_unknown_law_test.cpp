@@ -30,7 +30,7 @@ MachineDiagnosis diagnosed(double named_rad, double unknown_mm) {
   for (int k = 0; k < 12; ++k) plan.c_deg.push_back(30.0 * k);
   const MachineMeasurement data = measure_balls({machine, truth}, plan, sigma_mm, draw);
   const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1));
-  for (const MachineFinding& one : found.findings) std::cout << one.effect << ' ' << one.size;
+  for (const MachineFinding& one : found.findings) std::cout << one.effect() << ' ' << one.size;
   for (const MachineUnexplained& one : found.unexplained) std::cout << " ?" << one.pattern;
   std::cout << '\n';
   return found;

@@ -78,7 +78,7 @@ TEST(MachineJobLaw, TheStatedUncertaintyIsThatOfTheMachineItself) {
     const MachineJobResult result = run_machine_job(std::move(job));
     ASSERT_EQ(result.tips.size(), 60U);
     ASSERT_TRUE(std::ranges::any_of(result.diagnosis.findings, [](const MachineFinding& found) {
-      return found.effect == "EYC.harmonic2";
+      return found.effect() == "EYC.harmonic2";
     })) << machine_number;
     const Truth real = truth_of(result, truth);
     const auto before = without_rigid_body(real.wanted, real.before),

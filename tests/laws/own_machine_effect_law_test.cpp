@@ -66,11 +66,11 @@ TEST(OwnMachineEffect, IsFoundByItsEntryAndNamedWithItsConsequence) {
   options.own_effects = own;
   const MachineDiagnosis found = diagnose_machine(machine, std::span(&data, 1), options);
   for (const MachineFinding& one : found.findings)
-    std::cout << one.effect << ' ' << one.size << ' ' << one.probability << '\n';
+    std::cout << one.effect() << ' ' << one.size << ' ' << one.probability << '\n';
   ASSERT_EQ(found.findings.size(), 1U);
   const MachineFinding& one = found.findings.front();
-  EXPECT_EQ(one.effect, "own.lift_by_tilt");
-  EXPECT_EQ(one.consequence, "tighten the clamp of A");
+  EXPECT_EQ(one.effect(), "own.lift_by_tilt");
+  EXPECT_EQ(one.cause.consequence, "tighten the clamp of A");
   EXPECT_TRUE(one.errors.empty());  // of another axis it is no error that a program is corrected by
   ASSERT_EQ(one.parameters.size(), 2U);
   const double u = std::hypot(one.parameters[0].estimate.u, one.parameters[1].estimate.u);
@@ -92,9 +92,9 @@ TEST(OwnMachineEffect, IsCalledByItsTitleEverywhere) {
   EXPECT_NE(screen.find("the table lifts as A tilts: tighten the clamp of A\n"), std::string::npos)
       << screen;
   const Json file = machine_diagnosis_object(result.diagnosis, result.job.machine);
-  EXPECT_EQ(file.at("titles").at("own.lift_by_tilt"), "the table lifts as A tilts");
+  EXPECT_EQ(file.at("effects").at("own.lift_by_tilt").at("title"), "the table lifts as A tilts");
   EXPECT_EQ(file.at("consequences").at("own.lift_by_tilt"), "tighten the clamp of A");
-  EXPECT_EQ(machine_report_data(result).at("words").at("own.lift_by_tilt"),
+  EXPECT_EQ(machine_report_data(result).at("titles").at("own.lift_by_tilt"),
             "the table lifts as A tilts");
 }
 
@@ -103,8 +103,9 @@ TEST(OwnMachineEffect, IsNotNamedWithoutItsEntry) {
   const MachineMeasurement data = lifted(amplitude_mm);
   const MachineDiagnosis found = diagnose_machine(trunnion(), std::span(&data, 1));
   EXPECT_NE(found.verdict, DiagnosisVerdict::ideal);
-  EXPECT_TRUE(std::ranges::none_of(
-      found.findings, [](const MachineFinding& one) { return one.effect == "own.lift_by_tilt"; }));
+  EXPECT_TRUE(std::ranges::none_of(found.findings, [](const MachineFinding& one) {
+    return one.effect() == "own.lift_by_tilt";
+  }));
 }
 
 // And where nothing is, an entry alone finds nothing.

@@ -107,12 +107,12 @@ inline Diagnosis diagnosed(ProbeStream& stream, FitResult& fit) {
   d.noise.masked = fit.rejected;
   d.checks = {{"probe.saturation", true, "4 readings at 50.1 mm: clipped, left out"},
               {"probe.quantisation", false, ""}};
-  d.gain = {std::hypot(noise_mm, lobes_mm / std::sqrt(2.0)),
-            noise_mm,
-            {0.0047, 0.0044, 0.005},
-            {0.0021, 0.0020, 0.0022},
+  d.gain = {{std::hypot(noise_mm, lobes_mm / std::sqrt(2.0)),
+             noise_mm,
+             {0.0047, 0.0044, 0.005},
+             {0.0021, 0.0020, 0.0022},
+             {0.447, 0.42, 0.48}},
             "30 blocks of whole revolutions",
-            {0.447, 0.42, 0.48},
             noise_mm,
             {5e-5, 2e-5, "mm", ""},
             {4e-4, 1e-4, "mm", ""},

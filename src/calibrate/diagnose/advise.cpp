@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 constexpr double weight_of_hidden = 0.1;  // an effect that is merely looked for, beside a class
 
 double typical(const Term& term, const MachineDiagnoseOptions& options) {
-  return term.angle ? options.typical_angle_rad : options.typical_length_mm;
+  return term.angle() ? options.typical_angle_rad : options.typical_length_mm;
 }
 
 /// An effect that these rows do not show, and the power of finding it at its typical size.
@@ -31,10 +31,9 @@ struct Hidden {
   double power = 0.0;
 };
 
-std::vector<Hidden> add_hidden(const Questions& q, const Regression& regression,
-                               const std::vector<MachineEffect>& catalogue,
+std::vector<Hidden> add_hidden(const Questions& q, const infer::Dictionary& dictionary,
                                const std::vector<Term>& terms, MachineDiagnosis& out) {
-  const Detection detection(regression, q.variance, q.search);
+  const infer::Detection detection(dictionary, q.variance, q.search);
   std::vector<Hidden> hidden;
   const auto add = [&](MachineNotObservable one, double power) {
     hidden.push_back({out.not_observable.size(), power});
@@ -42,21 +41,20 @@ std::vector<Hidden> add_hidden(const Questions& q, const Regression& regression,
   };
   for (std::size_t t = 0; t < terms.size(); ++t) {
     const Term& term = terms[t];
-    if (term.pattern || term.is_slip()) continue;
+    if (term.is_pattern() || term.is_slip()) continue;
     const double size = detection.detectable_size(t);
     if (size <= typical(term, q.options)) continue;
-    const double largest = term.angle ? q.options.calibration.largest_angle_rad
-                                      : q.options.calibration.largest_length_mm;
-    const char* const why = regression.block(t).columns.empty()
+    const infer::Dictionary::Block& block = dictionary.block(t);
+    const char* const why = block.columns.empty()
                                 ? "what is always fitted takes it up at these positions"
                                 : "these positions show it less than the noise does";
     // The size that could hide: what is found with power one half, or the largest plausible one.
-    add({{term.effect, why, size, term.angle ? "rad" : "mm", {}},
+    add({{term.effect(), why, size, term.angle() ? "rad" : "mm", {}},
          term.errors,
-         std::min(size, largest)},
+         std::min(size, block.largest)},
         detection.surely(t, typical(term, q.options)));
   }
-  for (const MachineEffect& effect : catalogue)
+  for (const MachineEffect& effect : out.effects)
     if (!effect.why_not.empty())
       add({{effect.id, effect.why_not, std::numeric_limits<double>::infinity(), effect.unit, {}},
            {},
@@ -68,7 +66,7 @@ std::vector<Hidden> add_hidden(const Questions& q, const Regression& regression,
 /// The effects that matter to the questions, as columns of the data with a plan.
 struct Extended {
   std::vector<Term> terms;
-  Regression regression;
+  infer::Dictionary dictionary;
   Covariance covariance;
 };
 Extended extended(const Questions& q, const Plan& plan, const std::set<std::string>& wanted,
@@ -81,24 +79,24 @@ Extended extended(const Questions& q, const Plan& plan, const std::set<std::stri
   std::erase_if(catalogue, [&](const MachineEffect& one) { return !wanted.contains(one.id); });
   std::vector<Term> terms = effect_terms(problem, geometry, catalogue);
   const MatrixXd all = weighted_jacobian(problem, q.fit.given, q.fit.unknowns, problem.start);
-  Regression regression(terms, determined_columns(all, q.fit.unknowns.size()), problem.weights,
-                        q.options.calibration.largest_length_mm,
-                        q.options.calibration.largest_angle_rad);
-  return {std::move(terms), std::move(regression),
+  infer::Dictionary dictionary =
+      dictionary_of(terms, determined_columns(all, q.fit.unknowns.size()), problem.weights,
+                    q.options.calibration);
+  return {std::move(terms), std::move(dictionary),
           covariance_of(q.fit, problem, geometry, all, uncertain, q.variance)};
 }
 
 /// d of a finding's prediction beside the best fit of an effect, with the data of a plan.
 double distance(const Extended& with, const MachineFinding& finding, const std::string& rival,
                 double variance) {
-  const auto of = [&](const Term& term) { return term.effect == finding.effect; };
+  const auto of = [&](const Term& term) { return term.effect() == finding.effect(); };
   auto own = std::ranges::find_if(with.terms, [&](const Term& term) {
-    return of(term) && std::ranges::equal(term.shape, finding.shape, {}, &MachineShape::value,
-                                          &MachineShape::value);
+    return of(term) && std::ranges::equal(term.of.shape, finding.cause.shape, {},
+                                          &MachineShape::value, &MachineShape::value);
   });
   if (own == with.terms.end()) own = std::ranges::find_if(with.terms, of);
   if (own == with.terms.end()) return 0.0;
-  const auto& block = with.regression.block(static_cast<std::size_t>(own - with.terms.begin()));
+  const auto& block = with.dictionary.block(static_cast<std::size_t>(own - with.terms.begin()));
   if (block.columns.empty()) return 0.0;
   VectorXd size(static_cast<Index>(finding.parameters.size()));
   for (Index k = 0; k < size.size(); ++k)
@@ -106,9 +104,9 @@ double distance(const Extended& with, const MachineFinding& finding, const std::
   const VectorXd mu = linear::least_squares(block.back, size);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < with.terms.size(); ++t)
-    if (with.terms[t].effect == rival)
+    if (with.terms[t].effect() == rival)
       least = std::min(least,
-                       infer::left_of(with.regression.beside({t}), block.columns, mu) / variance);
+                       infer::left_of(with.dictionary.beside({t}), block.columns, mu) / variance);
   return std::isfinite(least) ? std::sqrt(least) : 0.0;
 }
 
@@ -120,7 +118,7 @@ struct Outlook {
 Outlook outlook_of(const Questions& q, const Extended& with, const std::vector<Hidden>& hidden,
                    const MachineDiagnosis& out) {
   Outlook outlook;
-  const Detection detection(with.regression, q.variance, q.search);
+  const infer::Detection detection(with.dictionary, q.variance, q.search);
   for (const Hidden& one : hidden) {
     const auto term =
         std::ranges::find(with.terms, out.not_observable[one.entry].effect, &Term::effect);
@@ -172,7 +170,7 @@ void conclude(const std::vector<Hidden>& hidden, const std::vector<Outlook>& out
                                           "none of the plans tells them apart");
     ranking.count(before, values, infer::told_for_sure, 1.0);
     for (std::size_t p = 0; p < values.size(); ++p)
-      if (values[p] >= infer::told_for_sure) out.plans[p].separates.push_back(finding.effect);
+      if (values[p] >= infer::told_for_sure) out.plans[p].separates.push_back(finding.effect());
   }
   if (ranking.any()) out.next_plan = measures[ranking.order().front()].code;
 }
@@ -187,15 +185,14 @@ MatrixXd determined_columns(const MatrixXd& all, std::size_t unknowns) {
   return base;
 }
 
-void advise(const Questions& q, const Regression& regression,
-            const std::vector<MachineEffect>& catalogue, const std::vector<Term>& terms,
+void advise(const Questions& q, const infer::Dictionary& dictionary, const std::vector<Term>& terms,
             MachineDiagnosis& out) {
-  const std::vector<Hidden> hidden = add_hidden(q, regression, catalogue, terms, out);
+  const std::vector<Hidden> hidden = add_hidden(q, dictionary, terms, out);
   std::set<std::string> wanted;
   for (const MachineNotObservable& one : out.not_observable) wanted.insert(one.effect);
   for (const MachineFinding& finding : out.findings) {
     if (finding.rivals.empty()) continue;
-    wanted.insert(finding.effect);
+    wanted.insert(finding.effect());
     for (const Rival& rival : finding.rivals) wanted.insert(rival.effect);
   }
   if (q.options.covariances) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "calibrate/diagnose/plans.hpp"
+#include "calibrate/diagnose/term.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
+#include "infer/dictionary_search.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -11,15 +13,14 @@ struct Questions {
   const TipFit& fit;
   std::span<const MachineMeasurement> data;
   const MachineDiagnoseOptions& options;
-  SearchOptions search;
+  infer::SearchOptions search;
   double variance = 1.0;  ///< of a residual over its σ
 };
 
 /// Every effect that these rows do not show at its typical size, and what the plans show of them
 /// and tell apart (Eqs. 98-100, 182); the next plan.
-void advise(const Questions& questions, const Regression& regression,
-            const std::vector<MachineEffect>& catalogue, const std::vector<Term>& terms,
-            MachineDiagnosis& out);
+void advise(const Questions& questions, const infer::Dictionary& dictionary,
+            const std::vector<Term>& terms, MachineDiagnosis& out);
 
 /// Of the columns of all unknowns and of the places, over σ, those that these rows determine.
 Eigen::MatrixXd determined_columns(const Eigen::MatrixXd& all, std::size_t unknowns);

@@ -7,7 +7,7 @@
 #include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
-#include "machine/error_words.hpp"
+#include "machine/error_name.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -35,9 +35,11 @@ std::string consequence_of(const ErrorName& error, AxisName axis) {
 }
 
 /// @param order that the sizes fall off with (Eq. 210)
-MachineEffect component(const ErrorName& error, AxisName axis, const char* kind, int order) {
+MachineEffect component(const ErrorName& error, AxisName axis, const char* kind, int order,
+                        const std::string& form) {
   MachineEffect out;
   out.id = to_string(error) + '.' + kind + std::to_string(order);
+  out.title = words_of(error) + ", " + form;
   out.term = ErrorOfPosition{error, {}, {}};
   out.unit = error.angular() ? "rad" : "mm";
   const double median = plausible_rms(error, axis) / order;
@@ -52,8 +54,7 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
   const int last = !is_rotary(axis) && error.angular() ? 2 : 3;
   const char* const unit = is_rotary(axis) ? "rad" : "mm";
   for (int degree = squareness ? 2 : 1; degree <= last; ++degree) {
-    MachineEffect one = component(error, axis, "poly", degree);
-    one.title = in_words(error) + ", degree " + std::to_string(degree);
+    MachineEffect one = component(error, axis, "poly", degree, "degree " + std::to_string(degree));
     std::get<ErrorOfPosition>(one.term).functions = {legendre(degree, range.low, range.high)};
     one.parameters = {"legendre"};
     one.formula = "legendre P_degree((2 q - low - high)/(high - low))";
@@ -66,9 +67,8 @@ void add_polynomials(AxisName axis, const AxisRange& range, const ErrorName& err
 
 void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEffect>& out) {
   for (int order = 1; order <= last_order; ++order) {
-    MachineEffect one = component(error, axis, "harmonic", order);
-    one.title = in_words(error) + ", " + (order == 1 ? "once" : std::to_string(order) + " times") +
-                " per revolution";
+    MachineEffect one =
+        component(error, axis, "harmonic", order, std::to_string(order) + " times a turn");
     const auto n = static_cast<double>(order);
     std::get<ErrorOfPosition>(one.term).functions = {FourierError{{{n, 1.0, 0.0}}, two_pi},
                                                      FourierError{{{n, 0.0, 1.0}}, two_pi}};
@@ -110,7 +110,7 @@ void add_axis(const Problem& problem, AxisName axis, std::vector<MachineEffect>&
   }
   MachineEffect reversal;
   reversal.id = "reversal." + letter;
-  reversal.title = "reversal error of " + letter;
+  reversal.title = "difference between the two senses of " + letter;
   reversal.term = ErrorOfSense{axis};
   reversal.parameters = {"size"};
   reversal.formula = "size/2 where the axis came from below, -size/2 where from above";
@@ -151,7 +151,7 @@ std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
   add_drifts(problem, timed, out);
   MachineEffect slip;
   slip.id = "ball.slip";
-  slip.title = "a step of a ball on the table";
+  slip.title = "a step of the ball on the table";
   slip.term = BallStep{};
   slip.parameters = {"x", "y", "z"};
   slip.formula = "(x, y, z) from the row on";
@@ -161,12 +161,6 @@ std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
   out.push_back(std::move(slip));
   out.insert(out.end(), own.begin(), own.end());
   return out;
-}
-
-std::map<std::string, std::string> titles_of(std::span<const MachineEffect> catalogue) {
-  std::map<std::string, std::string> titles;
-  for (const MachineEffect& effect : catalogue) titles[effect.id] = effect.title;
-  return titles;
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "calibrate/estimate/problem.hpp"
@@ -16,8 +14,5 @@ namespace trueaxis::calibrate_detail {
 /// @param timed whether every row has its time
 std::vector<MachineEffect> machine_effects(const Problem& problem, bool timed,
                                            std::span<const MachineEffect> own = {});
-
-/// What each is called, by its id.
-std::map<std::string, std::string> titles_of(std::span<const MachineEffect> catalogue);
 
 }  // namespace trueaxis::calibrate_detail

@@ -56,14 +56,10 @@ void fit_jointly(const TipFit& fit, const Found& search, MachineDiagnosis& out) 
   state_covariance(fit, found, linear::product_transposed(variance * inverse, inverse), out.errors);
   const VectorXd sigma = problem.weights.cwiseInverse();
   const auto n = static_cast<double>(problem.equations);
-  out.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);
-  out.rms_after_mm = std::sqrt(left.cwiseProduct(sigma).squaredNorm() / n);
+  out.gain.rms_before_mm = std::sqrt(readings.cwiseProduct(sigma).squaredNorm() / n);
+  out.gain.rms_after_mm = std::sqrt(left.cwiseProduct(sigma).squaredNorm() / n);
   out.noise_mm = std::sqrt(variance * sigma.squaredNorm() / n);
-  const HeldOut validated = held_out(problem, columns, fit.solution.jacobian.cols(), readings);
-  out.held_out_before_mm = validated.rms.before;
-  out.held_out_after_mm = validated.rms.after;
-  out.held_out_ratio = validated.rms.ratio;
-  out.blocks = validated.blocks;
+  hold_out(problem, columns, fit.solution.jacobian.cols(), readings, out);
 }
 
 /// Of a machine that warmed up while it was measured, errors of axes beside a course in time may
@@ -76,32 +72,32 @@ void leave_out_what_warms(Found& search) {
   for (const std::size_t t : search.found) search.terms[t].errors.clear();
 }
 
-void state_findings(const TipFit& fit, const Found& search, const CalibrationOptions& options,
-                    MachineDiagnosis& out) {
+void state_findings(const TipFit& fit, const Found& search, MachineDiagnosis& out) {
   const double to_rms = std::sqrt(fit.problem.weights.cwiseInverse().squaredNorm()) /
                         static_cast<double>(fit.problem.equations);
   std::vector<MachineFinding> all;
   for (std::size_t at = 0; at < search.found.size(); ++at)
-    all.push_back(finding_of(*search.regression, search.terms, search.found, at, search.options));
+    all.push_back(finding_of(*search.dictionary, search.terms, search.found, at, search.options));
   const std::vector<bool> unknown = parts_of_unknown(search, all);
   for (std::size_t at = 0; at < search.found.size(); ++at) {
     MachineFinding found = all[at];
     found.rms_mm *= to_rms;
     out.errors.terms.insert(out.errors.terms.end(), found.errors.begin(), found.errors.end());
     weigh_aliases(fit.problem, search.terms[search.found[at]], found);
-    found.pairs = pairs_like(*search.regression, search.terms, search.found, at, found, options);
-    const bool pattern = search.terms[search.found[at]].pattern;
+    found.pairs = pairs_like(*search.dictionary, search.terms, search.found, at, found);
     if (!unknown[at]) {
       out.findings.push_back(std::move(found));
       continue;
     }
     double square = 0.0;
     for (const auto& one : found.parameters) square += one.estimate.u * one.estimate.u;
+    const bool named = !search.terms[search.found[at]].is_pattern();
     out.unexplained.push_back(
-        {pattern ? found.effect : found.effect + ", which may be part of something unknown",
-         {found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
-          found.parameters.front().estimate.unit, ""},
-         found.p_value,
+        {{{found.size, std::sqrt(square / static_cast<double>(found.parameters.size())),
+           found.cause.unit, ""},
+          found.p_value},
+         found.effect() + (named ? ", which may be part of something unknown" : ""),
+         named,
          found.parameters,
          found.covariance});
   }
@@ -113,16 +109,13 @@ void state_findings(const TipFit& fit, const Found& search, const CalibrationOpt
 void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnoseOptions& options,
                    MachineDiagnosis& out) {
   if (!fit.problem.noise_stated) return;
-  const infer::Solution all = search.regression->fitted(search.found);
-  const auto freedom = static_cast<double>(search.regression->rows() - all.rank);
-  const double p = infer::Family{1.0 / share_of_scatter}.p_value(
+  const infer::Solution all = search.dictionary->fitted(search.found);
+  const auto freedom = static_cast<double>(search.dictionary->rows() - all.rank);
+  const double p = infer::Family{1.0 / infer::share_of_scatter}.p_value(
       cdf(complement(boost::math::chi_squared(freedom), all.rss)));
   if (p >= options.false_alarm) return;
-  out.unexplained.push_back({"scatter above the noise that is stated",
-                             {out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""},
-                             p,
-                             {},
-                             {}});
+  out.unexplained.push_back({{{out.noise_mm, out.noise_mm / std::sqrt(2.0 * freedom), "mm", ""}, p},
+                             "scatter above the noise that is stated"});
 }
 
 }  // namespace
@@ -131,6 +124,18 @@ void judge_scatter(const TipFit& fit, const Found& search, const MachineDiagnose
 bool is_machine_error(const MachineTerm& term) {
   const auto* error = std::get_if<ErrorOfPosition>(&term);
   return error != nullptr && !error->of;
+}
+
+std::optional<AxisName> axis_of(const MachineTerm& term) {
+  if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
+  const auto* error = std::get_if<ErrorOfPosition>(&term);
+  if (error == nullptr) return std::nullopt;
+  return error->of.value_or(static_cast<AxisName>(error->error.body));
+}
+
+const MachinePlan* MachineDiagnosis::next() const {
+  const auto plan = std::ranges::find(plans, next_plan, &MachinePlan::code);
+  return next_plan.empty() || plan == plans.end() ? nullptr : &*plan;
 }
 
 std::vector<std::string> MachineNotObservable::plans() const {
@@ -155,27 +160,25 @@ MachineDiagnosis diagnose_machine(const Machine& machine, std::span<const Machin
     return file.kind != MeasurementKind::axis && file.time_s.empty();
   });
   const Geometry geometry = geometry_of(fit->problem, out.baseline.errors, fit->solution.places);
-  const std::vector<MachineEffect> catalogue =
-      machine_effects(fit->problem, timed, options.own_effects);
-  out.titles = titles_of(catalogue);
-  Found found = find_terms(*fit, geometry, catalogue, options, timed);
+  out.effects = machine_effects(fit->problem, timed, options.own_effects);
+  Found found = find_terms(*fit, geometry, out.effects, options, timed);
   leave_out_what_warms(found);
   out.hypotheses = static_cast<std::size_t>(found.options.tests + found.options.pattern_tests) + 1;
   out.threshold = found.options.effects().single_level(options.false_alarm);
   fit_jointly(*fit, found, out);
-  state_findings(*fit, found, options.calibration, out);
+  state_findings(*fit, found, out);
   judge_scatter(*fit, found, options, out);
   // Beside something unknown, names and sizes of the rest are not sure: what a calibration makes of
   // the readings, which counts what it does not fit, predicts the tip elsewhere better.
   if (!out.unexplained.empty()) out.errors = calibrate(machine, data, options.calibration).errors;
-  out.effective_hypotheses = independent_tests(*found.regression, found.terms);
+  out.effective_hypotheses = found.dictionary->independent_tests();
   out.typical_length_mm = options.typical_length_mm;
   out.typical_angle_rad = options.typical_angle_rad;
-  add_checks(*fit, *found.regression, found.found, timed, out);
+  add_checks(*fit, *found.dictionary, found.found, timed, out);
   add_remarks(out);
   out.verdict = verdict_of(!out.findings.empty(), !out.unexplained.empty());
-  advise({*fit, data, options, found.options, found.regression->variance(found.found)},
-         *found.regression, catalogue, found.terms, out);
+  advise({*fit, data, options, found.options, found.dictionary->variance(found.found)},
+         *found.dictionary, found.terms, out);
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "calibrate/diagnose/pattern_scan.hpp"
+#include "infer/stepwise.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -18,11 +19,10 @@ class Finder {
          const MachineDiagnoseOptions& options, bool timed)
       : fit_(fit), geometry_(geometry), options_(options) {
     out_.terms = effect_terms(fit.problem, geometry, catalogue);
-    out_.regression = regression_of(out_.terms);
-    out_.options = {options.false_alarm, tests_of(*out_.regression, out_.terms), 1.0,
-                    options.max_findings};
+    out_.dictionary = of(out_.terms);
+    out_.options = {options.false_alarm, out_.dictionary->tests(), 1.0, options.max_findings};
     search_again();
-    scan_.emplace(fit.problem, geometry, *out_.regression, timed);
+    scan_.emplace(fit.problem, geometry, out_.dictionary->basis(), timed);
     out_.options.pattern_tests = static_cast<double>(std::max<std::size_t>(1, scan_->size()));
   }
 
@@ -32,25 +32,25 @@ class Finder {
   }
 
  private:
-  Regression regression_of(const std::vector<Term>& terms) const {
-    Regression out(terms, fit_.solution.jacobian, fit_.problem.weights,
-                   options_.calibration.largest_length_mm, options_.calibration.largest_angle_rad);
+  infer::Dictionary of(const std::vector<Term>& terms) const {
+    infer::Dictionary out =
+        dictionary_of(terms, fit_.solution.jacobian, fit_.problem.weights, options_.calibration);
     out.take(fit_.solution.residuals);
     return out;
   }
 
   void search_again() {
-    out_.found = search(*out_.regression, out_.terms, out_.options);
+    out_.found = infer::search(*out_.dictionary, out_.options);
     bool moved = false;
-    for (const std::size_t t : Regression::Set(out_.found)) moved = refine(t) || moved;
+    for (const std::size_t t : Set(out_.found)) moved = refine(t) || moved;
     if (!moved) return;
-    out_.regression = regression_of(out_.terms);
-    out_.found = search(*out_.regression, out_.terms, out_.options);
+    out_.dictionary = of(out_.terms);
+    out_.found = infer::search(*out_.dictionary, out_.options);
   }
 
   /// Places near that of a term, to which it may be moved.
   std::vector<Term> finer(const Term& term) const {
-    if (scan_ && term.pattern) return scan_->finer(term);
+    if (scan_ && term.is_pattern()) return scan_->finer(term);
     std::vector<Term> out;
     if (!term.is_slip() || term.tests <= 1.0) return out;
     const auto reach = static_cast<std::size_t>(4.0 * term.tests) + 4;
@@ -64,32 +64,32 @@ class Finder {
   bool refine(std::size_t at) {
     std::vector<Term> near = finer(out_.terms[at]);
     if (near.empty()) return false;
-    Regression::Set others;
+    Set others;
     const std::size_t first = near.size();
     for (const std::size_t t : out_.found) {
       if (t == at) continue;
       others.push_back(near.size());
       near.push_back(out_.terms[t]);
     }
-    const Regression regression = regression_of(near);
+    const infer::Dictionary dictionary = of(near);
     std::size_t best = 0;
     double most = -1.0;
     for (std::size_t t = 0; t < first; ++t) {
       auto with = others;
       with.push_back(t);
-      if (const double gain = regression.gain(with); gain > most) most = gain, best = t;
+      if (const double gain = dictionary.gain(with); gain > most) most = gain, best = t;
     }
     out_.terms[at] = std::move(near[best]);
     return true;
   }
 
   /// Whether an effect makes all but a fiftieth of a pattern.
-  bool made_by_effect(const Regression& regression, std::size_t pattern) const {
-    const auto& own = regression.block(pattern);
-    for (std::size_t t = 0; t < out_.terms.size(); ++t) {
-      const auto& effect = regression.block(t);
-      if (out_.terms[t].pattern || own.columns.empty() || effect.columns.empty()) continue;
-      const double part = MatrixXd(regression.gram()(effect.columns, own.columns)).squaredNorm();
+  static bool made_by_effect(const infer::Dictionary& dictionary, std::size_t pattern) {
+    const auto& own = dictionary.block(pattern);
+    for (std::size_t t = 0; t < dictionary.size(); ++t) {
+      const auto& effect = dictionary.block(t);
+      if (effect.pattern || own.columns.empty() || effect.columns.empty()) continue;
+      const double part = MatrixXd(dictionary.gram()(effect.columns, own.columns)).squaredNorm();
       if (part > 0.98 * static_cast<double>(own.columns.size())) return true;
     }
     return false;
@@ -97,15 +97,16 @@ class Finder {
 
   /// @returns whether one of them passes beside what it was looked for beside
   bool add_patterns() {
-    const Regression& r = *out_.regression;
-    std::vector<Regression::Set> sets{{}, out_.found};
+    const infer::Dictionary& now = *out_.dictionary;
+    std::vector<Set> sets{{}, out_.found};
     for (std::size_t i = 0; out_.found.size() > 1 && i < out_.found.size(); ++i)
-      sets.push_back(without(out_.found, i));
+      sets.push_back(infer::without(out_.found, i));
     if (out_.found.empty()) sets.pop_back();
     const std::size_t before = out_.terms.size();
-    std::vector<std::pair<std::size_t, Regression::Set>> looked;
-    for (const Regression::Set& set : sets)
-      for (const std::size_t entry : scan_->best(r.columns(set), r.residuals(), patterns_a_set)) {
+    std::vector<std::pair<std::size_t, Set>> looked;
+    for (const Set& set : sets)
+      for (const std::size_t entry :
+           scan_->best(now.columns(set), now.residuals(), patterns_a_set)) {
         if (std::ranges::find(taken_, entry) != taken_.end()) continue;
         taken_.push_back(entry);
         looked.emplace_back(out_.terms.size(), set);
@@ -114,19 +115,19 @@ class Finder {
         out_.terms.back().tests = out_.options.pattern_tests / out_.options.tests;
       }
     if (looked.empty()) return false;
-    Regression wider = regression_of(out_.terms);
-    for (const auto& [term, set] : looked) out_.terms[term].barred = made_by_effect(wider, term);
+    infer::Dictionary wider = of(out_.terms);
+    for (const auto& [term, set] : looked)
+      wider.bar(term, out_.terms[term].barred = made_by_effect(wider, term));
     const bool passes = std::ranges::any_of(looked, [&](const auto& one) {
       const auto& [term, set] = one;
       return !out_.terms[term].barred &&
-             family_p(out_.options, out_.terms[term], log_p_of(wider, wider.beside(set), term)) <
-                 options_.false_alarm;
+             infer::family_p(wider, out_.options, wider.beside(set), term) < options_.false_alarm;
     });
     if (!passes) {
       out_.terms.resize(before);
       return false;
     }
-    out_.regression = std::move(wider);
+    out_.dictionary = std::move(wider);
     return true;
   }
 

@@ -3,8 +3,9 @@
 
 #include <optional>
 
-#include "calibrate/diagnose/search.hpp"
+#include "calibrate/diagnose/term.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
+#include "infer/dictionary_search.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -12,9 +13,9 @@ namespace trueaxis::calibrate_detail {
 /// Terms, their products, and which of them explain the readings.
 struct Found {
   std::vector<Term> terms;
-  std::optional<Regression> regression;
-  Regression::Set found;
-  SearchOptions options;
+  std::optional<infer::Dictionary> dictionary;
+  Set found;
+  infer::SearchOptions options;
 };
 
 /// The effects that explain the readings, then the patterns that do so better or beside them: those

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "calibrate/diagnose/explain.hpp"
+#include "infer/cross_validation.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -34,11 +35,10 @@ std::vector<std::size_t> blocks_of(const Problem& problem, std::size_t& count) {
 
 }  // namespace
 
-HeldOut held_out(const Problem& problem, const MatrixXd& columns, Index base,
-                 const VectorXd& readings) {
-  HeldOut out;
+void hold_out(const Problem& problem, const MatrixXd& columns, Index base, const VectorXd& readings,
+              MachineDiagnosis& out) {
   const std::vector<std::size_t> block_of_row = blocks_of(problem, out.blocks);
-  if (out.blocks < 2) return out;
+  if (out.blocks < 2) return;
   MatrixXd all(columns.rows(), columns.cols() + 1);
   all << readings, columns;
   const MatrixXd total = linear::gram(all);
@@ -63,8 +63,7 @@ HeldOut held_out(const Problem& problem, const MatrixXd& columns, Index base,
     blocks.push_back({sigma2 / n * infer::held_out(total, fold, before),
                       sigma2 / n * infer::held_out(total, fold, after), n});
   }
-  out.rms = infer::cross_validated(blocks);
-  return out;
+  infer::cross_validate(blocks, out.gain);
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -6,28 +6,20 @@
 namespace trueaxis::calibrate_detail {
 namespace {
 
-using Set = Regression::Set;
-
 constexpr double times_the_unknown = 4.0;  // twice in amplitude
 
 /// Letter of the axis that a term is of; t of drifts and slips.
-struct LetterOf {
-  char operator()(const ErrorOfPosition& term) const {
-    return letter_of(term.of.value_or(static_cast<AxisName>(term.error.body)));
-  }
-  char operator()(const ErrorOfSense& term) const { return letter_of(term.axis); }
-  template <class Other>
-  char operator()(const Other&) const {
-    return 't';
-  }
-};
+char letter_of(const MachineTerm& term) {
+  const auto axis = axis_of(term);
+  return axis ? trueaxis::letter_of(*axis) : 't';
+}
 
 /// The catalogue's term of every member of a class.
 std::vector<const MachineTerm*> terms_of(const MachineFinding& finding, const Found& search) {
   std::vector<const MachineTerm*> out;
   for (const std::string& member : finding.members()) {
     const auto at = std::ranges::find(search.terms, member, &Term::effect);
-    if (at != search.terms.end() && at->of) out.push_back(&at->of->term);
+    if (at != search.terms.end() && !at->is_pattern()) out.push_back(&at->of.term);
   }
   return out;
 }
@@ -35,7 +27,7 @@ std::vector<const MachineTerm*> terms_of(const MachineFinding& finding, const Fo
 bool shares_its_axis(const MachineFinding& finding, const Found& search) {
   return std::ranges::any_of(terms_of(finding, search), [&](const MachineTerm* member) {
     return std::ranges::any_of(search.found, [&](std::size_t t) {
-      return search.terms[t].letters.find(std::visit(LetterOf{}, *member)) != std::string::npos;
+      return search.terms[t].letters.find(letter_of(*member)) != std::string::npos;
     });
   });
 }
@@ -73,7 +65,7 @@ double gain_of_some(const Found& search, const std::vector<bool>& some) {
   Set others;
   for (std::size_t i = 0; i < some.size(); ++i)
     if (!some[i]) others.push_back(search.found[i]);
-  return search.regression->gain(search.found) - search.regression->gain(others);
+  return search.dictionary->gain(search.found) - search.dictionary->gain(others);
 }
 
 /// What gains less than some times all that is unknown together may be what the nearest form leaves
@@ -97,7 +89,8 @@ std::vector<bool> parts_of_unknown(const Found& search,
                                    const std::vector<MachineFinding>& findings) {
   std::vector<bool> unknown(findings.size());
   for (std::size_t at = 0; at < findings.size(); ++at)
-    unknown[at] = search.terms[search.found[at]].pattern || shares_its_axis(findings[at], search) ||
+    unknown[at] = search.terms[search.found[at]].is_pattern() ||
+                  shares_its_axis(findings[at], search) ||
                   one_of_three(findings[at], findings, search) || slips_again(at, search);
   add_what_gains_less(search, unknown);
   return unknown;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibrate/diagnose/search.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -19,9 +18,9 @@ constexpr double least_part = 1e-3;  // of a pattern that the base leaves, over 
 
 }  // namespace
 
-PatternScan::PatternScan(const Problem& problem, const Geometry& geometry,
-                         const Regression& regression, bool timed)
-    : problem_(problem), base_(regression.basis()) {
+PatternScan::PatternScan(const Problem& problem, const Geometry& geometry, const MatrixXd& base,
+                         bool timed)
+    : problem_(problem), base_(base) {
   raw_.resize(problem.equations, geometry.unit_errors.cols() + 6);
   raw_ << geometry.unit_errors, geometry.tip_shift, geometry.part_shift;
   units_ = problem.weights.asDiagonal() * raw_;
@@ -136,21 +135,20 @@ std::vector<std::size_t> PatternScan::best(const MatrixXd& beside, const VectorX
 Term PatternScan::term_of(std::size_t unit, const PatternFunction& function) const {
   const auto& axes = problem_.machine->axes;
   Term term;
-  term.pattern = true;
   term.unit = unit;
   term.place = function.place;
   term.letters = function.letters;
-  term.formula = "amplitude times " + function.words;
+  term.of.formula = "amplitude times " + function.words;
   const std::size_t k = unit / 6, direction = unit % 6;
   if (k < axes.size()) {
     const ErrorName name{true, direction, index_of(axes[k].name)};
-    term.effect = to_string(name) + ": " + function.words;
-    term.angle = name.angular();
+    term.of.id = to_string(name) + ": " + function.words;
+    if (name.angular()) term.of.unit = "rad";
     term.letters += letter_of(axes[k].name);
     for (const ErrorFunction& one : function.functions) term.errors.push_back({name, one, 0.0});
   } else {
-    term.effect = std::string(direction < 3 ? "machine " : "part ") + "XYZ"[direction % 3] + ": " +
-                  function.words;
+    term.of.id = std::string(direction < 3 ? "machine " : "part ") + "XYZ"[direction % 3] + ": " +
+                 function.words;
   }
   term.columns.resize(problem_.equations, function.values.cols());
   for (std::size_t i = 0; i < problem_.rows.size(); ++i) {
@@ -159,7 +157,7 @@ Term PatternScan::term_of(std::size_t unit, const PatternFunction& function) con
         raw_.col(static_cast<Index>(unit)).segment(row.first, row.equations()) *
         function.values.row(static_cast<Index>(i));
   }
-  term.parameters.assign(static_cast<std::size_t>(function.values.cols()), "amplitude");
+  term.of.parameters.assign(static_cast<std::size_t>(function.values.cols()), "amplitude");
   return term;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibrate/diagnose/pattern.hpp"
-#include "calibrate/diagnose/regression.hpp"
+#include "calibrate/diagnose/term.hpp"
 
 namespace trueaxis::calibrate_detail {
 
@@ -11,7 +11,7 @@ namespace trueaxis::calibrate_detail {
 /// with whatever is fitted are sums over the rows of few columns (Eq. 184).
 class PatternScan {
  public:
-  PatternScan(const Problem& problem, const Geometry& geometry, const Regression& regression,
+  PatternScan(const Problem& problem, const Geometry& geometry, const Eigen::MatrixXd& base,
               bool timed);
 
   std::size_t size() const { return entries_.size(); }

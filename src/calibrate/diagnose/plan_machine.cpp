@@ -25,24 +25,22 @@ MachineDiagnosis plan_machine(const Machine& machine, const MachineDiagnoseOptio
   fit.solution.places = fit.problem.start;
   const Eigen::MatrixXd all =
       weighted_jacobian(fit.problem, fit.given, fit.unknowns, fit.problem.start);
-  const std::vector<MachineEffect> catalogue =
-      machine_effects(fit.problem, true, options.own_effects);
-  out.titles = titles_of(catalogue);
-  const auto terms =
-      effect_terms(fit.problem, geometry_of(fit.problem, fit.given, fit.problem.start), catalogue);
-  const Regression regression(terms, determined_columns(all, fit.unknowns.size()),
-                              fit.problem.weights, options.calibration.largest_length_mm,
-                              options.calibration.largest_angle_rad);
-  const SearchOptions search{options.false_alarm, tests_of(regression, terms)};
+  out.effects = machine_effects(fit.problem, true, options.own_effects);
+  const auto terms = effect_terms(
+      fit.problem, geometry_of(fit.problem, fit.given, fit.problem.start), out.effects);
+  const infer::Dictionary dictionary =
+      dictionary_of(terms, determined_columns(all, fit.unknowns.size()), fit.problem.weights,
+                    options.calibration);
+  const infer::SearchOptions search{options.false_alarm, dictionary.tests()};
   out.hypotheses = static_cast<std::size_t>(search.tests);
   out.threshold = search.effects().single_level(options.false_alarm);
-  advise({fit, first->data, options, search, 1.0}, regression, catalogue, terms, out);
+  advise({fit, first->data, options, search, 1.0}, dictionary, terms, out);
   MachinePlan plan = first->plan;
   for (const auto& term : terms)
-    if (std::ranges::find(out.not_observable, term.effect, &MachineNotObservable::effect) ==
+    if (std::ranges::find(out.not_observable, term.effect(), &MachineNotObservable::effect) ==
             out.not_observable.end() &&
-        std::ranges::find(plan.shows, term.effect) == plan.shows.end())
-      plan.shows.push_back(term.effect);
+        std::ranges::find(plan.shows, term.effect()) == plan.shows.end())
+      plan.shows.push_back(term.effect());
   plan.covariance = out.covariance;
   for (std::size_t i = 0; i < out.uncertain.size(); ++i)  // before it: the plausible sizes
     for (std::size_t j = 0; j < out.uncertain.size(); ++j)

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "infer/classes.hpp"
+#include "infer/stepwise.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -52,13 +53,13 @@ std::string data_row(const TipFit& fit, Index equation) {
 }  // namespace
 
 void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& finding) {
-  const auto* error = term.of ? std::get_if<ErrorOfPosition>(&term.of->term) : nullptr;
-  if (!error || term.shape.empty() || term.shape.front().name != "order") return;
+  const auto* error = std::get_if<ErrorOfPosition>(&term.of.term);
+  if (!error || term.of.shape.empty() || term.of.shape.front().name != "order") return;
   const std::size_t axis = error->of ? index_of(*error->of) : error->error.body;
   VectorXd position(static_cast<Index>(problem.rows.size()));
   for (std::size_t i = 0; i < problem.rows.size(); ++i)
     position[static_cast<Index>(i)] = problem.rows[i].axes[axis];
-  const double own = term.shape.front().value;
+  const double own = term.of.shape.front().value;
   const MatrixXd basis = waves(position, static_cast<int>(own));
   double sum = 1.0 / (own * own);
   for (int order = 5; order <= highest_alias; ++order) {
@@ -72,20 +73,18 @@ void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& fin
   for (Rival& rival : finding.rivals) rival.probability *= share;
 }
 
-std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
-                                                   const std::vector<Term>& terms,
-                                                   const Regression::Set& set, std::size_t at,
-                                                   const MachineFinding& finding,
-                                                   const CalibrationOptions& options) {
+std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dictionary,
+                                                   const std::vector<Term>& terms, const Set& set,
+                                                   std::size_t at, const MachineFinding& finding) {
   constexpr std::size_t of_terms = 60, most = 5;
   constexpr double least_part = 0.02;  // of a finding that a member makes alone
-  if (terms[set[at]].pattern) return {};
-  const infer::Projection beside = regression.beside(without(set, at));
-  const infer::Columns& own = regression.block(set[at]).columns;
-  const infer::Solution all = regression.fitted(with_last(set, at));
+  if (terms[set[at]].is_pattern()) return {};
+  const infer::Projection beside = dictionary.beside(infer::without(set, at));
+  const infer::Columns& own = dictionary.block(set[at]).columns;
+  const infer::Solution all = dictionary.fitted(infer::with_last(set, at));
   const VectorXd a = all.coefficients.tail(static_cast<Index>(own.size()));
   const double whole = infer::left_of(beside, own, a);
-  const double near = infer::told_apart * infer::told_apart * regression.variance(set);
+  const double near = infer::told_apart * infer::told_apart * dictionary.variance(set);
   /// What columns make of the finding, and their coefficients.
   const auto made = [&](const infer::Columns& columns, VectorXd& share) {
     const VectorXd cross = beside.gram(columns, own) * a;
@@ -96,9 +95,9 @@ std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
   std::vector<std::pair<double, std::size_t>> alone;
   VectorXd share;
   for (std::size_t t = 0; t < terms.size(); ++t) {
-    const infer::Columns& columns = regression.block(t).columns;
-    if (terms[t].pattern || columns.empty() || std::ranges::find(set, t) != set.end() ||
-        terms[t].is_slip() || std::ranges::find(listed, terms[t].effect) != listed.end())
+    const infer::Columns& columns = dictionary.block(t).columns;
+    if (terms[t].is_pattern() || columns.empty() || std::ranges::find(set, t) != set.end() ||
+        terms[t].is_slip() || std::ranges::find(listed, terms[t].effect()) != listed.end())
       continue;
     if (const double part = made(columns, share); part >= least_part * whole)
       alone.emplace_back(-part, t);
@@ -108,21 +107,19 @@ std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
   std::vector<std::pair<double, std::array<std::string, 2>>> found;
   for (std::size_t i = 0; i < alone.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
-      const Regression::Set pair{alone[i].second, alone[j].second};
-      if (terms[pair[0]].effect == terms[pair[1]].effect) continue;
-      const double rest = whole - made(regression.columns_of(pair), share);
+      const Set pair{alone[i].second, alone[j].second};
+      if (terms[pair[0]].effect() == terms[pair[1]].effect()) continue;
+      const double rest = whole - made(dictionary.columns_of(pair), share);
       if (rest >= near) continue;
       bool plausible = true;
       Index from = 0;
       for (const std::size_t t : pair) {
-        const auto& block = regression.block(t);
+        const auto& block = dictionary.block(t);
         const auto rank = static_cast<Index>(block.columns.size());
-        plausible = plausible &&
-                    (block.back * share.segment(from, rank)).norm() <=
-                        (terms[t].angle ? options.largest_angle_rad : options.largest_length_mm);
+        plausible = plausible && (block.back * share.segment(from, rank)).norm() <= block.largest;
         from += rank;
       }
-      if (plausible) found.push_back({rest, {terms[pair[1]].effect, terms[pair[0]].effect}});
+      if (plausible) found.push_back({rest, {terms[pair[1]].effect(), terms[pair[0]].effect()}});
     }
   std::ranges::sort(found);
   std::vector<std::array<std::string, 2>> out;
@@ -131,25 +128,12 @@ std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
   return out;
 }
 
-double independent_tests(const Regression& regression, const std::vector<Term>& terms) {
-  Regression::Set effects;
-  for (std::size_t t = 0; t < terms.size(); ++t)
-    if (!terms[t].pattern) effects.push_back(t);
-  const infer::Columns columns = regression.columns_of(effects);
-  if (columns.empty()) return 0.0;
-  const MatrixXd products = regression.gram()(columns, columns);
-  double sum = 0.0;
-  for (const double value : linear::eigenvalues(products))
-    if (value > 1e-9) sum += (value >= 1.0 ? 1.0 : 0.0) + value - std::floor(value);
-  return sum;
-}
-
-void add_checks(const TipFit& fit, const Regression& regression, const Regression::Set& found,
+void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Set& found,
                 bool timed, MachineDiagnosis& out) {
-  const MatrixXd columns = regression.columns(found);
-  VectorXd left = regression.residuals();
+  const MatrixXd columns = dictionary.columns(found);
+  VectorXd left = dictionary.residuals();
   if (columns.cols() > 0) left -= columns * linear::least_squares(columns, left);
-  const auto freedom = static_cast<double>(regression.rows() - regression.fitted(found).rank);
+  const auto freedom = static_cast<double>(dictionary.rows() - dictionary.fitted(found).rank);
   const double sigma = std::sqrt(left.squaredNorm() / freedom);
   QualityCheck noise{"noise", false, "no noise is stated: the residuals give it"};
   if (fit.problem.noise_stated) {
@@ -175,17 +159,16 @@ void add_checks(const TipFit& fit, const Regression& regression, const Regressio
 void add_remarks(MachineDiagnosis& out) {
   for (const MachineFinding& finding : out.findings) {
     if (!finding.likely_order)
-      out.remarks.push_back(finding.effect + ": these positions read " + finding.alias +
+      out.remarks.push_back(finding.effect() + ": these positions read " + finding.alias +
                             " alike, so that the order is the likeliest and not certain");
     for (const auto& [one, other] : finding.pairs)
-      out.remarks.push_back(finding.effect + " is not told from " + one + " and " + other +
+      out.remarks.push_back(finding.effect() + " is not told from " + one + " and " + other +
                             " together");
   }
-  for (const MachineUnexplained& one : out.unexplained)
-    if (one.pattern.ends_with("unknown"))
-      return out.remarks.push_back(
-          "what shares its axis with an unknown pattern may be part of it and is not named; it "
-          "stays in the model");
+  if (std::ranges::any_of(out.unexplained, &MachineUnexplained::may_have_a_name))
+    out.remarks.push_back(
+        "what shares its axis with an unknown pattern may be part of it and is not named; it "
+        "stays in the model");
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -12,18 +12,12 @@ void weigh_aliases(const Problem& problem, const Term& term, MachineFinding& fin
 
 /// Pairs of effects of plausible sizes that are together within d = 3.29 of a finding, while
 /// neither is alone (Eq. 186); the nearest five.
-std::vector<std::array<std::string, 2>> pairs_like(const Regression& regression,
-                                                   const std::vector<Term>& terms,
-                                                   const Regression::Set& set, std::size_t at,
-                                                   const MachineFinding& finding,
-                                                   const CalibrationOptions& options);
-
-/// What the tests of the effects are worth as independent ones: of the eigenvalues λ of the
-/// correlations of their columns Σ [λ ≥ 1] + λ − ⌊λ⌋ (Li and Ji 2005; Eq. 187).
-double independent_tests(const Regression& regression, const std::vector<Term>& terms);
+std::vector<std::array<std::string, 2>> pairs_like(const infer::Dictionary& dictionary,
+                                                   const std::vector<Term>& terms, const Set& set,
+                                                   std::size_t at, const MachineFinding& finding);
 
 /// The noise against what is stated, the largest residual, the times.
-void add_checks(const TipFit& fit, const Regression& regression, const Regression::Set& found,
+void add_checks(const TipFit& fit, const infer::Dictionary& dictionary, const Set& found,
                 bool timed, MachineDiagnosis& out);
 
 void add_remarks(MachineDiagnosis& out);

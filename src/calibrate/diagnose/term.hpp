@@ -2,12 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibrate/estimate/geometry.hpp"
+#include "infer/dictionary.hpp"
 #include "trueaxis/machine_diagnosis.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -21,15 +21,9 @@ struct PatternPlace {
 
 /// A hypothesis: columns of the readings, each per mm or rad.
 struct Term {
-  std::shared_ptr<const MachineEffect> of;  ///< of the catalogue; none: a pattern
-  std::string effect;                       ///< its id, or the pattern in words
+  MachineEffect of;  ///< of the catalogue; of a pattern its words for the id, and no term
   Eigen::MatrixXd columns;
-  std::vector<std::string> parameters;  ///< a name each column
-  std::vector<ErrorTerm> errors;        ///< of which each column is; empty: no error of the machine
-  std::string formula;
-  std::vector<MachineShape> shape;
-  bool angle = false;
-  bool pattern = false;             ///< no effect, only what is left over
+  std::vector<ErrorTerm> errors;    ///< of which each column is; empty: no error of the machine
   bool barred = false;              ///< a pattern that an effect makes at these rows
   double tests = 1.0;               ///< how many places of it were tried
   double size_median = 0.0;         ///< plausible size of a column's coefficient; 0: none is known
@@ -39,15 +33,23 @@ struct Term {
   std::string letters;              ///< of the axes that it is a function of; t: of the time
   std::optional<PatternPlace> place;  ///< of a local pattern
 
-  bool is_slip() const { return of && std::holds_alternative<BallStep>(of->term); }
+  const std::string& effect() const { return of.id; }
+  bool angle() const { return of.unit == "rad"; }
+  bool is_pattern() const { return std::holds_alternative<std::monostate>(of.term); }
+  bool is_slip() const { return std::holds_alternative<BallStep>(of.term); }
 };
 
 /// The terms of every effect of a catalogue that these rows may show.
 std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
                                const std::vector<MachineEffect>& catalogue);
 
+using Set = infer::Dictionary::Set;
+/// Terms as hypotheses beside what is always fitted. @param base columns over σ, of any rank
+infer::Dictionary dictionary_of(const std::vector<Term>& terms, const Eigen::MatrixXd& base,
+                                const Eigen::VectorXd& weights, const CalibrationOptions& options);
+
 /// The slip of a target from a row on.
-Term slip_term(const Problem& problem, const Geometry& geometry,
-               std::shared_ptr<const MachineEffect> of, std::size_t target, std::size_t row);
+Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,
+               std::size_t target, std::size_t row);
 
 }  // namespace trueaxis::calibrate_detail

@@ -4,6 +4,7 @@
 
 #include "calibrate/diagnose/term.hpp"
 #include "infer/size_prior.hpp"
+#include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
 namespace {
@@ -65,27 +66,22 @@ struct Columns {
   }
 };
 
-Term term_of(std::shared_ptr<const MachineEffect> of) {
+Term term_of(const MachineEffect& of) {
   Term term;
-  term.effect = of->id;
-  term.parameters = of->parameters;
-  term.formula = of->formula;
-  term.shape = of->shape;
-  term.angle = of->unit == "rad";
-  if (of->low > 0.0) {
-    const bool pair = of->parameters.size() == 2;  // cos and sin share their size
-    term.size_median = std::sqrt(of->low * of->high) / (pair ? std::sqrt(2.0) : 1.0);
-    term.size_spread = infer::spread_of_size(std::log(of->high / of->low));
+  term.of = of;
+  if (of.low > 0.0) {
+    const bool pair = of.parameters.size() == 2;  // cos and sin share their size
+    term.size_median = std::sqrt(of.low * of.high) / (pair ? std::sqrt(2.0) : 1.0);
+    term.size_spread = infer::spread_of_size(std::log(of.high / of.low));
   }
-  const auto* error = std::get_if<ErrorOfPosition>(&of->term);
+  const auto* error = std::get_if<ErrorOfPosition>(&of.term);
   for (std::size_t i = 0; error != nullptr && !error->of && i < error->functions.size(); ++i)
     term.errors.push_back({error->error, error->functions[i], 0.0});
-  term.of = std::move(of);
   return term;
 }
 
-void add_slips(const Problem& problem, const Geometry& geometry,
-               const std::shared_ptr<const MachineEffect>& of, std::vector<Term>& terms) {
+void add_slips(const Problem& problem, const Geometry& geometry, const MachineEffect& of,
+               std::vector<Term>& terms) {
   for (std::size_t t = 0; t < problem.targets.size(); ++t) {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < problem.rows.size(); ++i)
@@ -100,14 +96,14 @@ void add_slips(const Problem& problem, const Geometry& geometry,
 
 }  // namespace
 
-Term slip_term(const Problem& problem, const Geometry& geometry,
-               std::shared_ptr<const MachineEffect> of, std::size_t target, std::size_t row) {
-  Term term = term_of(std::move(of));
+Term slip_term(const Problem& problem, const Geometry& geometry, const MachineEffect& of,
+               std::size_t target, std::size_t row) {
+  Term term = term_of(of);
   const Row& from = problem.rows[row];
-  term.shape = {{"file", static_cast<double>(from.file + 1), "1"},
-                {"row", static_cast<double>(from.row + 1), "1"},
-                {"setup", static_cast<double>(problem.targets[target].setup), "1"},
-                {"ball", static_cast<double>(problem.targets[target].ball), "1"}};
+  term.of.shape = {{"file", static_cast<double>(from.file + 1), "1"},
+                   {"row", static_cast<double>(from.row + 1), "1"},
+                   {"setup", static_cast<double>(problem.targets[target].setup), "1"},
+                   {"ball", static_cast<double>(problem.targets[target].ball), "1"}};
   term.target = target;
   term.row = row;
   term.columns = geometry.part_shift;
@@ -119,17 +115,27 @@ Term slip_term(const Problem& problem, const Geometry& geometry,
   return term;
 }
 
+infer::Dictionary dictionary_of(const std::vector<Term>& terms, const MatrixXd& base,
+                                const VectorXd& weights, const CalibrationOptions& options) {
+  std::vector<infer::Hypothesis> list;
+  for (const Term& term : terms)
+    list.push_back({term.effect(), linear::scaled_rows(weights, term.columns),
+                    term.angle() ? options.largest_angle_rad : options.largest_length_mm,
+                    term.size_median, term.size_spread, term.tests, term.is_pattern(),
+                    term.barred});
+  return {list, base};
+}
+
 std::vector<Term> effect_terms(const Problem& problem, const Geometry& geometry,
                                const std::vector<MachineEffect>& catalogue) {
   std::vector<Term> terms;
   for (const MachineEffect& effect : catalogue) {
     if (!effect.why_not.empty()) continue;
-    const auto of = std::make_shared<const MachineEffect>(effect);
     if (std::holds_alternative<BallStep>(effect.term)) {
-      add_slips(problem, geometry, of, terms);
+      add_slips(problem, geometry, effect, terms);
       continue;
     }
-    terms.push_back(term_of(of));
+    terms.push_back(term_of(effect));
     terms.back().columns = std::visit(Columns{problem, geometry}, effect.term);
   }
   return terms;

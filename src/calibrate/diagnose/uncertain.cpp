@@ -25,7 +25,7 @@ std::vector<UncertainParameter> uncertain_of(const TipFit& fit, const MachineDia
     for (std::size_t k = 0; k < finding.errors.size(); ++k) {
       const double value = finding.parameters[k].estimate.value;
       if (value == 0.0) continue;
-      out.push_back({finding.effect, unit_of(finding.errors[k], value),
+      out.push_back({finding.effect(), unit_of(finding.errors[k], value),
                      finding.errors[k].name.angular() ? options.calibration.largest_angle_rad
                                                       : options.calibration.largest_length_mm});
     }

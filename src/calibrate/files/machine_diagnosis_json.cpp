@@ -4,89 +4,70 @@
 
 #include "calibrate/files/edge_json.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "infer/files/inference_json.hpp"
 
 namespace trueaxis {
 namespace {
 
-template <class T, class Write>
-Json list_of(const std::vector<T>& items, const Write& write) {
-  Json list = Json::array();
-  for (const T& item : items) list.push_back(write(item));
-  return list;
-}
-
-Json rival_json(const Rival& rival) {
-  return {{"effect", rival.effect},
-          {"distance", number(rival.distance)},
-          {"likelihood_ratio", number(rival.likelihood_ratio)},
-          {"probability", number(rival.probability)},
-          {"structural", rival.structural}};
-}
-
-/// The covariance in the units of `linear`.
 Json linear_json(const std::vector<CalibratedParameter>& parameters, const Covariance& covariance) {
-  Json linear = Json::array(), rows = Json::array();
-  const auto to_edge = [&](std::size_t i) { return edge_factor(parameters[i].estimate.unit); };
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    Json one = edge_size(parameters[i].estimate.value, parameters[i].estimate.unit);
-    one["name"] = parameters[i].name;
-    linear.push_back(one);
-    Json row = Json::array();
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      row.push_back(number(to_edge(i) * to_edge(j) * covariance(i, j)));
-    rows.push_back(row);
-  }
-  return {{"linear", linear}, {"covariance", rows}};
+  std::vector<LinearValue> values;
+  for (const CalibratedParameter& one : parameters)
+    values.push_back({one.name, one.estimate.value, one.estimate.unit});
+  Json json;
+  add_linear(json, values, covariance);
+  return json;
 }
 
 Json term_json(const MachineFinding& finding) {
   Json json = linear_json(finding.parameters, finding.covariance);
-  json["formula"] = finding.formula;
+  json["formula"] = finding.cause.formula;
   json["shape"] = Json::object();
-  for (const MachineShape& one : finding.shape)
+  for (const MachineShape& one : finding.cause.shape)
     json["shape"][one.name] = edge_size(one.value, one.unit);
   return json;
 }
 
 Json finding_json(const MachineFinding& finding) {
-  const std::string unit = finding.parameters.front().estimate.unit;
-  return {{"effect", finding.effect},
-          {"term", term_json(finding)},
-          {"alias", finding.alias},
-          {"pairs", finding.pairs},
-          {"class", finding.members()},
-          {"parameters", parameters_json(finding.parameters)},
-          {"size", edge_size(finding.size, unit)},
-          {"p_value", number(finding.p_value)},
-          {"probability", number(finding.probability)},
-          {"rms", with_unit(finding.rms_mm, "mm")},
-          {"rivals", list_of(finding.rivals, rival_json)},
-          {"separate_with", finding.separate_with && !finding.separate_with->plan.empty()
-                                ? Json(finding.separate_with->plan)
-                                : Json(nullptr)}};
+  Json json = finding_object(finding.effect(), finding, parameters_json(finding.parameters));
+  json["size"] = edge_size(finding.size, finding.cause.unit);
+  json["alias"] = finding.alias;
+  json["pairs"] = finding.pairs;
+  add_rivals(json, finding);
+  json["separate_with"] = finding.separate_with && !finding.separate_with->plan.empty()
+                              ? Json(finding.separate_with->plan)
+                              : Json(nullptr);
+  json["term"] = term_json(finding);
+  return json;
+}
+
+struct KindOf {
+  Json operator()(std::monostate) const { return nullptr; }
+  Json operator()(const ErrorOfPosition&) const { return "position"; }
+  Json operator()(const ErrorOfSense&) const { return "sense"; }
+  Json operator()(const TipDrift&) const { return "drift"; }
+  Json operator()(const BallStep&) const { return "step"; }
+};
+
+/// What stands behind each id of the catalogue, so that nobody takes an id apart: its kind is the
+/// term that it is, its axis that which it is a function of.
+Json effects_json(const MachineDiagnosis& d) {
+  Json json = Json::object();
+  for (const MachineEffect& effect : d.effects) {
+    const auto axis = axis_of(effect.term);
+    const auto* error = std::get_if<ErrorOfPosition>(&effect.term);
+    json[effect.id] = {{"title", effect.title},
+                       {"kind", std::visit(KindOf{}, effect.term)},
+                       {"axis", axis ? Json(std::string(1, letter_of(*axis))) : Json(nullptr)},
+                       {"error", error ? Json(to_string(error->error)) : Json(nullptr)}};
+  }
+  return json;
 }
 
 /// What follows from each cause that was found.
 Json consequences_json(const MachineDiagnosis& d) {
   Json json = Json::object();
   for (const MachineFinding& finding : d.findings)
-    if (!finding.consequence.empty()) json[finding.effect] = finding.consequence;
-  return json;
-}
-
-/// What the causes that were found, their rivals and what is not seen are called.
-Json titles_json(const MachineDiagnosis& d) {
-  Json json = Json::object();
-  const auto add = [&](const std::string& effect) {
-    if (const auto title = d.titles.find(effect); title != d.titles.end())
-      json[effect] = title->second;
-  };
-  for (const MachineFinding& finding : d.findings) {
-    for (const std::string& member : finding.members()) add(member);
-    for (const auto& pair : finding.pairs)
-      for (const std::string& one : pair) add(one);
-  }
-  for (const MachineNotObservable& one : d.not_observable) add(one.effect);
+    if (!finding.cause.consequence.empty()) json[finding.effect()] = finding.cause.consequence;
   return json;
 }
 
@@ -98,16 +79,9 @@ Json unexplained_json(const MachineUnexplained& one) {
 }
 
 Json not_observable_json(const MachineNotObservable& one) {
-  Json detectable;
-  if (std::isfinite(one.detectable))
-    detectable = edge_size(one.detectable, one.detectable_unit);
-  else
-    detectable = {{"value", nullptr},
-                  {"unit", one.detectable_unit == "rad" ? "deg" : "mm"},
-                  {"why", "no size of it would be found"}};
   return {{"effect", one.effect},
           {"why", one.why},
-          {"detectable", detectable},
+          {"detectable", detectable_object(one)},
           {"separate_with", one.plans()}};
 }
 
@@ -117,13 +91,6 @@ Json plan_json(const MachinePlan& plan) {
           {"minutes", number(plan.minutes)},
           {"shows", plan.shows},
           {"separates", plan.separates}};
-}
-
-Json held_out_json(const Interval& one, const char* unit) {
-  return {{"value", number(one.value)},
-          {"low", number(one.low)},
-          {"high", number(one.high)},
-          {"unit", unit}};
 }
 
 /// Where to go: a table with the columns of a measurement, and where the balls stand.
@@ -149,17 +116,18 @@ Json measurement_json(const MachinePlan& plan, const Machine& machine) {
 }
 
 Json next_json(const MachineDiagnosis& d, const Machine& machine) {
-  for (const MachinePlan& plan : d.plans) {
-    if (plan.code != d.next_plan) continue;
-    Json json = plan_json(plan);
-    json["measurement"] = measurement_json(plan, machine);
-    return json;
-  }
-  return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
+  const MachinePlan* plan = d.next();
+  if (plan == nullptr)
+    return {{"plan", ""}, {"why_not", "no plan shows or separates anything more"}};
+  Json json = plan_json(*plan);
+  json["measurement"] = measurement_json(*plan, machine);
+  return json;
 }
 
-Json check_json(const QualityCheck& check) {
-  return {{"effect", check.effect}, {"found", check.found}, {"text", check.text}};
+Json gain_json(const MachineDiagnosis& d) {
+  Json json = explained_object(d.gain);
+  json["blocks"] = std::to_string(d.blocks) + " blocks of rotary positions";
+  return json;
 }
 
 Json options_json(const MachineDiagnosis& d) {
@@ -184,36 +152,29 @@ std::string machine_diagnosis_json(const MachineDiagnosis& d, const Machine& mac
 }
 
 Json machine_diagnosis_object(const MachineDiagnosis& d, const Machine& machine) {
-  return {{"schema", "trueaxis.machine_diagnosis/1"},
-          {"version", TRUEAXIS_VERSION},
-          {"machine", machine.name},
-          {"inputs", inputs_json(d.baseline)},
-          {"options", options_json(d)},
-          {"verdict", to_string(d.verdict)},
-          {"titles", titles_json(d)},
-          {"consequences", consequences_json(d)},
-          {"baseline", baseline_json(d.baseline)},
-          {"extended", {{"parameters", parameters_json(d.extended)}}},
-          {"findings", list_of(d.findings, finding_json)},
-          {"unexplained", list_of(d.unexplained, unexplained_json)},
-          {"not_observable", list_of(d.not_observable, not_observable_json)},
-          {"remarks", d.remarks},
-          {"checks", list_of(d.checks, check_json)},
-          {"noise",
-           {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
-          {"gain",
-           {{"rms_before", with_unit(d.rms_before_mm, "mm")},
-            {"rms_after", with_unit(d.rms_after_mm, "mm")},
-            {"held_out_rms_before", held_out_json(d.held_out_before_mm, "mm")},
-            {"held_out_rms_after", held_out_json(d.held_out_after_mm, "mm")},
-            {"held_out_ratio", held_out_json(d.held_out_ratio, "1")},
-            {"blocks", std::to_string(d.blocks) + " blocks of rotary positions"}}},
-          {"next_measurement", next_json(d, machine)},
-          {"plans", list_of(d.plans, plan_json)},
-          {"false_alarm", number(d.false_alarm)},
-          {"hypotheses", d.hypotheses},
-          {"effective_hypotheses", number(d.effective_hypotheses)},
-          {"threshold", number(d.threshold)}};
+  Json json{
+      {"schema", "trueaxis.machine_diagnosis/1"},
+      {"version", TRUEAXIS_VERSION},
+      {"machine", machine.name},
+      {"inputs", inputs_json(d.baseline)},
+      {"options", options_json(d)},
+      {"verdict", to_string(d.verdict)},
+      {"consequences", consequences_json(d)},
+      {"effects", effects_json(d)},
+      {"baseline", baseline_json(d.baseline)},
+      {"extended", {{"parameters", parameters_json(d.extended)}}},
+      {"findings", list_of(d.findings, finding_json)},
+      {"unexplained", list_of(d.unexplained, unexplained_json)},
+      {"not_observable", list_of(d.not_observable, not_observable_json)},
+      {"remarks", d.remarks},
+      {"checks", list_of(d.checks, check_object)},
+      {"noise",
+       {{"sigma", with_unit(d.noise_mm, "mm")}, {"source", "residuals of the extended model"}}},
+      {"gain", gain_json(d)},
+      {"next_measurement", next_json(d, machine)},
+      {"plans", list_of(d.plans, plan_json)}};
+  add_tests(json, d);
+  return json;
 }
 
 }  // namespace trueaxis

@@ -5,22 +5,17 @@
 #include <map>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
+#include "calibrate/files/machine_screen.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {
 namespace {
 
-std::string size_text(double size, const std::string& unit) {
-  return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size)
-                       : fmt::format("{:.3g} µm", 1e3 * size);
-}
-
 std::string finding_text(const MachineFinding& finding) {
-  const std::string& unit = finding.parameters.front().estimate.unit;
-  std::string text =
-      fmt::format("{}: {}, {} in the readings (p {:.2g})\n", finding.effect,
-                  size_text(finding.size, unit), layout::um(finding.rms_mm), finding.p_value);
-  text += layout::wrapped("  ", finding.consequence);
+  std::string text = fmt::format("{}: {}, {} in the readings (p {:.2g})\n", finding.effect(),
+                                 small_size(finding.size, finding.cause.unit),
+                                 layout::um(finding.rms_mm), finding.p_value);
+  text += layout::wrapped("  ", finding.cause.consequence);
   if (finding.rivals.empty()) return text;
   std::string rivals;
   for (const Rival& rival : finding.rivals)
@@ -59,28 +54,24 @@ std::string machine_diagnosis_text(const MachineDiagnosis& d) {
   for (const MachineFinding& finding : d.findings) text += finding_text(finding);
   for (const MachineUnexplained& one : d.unexplained)
     text += fmt::format("unexplained: {}, {} (p {:.2g})\n", one.pattern,
-                        size_text(one.amplitude.value, one.amplitude.unit), one.p_value);
+                        small_size(one.amplitude.value, one.amplitude.unit), one.p_value);
   for (const std::string& remark : d.remarks) text += layout::wrapped("note: ", remark);
   for (const QualityCheck& check : d.checks)
     if (check.found) text += layout::wrapped("check: ", check.text);
   text += fmt::format("RMS {} -> {}; held out {} -> {} ({} blocks of rotary positions)\n",
-                      layout::um(d.rms_before_mm), layout::um(d.rms_after_mm),
-                      layout::um(d.held_out_before_mm.value), layout::um(d.held_out_after_mm.value),
-                      d.blocks);
+                      layout::um(d.gain.rms_before_mm), layout::um(d.gain.rms_after_mm),
+                      layout::um(d.gain.held_out_before_mm.value),
+                      layout::um(d.gain.held_out_after_mm.value), d.blocks);
   if (!d.not_observable.empty()) text += "not seen at these positions\n" + not_observable_text(d);
-  for (const MachinePlan& plan : d.plans)
-    if (plan.code == d.next_plan)
-      text += fmt::format("next: {}, {} ({:.0f} min)\n", plan.code, plan.what, plan.minutes);
+  if (const MachinePlan* plan = d.next())
+    text += fmt::format("next: {}, {} ({:.0f} min)\n", plan->code, plan->what, plan->minutes);
   return text;
 }
 
 std::string machine_advice_text(const MachineDiagnosis& d) {
-  std::string text;
-  for (const MachinePlan& plan : d.plans)
-    if (plan.code == d.next_plan)
-      text += layout::wrapped("next: ", fmt::format("{}, {} ({} readings, {:.0f} min)", plan.code,
-                                                    plan.what, plan.visits.size(), plan.minutes));
-  if (text.empty()) text = "next: no plan shows or separates anything more\n";
+  const MachinePlan* next = d.next();
+  std::string text = next ? layout::wrapped("next: ", next_plan_text(d, PlanBy::code))
+                          : "next: no plan shows or separates anything more\n";
   for (const MachinePlan& plan : d.plans) {
     std::string what = fmt::format("{:.0f} min", plan.minutes);
     if (!plan.separates.empty())

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "format/text_layout.hpp"
 
 namespace trueaxis {
@@ -14,10 +12,6 @@ namespace {
 using layout::um;
 
 constexpr std::size_t most_findings = 3, most_rivals = 2, most_hidden = 8, most_plans = 5;
-
-std::string small(double size, const std::string& unit) {
-  return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size) : um(size);
-}
 
 /// The first `most` of a list, and how many there are beside them.
 std::string some_of(const std::vector<std::string>& all, std::size_t most) {
@@ -35,10 +29,9 @@ std::string small_estimate(const std::string& name, const Estimate& estimate, do
 }
 
 /// The cause, its size and its rivals; then in words, with what follows from it.
-std::string finding_screen(const MachineDiagnosis& d, const MachineFinding& finding) {
-  const std::string& unit = finding.parameters.front().estimate.unit;
-  std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect,
-                                 small(finding.size, unit), um(finding.rms_mm));
+std::string finding_screen(const MachineFinding& finding) {
+  std::string text = fmt::format("seen   {}: {}, {} in the readings", finding.effect(),
+                                 small_size(finding.size, finding.cause.unit), um(finding.rms_mm));
   if (!finding.rivals.empty()) {
     std::vector<std::string> rivals;
     for (const Rival& rival : finding.rivals)
@@ -48,17 +41,16 @@ std::string finding_screen(const MachineDiagnosis& d, const MachineFinding& find
                  ? ", and no plan tells them apart"
                  : ", plan " + finding.separate_with->plan + " tells");
   }
-  const auto title = d.titles.find(finding.effect);
-  if (title == d.titles.end()) return text + "\n";
-  return text + "\n       - " + title->second +
-         (finding.consequence.empty() ? "" : ": " + finding.consequence) + "\n";
+  if (finding.cause.title.empty()) return text + "\n";
+  return text + "\n       - " + finding.cause.title +
+         (finding.cause.consequence.empty() ? "" : ": " + finding.cause.consequence) + "\n";
 }
 
 std::string read_out_screen(const AxisReadOut& one) {
   const char* const unit = is_rotary(one.axis) ? "rad" : "mm";
   std::string text =
       fmt::format("axis   {}: {} readings, RMS {} -> {}", letter_of(one.axis), one.readings,
-                  small(one.rms_before, unit), small(one.rms_after, unit));
+                  small_size(one.rms_before, unit), small_size(one.rms_after, unit));
   if (one.period > 0.0)
     text += fmt::format(", {} orders periodic in {:.6g} {}", one.orders.size(),
                         is_rotary(one.axis) ? one.period / rad_per_deg : one.period,
@@ -67,6 +59,10 @@ std::string read_out_screen(const AxisReadOut& one) {
 }
 
 }  // namespace
+
+std::string small_size(double size, const std::string& unit) {
+  return unit == "rad" ? fmt::format("{:.3g} µrad", 1e6 * size) : um(size);
+}
 
 std::string calibration_screen(const Calibration& c) {
   std::string text;
@@ -83,7 +79,7 @@ std::string calibration_screen(const Calibration& c) {
     errors.push_back(small_estimate(one.name, one.estimate, 2.0));
   if (!errors.empty()) text += fmt::format("errors {} (U, k = 2)\n", fmt::join(errors, ", "));
   for (const CalibratedComponent& one : c.components)
-    if (one.shown) shown.push_back(one.name + " " + small(one.rms.value, one.rms.unit));
+    if (one.shown) shown.push_back(one.name + " " + small_size(one.rms.value, one.rms.unit));
   if (!shown.empty())
     text += "also   component errors, RMS: " + some_of(shown, most_hidden) +
             "; they are in the file of errors\n";
@@ -100,11 +96,11 @@ std::string machine_findings_screen(const MachineDiagnosis& d) {
   std::string text;
   std::size_t shown = 0;
   for (const MachineFinding& finding : d.findings)
-    if (shown++ < most_findings) text += finding_screen(d, finding);
+    if (shown++ < most_findings) text += finding_screen(finding);
   for (const MachineUnexplained& one : d.unexplained)
     if (shown++ < most_findings)
       text += fmt::format("seen   {}, {}, without a known cause\n", one.pattern,
-                          small(one.amplitude.value, one.amplitude.unit));
+                          small_size(one.amplitude.value, one.amplitude.unit));
   if (shown > most_findings)
     text += fmt::format("       and {} more (--verbose)\n", shown - most_findings);
   for (const QualityCheck& check : d.checks)
@@ -124,10 +120,11 @@ std::string machine_diagnosis_line(const MachineDiagnosis& d, const char* arrow)
                                        unexplained > 0 ? "UNEXPLAINED" : "EFFECTS",
                                        found + unexplained, found + unexplained == 1 ? "" : "s");
   if (unexplained > 0) text += fmt::format(", {} without a known cause", unexplained);
-  if (d.blocks > 0 || d.rms_before_mm > 0.0)
-    text += fmt::format("; RMS {} {} {}, held out {} {} {}", um(d.rms_before_mm), arrow,
-                        um(d.rms_after_mm), um(d.held_out_before_mm.value), arrow,
-                        um(d.held_out_after_mm.value));
+  const Explained& gain = d.gain;
+  if (d.blocks > 0 || gain.rms_before_mm > 0.0)
+    text += fmt::format("; RMS {} {} {}, held out {} {} {}", um(gain.rms_before_mm), arrow,
+                        um(gain.rms_after_mm), um(gain.held_out_before_mm.value), arrow,
+                        um(gain.held_out_after_mm.value));
   return text;
 }
 
@@ -136,9 +133,8 @@ std::string machine_diagnosis_screen(const MachineDiagnosis& d) {
 }
 
 std::string next_plan_text(const MachineDiagnosis& d, PlanBy by) {
-  const auto plan = std::ranges::find(d.plans, d.next_plan, &MachinePlan::code);
-  if (d.next_plan.empty() || plan == d.plans.end())
-    return "nothing: no plan shows or tells apart anything more";
+  const MachinePlan* plan = d.next();
+  if (plan == nullptr) return "nothing: no plan shows or tells apart anything more";
   return fmt::format("{}{} ({} readings, {:.0f} min)",
                      by == PlanBy::code ? plan->code + ", " : "Measure ", plan->what,
                      plan->visits.size(), plan->minutes);

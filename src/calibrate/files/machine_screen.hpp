@@ -10,6 +10,9 @@
 /// of `--verbose` have the rest.
 namespace trueaxis {
 
+/// mm or rad, as sizes of a machine's errors are shown.
+std::string small_size(double size, const std::string& unit);
+
 std::string calibration_screen(const Calibration& calibration);
 
 /// Without the next measurement, which may depend on what is weighed on a program.

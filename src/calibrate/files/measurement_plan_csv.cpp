@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <set>
 
@@ -10,8 +9,8 @@
 namespace trueaxis {
 
 std::string measurement_plan_csv(const MachineDiagnosis& diagnosis, const Machine& machine) {
-  const auto plan = std::ranges::find(diagnosis.plans, diagnosis.next_plan, &MachinePlan::code);
-  if (plan == diagnosis.plans.end()) return "";
+  const MachinePlan* plan = diagnosis.next();
+  if (plan == nullptr) return "";
   std::string text =
       fmt::format("# schema: trueaxis.measurement_plan/1\n# plan {}, {}\n# kind: {}\n", plan->code,
                   plan->what, to_string(plan->kind));

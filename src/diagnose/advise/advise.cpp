@@ -85,10 +85,8 @@ class Predictor {
     NormalEquations equations(point, mask, apart, {}, 1);
     std::vector<Hypothesis> list = model_.terms;
     list[q.term] = rival;
-    Columns taken = equations.base();
-    for (const Columns& columns : equations.append(list))
-      taken.insert(taken.end(), columns.begin(), columns.end());
-    const double left = project(equations.total(), taken).rss;
+    const std::vector<Columns> places = equations.append(list);
+    const double left = project(equations.total(), infer::besides(equations.base(), places)).rss;
     return std::sqrt(plan.weight * std::max(0.0, left)) / sigma_mm_;
   }
 
@@ -98,14 +96,13 @@ class Predictor {
     const std::vector<double> nothing(point.size(), 0.0);
     NormalEquations equations(point, mask, nothing, {}, 1);
     const std::vector<Columns> places = equations.append(list_);
+    const std::span<const Columns> own{places.data(), model_.terms.size()};
     const Eigen::MatrixXd gram = plan.weight * equations.total();
     Outlook out;
     std::size_t next = model_.terms.size(), rival = 0;
     for (std::size_t k = 0; k < questions_.size(); ++k) {
       const AmbiguousFinding& q = questions_[k];
-      Columns others = equations.base();
-      for (std::size_t t = 0; t < model_.terms.size(); ++t)
-        if (t != q.term) others.insert(others.end(), places[t].begin(), places[t].end());
+      const Columns others = infer::besides(equations.base(), own, q.term);
       std::vector<double> distances;
       for (std::size_t r = 1; r < q.found.members.size(); ++r, ++rival) {
         Columns taken = others;
@@ -120,10 +117,7 @@ class Predictor {
       out.told.push_back(right_name_of(q.found.rivals, distances));
       out.distances.push_back(std::move(distances));
     }
-    Columns taken = equations.base();
-    for (std::size_t t = 0; t < model_.terms.size(); ++t)
-      taken.insert(taken.end(), places[t].begin(), places[t].end());
-    const Projection p = project(gram, taken);
+    const Projection p = project(gram, infer::besides(equations.base(), own));
     for (const Unobservable& h : hidden_) {
       const double lambda = typical_lambda(p, places[next], h.typical.size, sigma_mm_);
       out.found.push_back(detection_power(lambda, std::min<std::size_t>(places[next].size(), 2),

@@ -99,14 +99,14 @@ class Averaging {
         gram_(wide_.equations.total()),
         n_(static_cast<Eigen::Index>(wide_.equations.base().size())) {
     for (std::size_t t = 0; t < terms_; ++t) {
-      const Projection beside = project(wide_.equations.total(), columns_without(t));
+      const Projection beside = project(wide_.equations.total(), wide_.besides(t));
       const Weighed weighed = weigh_term(t, beside);
       for (std::size_t j = 0; j < wide_.places[t].size(); ++j) {
         const auto c = static_cast<Eigen::Index>(wide_.places[t][j]);
         gram_(c, c) += weighed.precision(static_cast<Eigen::Index>(j));
       }
     }
-    named_ = solve(gram_, columns_without(terms_));
+    named_ = solve(gram_, wide_.besides(terms_));
   }
 
   AveragedAxis average() {
@@ -173,13 +173,6 @@ class Averaging {
     return all;
   }
 
-  Columns columns_without(std::size_t term) const {
-    Columns columns = wide_.equations.base();
-    for (std::size_t t = 0; t < terms_; ++t)
-      if (t != term) columns.insert(columns.end(), wide_.places[t].begin(), wide_.places[t].end());
-    return columns;
-  }
-
   Weighed weigh_term(std::size_t place, const Projection& beside) const {
     return weigh(wide_.terms[place], beside, wide_.places[place], wide_.equations.count());
   }
@@ -219,7 +212,7 @@ class Averaging {
   }
 
   void of_finding(const AmbiguousFinding& finding, std::size_t& next, AveragedAxis& out) const {
-    const Solution without = solve(gram_, columns_without(finding.term));
+    const Solution without = solve(gram_, wide_.besides(finding.term));
     const Projection beside = project(gram_, without.columns);
     const std::string named = wide_.terms[finding.term].id();
     const double odds = odds_of(finding.term, weigh_term(finding.term, beside));
@@ -241,7 +234,7 @@ class Averaging {
 
   /// The shapes are alternatives to each other, and take the place of the one that was found.
   void of_local_form(const LocalShapes& local, std::size_t& next, AveragedAxis& out) const {
-    const Solution without = solve(gram_, columns_without(local.term));
+    const Solution without = solve(gram_, wide_.besides(local.term));
     const Projection beside = project(gram_, without.columns);
     std::vector<Alternative> list;
     std::vector<double> criterion;

@@ -22,9 +22,7 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   list.push_back(named);
   for (const Candidate& c : causes) list.push_back(c.hypothesis);
   const Joint joint(proposer.problem(), model.phi, list, others.size() + 1);
-  Columns base = joint.equations.base();
-  for (std::size_t t = 0; t < others.size(); ++t)
-    base.insert(base.end(), joint.places[t].begin(), joint.places[t].end());
+  const Columns base = joint.besides(others.size());
   const Columns& own = joint.places[others.size()];
   const Projection beside = project(joint.equations.total(), base);
 

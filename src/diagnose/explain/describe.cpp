@@ -42,10 +42,7 @@ Eigen::MatrixXd inverse_of(const Joint& joint, std::size_t term) {
 
 /// Whether base and other terms leave all columns of a term: else its sizes share what is left.
 bool is_determined(const Joint& joint, std::size_t term) {
-  Columns others = joint.equations.base();
-  for (std::size_t t = 0; t < joint.fitted; ++t)
-    if (t != term) others.insert(others.end(), joint.places[t].begin(), joint.places[t].end());
-  return score(project(joint.equations.total(), others), joint.places[term]).rank ==
+  return score(project(joint.equations.total(), joint.besides(term)), joint.places[term]).rank ==
          joint.places[term].size();
 }
 

@@ -39,10 +39,7 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis
                   : std::max(0.0, held_out(equations.total(), equations.folds()[f], after));
     blocks.push_back(b);
   }
-  const CrossValidated validated = cross_validated(blocks);
-  out.held_out_before_mm = validated.before;
-  out.held_out_after_mm = validated.after;
-  out.held_out_ratio = validated.ratio;
+  cross_validate(blocks, out);
   out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;
 
   const Solution bare = solve(joint.equations.total(), before);

@@ -4,19 +4,14 @@
 #include <limits>
 
 #include "diagnose/files/diagnosis_text.hpp"
+#include "effect/short_name.hpp"
 #include "fit/files/fit_files.hpp"
+#include "infer/files/inference_json.hpp"
 
 namespace trueaxis {
 namespace {
 
-constexpr const char* unknown = "not determined";
-
-Json length(double value_mm) { return quantity_object(value_mm, "mm", unknown); }
-
-Json interval(const Interval& i, const char* unit) {
-  return {
-      {"value", number(i.value)}, {"low", number(i.low)}, {"high", number(i.high)}, {"unit", unit}};
-}
+Json length(double value_mm) { return quantity_object(value_mm, "mm"); }
 
 Json separating_object(const Separating& s) {
   Json others = Json::array();
@@ -38,20 +33,12 @@ Json maybe(const std::optional<Separating>& separating) {
   return separating ? separating_object(*separating) : Json(nullptr);
 }
 
-Json finding_object(const Finding& finding) {
+Json whole_finding(const Finding& finding) {
   Json json = finding_summary(finding);
   json["alias"] = finding.alias;
+  json["name"] = short_name(*finding.term.effect);
   json["frame"] = to_string(finding.term.effect->frame);
-  json["rms"] = length(finding.rms_mm);
-  Json rivals = Json::array();
-  for (const Rival& rival : finding.rivals) {
-    rivals.push_back({{"effect", rival.effect},
-                      {"distance", number(rival.distance)},
-                      {"likelihood_ratio", number(rival.likelihood_ratio)},
-                      {"probability", number(rival.probability)},
-                      {"structural", rival.structural}});
-  }
-  json["rivals"] = rivals;
+  add_rivals(json, finding);
   json["separate_with"] = maybe(finding.separate_with);
   json["term"] = term_object(finding.term);
   return json;
@@ -74,12 +61,6 @@ Json unexplained_object(const Unexplained& u) {
   return json;
 }
 
-Json detectable_object(const NotObservable& n) {
-  Json json = edge_size(n.detectable, n.detectable_unit);
-  if (!std::isfinite(n.detectable)) json["why"] = "no size of it would be found";
-  return json;
-}
-
 Json not_observable_object(const NotObservable& n) {
   return {{"effect", n.effect},
           {"why", n.why},
@@ -90,16 +71,13 @@ Json not_observable_object(const NotObservable& n) {
 }
 
 Json gain_object(const Gain& gain) {
-  return {{"rms_before", length(gain.rms_before_mm)},
-          {"rms_after", length(gain.rms_after_mm)},
-          {"held_out_rms_before", interval(gain.held_out_before_mm, "mm")},
-          {"held_out_rms_after", interval(gain.held_out_after_mm, "mm")},
-          {"held_out_ratio", interval(gain.held_out_ratio, "1")},
-          {"blocks", gain.blocks},
-          {"noise_floor", length(gain.noise_floor_mm)},
-          {"axis_shift", estimate_object(gain.axis_shift)},
-          {"coaxiality_before", estimate_object(gain.coaxiality_before)},
-          {"coaxiality_after", estimate_object(gain.coaxiality_after)}};
+  Json json = explained_object(gain);
+  json["blocks"] = gain.blocks;
+  json["noise_floor"] = length(gain.noise_floor_mm);
+  json["axis_shift"] = estimate_object(gain.axis_shift);
+  json["coaxiality_before"] = estimate_object(gain.coaxiality_before);
+  json["coaxiality_after"] = estimate_object(gain.coaxiality_after);
+  return json;
 }
 
 Json next_object(const NextMeasurement& next) {
@@ -130,15 +108,8 @@ Json options_object(const Diagnosis& d) {
           {"false_alarm", number(d.false_alarm)}};
 }
 
-template <class T>
-Json list_of(const std::vector<T>& items, Json (*write)(const T&)) {
-  Json list = Json::array();
-  for (const T& item : items) list.push_back(write(item));
-  return list;
-}
-
 Json maybe_length(const std::optional<double>& value_mm) {
-  return value_mm ? quantity_object(*value_mm, "mm", "not determined")
+  return value_mm ? length(*value_mm)
                   : Json{{"value", nullptr}, {"unit", "mm"}, {"why", "the data have no such part"}};
 }
 
@@ -150,17 +121,11 @@ Json rows(const std::vector<Rejected>& rejected) {
 
 }  // namespace
 
-Json quantity_object(double value, const char* unit, const char* why) {
-  Json json = with_unit(value, unit);
-  if (!std::isfinite(value)) json["why"] = why;
-  return json;
-}
-
 Json estimate_object(const Estimate& estimate) {
   Json json = to_json(estimate);
   const bool complete = std::isfinite(estimate.value) && std::isfinite(estimate.u);
   if (!complete && estimate.why_not.empty()) {
-    json["why"] = estimate.determined() ? "its uncertainty is not determined" : unknown;
+    json["why"] = estimate.determined() ? "its uncertainty is not determined" : "not determined";
   }
   return json;
 }
@@ -170,13 +135,10 @@ Json finding_summary(const Finding& finding) {
   for (const FitParameter& p : finding.parameters) {
     parameters[p.name] = estimate_object(p.estimate);
   }
-  return {{"effect", finding.effect()},
-          {"class", finding.members()},
-          {"parameters", parameters},
-          {"p_value", number(finding.p_value)},
-          {"probability", number(finding.probability)},
-          {"axis_bias",
-           {{"axis_shift", estimate_object(finding.axis_shift)}, {"cosmetic", finding.cosmetic}}}};
+  Json json = finding_object(finding.effect(), finding, std::move(parameters));
+  json["axis_bias"] = {{"axis_shift", estimate_object(finding.axis_shift)},
+                       {"cosmetic", finding.cosmetic}};
+  return json;
 }
 
 Json unexplained_summary(const Unexplained& u) {
@@ -214,7 +176,7 @@ Json diagnosis_object(const Diagnosis& d) {
   json["extended"] = fit_object(d.extended);
   json["shares"] = list_of(d.shares, share_object);
   json["u_frame"] = {{"z_mid", length(d.z_mid_mm)}, {"z_half", length(d.z_half_mm)}};
-  json["findings"] = list_of(d.findings, finding_object);
+  json["findings"] = list_of(d.findings, whole_finding);
   json["consequences"] = consequences_object(d);
   json["unexplained"] = list_of(d.unexplained, unexplained_object);
   json["not_observable"] = list_of(d.not_observable, not_observable_object);
@@ -224,10 +186,7 @@ Json diagnosis_object(const Diagnosis& d) {
   json["gain"] = gain_object(d.gain);
   json["next_measurement"] = next_object(d.next);
   json["plans"] = list_of(d.plans, separating_object);
-  json["false_alarm"] = number(d.false_alarm);
-  json["hypotheses"] = d.hypotheses;
-  json["effective_hypotheses"] = number(d.effective_hypotheses);
-  json["threshold"] = number(d.threshold);
+  add_tests(json, d);
   json["spectrum"] = spectrum_object(d.spectrum);
   return json;
 }
@@ -271,10 +230,6 @@ Json noise_object(const NoiseReport& noise) {
           {"masked", rows(noise.masked)},
           {"gaps", noise.gaps},
           {"interruptions", rows(noise.interruptions)}};
-}
-
-Json check_object(const QualityCheck& check) {
-  return {{"effect", check.effect}, {"found", check.found}, {"text", check.text}};
 }
 
 }  // namespace trueaxis

@@ -37,14 +37,9 @@ Json unexplained_summary(const Unexplained& unexplained);
 /// Like to_json, and never without a reason where a number is missing.
 Json estimate_object(const Estimate& estimate);
 
-/// {"value", "unit"}, and `why` where the value is not finite.
-Json quantity_object(double value, const char* unit, const char* why);
-
 /// σ of one reading, where it comes from, and what was left out. `autocorrelation` is that of
 /// neighbouring readings, which follows from the autoregression.
 Json noise_object(const NoiseReport& noise);
-
-Json check_object(const QualityCheck& check);
 
 /// Lag-1 autocorrelation of ε_i = Σ φ_j ε_{i−j} + e_i; 0 for white noise, NaN where it is not
 /// stationary.

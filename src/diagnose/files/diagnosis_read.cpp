@@ -73,8 +73,8 @@ NoiseReport noise_from(const Json& json) {
 }
 
 Unexplained unexplained_from(const Json& json) {
-  return {pattern_term_from(json.at("term")), estimate_from(json.at("amplitude")),
-          number_from(json.at("p_value"))};
+  return {{estimate_from(json.at("amplitude")), number_from(json.at("p_value"))},
+          pattern_term_from(json.at("term"))};
 }
 
 Diagnosis diagnosis_from(const Json& json, std::span<const Effect> own_effects) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "diagnose/files/diagnosis_json.hpp"
+#include "infer/files/inference_json.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -16,32 +17,12 @@ constexpr PatternKind pattern_kinds[] = {{Pattern::Kind::fourier_legendre, "four
                                          {Pattern::Kind::line, "line"},
                                          {Pattern::Kind::bump, "bump"}};
 
-Json linear_array(const TermValue& term) {
-  Json list = Json::array();
-  const auto parameters = term.parameters();
-  expects(parameters.size() == term.linear.size(), "a value for every linear parameter");
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const bool angle = parameters[i].unit == "rad";
-    Json entry = quantity_object(edge_factor(parameters[i].unit) * term.linear[i],
-                                 angle ? "deg" : parameters[i].unit.c_str(), "not determined");
-    entry["name"] = parameters[i].name;
-    list.push_back(entry);
-  }
-  return list;
-}
-
-/// In the units of `linear`; empty where there is none.
-Json covariance_array(const TermValue& term) {
-  const auto parameters = term.parameters();
-  Json rows = Json::array();
-  for (std::size_t i = 0; i < parameters.size() && !term.covariance.empty(); ++i) {
-    Json row = Json::array();
-    for (std::size_t j = 0; j < parameters.size(); ++j)
-      row.push_back(number(edge_factor(parameters[i].unit) * edge_factor(parameters[j].unit) *
-                           term.covariance(i, j)));
-    rows.push_back(row);
-  }
-  return rows;
+std::vector<LinearValue> linear_values(const TermValue& term) {
+  std::vector<LinearValue> values;
+  for (const LinearParameter& one : term.parameters()) values.push_back({one.name, 0.0, one.unit});
+  expects(values.size() == term.linear.size(), "a value for every linear parameter");
+  for (std::size_t i = 0; i < values.size(); ++i) values[i].value = term.linear[i];
+  return values;
 }
 
 Json shape_object(const TermValue& term) {
@@ -133,8 +114,7 @@ Json term_object(const TermValue& term) {
   } else {
     json = {{"pattern", pattern_object(term.pattern)}};
   }
-  json["linear"] = linear_array(term);
-  json["covariance"] = covariance_array(term);
+  add_linear(json, linear_values(term), term.covariance);
   return json;
 }
 

@@ -35,10 +35,7 @@ Joint::Joint(const Problem& problem, const std::vector<double>& phi,
       places(equations.append(hypotheses, fitted_terms)),
       terms(std::move(hypotheses)),
       fitted(fitted_terms) {
-  Columns all = equations.base();
-  for (std::size_t t = 0; t < fitted; ++t)
-    all.insert(all.end(), places[t].begin(), places[t].end());
-  solution = solve(equations.total(), all);
+  solution = solve(equations.total(), besides());
   const auto freedom = static_cast<double>(equations.count()) - static_cast<double>(solution.rank);
   sigma_mm = freedom > 0.0 ? std::sqrt(std::max(solution.rss, 0.0) / freedom) : 0.0;
 }
@@ -61,13 +58,6 @@ Eigen::VectorXd Joint::of(std::size_t term) const {
 std::vector<double> Joint::contribution_of(std::size_t term) const {
   const Eigen::VectorXd linear = of(term);
   return contribution(equations.point(), {&terms[term], 1}, span_of(linear), equations.threads());
-}
-
-Solution Joint::without(std::size_t term) const {
-  Columns rest = equations.base();
-  for (std::size_t t = 0; t < fitted; ++t)
-    if (t != term) rest.insert(rest.end(), places[t].begin(), places[t].end());
-  return solve(equations.total(), rest);
 }
 
 AxisShift axis_shift(const LinearisationPoint& point, const Eigen::VectorXd& change,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "infer/fitted.hpp"
 
 namespace trueaxis::diagnose_detail {
 
@@ -25,7 +26,11 @@ struct Joint {
   /// Coefficients of a term, and what it does to X, one entry a reading, mm.
   Eigen::VectorXd of(std::size_t term) const;
   std::vector<double> contribution_of(std::size_t term) const;
-  Solution without(std::size_t term) const;
+  Solution without(std::size_t term) const { return solve(equations.total(), besides(term)); }
+  /// Columns of the base and of the fitted terms but one.
+  Columns besides(std::size_t but = infer::none) const {
+    return infer::besides(equations.base(), {places.data(), fitted}, but);
+  }
 
   std::vector<Hypothesis> terms;
   std::size_t fitted;  ///< how many of the terms are in the solution; the others are beside it

@@ -32,10 +32,6 @@ double log_p_of(const Candidate& c) {
   return log_p_value(c.gain, static_cast<double>(c.rank), c.rss, c.freedom);
 }
 
-void append_columns(Columns& to, const std::vector<Columns>& from) {
-  for (const Columns& own : from) to.insert(to.end(), own.begin(), own.end());
-}
-
 std::vector<Candidate> judge(const NormalEquations& equations, const Solution& taken,
                              const std::vector<Columns>& places,
                              const std::vector<Hypothesis>& list) {
@@ -73,9 +69,8 @@ std::vector<Candidate> Judge::operator()(const std::vector<Hypothesis>& list) {
 }
 
 Solution Judge::solve_with(const std::vector<Hypothesis>& terms) {
-  Columns taken = equations_.base();
-  append_columns(taken, equations_.append(terms));
-  return solve(equations_.total(), taken);
+  const std::vector<Columns> places = equations_.append(terms);
+  return solve(equations_.total(), infer::besides(equations_.base(), places));
 }
 
 }  // namespace trueaxis::diagnose_detail

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "diagnose/regression/normal_equations.hpp"
+#include "infer/fitted.hpp"
 #include "infer/significance.hpp"
 
 namespace trueaxis::diagnose_detail {
@@ -26,8 +27,6 @@ double choice_of(const Hypothesis& hypothesis, const Eigen::VectorXd& coefficien
 
 /// ln of its own p-value.
 double log_p_of(const Candidate& candidate);
-
-void append_columns(Columns& to, const std::vector<Columns>& from);
 
 /// Scores of hypotheses beside columns that are taken, from one projection.
 std::vector<Candidate> judge(const NormalEquations& equations, const Solution& taken,

@@ -51,10 +51,8 @@ double shape_choice(const Problem& problem, const std::vector<double>& phi,
   list.insert(list.end(), near.begin(), near.end());
   NormalEquations equations(problem.point, problem.mask, problem.deviation_mm, phi, 1);
   const std::vector<Columns> places = equations.append(list);
-  Columns beside = equations.base();
-  for (std::size_t t = 0; t < terms.size(); ++t)
-    if (t != term) beside.insert(beside.end(), places[t].begin(), places[t].end());
-  const Projection rest = project(equations.total(), beside);
+  const Projection rest = project(
+      equations.total(), infer::besides(equations.base(), {places.data(), terms.size()}, term));
   const auto freedom = static_cast<double>(equations.count() - rest.rank);
   const auto fit = [&](std::size_t k) {
     return freedom * std::log(std::max(rest.rss - score(rest, places[k]).gain, 1e-12 * rest.rss));

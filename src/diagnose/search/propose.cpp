@@ -239,9 +239,8 @@ Proposer::Step Proposer::step(const std::vector<Hypothesis>& terms, int threads)
   const std::vector<Hypothesis> fixed = joined(dictionary.presets, dictionary.basis);
   std::vector<Columns> places = dictionary.preset_places;
   places.insert(places.end(), dictionary.basis_places.begin(), dictionary.basis_places.end());
-  Columns taken = equations.base();
-  append_columns(taken, equations.append(terms));
-  const Solution solution = solve(equations.total(), taken);
+  const std::vector<Columns> own = equations.append(terms);
+  const Solution solution = solve(equations.total(), infer::besides(equations.base(), own));
   const std::vector<Candidate> judged = judge(equations, solution, places, fixed);
   const std::vector<double> left = remainder(problem_.point, problem_.deviation_mm, terms,
                                              solution.coefficients, problem_.threads);

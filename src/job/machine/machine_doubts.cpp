@@ -30,7 +30,7 @@ Reason beyond(const AxisRange& range, ReasonCode code) {
 }
 
 /// The axis that takes the tip along by what was found and no program corrects.
-std::optional<AxisName> axis_of(const MachineTerm& term) {
+std::optional<AxisName> taken_along(const MachineTerm& term) {
   if (const auto* sense = std::get_if<ErrorOfSense>(&term)) return sense->axis;
   const auto* error = std::get_if<ErrorOfPosition>(&term);
   if (error != nullptr && error->of) return static_cast<AxisName>(error->error.body);
@@ -83,10 +83,11 @@ Reason not_told(const MachineFinding& found) {
   for (const Rival& rival : found.rivals) names.push_back(rival.effect);
   const std::size_t more = names.size() > most_named ? names.size() - most_named : 0;
   names.resize(names.size() - more);
-  Reason reason{ReasonCode::finding_not_told,
-                {},
-                {},
-                {{"effect", found.effect}, {"rivals", fmt::format("{}", fmt::join(names, ", "))}}};
+  Reason reason{
+      ReasonCode::finding_not_told,
+      {},
+      {},
+      {{"effect", found.effect()}, {"rivals", fmt::format("{}", fmt::join(names, ", "))}}};
   if (more > 0) reason.numbers = {{"more", static_cast<double>(more)}};
   if (found.separate_with && !found.separate_with->plan.empty())
     reason.names.insert(reason.names.end(),
@@ -131,7 +132,7 @@ std::optional<Reason> extrapolated(const MachineJobResult& result) {
         if (error.name.component && error.name.body == index_of(range.axis) &&
             beyond_measured(range)) {
           Reason reason = beyond(range, ReasonCode::found_not_measured_there);
-          reason.names.push_back({"effect", found.effect});
+          reason.names.push_back({"effect", found.effect()});
           return reason;
         }
   return {};
@@ -141,11 +142,11 @@ Reasons machine_reservations(const MachineJobResult& result) {
   Reasons all;
   for (const MachineFinding& found : result.diagnosis.findings) {
     if (!found.rivals.empty()) all.push_back(not_told(found));
-    if (!is_machine_error(found.term))
+    if (!is_machine_error(found.cause.term))
       all.push_back({ReasonCode::finding_counted,
                      {},
                      {},
-                     {{"effect", found.effect}, {"consequence", found.consequence}}});
+                     {{"effect", found.effect()}, {"consequence", found.cause.consequence}}});
   }
   for (const std::string& remark : result.diagnosis.remarks)
     all.push_back({ReasonCode::remark, {}, {}, {{"text", remark}}});
@@ -169,8 +170,8 @@ double not_corrected_mm(const MachineJobResult& result, const MachineModel& mode
                         const std::vector<Stand>& stands) {
   double sum = 0.0;
   for (const MachineFinding& found : result.diagnosis.findings) {
-    if (std::holds_alternative<TipDrift>(found.term)) sum += std::abs(found.size);
-    if (const auto axis = axis_of(found.term))
+    if (std::holds_alternative<TipDrift>(found.cause.term)) sum += std::abs(found.size);
+    if (const auto axis = taken_along(found.cause.term))
       sum += std::abs(found.size) * largest_gain(model, *axis, stands);
   }
   for (const MachineUnexplained& one : result.diagnosis.unexplained)
@@ -206,8 +207,8 @@ Reasons machine_remarks(const MachineJobResult& result) {
 }
 
 std::optional<Reason> next_plan(const MachineDiagnosis& diagnosis) {
-  const auto plan = std::ranges::find(diagnosis.plans, diagnosis.next_plan, &MachinePlan::code);
-  if (diagnosis.next_plan.empty() || plan == diagnosis.plans.end()) return {};
+  const MachinePlan* plan = diagnosis.next();
+  if (plan == nullptr) return {};
   return Reason{ReasonCode::plan,
                 {},
                 {{"minutes", plan->minutes, "min"}},

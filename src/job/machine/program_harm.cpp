@@ -74,9 +74,8 @@ std::vector<EffectOnProgram> effects_of(const Machine& machine, const MachineDia
                                         const std::vector<Block>& blocks) {
   std::vector<EffectOnProgram> out;
   for (const MachineFinding& one : diagnosis.findings) {
-    const std::string& unit = one.parameters.front().estimate.unit;
     if (!one.errors.empty())
-      out.push_back({one.effect, true, one.size, unit,
+      out.push_back({one.effect(), true, one.size, one.cause.unit,
                      alone(machine, diagnosis.errors, blocks, one.errors, false)});
   }
   for (const MachineNotObservable& one : diagnosis.not_observable) {

@@ -7,7 +7,7 @@
 
 namespace trueaxis {
 
-/// "along X, as C moves" for EXC, "place of axis C along X" for X0C (ISO 230-1).
-std::string in_words(const ErrorName& name);
+/// An error in words: "along X, as C moves", "place of axis C along X", "zero of axis B".
+std::string words_of(const ErrorName& name);
 
 }  // namespace trueaxis
