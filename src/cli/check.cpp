@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/diagnostics.hpp"
 #include "cli/guarded.hpp"
 #include "cli/screen.hpp"
 #include "format/outputs.hpp"
@@ -43,13 +44,7 @@ int checked(const Outputs& outputs, const std::string& would) {
 
 void all_of(std::initializer_list<std::function<void()>> steps) {
   std::vector<Diagnostic> wrong;
-  for (const auto& step : steps) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
+  for (const auto& step : steps) gather(wrong, step);
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 

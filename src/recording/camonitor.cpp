@@ -81,7 +81,7 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
   Channels channels;
   std::size_t others = 0, samples = 0;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
-    const std::string_view line = csv_trimmed(text.lines[i]);
+    const std::string_view line = trimmed(text.lines[i]);
     if (line.empty() || line.starts_with('#')) continue;
     (read_sample(line, i + 1, channels) ? samples : others) += 1;
   }

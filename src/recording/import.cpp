@@ -194,7 +194,7 @@ std::string head_of_file(const std::string& path) {
 /// Whether the first line that is no comment names columns as a stream of TrueAxis does.
 bool is_own_header(const RecordedText& text) {
   for (const std::string_view line : text.lines) {
-    const std::string_view content = csv_trimmed(csv_without_comment(line));
+    const std::string_view content = trimmed(csv_without_comment(line));
     if (content.empty()) continue;
     CsvDiagnostics ignored("", 0);
     const CsvHeader header = csv_parse_header(content, 1, ignored);

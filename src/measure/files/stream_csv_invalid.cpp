@@ -14,9 +14,7 @@
 namespace trueaxis {
 
 bool csv_is_no_value(std::string_view field) {
-  std::string small;
-  for (const char c : field)
-    small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string small = lower_case(field);
   if (small.starts_with('-') || small.starts_with('+')) small.erase(0, 1);
   return small.starts_with("nan") || small.find('#') != std::string::npos ||
          small.find_first_of("0123456789") == std::string::npos;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "format/units.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
@@ -10,11 +10,11 @@ namespace trueaxis {
 namespace {
 
 double number_of(std::string_view text, std::string_view whole) {
-  double value = 0.0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+  std::string_view left = text;
+  const auto value = take_number<double>(left);
+  if (!value || !left.empty())
     throw InputError(std::string(whole), "\"" + std::string(text) + "\" is no number");
-  return value;
+  return *value;
 }
 
 void check_range(double low, double high, std::string_view whole) {
