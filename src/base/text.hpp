@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,20 @@ inline bool take_word(std::string_view& text, std::string_view word) {
   if (!text.starts_with(word)) return false;
   text.remove_prefix(word.size());
   return true;
+}
+
+/// Adds a word to a list of them: "a, b".
+inline void add_to_list(std::string& list, std::string_view word, std::string_view between = ", ") {
+  if (!list.empty()) list += between;
+  list += word;
+}
+
+/// "a, b": of each of `all` what `word_of` says, its text or the name of a member.
+template <class All, class Word = std::identity>
+std::string word_list(const All& all, std::string_view between = ", ", Word word_of = {}) {
+  std::string list;
+  for (const auto& one : all) add_to_list(list, std::invoke(word_of, one), between);
+  return list;
 }
 
 /// The letters of ASCII only, in any locale.

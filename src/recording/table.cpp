@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/folded.hpp"
 #include "format/units.hpp"
@@ -151,7 +152,7 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
       out.metadata.emplace_back(line);
     } else if (line.find_first_not_of(";,\t |\"") != std::string_view::npos &&
                !line.starts_with("sep=")) {
-      titles += (titles.empty() ? "" : ", ") + csv_quoted(line);
+      add_to_list(titles, csv_quoted(line));
       note_convention(line, out);
     }
   }

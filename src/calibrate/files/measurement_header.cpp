@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 
@@ -46,11 +47,7 @@ std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Mach
   return known;
 }
 
-std::string names(const std::vector<Known>& known) {
-  std::string list;
-  for (const Known& one : known) list += (list.empty() ? "" : " ") + one.name;
-  return list;
-}
+std::string names(const std::vector<Known>& known) { return word_list(known, " ", &Known::name); }
 
 /// What is wrong with the header's field, "" where nothing is; `column` is then filled.
 std::string take(std::string_view field, const std::vector<Known>& known,

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <span>
 
 #include "base/counted.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/shell.hpp"
 
@@ -38,9 +40,7 @@ std::string CsvInvalidRows::left_out(const std::function<std::size_t(std::size_t
   constexpr std::size_t most = 6;
   std::vector<std::size_t> lines = lines_;
   if (line_of) std::ranges::transform(lines, lines.begin(), line_of);
-  std::string what;
-  for (std::size_t i = 0; i < std::min(most, what_.size()); ++i)
-    what += (i == 0 ? "" : ", ") + what_[i];
+  const std::string what = word_list(std::span(what_).first(std::min(most, what_.size())));
   return fmt::format("{} left out (--drop-invalid), in line{} {}: {}{}",
                      counted(lines.size(), "row is", "rows are"), lines.size() == 1 ? "" : "s",
                      ranges_text(lines), what, what_.size() > most ? " …" : "");

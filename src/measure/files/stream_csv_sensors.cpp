@@ -8,6 +8,7 @@
 
 #include "base/angle.hpp"
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 #include "trueaxis/units.hpp"
@@ -66,9 +67,7 @@ std::string csv_take_sensor_angles(std::string_view text, std::vector<double>& a
 }
 
 std::string csv_sensor_angles_text(std::span<const double> angles_rad) {
-  std::string out;
-  for (const double angle : angles_rad) out += (out.empty() ? "" : ", ") + exact_text(angle);
-  return out + " rad";
+  return word_list(angles_rad, ", ", exact_text) + " rad";
 }
 
 void csv_finish_sensors(const CsvHeader& header, const CsvKnownMetadata& known,

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/units.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
@@ -42,7 +43,7 @@ study::DesignVariable parse_design_variable(std::string_view text) {
         return {choice, low * spelling.factor, high * spelling.factor};
       }
       if (spelling.key == key_spellings(study::info_of(choice).path).front().key)
-        known += (known.empty() ? "" : ", ") + std::string(shorter);
+        add_to_list(known, shorter);
     }
   }
   throw InputError(std::string(text),
