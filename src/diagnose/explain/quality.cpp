@@ -290,7 +290,7 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
     out.note = fmt::format(
         "the extended model leaves {:.3g} µm where the {} shows {:.3g} µm: something is left that "
         "no hypothesis has named",
-        residual / mm_per_um, out.source, out.sigma_mm / mm_per_um);
+        residual / mm_per_um, to_string(out.source), out.sigma_mm / mm_per_um);
   }
   find_gaps(point, mask, out);
   return out;
