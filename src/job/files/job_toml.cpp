@@ -45,8 +45,8 @@ Sensor read_sensor(TomlTable table) {
   return sensor;
 }
 
-StreamFile read_stream_file(TomlTable& table) {
-  StreamFile file{table.required_path("stream")};
+/// What the file of the readings does not say of them.
+void read_stream_keys(TomlTable& table, StreamFile& file) {
   file.said.read.diameter_said_by = SaidBy::job;
   if (table.has("x_convention")) {
     file.said.read.diameter =
@@ -58,18 +58,19 @@ StreamFile read_stream_file(TomlTable& table) {
         Indication::absolute);
   }
   file.said.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
-  file.said.read.drop_invalid = table.flag("drop_invalid", false);
   file.said.columns = table.text("columns", "");
   file.said.skip = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
+  file.said.read.drop_invalid = table.flag("drop_invalid", false);
   file.z.from_mm = table.maybe_number("z_from_mm").value_or(file.z.from_mm);
   file.z.to_mm = table.maybe_number("z_to_mm").value_or(file.z.to_mm);
   if (!(file.z.from_mm < file.z.to_mm))
     table.complain("z_to_mm", "is not above z_from_mm: give the lower end of Z first");
-  return file;
 }
 
-JobReference read_reference(TomlTable& table, const Sensor& sensor, double coverage_factor) {
+JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor,
+                            StreamFile& file) {
   JobReference reference;
+  file.path = table.required_path("stream");
   const std::string surface = table.required_text("surface");
   reference.name = table.text("name", surface);
   try {
@@ -81,6 +82,7 @@ JobReference read_reference(TomlTable& table, const Sensor& sensor, double cover
       "loss", {{"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}},
       Loss::plain);
   reference.fit.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
+  read_stream_keys(table, file);
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.form = read_form_task(table, reference.fit.surface);
@@ -301,10 +303,8 @@ JobFile read_job_toml(std::string_view content, const std::string& path) {
   const double coverage = root.number("coverage_factor", 2.0, most_coverage);
   Sensor sensor;
   if (auto table = root.maybe_table("sensor")) sensor = read_sensor(*table);
-  for (TomlTable table : root.tables("reference")) {
-    file.streams.push_back(read_stream_file(table));
-    job.references.push_back(read_reference(table, sensor, coverage));
-  }
+  for (const TomlTable& table : root.tables("reference"))
+    job.references.push_back(read_reference(table, sensor, coverage, file.streams.emplace_back()));
   if (!root.has("reference"))
     root.complain("reference",
                   "is missing: add a [[reference]] with stream and surface, or, for a machine of "
