@@ -95,6 +95,9 @@ struct CalibrationOptions {
   int max_orders = 24;  ///< of a period in an axis' read-out
 };
 
+enum class NoiseBasis { none, stated, residuals };
+const char* to_string(NoiseBasis basis);
+
 struct Calibration {
   bool converged = false;
   std::string message;  ///< why not
@@ -112,8 +115,8 @@ struct Calibration {
   double rms_before_mm = 0.0, rms_after_mm = 0.0;
   double rms_parameters_mm = 0.0;  ///< with the parameters alone, without component errors
   double noise_mm = 0.0;           ///< σ of one number that u is made of
-  std::string noise_source;        ///< "stated", "residuals"
-  double stated_noise_mm = 0.0;    ///< σ that the files state; 0: one of them does not
+  NoiseBasis noise_basis = NoiseBasis::none;  ///< what σ was had from
+  double stated_noise_mm = 0.0;               ///< σ that the files state; 0: one of them does not
 };
 
 /// Files given together are one measurement, in order. All location errors of the axes, X0S Y0S

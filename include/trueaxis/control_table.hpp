@@ -28,7 +28,6 @@ struct ControlTable {
   double position_step_mm = 1.0;    ///< along Z (of a face X); of SINUMERIK the length of a band
   bool x_is_diameter = false;       ///< servo_nc: X is written as a diameter
   bool minutes = false;             ///< servo_nc: F is minutes a block instead of blocks a minute
-  std::string template_path;        ///< servo_nc: the file that head and tail are of
   std::string head, tail;           ///< servo_nc: what stands before and behind the blocks
   int x_axis = 1, c_axis = 2, z_axis = 3;  ///< Beckhoff: numbers of the axes
 };

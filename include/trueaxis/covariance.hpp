@@ -65,11 +65,11 @@ class CovarianceOf {
 
 using Covariance = CovarianceOf<std::string>;
 
-/// A row of the covariance of an axis.
+/// A row of a matrix over an axis.
 enum class AxisRow : std::size_t { x, y, slope_x, slope_y };
 
-/// Covariance of x, y, slope_x and slope_y of an Axis: mm², mm and 1.
-struct AxisCovariance {
+/// Matrix over x, y, slope_x and slope_y of an Axis.
+struct AxisMatrix {
   static constexpr std::size_t size = 4;
 
   double operator()(AxisRow i, AxisRow j) const { return by_rows[place(i, j)]; }
@@ -77,7 +77,7 @@ struct AxisCovariance {
   double* data() { return by_rows.data(); }
   const double* data() const { return by_rows.data(); }
 
-  bool operator==(const AxisCovariance&) const = default;
+  bool operator==(const AxisMatrix&) const = default;
 
   std::array<double, size * size> by_rows{};
 
@@ -86,5 +86,8 @@ struct AxisCovariance {
     return static_cast<std::size_t>(i) * size + static_cast<std::size_t>(j);
   }
 };
+
+/// mm², mm and 1.
+using AxisCovariance = AxisMatrix;
 
 }  // namespace trueaxis

@@ -43,13 +43,23 @@ struct NotObservable : UnseenEffect {
   Estimate axis_bias_typical;   ///< shift at the largest typical size
 };
 
+/// What the standard deviation of a reading was had from.
+enum class NoiseSource {
+  none,
+  extended_model,  ///< its residuals
+  stationary_capture,
+  repeated_passes,
+  revolution_differences
+};
+
+const char* to_string(NoiseSource source);
+
 /// Noise of one reading as the data show it.
 struct NoiseReport {
   double sigma_mm = 0.0;  ///< standard deviation of a reading
   double u_sigma_mm = 0.0;
-  std::string source;  ///< "stationary capture", "repeated passes", "revolution differences",
-                       ///< "residuals of the extended model"
-  std::string note;    ///< what speaks against it ("no source of its own: …")
+  NoiseSource source = NoiseSource::none;
+  std::string note;                     ///< what speaks against it ("no source of its own: …")
   std::vector<double> autoregression;   ///< φ of ε_i = Σ φ_j ε_{i−j} + e_i; empty: white
   std::optional<double> stationary_mm;  ///< σ of each source that the data have
   std::optional<double> repeated_mm;

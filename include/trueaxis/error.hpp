@@ -10,7 +10,7 @@ namespace trueaxis {
 
 /// One thing that is wrong with an input, where it is, and what to do about it.
 struct Diagnostic {
-  std::string file;
+  std::string file;        ///< empty: what was given is in no file
   std::size_t line = 0;    ///< 1-based; 0: the file as a whole
   std::size_t column = 0;  ///< 1-based character; 0: the line as a whole
   std::string message;

@@ -30,6 +30,9 @@ enum class FitStatus {
   implausible,  ///< cannot be the readings of a probe on this surface; the message says why
 };
 
+/// What the standard deviation of a reading follows from.
+enum class SigmaSource { none, residuals, robust_residuals, whitened_residuals, sensor };
+
 /// An influence quantity (GUM) that the readings cannot show: it enters the budget as type B.
 struct Influence {
   enum class Kind {
@@ -92,7 +95,6 @@ struct SetUpFit {
 /// when the correction is cut. `status` says whether the numbers may be used.
 struct FitResult {
   SurfaceKind surface = SurfaceKind::cone;
-  std::string criterion = "probe";
   FitStatus status = FitStatus::too_few;
   std::string message;                      ///< what is wrong and what to do, empty when converged
   std::vector<std::string> not_determined;  ///< combinations of parameters the data leave free
@@ -116,9 +118,9 @@ struct FitResult {
   /// least-squares problem. A part shifted by z_shift has its apex at k + z_shift / n.
   std::vector<SetUpFit> set_ups;
 
-  double rms_mm = 0.0;           ///< of the residuals that were not rejected
-  double sigma_mm = 0.0;         ///< standard deviation of one reading, as used in u
-  std::string sigma_source;      ///< "residuals", "robust residuals" or "sensor"
+  double rms_mm = 0.0;    ///< of the residuals that were not rejected
+  double sigma_mm = 0.0;  ///< standard deviation of one reading, as used in u
+  SigmaSource sigma_source = SigmaSource::none;
   double autocorrelation = 0.0;  ///< of neighbouring residuals (lag 1)
   double u_factor = 1.0;  ///< largest u of a parameter over that of white noise (1: uncorrelated)
   std::size_t points = 0;
@@ -144,6 +146,7 @@ struct FitResult {
 FitResult fit(const ProbeStream& stream, const FitOptions& options);
 
 const char* to_string(FitStatus status);
+const char* to_string(SigmaSource source);
 const char* to_string(Loss loss);
 
 /// fit() again and again, with other readings at the same C and positions: what does not depend on

@@ -21,23 +21,9 @@
 
 namespace trueaxis {
 
-/// What the job says of a stream that the stream does not.
-struct StreamReading {
-  std::optional<bool> diameter;             ///< X_M is a diameter (true) or a radius (false)
-  std::optional<Indication> indication;     ///< overrides the stream's `reading`
-  std::optional<double> nominal_radius_mm;  ///< overrides the stream's `nominal_radius`
-  std::string columns{};       ///< of another program's file: "X=Diameter,C=Angle(°),Z=3[mm]"
-  std::size_t skip_lines = 0;  ///< of another program's file: lines above its table
-  /// Of the stream only the readings at these Z, machine frame; none: all of them.
-  std::optional<double> z_from_mm{}, z_to_mm{};
-  bool drop_invalid = false;  ///< rows without a value are left out, and listed
-};
-
-/// One reference surface of a job and how its stream is to be read and fitted.
+/// One reference surface of a job and how its stream is to be fitted.
 struct JobReference {
   std::string name;
-  std::string stream;  ///< path, relative to the job file
-  StreamReading read;
   FitOptions fit;
   double weight = 1.0;
   double face_radius_mm = 0.0;  ///< plane: radius at which its tilt counts; 0: the largest X probed
@@ -68,7 +54,7 @@ using JobHeader = std::vector<std::pair<std::string, std::string>>;
 /// The main job: from probe streams to a correction table. Everything but the references is
 /// optional; without a target the job ends with the fit.
 struct Job {
-  std::string path, name;
+  std::string name;
   std::vector<JobReference> references;
   std::optional<TargetSurface> target;
   std::optional<double>
@@ -176,9 +162,8 @@ const char* to_string(Decision decision);
 struct TargetDatum {
   std::string name;  ///< "A-B | C"
   double z_ref_mm = 0.0;
-  /// Of each reference: (x, y, slope_x, slope_y) of the datum's axis by those of its own at z_ref,
-  /// row-major 4 × 4.
-  std::vector<std::array<double, 16>> shares;
+  /// Of each reference: the datum's axis by its own, both at z_ref.
+  std::vector<AxisMatrix> shares;
   std::vector<Remainder> references;  ///< what is left at each reference, which nothing judges
 };
 
@@ -223,11 +208,11 @@ const FitResult& fit_used(const IdentifiedJob& job, std::size_t reference);
 bool forms_met(const JobResult& result);
 
 /// Fit, diagnosis, form, the diagnosed measured again by the virtual lathe, target axis,
-/// correction, and the verdict, which is final. Streams come read, one per reference. Where the cut
+/// correction, and the verdict, which is final. `streams` are one per reference. Where the cut
 /// is refused (a tool that does not meet the target), the reason is the verdict's and nothing is
 /// thrown.
 /// @throws InputError as fit() does, and when the target lies on the probed length of a reference
-///         and the job does not say its stock.
+///         and the job does not say its stock; that diagnostic names no file.
 JobResult run_job(Job job, std::vector<ProbeStream> streams);
 
 }  // namespace trueaxis

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/threads.hpp"
+#include "math/golden_section.hpp"
 
 namespace trueaxis {
 namespace {
@@ -85,8 +86,7 @@ PointCloud part_of(const PointCloud& cloud, std::span<const Point3> some) {
 }
 
 std::size_t spread_index(std::size_t i, std::size_t n) {
-  constexpr double golden = 0.6180339887498949;
-  const double at = 0.5 + golden * static_cast<double>(i);
+  const double at = 0.5 + golden_ratio * static_cast<double>(i);
   return std::min(n - 1, static_cast<std::size_t>((at - std::floor(at)) * static_cast<double>(n)));
 }
 

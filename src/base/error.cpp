@@ -22,7 +22,7 @@ std::string to_string(const Diagnostic& diagnostic) {
   if (diagnostic.line != 0) text += ':' + std::to_string(diagnostic.line);
   if (diagnostic.line != 0 && diagnostic.column != 0)
     text += ':' + std::to_string(diagnostic.column);
-  return text + ": " + diagnostic.message;
+  return text + (text.empty() ? "" : ": ") + diagnostic.message;
 }
 
 InputError::InputError(std::vector<Diagnostic> diagnostics)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 
 namespace trueaxis {
 
@@ -52,12 +54,42 @@ inline const char* read_number(const char* p, const char* end, double& value, st
   return stop == start ? p : stop;
 }
 
+/// The number at the front of `text`, which is taken off; nothing where none starts there, or it is
+/// beyond `Number`. Of whole numbers a plus is no part.
+template <class Number>
+std::optional<Number> take_number(std::string_view& text) {
+  Number value{};
+  std::errc error{};
+  const char *begin = text.data(), *end = begin + text.size(), *stop = begin;
+  if constexpr (std::is_same_v<Number, double>) {
+    stop = read_number(begin, end, value, error);
+  } else {
+    const auto [there, why] = std::from_chars(begin, end, value);
+    stop = there, error = why;
+  }
+  if (stop == begin || error != std::errc{}) return {};
+  text.remove_prefix(static_cast<std::size_t>(stop - begin));
+  return value;
+}
+
+/// The same of a number as a control writes it: a sign, digits, a point, and no exponent.
+inline std::optional<double> take_plain_number(std::string_view& text) {
+  const auto sign = static_cast<std::size_t>(text.starts_with('-') || text.starts_with('+'));
+  std::size_t end = std::min(text.find_first_not_of("0123456789", sign), text.size());
+  if (end < text.size() && text[end] == '.')
+    end = std::min(text.find_first_not_of("0123456789", end + 1), text.size());
+  std::string_view plain = text.substr(0, end);
+  const auto value = take_number<double>(plain);
+  if (value) text.remove_prefix(end);
+  return value;
+}
+
 /// Whether all of `text` is a finite number, which becomes `value`.
 inline bool parse_number(std::string_view text, double& value) {
-  std::errc error{};
-  const char* end = text.data() + text.size();
-  return !text.empty() && read_number(text.data(), end, value, error) == end &&
-         error == std::errc{} && std::isfinite(value);
+  const auto all = take_number<double>(text);
+  if (!all || !text.empty() || !std::isfinite(*all)) return false;
+  value = *all;
+  return true;
 }
 
 /// Whether a number starts `text`: its sign, its point, a digit.
@@ -70,10 +102,13 @@ inline bool starts_number(std::string_view text) {
 /// The whole number that is all of `text`; nothing where it is none, or beyond `Whole`.
 template <class Whole>
 std::optional<Whole> whole_number(std::string_view text) {
-  Whole value{};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && stop == end ? std::optional(value) : std::nullopt;
+  const auto value = take_number<Whole>(text);
+  return text.empty() ? value : std::nullopt;
+}
+
+/// What one in the n-th significant digit of a value above 0 is worth: of 1234 the second 100.
+inline double digit_worth(double value, int n) {
+  return std::pow(10.0, std::floor(std::log10(value)) + (1 - n));
 }
 
 /// The shortest text that reads back as the same number, appended.

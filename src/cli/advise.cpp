@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/diagnostics.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -57,11 +58,11 @@ int exit_code_of_advice(const Diagnosis& diagnosis) {
 }
 
 /// What the tolerance of the job asks of the measurement: its verdict, as `run` would have it.
-void advise_on_tolerance(IdentifiedJob job) {
+void advise_on_tolerance(IdentifiedJob job, const std::string& file) {
   if (!job.job.coaxiality_tolerance_mm) return;
   job.agreement = hold_together(job);
-  std::cout << "\nTolerance of the job\n"
-            << layout::wrapped("  ", verdict_line(conclude(std::move(job))));
+  const JobResult result = of_file(file, [&] { return conclude(std::move(job)); });
+  std::cout << "\nTolerance of the job\n" << layout::wrapped("  ", verdict_line(result));
 }
 
 int advise_job(const AdviseArguments& options) {
@@ -74,21 +75,22 @@ int advise_job(const AdviseArguments& options) {
       return checked(outputs, "diagnose the machine and propose the next measurement of it");
     return advise_machine_job(job, options.verbose);
   }
+  JobFile file = read_job_toml(content, options.stream.path);
   IdentifiedJob result;
-  result.job = read_job_toml(content, options.stream.path);
-  result.streams = read_streams(result.job);
+  result.streams = read_streams(file);
+  result.job = std::move(file.job);
   for (std::size_t i = 0; i < result.streams.size(); ++i)
     expect_one_surface(result.streams[i], result.job.references[i].fit.surface, RangesAs::keys);
   if (options.check) {
     Outputs outputs;
     outputs.reads(options.stream.path);
-    for (const JobReference& reference : result.job.references) outputs.reads(reference.stream);
+    for (const StreamFile& stream : file.streams) outputs.reads(stream.path);
     return checked(outputs, "diagnose every reference and propose the next measurement of it");
   }
   int worst = done;
   for (std::size_t i = 0; i < result.streams.size(); ++i) {
     const JobReference& reference = result.job.references[i];
-    std::cout << (i ? "\n" : "") << reference.name << " (" << reference.stream << ")\n";
+    std::cout << (i ? "\n" : "") << reference.name << " (" << result.streams[i].source << ")\n";
     const Diagnosis& diagnosis =
         result.diagnoses.emplace_back(advise(result.streams[i], reference.fit, options.false_alarm))
             .value();
@@ -96,7 +98,7 @@ int advise_job(const AdviseArguments& options) {
     result.resimulations.emplace_back();
     worst = std::max(worst, exit_code_of_advice(diagnosis));
   }
-  if (worst == done) advise_on_tolerance(std::move(result));
+  if (worst == done) advise_on_tolerance(std::move(result), file.path);
   return worst;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/check.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <vector>
 
+#include "base/diagnostics.hpp"
+#include "base/text.hpp"
 #include "cli/guarded.hpp"
 #include "cli/screen.hpp"
 #include "format/outputs.hpp"
@@ -25,7 +25,7 @@ std::string names_of(const std::vector<std::string>& all) {
   std::vector<std::string> names;
   for (const std::string& one : all)
     if (std::ranges::find(names, one) == names.end()) names.push_back(one);
-  return fmt::format("{}", fmt::join(names, ", "));
+  return word_list(names);
 }
 
 }  // namespace
@@ -43,13 +43,7 @@ int checked(const Outputs& outputs, const std::string& would) {
 
 void all_of(std::initializer_list<std::function<void()>> steps) {
   std::vector<Diagnostic> wrong;
-  for (const auto& step : steps) {
-    try {
-      step();
-    } catch (const InputError& error) {
-      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
+  for (const auto& step : steps) gather(wrong, step);
   if (!wrong.empty()) throw InputError(std::move(wrong));
 }
 

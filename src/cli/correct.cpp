@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/diagnostics.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnosed_stream.hpp"
@@ -104,7 +105,6 @@ IdentifiedJob result_of(const CorrectArguments& options, Job job, Identified fou
     StreamOptions stream = options.stream;
     stream.path = diagnosed_stream_path(stream.path, path, *found.diagnosis);
     outputs.reads(stream.path);
-    reference.stream = stream.path;
     measured = stream.read();
     result.resimulations[0] =
         measured_again(path, *found.diagnosis, measured, options.ball_radius_mm);
@@ -129,7 +129,7 @@ int execute(const CorrectArguments& options) {
   outputs.may_write(options.table, "trueaxis.correction");
   outputs.check();
   if (options.check) return checked(outputs, "correct the target for the axis of " + options.fit);
-  const JobResult result = conclude(std::move(job));
+  const JobResult result = of_file(options.target, [&] { return conclude(std::move(job)); });
   const Verdict& verdict = result.verdict;
   const bool cut = verdict.go() && result.correction;
   if (!options.preview) {
@@ -144,7 +144,7 @@ int execute(const CorrectArguments& options) {
   if (!printed && result.correction)
     std::cout << verdict_line(result) << '\n' << correction_preview(*result.correction);
   if (options.ideal) (printed ? std::cerr : std::cout) << rests_on_ideal;
-  if (!cut) throw Refusal(words_of(verdict.reasons, "; ", result.job));
+  if (!cut) throw Refusal(words_of(verdict.reasons, "; ", result));
   return done;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "associate/files/association_files.hpp"
+#include "base/diagnostics.hpp"
 #include "base/number.hpp"
 #include "cli/commands.hpp"
 #include "cli/form_tolerance.hpp"
@@ -69,17 +70,11 @@ FormResult of_points(const FormArguments& options, const FormOptions& form) {
   Element element = Element::circle;
   for (std::size_t i = 0; i < element_names.size(); ++i)
     if (options.element == element_names[i]) element = static_cast<Element>(i);
-  try {
-    FormResult result = assess_form(points.points_mm, element, form);
-    result.source = points.source;
-    result.input_hash = points.hash;
-    return result;
-  } catch (const InputError& error) {  // which file the points are of
-    std::vector<Diagnostic> wrong = error.diagnostics();
-    for (Diagnostic& one : wrong)
-      if (one.file == "points") one.file = points.source;
-    throw InputError(std::move(wrong));
-  }
+  FormResult result = of_file(
+      points.source, [&] { return assess_form(points.points_mm, element, form); }, "points");
+  result.source = points.source;
+  result.input_hash = points.hash;
+  return result;
 }
 
 FormResult assessed(const FormArguments& options, const FormOptions& form) {

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/error.hpp"
 
@@ -60,10 +61,9 @@ FormVerdict judge_form(const FormResult& result, const std::vector<FormTolerance
       if (!worst || most_of(*one, k) > most_of(*worst, k)) worst = one;
     }
     if (!worst) {
-      std::string known;
-      for (const std::string& name : names) known += (known.empty() ? "" : ", ") + name;
       throw InputError("--tolerance-um", "there is no value " + tolerance.name +
-                                             " here to hold against a tolerance, but " + known);
+                                             " here to hold against a tolerance, but " +
+                                             word_list(names));
     }
     const bool met = most_of(*worst, k) <= tolerance.limit_mm;
     verdict.met = verdict.met && met;

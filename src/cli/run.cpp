@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "base/diagnostics.hpp"
 #include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
@@ -43,16 +43,6 @@ struct RunArguments {
   bool force = false, verbose = false, check = false;
 };
 
-/// What the options say of a stream that is read without a job.
-Job job_of_options(const RunArguments& options) {
-  const StreamReadOptions said = options.stream.said();
-  StreamReading read{said.diameter, said.indication, said.nominal_radius_mm, options.stream.columns,
-                     options.stream.skip};
-  if (std::isfinite(options.stream.range.from_mm)) read.z_from_mm = options.stream.range.from_mm;
-  if (std::isfinite(options.stream.range.to_mm)) read.z_to_mm = options.stream.range.to_mm;
-  return job_of_stream(options.stream.path, std::move(read), options.association.chosen());
-}
-
 void print(const JobResult& result, const Outputs& outputs, const std::vector<ResultFile>& files,
            const EarlierRun& earlier, bool verbose) {
   std::cerr << earlier.kept;
@@ -72,33 +62,34 @@ void print(const JobResult& result, const Outputs& outputs, const std::vector<Re
   if (!result.refused.empty()) std::cerr << "refused: " << result.refused << '\n';
 }
 
-int run_lathe(Job job, const RunArguments& options, bool of_stream) {
+int run_lathe(JobFile file, const RunArguments& options, bool of_stream) {
+  Job& job = file.job;
   const bool surface_known = !of_stream || options.surface->count() > 0;
   if (!surface_known) job.references.front().name = "SURFACE";  // until the readings tell
   Outputs outputs(options.force);
   std::vector<ProbeStream> streams;
   const auto read = [&] {
-    streams = of_stream ? std::vector{options.stream.read()} : read_streams(job);
+    streams = read_streams(file);
     if (!surface_known) return take_seats(job, streams);
     for (std::size_t i = 0; i < streams.size(); ++i)
       expect_one_surface(streams[i], job.references[i].fit.surface,
                          of_stream ? RangesAs::options : RangesAs::keys);
   };
   if (options.check) {
-    name_job_files(outputs, job, options.folder);
+    name_job_files(outputs, file, options.folder);
     all_of({read, [&] { outputs.check(); }});
     return checked(outputs, job_plan_text(job, streams, surface_known));
   }
   read();
   if (!surface_known) choose_surfaces(job, streams);
-  name_job_files(outputs, job, options.folder);
+  name_job_files(outputs, file, options.folder);
   outputs.check();
   std::optional<Waiting> waiting("fit, diagnosis and correction of " + options.stream.path);
-  JobResult result = run_job(std::move(job), std::move(streams));
+  JobResult result = of_file(file.path, [&] { return run_job(job, std::move(streams)); });
   word_unknown_axes(result);
   std::ranges::for_each(result.fits, expect_enough_readings);
   std::vector<ResultFile> files = job_files(result);
-  files.insert(files.begin() + 1, {"report.html", render_report(result)});
+  files.insert(files.begin() + 1, {"report.html", render_report(result, file.path)});
   const EarlierRun earlier = write_job_files(outputs, result, files);
   waiting.reset();
   print(result, outputs, files, earlier, options.verbose);
@@ -107,7 +98,9 @@ int run_lathe(Job job, const RunArguments& options, bool of_stream) {
 
 int execute(const RunArguments& options) {
   const std::string& path = options.stream.path;
-  if (!is_job(path)) return run_lathe(job_of_options(options), options, true);
+  if (!is_job(path))
+    return run_lathe(job_of_stream(options.stream.file(), options.association.chosen()), options,
+                     true);
   const std::string content = read_file(path);
   if (is_machine_job(content, path))
     return run_machine(read_machine_job_toml(content, path),

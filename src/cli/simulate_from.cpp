@@ -4,6 +4,7 @@
 #include <iostream>
 #include <optional>
 
+#include "base/diagnostics.hpp"
 #include "cli/check.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
@@ -66,15 +67,8 @@ int simulate_from(const SimulateFromOptions& options) {
   if (options.check)
     return checked(outputs, "measure the part of " + options.diagnosis + " again, " +
                                 std::to_string(measured.size()) + " readings, and compare");
-  try {
-    return play(options, diagnosis, measured, outputs);
-  } catch (const InputError& error) {  // of the diagnosis: under the name of its file
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
-    for (Diagnostic& d : diagnostics) {
-      if (d.file == "diagnosis") d.file = options.diagnosis;
-    }
-    throw InputError(std::move(diagnostics));
-  }
+  return of_file(
+      options.diagnosis, [&] { return play(options, diagnosis, measured, outputs); }, "diagnosis");
 }
 
 }  // namespace trueaxis::cli

@@ -7,8 +7,7 @@
 
 #include "cli/options.hpp"
 #include "cli/typed_command.hpp"
-#include "measure/seats.hpp"
-#include "recording/import.hpp"
+#include "job/files/job_file.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/fit.hpp"
@@ -61,8 +60,6 @@ struct StreamOptions {
         ->check(number_in(-1e6, true, 1e6, "a length in mm"));
   }
 
-  bool says_range() const { return range.from_mm > -1e6 || range.to_mm < 1e6; }
-
   /// `--ball-radius` of a command that reads a diagnosed stream again.
   static CLI::Option* add_ball_radius(CLI::App& command, double& radius_mm) {
     return command
@@ -73,7 +70,7 @@ struct StreamOptions {
 
   bool says_anything() const {
     return diameter || radius || relative || nominal_radius_mm > 0.0 || drop_invalid ||
-           says_range() || recording().says_anything();
+           !range.everywhere() || recording().says_anything();
   }
 
   /// What the options say of a stream.
@@ -91,10 +88,9 @@ struct StreamOptions {
   /// The same of another program's file.
   RecordingOptions recording() const { return {columns, skip, said()}; }
 
-  ProbeStream read() const {
-    ProbeStream stream = read_recording(path, recording());
-    return says_range() ? within(stream, range) : stream;
-  }
+  StreamFile file() const { return {path, recording(), range}; }
+
+  ProbeStream read() const { return read_stream(file()); }
 };
 
 /// How a stream is to be associated, the same for every command that fits one.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/angle.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -42,9 +43,8 @@ void validate(const TargetSurface& target, const ToolSetup& tool) {
 }
 
 [[noreturn]] void refuse_miss(const char* what, double c_rad, double z_mm) {
-  const double turned = c_rad - two_pi * std::floor(c_rad / two_pi);
   throw Refusal(fmt::format("{} at C = {:g} deg, Z = {:g} mm: no correction can be given there",
-                            what, turned / rad_per_deg, z_mm));
+                            what, within_turn(c_rad) / rad_per_deg, z_mm));
 }
 
 /// The nose, a circle about its centre, stays on the target's side of a shoulder.

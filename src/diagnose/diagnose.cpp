@@ -207,6 +207,13 @@ bool Finding::may_be(std::string_view id) const {
   return id == effect() || std::ranges::find(rivals, id, &Rival::effect) != rivals.end();
 }
 
+const char* to_string(NoiseSource source) {
+  static constexpr const char* words[] = {"", "residuals of the extended model",
+                                          "stationary capture", "repeated passes",
+                                          "revolution differences"};
+  return words[static_cast<std::size_t>(source)];
+}
+
 const Effect* Diagnosis::entry(std::string_view id) const { return find_effect(id, own_effects); }
 
 const Finding* Diagnosis::slip() const {

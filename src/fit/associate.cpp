@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/golden_section.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
@@ -133,8 +134,7 @@ Sample sample_of(const PreparedStream& stream) {
   // the last may hold a single reading.
   constexpr std::size_t parts = 2 * start_blocks, part = block_size / 2;
   for (std::size_t k = 0; k < parts; ++k) {
-    const double golden = std::fmod(0.6180339887498949 * static_cast<double>(k), 1.0);
-    std::size_t index = static_cast<std::size_t>(golden * static_cast<double>(blocks - 1));
+    auto index = static_cast<std::size_t>(golden_share(k) * static_cast<double>(blocks - 1));
     if (k + 1 == parts) index = blocks - 2;
     take(stream.block(index), std::min(part, stream.filled(index)), sample);
   }

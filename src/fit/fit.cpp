@@ -238,6 +238,12 @@ const char* to_string(FitStatus status) {
   return words[static_cast<std::size_t>(status)];
 }
 
+const char* to_string(SigmaSource source) {
+  static constexpr const char* words[] = {"", "residuals", "robust residuals",
+                                          "residuals, whitened", "sensor"};
+  return words[static_cast<std::size_t>(source)];
+}
+
 const char* to_string(Loss loss) {
   return loss == Loss::plain ? "plain" : loss == Loss::huber ? "huber" : "tukey";
 }

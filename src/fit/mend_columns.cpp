@@ -5,6 +5,7 @@
 #include <complex>
 #include <vector>
 
+#include "base/number.hpp"
 #include "math/statistics.hpp"
 
 namespace trueaxis {
@@ -96,7 +97,7 @@ void unwrap_reading(ProbeStream& stream) {
   for (const double step : steps_of(x)) largest = std::max(largest, std::abs(step));
   if (!(largest > 0.8 * range)) return;
   // A display has a round range, and the readings come near both of its ends.
-  const double decade = std::pow(10.0, std::floor(std::log10(range)));
+  const double decade = digit_worth(range, 1);
   double period = 10.0 * decade;
   for (const double digit : {5.0, 2.0, 1.0})
     if (digit * decade >= 0.999 * range) period = digit * decade;

@@ -127,7 +127,7 @@ ReadingNoise estimate_noise(const JointModel& model, const Association& associat
   const auto parameters = static_cast<double>(model.parameter_count());
   const double redundancy = n - parameters;
   const bool robust = association.scale_mm > 0.0;
-  noise.source = robust ? "robust residuals" : "residuals";
+  noise.source = robust ? SigmaSource::robust_residuals : SigmaSource::residuals;
   noise.sigma_mm = robust           ? association.scale_mm
                    : redundancy > 0 ? std::sqrt(association.minimum.normal.sum_rho / redundancy)
                                     : std::numeric_limits<double>::quiet_NaN();
@@ -136,7 +136,7 @@ ReadingNoise estimate_noise(const JointModel& model, const Association& associat
   noise.redundancy = redundancy;
   if (options.noise_mm && !(noise.sigma_mm >= *options.noise_mm)) {
     noise.sigma_mm = *options.noise_mm;
-    noise.source = "sensor";
+    noise.source = SigmaSource::sensor;
   }
   if (robust && redundancy > 0) {  // Eq. 33; Huber 1981, section 7.6
     double psi2 = 0.0, slope = 0.0, slope2 = 0.0;
@@ -206,7 +206,7 @@ void take_in(const Determination& determination, ReadingNoise& noise) {
   constexpr double least_share = 0.1;  // of N − p: nearly all freedom taken says nothing of σ
   const Eigen::MatrixXd& inverse = determination.inverse;
   const Eigen::MatrixXd moved = inverse * noise.correlated->jtcj;
-  if (noise.source != "sensor" && noise.redundancy > 0.0) {
+  if (noise.source != SigmaSource::sensor && noise.redundancy > 0.0) {
     const auto parameters = static_cast<double>(inverse.rows());
     const double left =
         std::max(noise.redundancy + parameters - moved.trace(), least_share * noise.redundancy);

@@ -14,7 +14,7 @@ namespace trueaxis {
 /// What the data say about the noise of one reading.
 struct ReadingNoise {
   double sigma_mm = 0.0;  ///< NaN: no redundancy and no sensor noise given
-  std::string source;
+  SigmaSource source = SigmaSource::none;
   std::optional<double> stated_mm;  ///< what stream, job or caller say of the sensor
   double shown_mm = 0.0;            ///< what the residuals alone show; NaN: no redundancy
   double redundancy = 0.0;          ///< readings beyond the parameters

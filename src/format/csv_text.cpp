@@ -35,12 +35,6 @@ std::size_t utf8_length(std::string_view text) {
 
 }  // namespace
 
-std::string_view csv_trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") + 1 - first);
-}
-
 void csv_split(std::string_view line, char separator, std::vector<std::string_view>& fields,
                CsvKeep keep) {
   fields.clear();
@@ -75,8 +69,7 @@ void csv_split(std::string_view line, char separator, std::vector<std::string_vi
         --at;
       }
     }
-    const std::string_view field = csv_trimmed(line.substr(begin, end - begin));
-    fields.push_back(field.empty() ? line.substr(begin, 0) : field);
+    fields.push_back(trimmed(line.substr(begin, end - begin)));
     if (at == line.size()) return;
     if (!blanks || line[at] == separator) ++at;
   }

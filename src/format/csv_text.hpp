@@ -8,14 +8,12 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 
 inline bool csv_is_blank(char c) { return c == ' ' || c == '\t'; }
-
-/// `text` without blanks and carriage returns at both ends.
-std::string_view csv_trimmed(std::string_view text);
 
 /// What keeps blanks and separators within a field.
 enum class CsvKeep {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/folded.hpp"
 
-#include <cctype>
+#include "base/text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -60,7 +60,7 @@ std::string folded(std::string_view text) {
     if (code == diameter || code == empty_set || code == 0xD8U) code = 0xF8U;  // ø
     const char letter = code >= 0xC0U && code < 0x180U ? plain[code - 0xC0U] : '?';
     if (code < 0x80U) {
-      out += static_cast<char>(std::tolower(static_cast<int>(code)));
+      out += lower_case(static_cast<char>(code));
     } else if (letter != '?') {
       out += letter;
     } else {

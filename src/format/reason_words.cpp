@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/reason_words.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/text.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -132,7 +133,7 @@ std::string words_of(const Reasons& reasons, std::string_view between, Spoken re
     std::string words = words_of(one, references);
     if (std::ranges::find(said, words) == said.end()) said.push_back(std::move(words));
   }
-  return fmt::format("{}", fmt::join(said, between));
+  return word_list(said, between);
 }
 
 Json reason_object(const Reason& reason, Spoken references) {

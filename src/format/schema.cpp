@@ -5,23 +5,13 @@
 #include <string>
 #include <string_view>
 
+#include "base/text.hpp"
 #include "format/outputs.hpp"
 
 namespace trueaxis {
 namespace {
 
 constexpr std::string_view ours = "trueaxis.";
-
-/// Takes `word` off the front, where it stands there.
-bool take(std::string_view& text, std::string_view word) {
-  if (!text.starts_with(word)) return false;
-  text.remove_prefix(word.size());
-  return true;
-}
-
-void take_blanks(std::string_view& text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\n\v\f\r"), text.size()));
-}
 
 /// The name in front of the version, such as trueaxis.fit/1; empty: none stands there.
 std::string_view schema_at(std::string_view text) {
@@ -32,8 +22,8 @@ std::string_view schema_at(std::string_view text) {
 
 std::string_view schema_of_json(std::string_view text) {
   for (const std::string_view word : {"{", "\"schema\"", ":", "\""}) {
-    take_blanks(text);
-    if (!take(text, word)) return "";
+    text = trimmed(text, blanks_of_text);
+    if (!take_word(text, word)) return "";
   }
   return schema_at(text);
 }
@@ -44,8 +34,8 @@ std::string_view schema_of_table(std::string_view text) {
   while (text.starts_with('#')) {
     std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    while (take(line, "#")) continue;
-    const std::string_view said = take(line, " schema: ") ? schema_at(line) : "";
+    while (take_word(line, "#")) continue;
+    const std::string_view said = take_word(line, " schema: ") ? schema_at(line) : "";
     if (!said.empty()) found = said;
   }
   return found;
@@ -70,7 +60,7 @@ std::string schema_in(std::string_view head) {
   for (const auto of : {schema_of_json, schema_of_table, schema_of_page})
     if (const std::string_view found = of(head); !found.empty()) return std::string(found);
   for (const char* comment : {"// schema: ", "<!-- schema: ", "; schema: ", "( schema: "})
-    if (take(head, comment)) return std::string(schema_at(head));
+    if (take_word(head, comment)) return std::string(schema_at(head));
   return "";
 }
 

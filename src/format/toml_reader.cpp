@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/toml_reader.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "base/text.hpp"
 #include "format/file.hpp"
 #include "format/nearest_key.hpp"
 #include "format/toml_words.hpp"
@@ -258,7 +259,7 @@ std::string TomlTable::required_path(std::string_view key) {
 std::optional<std::size_t> TomlTable::choice_index(std::string_view key,
                                                    std::span<const std::string_view> words,
                                                    bool required) {
-  const std::string one_of = fmt::format("one of: {}", fmt::join(words, ", "));
+  const std::string one_of = "one of: " + word_list(words);
   const State::Found found = state_->find(key);
   if (!found.node && required) state_->missing(key, one_of);
   const auto whole = found.node ? found.node->value_exact<int64_t>() : std::nullopt;
@@ -365,7 +366,7 @@ void TomlDocument::Impl::report_unknown(const TomlTable::State& state) {
     diagnostics.push_back({path, at.line, at.column,
                            state.where() + " has no key `" + word + "`" +
                                (near.empty() ? "." : ", did you mean `" + near + "`?") +
-                               " Known keys: " + fmt::format("{}", fmt::join(state.known, ", "))});
+                               " Known keys: " + word_list(state.known)});
   }
 }
 

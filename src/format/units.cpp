@@ -99,13 +99,9 @@ const char* known_units(UnitKind kind) {
 }
 
 std::optional<NumberWithUnit> number_with_unit(std::string_view text) {
-  NumberWithUnit out;
-  std::errc error{};
-  const char* end = text.data() + text.size();
-  const char* stop = read_number(text.data(), end, out.value, error);
-  if (stop == text.data() || error != std::errc{} || !std::isfinite(out.value)) return {};
-  out.unit = csv_trimmed({stop, static_cast<std::size_t>(end - stop)});
-  return out;
+  const auto value = take_number<double>(text);
+  if (!value || !std::isfinite(*value)) return {};
+  return NumberWithUnit{*value, trimmed(text)};
 }
 
 std::optional<double> quantity_in(std::string_view text, UnitKind kind) {
@@ -120,12 +116,11 @@ std::optional<double> quantity_in(std::string_view text, UnitKind kind) {
 NameWithUnit name_with_unit(std::string_view text) {
   const std::size_t open = text.find('[');
   if (open == std::string_view::npos || !text.ends_with(']')) return {text, std::nullopt};
-  return {csv_trimmed(text.substr(0, open)),
-          csv_trimmed(text.substr(open + 1, text.size() - open - 2))};
+  return {trimmed(text.substr(0, open)), trimmed(text.substr(open + 1, text.size() - open - 2))};
 }
 
 std::optional<std::string> unit_of_word(std::string_view word, std::string_view language) {
-  word = csv_trimmed(word);
+  word = trimmed(word);
   if (word.size() > 2 && word.ends_with('.')) word.remove_suffix(1);
   const std::string key = folded(word);
   if (word.size() == 1 && key != word) return {};  // "M" and "S" are no units

@@ -2,9 +2,10 @@
 // NumPy's own format: a magic, a Python dictionary with type, order and shape, the bytes.
 #include <array>
 #include <bit>
-#include <charconv>
 #include <optional>
 
+#include "base/number.hpp"
+#include "base/text.hpp"
 #include "interchange/formats.hpp"
 #include "interchange/zip_archive.hpp"
 #include "trueaxis/error.hpp"
@@ -26,8 +27,7 @@ std::optional<Field> field_of(std::string_view type) {
   const char order = type[0];
   field.kind = type[1];
   field.swapped = order == '>';
-  const auto [end, error] = std::from_chars(type.data() + 2, type.data() + type.size(), field.size);
-  if (error != std::errc{} || end != type.data() + type.size()) return {};
+  field.size = whole_number<std::size_t>(type.substr(2)).value_or(0);
   const bool real = (field.kind == 'f' && (field.size == 4 || field.size == 8)) ||
                     ((field.kind == 'i' || field.kind == 'u') &&
                      (field.size == 1 || field.size == 2 || field.size == 4 || field.size == 8)) ||
@@ -52,8 +52,7 @@ std::string_view value_of(std::string_view header, std::string_view key) {
   if (at == std::string_view::npos) return {};
   const std::size_t colon = header.find(':', at + key.size());
   if (colon == std::string_view::npos) return {};
-  header = header.substr(colon + 1);
-  return header.substr(std::min(header.find_first_not_of(' '), header.size()));
+  return trimmed(header.substr(colon + 1));
 }
 
 double number_at(const char* bytes, const Field& field) {
@@ -162,19 +161,14 @@ class Npy {
   }
 
   std::vector<std::size_t> read_shape() const {
-    const std::string_view text = value_of(header_, "'shape'");
+    std::string_view text = value_of(header_, "'shape'");
     std::vector<std::size_t> shape;
-    if (!text.starts_with('(')) fail("has a header without a shape");
-    for (std::size_t at = 1; at < text.size() && text[at] != ')';) {
-      if (text[at] == ' ' || text[at] == ',') {
-        ++at;
-        continue;
-      }
-      std::size_t value = 0;
-      const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
-      if (error != std::errc{}) fail("has a header whose shape is none");
-      at = static_cast<std::size_t>(end - text.data());
-      shape.push_back(value);
+    if (!take_word(text, "(")) fail("has a header without a shape");
+    while (!text.empty() && text.front() != ')') {
+      if (take_word(text, " ") || take_word(text, ",")) continue;
+      const auto value = take_number<std::size_t>(text);
+      if (!value) fail("has a header whose shape is none");
+      shape.push_back(*value);
     }
     return shape;
   }

@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "interchange/formats.hpp"
 #include "interchange/x3p.hpp"
 #include "interchange/zip_archive.hpp"
@@ -20,13 +21,6 @@ struct Axis {
   double increment = 1.0, offset = 0.0;
   std::size_t size() const { return type == 'I' ? 2 : type == 'D' ? 8 : 4; }
 };
-
-/// As XML allows a number to stand.
-std::string_view within_blanks(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
-  return text.substr(0, text.find_last_not_of(blanks) + 1);
-}
 
 class X3p {
  public:
@@ -72,7 +66,7 @@ class X3p {
   }
 
   void expect_sum(const std::string& name, std::string_view bytes, std::string said) const {
-    std::ranges::transform(said, said.begin(), [](unsigned char c) { return std::tolower(c); });
+    said = lower_case(said);
     if (const std::string sum = md5_of(bytes); sum != said)
       fail("the MD5 sum of " + name + " is " + sum + ", the file says " + said +
            ": it was changed or damaged, take it from its source again");
@@ -82,7 +76,7 @@ class X3p {
     if (!node) return otherwise;
     double value = 0.0;
     const char* text = node.text().get();
-    if (!parse_number(within_blanks(text), value))
+    if (!parse_number(trimmed(text, blanks_of_text), value))
       fail(std::string("main.xml: ") + node.name() + " '" + text + "' is no finite number");
     return value;
   }
@@ -184,7 +178,7 @@ class X3p {
       for (std::size_t i = 0; i < 3 && !invalid; ++i) {
         if (axes_[i].incremental) continue;
         const std::size_t end = i == 2 ? text.size() : std::min(text.find(';'), text.size());
-        const std::string_view part = within_blanks(text.substr(0, end));
+        const std::string_view part = trimmed(text.substr(0, end), blanks_of_text);
         if (part == "NaN")
           stored[i] = std::nan("");
         else if (!parse_number(part, stored[i]) || (i != 2 && end == text.size()))

@@ -15,7 +15,7 @@
 namespace trueaxis {
 namespace {
 
-using AxisMatrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
+using Matrix4 = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
 
 constexpr double rounding_mm = 1e-7, rounding_rad = 1e-9;  // of a stream's digits
 // How far surfaces of real parts are out of their common axis: a ladder of a factor four.
@@ -39,7 +39,7 @@ At axis_at(const HeldAxis& held, double z_mm) {
   move(0, 2) = move(1, 3) = z_mm - estimate.axis.z_ref_mm;
   const auto [x, y] = estimate.axis.at(z_mm);
   At out{{x, y, estimate.axis.slope_x, estimate.axis.slope_y}, Eigen::Matrix4d::Zero()};
-  const Eigen::Map<const AxisMatrix> covariance(estimate.covariance.data());
+  const Eigen::Map<const Matrix4> covariance(estimate.covariance.data());
   if (covariance.allFinite()) out.covariance = move * covariance * move.transpose();
   out.covariance.diagonal() +=
       Eigen::Vector4d(rounding_mm, rounding_mm, rounding_rad, rounding_rad).cwiseAbs2();

@@ -27,8 +27,8 @@ const FitResult& of_the_line(const PlannedJob& result, std::size_t i) {
   return named ? result.diagnoses[i]->named : fit_used(result, i);
 }
 
-bool counts(const std::array<double, 16>& share) {
-  return std::ranges::any_of(share, [](double one) { return one != 0.0; });
+bool counts(const AxisMatrix& share) {
+  return std::ranges::any_of(share.by_rows, [](double one) { return one != 0.0; });
 }
 
 /// The axis of the datum, over the length of all that it rests on.

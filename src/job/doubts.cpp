@@ -8,6 +8,7 @@
 #include <optional>
 #include <variant>
 
+#include "base/angle.hpp"
 #include "fit/moved.hpp"
 #include "job/ends_of_stream.hpp"
 #include "job/slip.hpp"
@@ -79,9 +80,8 @@ Reasons next_of(const Diagnosis& diagnosis) {
 std::size_t few_places(const ProbeStream& stream, std::size_t most) {
   std::vector<double> places;
   for (const double c : stream.c_rad) {
-    const bool known = std::ranges::any_of(places, [&](double place) {
-      return std::abs(std::remainder(c - place, two_pi)) < angles_apart.value;
-    });
+    const bool known = std::ranges::any_of(
+        places, [&](double place) { return apart_rad(c, place) < angles_apart.value; });
     if (!known) places.push_back(c);
     if (places.size() >= most) break;
   }
@@ -96,7 +96,7 @@ std::optional<Reason> left_unexplained_of(const ProbeStream&, const Diagnosis& d
   return Reason{ReasonCode::left_unexplained,
                 {},
                 {{"left", left_mm, "mm"}, {"noise", noise.sigma_mm, "mm"}},
-                {{"source", noise.source}}};
+                {{"source", to_string(noise.source)}}};
 }
 
 std::optional<Reason> moves_with_axis_of(const ProbeStream& stream, const Diagnosis& diagnosis) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number.hpp"
 #include "correct/coaxiality_distribution.hpp"
 #include "job/doubts.hpp"
 #include "job/references.hpp"
@@ -68,7 +69,7 @@ std::optional<double> smallest(double most, Enough enough) {
 
 /// Two digits upwards: 1234 → 1300.
 double rounded_up(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  const double unit = digit_worth(value, 2);
   return std::ceil(value / unit) * unit;
 }
 

@@ -23,7 +23,7 @@ double face_radius(const JobReference& reference, const FitResult& fit,
 
 /// Degrees of freedom of the σ in u; those of correlated readings count as so many fewer.
 double freedom_of(const FitResult& fit) {
-  if (fit.sigma_source == "sensor") return std::numeric_limits<double>::infinity();
+  if (fit.sigma_source == SigmaSource::sensor) return std::numeric_limits<double>::infinity();
   const auto free = static_cast<double>(fit.points) - static_cast<double>(fit.parameters.size());
   return std::max(1.0, free / (fit.u_factor * fit.u_factor));
 }

@@ -24,8 +24,6 @@ std::optional<Reason> take_every_seat(Job& job, std::vector<ProbeStream>& stream
     const ZRange& z = found.seats[i].z;
     job.references.push_back(whole);
     job.references.back().name = std::string(1, static_cast<char>('A' + i));
-    job.references.back().read.z_from_mm = z.from_mm;
-    job.references.back().read.z_to_mm = z.to_mm;
     streams.push_back(within(all, z));
   }
   return seats_reason(found);

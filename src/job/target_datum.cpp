@@ -120,10 +120,7 @@ std::optional<TargetDatum> target_datum(const PlannedJob& result) {
       shares[face].bottomRightCorner<2, 2>().setIdentity();
     }
   }
-  for (const Matrix4& share : shares) {
-    out.shares.emplace_back();
-    std::ranges::copy(share.reshaped<Eigen::RowMajor>(), out.shares.back().begin());
-  }
+  for (const Matrix4& share : shares) Eigen::Map<Matrix4>(out.shares.emplace_back().data()) = share;
   return out;
 }
 

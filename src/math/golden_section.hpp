@@ -2,8 +2,17 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace trueaxis {
+
+inline constexpr double golden_ratio = 0.6180339887498949;
+
+/// The k-th of a sequence that is dense in 0 to 1 wherever it ends, and has no period.
+inline double golden_share(std::size_t k) {
+  return std::fmod(golden_ratio * static_cast<double>(k), 1.0);
+}
 
 /// Where a function of one maximum has it, to 0.618ⁿ of the range after n steps (Kiefer 1953).
 struct GoldenSection {
@@ -13,7 +22,7 @@ struct GoldenSection {
 
 template <typename Function>
 GoldenSection golden_section(const Function& f, double low, double high, int steps) {
-  constexpr double golden = 0.6180339887498949;
+  constexpr double golden = golden_ratio;
   double a = high - golden * (high - low), b = low + golden * (high - low);
   double fa = f(a), fb = f(b);
   for (int i = 0; i < steps; ++i) {

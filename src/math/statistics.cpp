@@ -6,6 +6,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace trueaxis {
 
@@ -13,10 +14,8 @@ double mad_sigma(std::span<const double> residuals) {
   if (residuals.empty()) return 0.0;
   std::vector<double> size(residuals.size());
   std::ranges::transform(residuals, size.begin(), [](double r) { return std::abs(r); });
-  const auto middle = size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2);
-  std::nth_element(size.begin(), middle, size.end());
   static const double quartile = boost::math::quantile(boost::math::normal(), 0.75);
-  return *middle / quartile;
+  return median(std::move(size)) / quartile;
 }
 
 double neighbour_correlation(std::span<const double> residuals, double clip) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/angle.hpp"
 #include "math/statistics.hpp"
 #include "measure/column_order.hpp"
 #include "trueaxis/units.hpp"
@@ -34,7 +35,7 @@ void for_each_run(const ProbeStream& stream, const Use& use) {
   Run run{0, 1, 0.0};
   for (std::size_t i = 1; i < stream.size(); ++i) {
     if (stream.reading_mm[i] == stream.reading_mm[i - 1]) {
-      run.turned_rad += std::abs(std::remainder(stream.c_rad[i] - stream.c_rad[i - 1], two_pi));
+      run.turned_rad += apart_rad(stream.c_rad[i], stream.c_rad[i - 1]);
     } else {
       use(run);
       run = {i, i, 0.0};

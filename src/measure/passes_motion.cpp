@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -36,9 +37,7 @@ double robust_noise(std::span<const double> y) {
   for (std::size_t i = 1; i + 1 < y.size(); i += stride) {
     bends.push_back(std::abs(second_difference(y, i)));
   }
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  return *middle / (0.6745 * std::sqrt(6.0));
+  return median(std::move(bends)) / (0.6745 * std::sqrt(6.0));
 }
 
 /// Range and noise of y over a window whose two ends only move forward.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/angle.hpp"
 #include "math/linear_algebra.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
@@ -81,8 +82,7 @@ std::vector<std::vector<std::size_t>> turns_of(const ProbeStream& stream,
 bool covers_the_turn(const ProbeStream& stream, const std::vector<std::size_t>& readings) {
   if (readings.size() < 3) return false;
   std::vector<double> c;
-  for (const std::size_t i : readings)
-    c.push_back(stream.c_rad[i] - two_pi * std::floor(stream.c_rad[i] / two_pi));
+  for (const std::size_t i : readings) c.push_back(within_turn(stream.c_rad[i]));
   std::ranges::sort(c);
   double widest = c.front() + two_pi - c.back();
   for (std::size_t i = 1; i < c.size(); ++i) widest = std::max(widest, c[i] - c[i - 1]);

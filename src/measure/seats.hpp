@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -15,6 +16,7 @@ struct ZRange {
   double to_mm = std::numeric_limits<double>::infinity();
 
   bool holds(double z_mm) const { return from_mm <= z_mm && z_mm <= to_mm; }
+  bool everywhere() const { return !std::isfinite(from_mm) && !std::isfinite(to_mm); }
 };
 
 /// A straight surface of revolution among others in one stream.

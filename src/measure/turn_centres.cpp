@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "math/linear_algebra.hpp"
+#include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -72,8 +73,7 @@ double variance_of_neighbours(const Eigen::MatrixX2d& centres) {
       centres.topRows(n) - 2.0 * centres.middleRows(1, n) + centres.bottomRows(n);
   std::vector<double> squares;
   for (Eigen::Index i = 0; i < n; ++i) squares.push_back(second.row(i).squaredNorm());
-  std::ranges::nth_element(squares, squares.begin() + n / 2);
-  return squares[static_cast<std::size_t>(n / 2)] / (2.0 * std::log(2.0) * 6.0);  // median of χ²(2)
+  return median(std::move(squares)) / (2.0 * std::log(2.0) * 6.0);  // median of χ²(2)
 }
 
 /// −1 to 1 over a column; 0 if it is constant.

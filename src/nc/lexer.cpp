@@ -2,10 +2,12 @@
 #include "nc/lexer.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
+
+#include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace trueaxis::nc {
 namespace {
@@ -15,7 +17,6 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-char upper(char c) { return c >= 'a' ? static_cast<char>(c - 'a' + 'A') : c; }
 
 /// Reads the words of one line.
 class LineReader {
@@ -83,7 +84,7 @@ class LineReader {
     if (!is_letter(c))
       return give_up("a character that is no part of a program outside of comments");
     Word word;
-    word.letter = upper(c);
+    word.letter = upper_case(c);
     word.letter_at = at_++;
     skip_blanks();
     read_number(word);
@@ -91,8 +92,7 @@ class LineReader {
 
   void read_number(Word& word) {
     word.number_begin = at_;
-    const bool plus = peek() == '+';
-    if (plus || peek() == '-') ++at_;
+    if (peek() == '+' || peek() == '-') ++at_;
     std::uint32_t digits = 0, decimals = 0;
     for (; is_digit(peek()); ++at_) ++digits;
     if (peek() == '.')
@@ -100,10 +100,9 @@ class LineReader {
     if (digits + decimals == 0) return without_number(word);
     word.end = at_;
     word.decimals = static_cast<std::uint8_t>(std::min<std::uint32_t>(decimals, 255));
-    const auto [stop, wrong] =
-        std::from_chars(text_.data() + word.number_begin + (plus ? 1 : 0), text_.data() + word.end,
-                        word.number, std::chars_format::fixed);
-    if (wrong != std::errc{} || decimals > 255 || std::abs(word.number) > largest_number)
+    const bool fits =
+        parse_number(text_.substr(word.number_begin, word.end - word.number_begin), word.number);
+    if (!fits || decimals > 255 || std::abs(word.number) > largest_number)
       complain(word.letter_at, name_of(word) + " has a number that is too large or too long");
     if (is_exponent()) {
       complain(word.letter_at, name_of(word) + " has an exponent: write the number without one");
@@ -115,7 +114,7 @@ class LineReader {
 
   /// "e5", "E-3" right behind a number.
   bool is_exponent() const {
-    if (upper(peek()) != 'E' || at_ + 1 >= line_.end) return false;
+    if (upper_case(peek()) != 'E' || at_ + 1 >= line_.end) return false;
     const char next = text_[at_ + 1];
     return is_digit(next) || next == '+' || next == '-';
   }

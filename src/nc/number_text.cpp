@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
+
 namespace trueaxis::nc {
 namespace {
 
@@ -31,7 +33,7 @@ double rounded(double value, int decimals) {
   Digits digits;
   const std::size_t count = print(digits, value, decimals);
   double out = value;
-  std::from_chars(digits.data(), digits.data() + count, out, std::chars_format::fixed);
+  parse_number({digits.data(), count}, out);
   return out + 0.0;
 }
 

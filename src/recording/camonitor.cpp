@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/counted.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "recording/column_names.hpp"
 #include "recording/instant.hpp"
@@ -81,7 +82,7 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
   Channels channels;
   std::size_t others = 0, samples = 0;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
-    const std::string_view line = csv_trimmed(text.lines[i]);
+    const std::string_view line = trimmed(text.lines[i]);
     if (line.empty() || line.starts_with('#')) continue;
     (read_sample(line, i + 1, channels) ? samples : others) += 1;
   }
@@ -99,7 +100,7 @@ bool read_camonitor(const RecordedText& text, Recording& out) {
   std::string joined;
   for (auto& [name, of] : channels) {
     std::ranges::stable_sort(of, {}, &Sample::time_s);
-    if (&of != &fastest->second) joined += (joined.empty() ? "" : ", ") + name;
+    if (&of != &fastest->second) add_to_list(joined, name);
     const bool runs_on = unwrap_degrees(of);
     refuse_long_steps(name, of, runs_on, out);
     if (runs_on)

@@ -89,7 +89,7 @@ const char* word_of(RecordedRole role) {
 std::optional<std::string> stream_unit(RecordedRole role, std::string_view unit,
                                        std::string_view language) {
   const UnitKind quantity = quantity_of(role);
-  std::string_view text = csv_trimmed(unit);
+  std::string_view text = trimmed(unit);
   if (quantity == UnitKind::count)
     return text.empty() ? std::optional(std::string()) : std::nullopt;
   std::string dia;

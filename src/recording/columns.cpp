@@ -164,13 +164,13 @@ ColumnsSaid read_columns_said(const std::string& text) {
   int depth = 0;
   const auto take = [&](std::string_view item) {
     const std::size_t equals = item.find('=');
-    if (equals == std::string_view::npos || csv_trimmed(item.substr(equals + 1)).empty())
+    if (equals == std::string_view::npos || trimmed(item.substr(equals + 1)).empty())
       throw InputError(
           "--columns",
           csv_quoted(item) + " is no column: write it as in \"X=Diameter,C=Angle(°),Z=3[mm]\"");
     ColumnsSaid::Item one;
-    one.role = csv_trimmed(item.substr(0, equals));
-    std::string_view column = csv_trimmed(item.substr(equals + 1));
+    one.role = trimmed(item.substr(0, equals));
+    std::string_view column = trimmed(item.substr(equals + 1));
     if (one.role == "decimal") {
       if (column != "point" && column != "comma")
         throw InputError("--columns", csv_quoted(item) + ": it is decimal=point or decimal=comma");
@@ -180,7 +180,7 @@ ColumnsSaid read_columns_said(const std::string& text) {
     const std::size_t open = column.find('[');
     if (open != std::string_view::npos && open > 0 && column.back() == ']' &&
         column.substr(0, open).find_first_not_of("0123456789") == std::string_view::npos) {
-      one.unit = csv_trimmed(column.substr(open + 1, column.size() - open - 2));
+      one.unit = trimmed(column.substr(open + 1, column.size() - open - 2));
       column = column.substr(0, open);
     }
     one.column = column;
@@ -191,7 +191,7 @@ ColumnsSaid read_columns_said(const std::string& text) {
     if (i < all.size() && (all[i] == '[' || all[i] == '(')) ++depth;
     if (i < all.size() && (all[i] == ']' || all[i] == ')')) --depth;
     if (i < all.size() && (all[i] != ',' || depth > 0)) continue;
-    take(csv_trimmed(all.substr(begin, i - begin)));
+    take(trimmed(all.substr(begin, i - begin)));
     begin = i + 1;
   }
   return said;

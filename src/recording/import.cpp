@@ -8,6 +8,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -154,12 +155,12 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
   std::string text, supposed;
   for (const TakenColumn& column : taken) {
     const std::string& whole = recording.columns[column.column].whole;
-    text += (text.empty() ? "" : ", ") + std::string(word_of(column.role)) + " = column " +
-            std::to_string(column.column + 1) + (whole.empty() ? "" : " (" + whole + ")");
+    add_to_list(text, std::string(word_of(column.role)) + " = column " +
+                          std::to_string(column.column + 1) +
+                          (whole.empty() ? "" : " (" + whole + ")"));
     if (column.role == RecordedRole::x) text += diameter ? ", a diameter" : ", a radius";
     if (!column.unit_said && !column.unit.empty())
-      supposed +=
-          (supposed.empty() ? "" : ", ") + std::string(word_of(column.role)) + " in " + column.unit;
+      add_to_list(supposed, std::string(word_of(column.role)) + " in " + column.unit);
   }
   notes.insert(notes.begin(), "read as " + recording.producer + ": " + text);
   if (!supposed.empty()) notes.push_back("no unit is said; taken: " + supposed);
@@ -167,7 +168,7 @@ void describe(const Recording& recording, const std::vector<TakenColumn>& taken,
   for (std::size_t k = 0; k < recording.columns.size(); ++k) {
     if (std::ranges::find(taken, k, &TakenColumn::column) != taken.end()) continue;
     const std::string& whole = recording.columns[k].whole;
-    left += (left.empty() ? "" : ", ") + (whole.empty() ? std::to_string(k + 1) : whole);
+    add_to_list(left, whole.empty() ? std::to_string(k + 1) : whole);
   }
   if (!left.empty()) notes.push_back("columns that are not used: " + left);
 }
@@ -194,7 +195,7 @@ std::string head_of_file(const std::string& path) {
 /// Whether the first line that is no comment names columns as a stream of TrueAxis does.
 bool is_own_header(const RecordedText& text) {
   for (const std::string_view line : text.lines) {
-    const std::string_view content = csv_trimmed(csv_without_comment(line));
+    const std::string_view content = trimmed(csv_without_comment(line));
     if (content.empty()) continue;
     CsvDiagnostics ignored("", 0);
     const CsvHeader header = csv_parse_header(content, 1, ignored);

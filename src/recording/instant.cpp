@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recording/instant.hpp"
 
-#include <charconv>
 #include <chrono>
 
+#include "base/number.hpp"
+#include "base/text.hpp"
 #include "recording/recording.hpp"
 
 namespace trueaxis {
@@ -11,12 +12,8 @@ namespace {
 
 /// The whole number in front of `until`, which is taken off; nothing where there is none.
 std::optional<int> number_before(std::string_view& text, char until) {
-  int value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc{} || stop == end || *stop != until || value < 0) return {};
-  text.remove_prefix(static_cast<std::size_t>(stop - text.data()) + 1);
-  return value;
+  const auto value = take_number<int>(text);
+  return value && *value >= 0 && take_word(text, {&until, 1}) ? value : std::nullopt;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "interchange/number_file.hpp"
 #include "recording/recording.hpp"
 
@@ -20,9 +21,9 @@ Recording recorded_numbers(const std::string& path, const std::string& bytes) {
   std::string left;
   for (const NumberArray& array : file.arrays)
     if (!array.unusable.empty() || array.rows != longest)
-      left += (left.empty() ? "" : ", ") + array.name +
-              (array.unusable.empty() ? fmt::format(" ({} rows)", array.rows)
-                                      : " (" + array.unusable + ")");
+      add_to_list(left, fmt::format("{} ({})", array.name,
+                                    array.unusable.empty() ? fmt::format("{} rows", array.rows)
+                                                           : array.unusable));
   if (!left.empty()) out.notes.push_back(fmt::format("left out of the {} rows: {}", longest, left));
   std::vector<NumberColumn> columns = number_columns(file);
   std::erase_if(columns, [&](const NumberColumn& column) { return column.array->rows != longest; });

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "base/number.hpp"
@@ -79,11 +78,11 @@ std::string Recording::written(std::size_t row, std::size_t column) const {
 
 RecordedColumn recorded_column(std::string_view field) {
   RecordedColumn column;
-  field = csv_trimmed(field);
+  field = trimmed(field);
   column.whole = field;
   const auto split_at = [&](std::size_t name_end, std::string_view unit) {
-    column.name = csv_trimmed(field.substr(0, name_end));
-    column.unit = csv_trimmed(unit);
+    column.name = trimmed(field.substr(0, name_end));
+    column.unit = trimmed(unit);
   };
   constexpr std::pair<std::string_view, std::string_view> brackets[] = {
       {"[", "]"}, {"(", ")"}, {"（", "）"}, {"［", "］"}};

@@ -50,7 +50,7 @@ std::string why_no_number(std::string_view cell, char decimal) {
     return " is not a number: save numbers without a mark that parts thousands";
   const bool unit = end != std::string_view::npos &&
                     cell.find_first_of("0123456789", end) == std::string_view::npos;
-  if (unit && recorded_number(csv_trimmed(cell.substr(0, end)), decimal, value))
+  if (unit && recorded_number(trimmed(cell.substr(0, end)), decimal, value))
     return " is not a number alone: write its unit into the header";
   return " is not a number: correct it, or remove the row";
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/folded.hpp"
 #include "format/units.hpp"
@@ -75,7 +76,7 @@ std::optional<Layout> best_layout(const RecordedText& text, std::size_t skip,
   return best.rows < 2 ? std::nullopt : std::optional(best);
 }
 
-bool is_comment(std::string_view line) { return csv_trimmed(line).starts_with('#'); }
+bool is_comment(std::string_view line) { return trimmed(line).starts_with('#'); }
 
 /// A row of units below the names: every field is a unit or empty, none a number.
 bool is_unit_row(const std::vector<std::string_view>& fields) {
@@ -83,7 +84,7 @@ bool is_unit_row(const std::vector<std::string_view>& fields) {
   bool any = false;
   for (std::string_view field : fields) {
     if (field.size() > 2 && (field.front() == '[' || field.front() == '('))
-      field = csv_trimmed(field.substr(1, field.size() - 2));
+      field = trimmed(field.substr(1, field.size() - 2));
     if (!is_unit_word(field) && std::ranges::find(others, field) == std::end(others)) return false;
     any = any || !field.empty();
   }
@@ -120,7 +121,7 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
   std::vector<std::string_view> fields, units;
   std::optional<std::size_t> names;
   for (std::size_t i = first; i-- > skip && !names;) {
-    if (csv_trimmed(text.lines[i]).empty() || is_comment(text.lines[i])) continue;
+    if (trimmed(text.lines[i]).empty() || is_comment(text.lines[i])) continue;
     split(text.lines[i], layout.separator, fields);
     if (units.empty() && is_unit_row(fields)) {
       units = fields;
@@ -138,7 +139,7 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
   for (std::size_t k = 0; k < std::min(units.size(), out.columns.size()); ++k) {
     std::string_view unit = units[k];
     if (unit.size() > 2 && (unit.front() == '[' || unit.front() == '('))
-      unit = csv_trimmed(unit.substr(1, unit.size() - 2));
+      unit = trimmed(unit.substr(1, unit.size() - 2));
     if (out.columns[k].unit.empty()) out.columns[k].unit = unit;
     if (!unit.empty() && unit != out.columns[k].unit)
       out.unclear.push_back(csv_quoted(out.columns[k].whole) + " has the unit " + csv_quoted(unit) +
@@ -146,12 +147,12 @@ void read_names(const RecordedText& text, std::size_t skip, std::size_t first, c
   }
   std::string titles;
   for (std::size_t i = skip; i < names.value_or(first); ++i) {
-    const std::string_view line = csv_trimmed(text.lines[i]);
+    const std::string_view line = trimmed(text.lines[i]);
     if (is_comment(line)) {
       out.metadata.emplace_back(line);
     } else if (line.find_first_not_of(";,\t |\"") != std::string_view::npos &&
                !line.starts_with("sep=")) {
-      titles += (titles.empty() ? "" : ", ") + csv_quoted(line);
+      add_to_list(titles, csv_quoted(line));
       note_convention(line, out);
     }
   }
@@ -220,7 +221,7 @@ bool read_table(const RecordedText& text, std::size_t skip, std::optional<char> 
   std::size_t missing = 0;
   bool after_gap = false;
   for (std::size_t i = first; i < text.lines.size(); ++i) {
-    const std::string_view line = csv_trimmed(text.lines[i]);
+    const std::string_view line = trimmed(text.lines[i]);
     if (line.find_first_not_of(";,\t |\"") == std::string_view::npos) {
       after_gap = true;
       continue;

@@ -40,8 +40,7 @@ std::vector<Word> words_of(std::string_view line) {
     const char* end = line.data() + line.size();
     const char* stop = read_number(begin, end, value, error);
     if (stop == begin) return {};
-    words.push_back({static_cast<char>(std::toupper(static_cast<unsigned char>(letter))),
-                     {begin, static_cast<std::size_t>(stop - begin)}});
+    words.push_back({upper_case(letter), {begin, static_cast<std::size_t>(stop - begin)}});
     at += static_cast<std::size_t>(stop - begin);
   }
   return words;
@@ -54,7 +53,7 @@ bool read_words(const RecordedText& text, Recording& out) {
   std::string first_other;
   std::vector<char> letters;
   for (std::size_t i = 0; i < text.lines.size(); ++i) {
-    const std::string_view line = csv_trimmed(text.lines[i]);
+    const std::string_view line = trimmed(text.lines[i]);
     if (line.empty() || line == "%") continue;
     if (line.starts_with('#')) {
       out.metadata.emplace_back(line);

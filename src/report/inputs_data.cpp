@@ -66,9 +66,9 @@ void add_fit(Options& options, const FitOptions& fit) {
 Json reference_block(const JobResult& result, std::size_t i) {
   const JobReference& reference = result.job.references[i];
   Options options("Reference: " + reference.name);
-  options.add("stream", reference.stream);
   if (i < result.streams.size()) {
     const ProbeStream& stream = result.streams[i];
+    options.add("stream", stream.source);
     options.add("input hash", stream.input_hash);
     options.add("readings", std::to_string(stream.size()));
     options.add("indication", stream.indication == Indication::relative

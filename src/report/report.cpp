@@ -19,7 +19,9 @@ namespace trueaxis {
 namespace {
 
 /// The name of the job, or its file when it has none.
-std::string job_title(const Job& job) { return job.name.empty() ? job.path : job.name; }
+const std::string& job_title(const JobResult& result, const std::string& file) {
+  return result.job.name.empty() ? file : result.job.name;
+}
 
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
@@ -162,13 +164,13 @@ Json fit_data(const FitResult& fit) {
   return data;
 }
 
-Json report_data(const JobResult& result) {
-  Json data{{"schema", "trueaxis.report/2"},   {"version", TRUEAXIS_VERSION},
-            {"title", job_title(result.job)},  {"file", result.job.path},
-            {"verdict", verdict_data(result)}, {"inputs", inputs_data(result)},
-            {"target", target_data(result)},   {"seats", seats_data(result)},
-            {"header", header_data(result)},   {"warnings", warnings_data(result)},
-            {"next", next_data(result)},       {"words", words_data()},
+Json report_data(const JobResult& result, const std::string& file) {
+  Json data{{"schema", "trueaxis.report/2"},    {"version", TRUEAXIS_VERSION},
+            {"title", job_title(result, file)}, {"file", file},
+            {"verdict", verdict_data(result)},  {"inputs", inputs_data(result)},
+            {"target", target_data(result)},    {"seats", seats_data(result)},
+            {"header", header_data(result)},    {"warnings", warnings_data(result)},
+            {"next", next_data(result)},        {"words", words_data()},
             {"references", Json::array()}};
   if (result.fits.size() > 1 && !result.job.target) {
     data["seats_apart"] = seats_apart_array(result);
@@ -193,10 +195,10 @@ Json job_tables(const JobResult& result) {
   return tables;
 }
 
-std::string render_report(const JobResult& result) {
+std::string render_report(const JobResult& result, const std::string& file) {
   const Json tables = job_tables(result);
-  return page_of("TrueAxis report: " + job_title(result.job), verdict_line(result),
-                 report_data(result), job_script(), &tables);
+  return page_of("TrueAxis report: " + job_title(result, file), verdict_line(result),
+                 report_data(result, file), job_script(), &tables);
 }
 
 }  // namespace trueaxis

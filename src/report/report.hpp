@@ -9,13 +9,14 @@
 
 namespace trueaxis {
 
-/// The report of a job: one HTML page that opens offline (Apache ECharts embedded).
-std::string render_report(const JobResult& result);
+/// The report of a job, which stands in `file`: one HTML page that opens offline (Apache ECharts
+/// embedded).
+std::string render_report(const JobResult& result, const std::string& file = "");
 
 /// Everything the page shows (schema trueaxis.report/2): fits and diagnoses as the files have them,
 /// and what the charts draw. There the unit of a number is in its key; a number that is not
 /// determined is NaN, which JSON writes as null.
-Json report_data(const JobResult& result);
+Json report_data(const JobResult& result, const std::string& file = "");
 
 /// A fit as in its file, with `rejected` as a count and the first rows.
 Json fit_data(const FitResult& fit);

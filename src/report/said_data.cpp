@@ -111,10 +111,10 @@ std::string cut_text(const JobResult& result) {
 
 Json warnings_data(const JobResult& result) {
   Warnings warnings;
-  for (const Reason& one : result.verdict.reservations) warnings.add(words_of(one, result.job));
-  warnings.add(words_of(result.verdict.moved, "; ", result.job));
+  for (const Reason& one : result.verdict.reservations) warnings.add(words_of(one, result));
+  warnings.add(words_of(result.verdict.moved, "; ", result));
   if (const Reasons slip = part_slipped(result); !slip.empty() && !is_of_slip(result.verdict))
-    warnings.add(words_of(slip, "; ", result.job) + ". So no axis is given");
+    warnings.add(words_of(slip, "; ", result) + ". So no axis is given");
   for (const Inclusion& inclusion : result.inclusions) {
     std::string text = inclusion_text(inclusion);
     while (text.ends_with('\n')) text.pop_back();
@@ -124,7 +124,7 @@ Json warnings_data(const JobResult& result) {
   const bool answered = !result.job.target && !seat_distances(result).empty();
   for (const Disagreement& apart : result.agreement.disagreements)
     if (!answered)
-      warnings.add("More than U explains, " + words_of(how_apart(apart), result.job) +
+      warnings.add("More than U explains, " + words_of(how_apart(apart), result) +
                    ", half-way between the two");
   return warnings.list();
 }
@@ -132,7 +132,7 @@ Json warnings_data(const JobResult& result) {
 Json next_data(const JobResult& result) {
   Json steps = Json::array();
   const Reasons would_prove = result.verdict.what_would_prove();
-  if (!would_prove.empty()) steps.push_back(words_of(would_prove, "; ", result.job));
+  if (!would_prove.empty()) steps.push_back(words_of(would_prove, "; ", result));
   if (result.correction && would_prove.empty()) steps.push_back(cut_text(result));
   if (const NextMeasurement* next = best_next(result)) steps.push_back(measurement_text(*next));
   if (result.correction) return steps;

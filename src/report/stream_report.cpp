@@ -16,12 +16,10 @@ namespace {
 
 JobResult job_of(const ProbeStream& stream, const FitResult& fit, const FitOptions& options) {
   JobResult result;
-  result.job.path = stream.source;
   result.job.name = stream.source == "-" ? "Stream of standard input"
                                          : std::filesystem::path(stream.source).filename().string();
   JobReference reference;
   reference.name = to_string(fit.surface);
-  reference.stream = stream.source;
   reference.fit = options;
   result.job.references.push_back(std::move(reference));
   result.streams.push_back(stream);
@@ -39,7 +37,7 @@ std::string command(const char* verb, const FitResult& fit) {
 
 /// @param outcome what the banner says in one word
 std::string page(JobResult result, const char* outcome, const std::string& line, Json first_steps) {
-  Json data = report_data(result);
+  Json data = report_data(result, result.streams.front().source);
   data["verdict"]["outcome"] = outcome;
   data["verdict"]["line"] = line;
   data["of_stream"] = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "simulate/effects.hpp"
 #include "trueaxis/units.hpp"
 
@@ -105,8 +106,8 @@ constexpr EffectEntry part_table[] = {
        chain.local_form = true;
        in<form>([](const SurfacePoint& p, double angle, double width, double depth, double start,
                    double end) {
-         const bool inside = std::abs(std::remainder(p.theta_rad - angle, two_pi)) < 0.5 * width &&
-                             p.s_mm >= start && p.s_mm <= end;
+         const bool inside =
+             apart_rad(p.theta_rad, angle) < 0.5 * width && p.s_mm >= start && p.s_mm <= end;
          return inside ? -p.outward * depth : 0.0;
        })(of, chain);
      }},

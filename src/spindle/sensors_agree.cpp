@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 
@@ -36,7 +37,7 @@ void check_sensors_agree(std::span<const RunReadings> runs, std::span<const Sync
     for (std::size_t s = 1; s < run.angles_rad.size(); ++s) {
       const std::complex<double> seen = z(static_cast<Eigen::Index>(s), 1) / first;
       const double stated_rad = run.angles_rad[s] - run.angles_rad[0];
-      const double off_rad = std::abs(std::remainder(std::arg(seen) - stated_rad, two_pi));
+      const double off_rad = apart_rad(std::arg(seen), stated_rad);
       const double seen_deg = std::fmod(std::arg(seen) / rad_per_deg + 360.0, 360.0);
       const std::string what = fmt::format(
           "by the eccentricity sensor {} stands {:.1f}° from sensor 1, and {:.1f}° is stated",

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
 #include "format/file.hpp"
 #include "study/bound/quantities.hpp"
 #include "study/sweep/files/sweep_toml.hpp"
@@ -18,11 +18,10 @@ using namespace study;
 
 /// "402.036": its value and three decimals. None for what is no plain decimal number.
 std::optional<PrintedNumber> printed(const std::string& text) {
-  PrintedNumber number{text, 0.0, 0};
-  const char* end = text.data() + text.size();
-  const auto [stop, error] =
-      std::from_chars(text.data(), end, number.value, std::chars_format::fixed);
-  if (error != std::errc{} || stop != end || !std::isfinite(number.value)) return std::nullopt;
+  std::string_view left = text;
+  const auto value = take_plain_number(left);
+  if (!value || !left.empty()) return std::nullopt;
+  PrintedNumber number{text, *value, 0};
   const std::size_t point = text.find('.');
   if (point != std::string::npos) number.decimals = static_cast<int>(text.size() - point - 1);
   return number;

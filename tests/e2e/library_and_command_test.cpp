@@ -16,8 +16,8 @@ class LibraryAndCommand : public CommandTest {
  protected:
   /// Both run the job; what they say of it is compared.
   JobResult expect_same(const std::filesystem::path& path) {
-    const Job job = read_job_toml(path.string());
-    JobResult by_library = run_job(job, read_streams(job));
+    const JobFile file = read_job_toml(path.string());
+    JobResult by_library = run_job(file.job, read_streams(file));
     word_unknown_axes(by_library);
     const CommandStreams by_command = command("run " + shell_word(path) + " -o out");
     const Verdict& verdict = by_library.verdict;

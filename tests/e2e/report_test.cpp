@@ -91,7 +91,7 @@ TEST_F(ReportPage, OneSectionWithoutZ) { expect_sound(example::section_job(), "s
 TEST_F(ReportPage, HostileNamesStayText) {
   JobResult result = example::cone_job(100);
   const std::string hostile = "</script><script>throw 1</script><img src=x onerror='throw 2'>";
-  result.job.name = result.job.path = hostile;
+  result.job.name = hostile;
   result.verdict.reasons = {{ReasonCode::cut_refused, {}, {}, {{"why", hostile}}}};
   result.job.references.front().name = hostile + "\xff";
   result.fits.front().rejected = {{3, hostile}};

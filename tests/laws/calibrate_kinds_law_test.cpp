@@ -143,7 +143,7 @@ TEST(CalibrateKinds, NoiseThatIsNotStatedIsEstimated) {
   MachineMeasurement data = measure_balls(bench, {}, 3e-3, draw);
   data.noise_mm.reset();
   const Calibration calibration = calibrate(machine, std::span(&data, 1));
-  EXPECT_EQ(calibration.noise_source, "residuals");
+  EXPECT_EQ(calibration.noise_basis, NoiseBasis::residuals);
   // 480 numbers: σ is known to 1/√960 = 3.2 %, four times that.
   EXPECT_NEAR(calibration.noise_mm, 3e-3, 3e-3 * 4.0 / std::sqrt(2.0 * 450.0));
 }

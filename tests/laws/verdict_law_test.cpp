@@ -178,7 +178,7 @@ TEST(Verdict, WhatOnePassDoesNotShowIsNamed) {
   const Reasons would = open.verdict.what_would_prove();
   ASSERT_EQ(would.size(), 1u);
   EXPECT_EQ(would.front().code, ReasonCode::hidden_cause);
-  const std::string says = words_of(would.front(), open.job);
+  const std::string says = words_of(would.front(), open);
   EXPECT_NE(says.find("probe.la"), std::string::npos) << says;  // latency or lag
   EXPECT_NE(says.find("probe back at"), std::string::npos) << says;
   add_way_back(s);
@@ -194,7 +194,7 @@ TEST(Verdict, WhatWouldProveItDoes) {
   ASSERT_EQ(open.verdict.decision, Decision::not_proven) << verdict_line(open);
   const Reasons would = open.verdict.what_would_prove();
   ASSERT_EQ(would.size(), 1u);
-  ASSERT_FALSE(would.front().parts.empty()) << words_of(would.front(), open.job);
+  ASSERT_FALSE(would.front().parts.empty()) << words_of(would.front(), open);
   ASSERT_EQ(would.front().parts.front().code, ReasonCode::more_readings);
   const double readings = would.front().parts.front().number("needed")->value;
   // Less than u shrinks with n, the following error of the actuator does not.

@@ -66,7 +66,7 @@ inline NoiseReport noise_report() {
   NoiseReport noise;
   noise.sigma_mm = noise_mm;
   noise.u_sigma_mm = 4e-5;
-  noise.source = "revolution differences";
+  noise.source = NoiseSource::revolution_differences;
   noise.note = "no source of its own: a form that repeats is in it";
   noise.autoregression = {0.5};
   noise.revolutions_mm = noise_mm;

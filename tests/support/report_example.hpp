@@ -79,7 +79,7 @@ inline void read_surface(ProbeStream& stream, FitResult& fit, const Revolved& su
   fit.shape = surface;
   fit.axis.axis = surface.axis;
   fit.rms_mm = fit.sigma_mm = noise_mm;
-  fit.sigma_source = "robust residuals";
+  fit.sigma_source = SigmaSource::robust_residuals;
   fit.autocorrelation = 0.02;
   fit.notes = {"neighbouring residuals correlate (0.02): form or slow noise"};
   fit.points = stream.size();
@@ -157,12 +157,10 @@ inline JobResult cone_job(std::size_t readings = 1500) {
   result.streams.push_back(std::move(stream));
   JobReference reference;
   reference.name = "taper seat";
-  reference.stream = "cone.csv";
   reference.fit.loss = Loss::tukey;
   reference.fit.influences = {{Influence::Kind::probe_height, 0.05},
                               {Influence::Kind::probe_gain, 0.001}};
   result.job.references.push_back(reference);
-  result.job.path = "spindle_nose.toml";
   result.job.name = "Spindle nose, re-cut after hardening";
   result.job.coaxiality_tolerance_mm = 0.005;
   const AxisEstimate axis = result.fits.front().axis;
@@ -263,7 +261,7 @@ inline void add_face(JobResult& result) {
                     parameter("d", 12.0, 7.5e-5, "mm")};
   fit.budget = {{"noise of the readings", 'A', {5e-6, 5e-6, 7.5e-5}}};
   fit.rms_mm = fit.sigma_mm = noise_mm;
-  fit.sigma_source = "residuals";
+  fit.sigma_source = SigmaSource::residuals;
   fit.points = stream.size();
   fit.iterations = 2;
   fit.position_min_mm = 20.0;
@@ -272,7 +270,6 @@ inline void add_face(JobResult& result) {
   fit.source = stream.source;
   JobReference reference;
   reference.name = "shoulder face";
-  reference.stream = "face.csv";
   reference.fit.surface = SurfaceKind::plane;
   reference.weight = 0.5;
   reference.face_radius_mm = 45.0;

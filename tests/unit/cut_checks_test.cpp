@@ -33,7 +33,6 @@ ProbeStream probed(PartKind kind, double x0_mm = 0.05) {
 
 Job job_of(const TargetSurface& target, SurfaceKind surface = SurfaceKind::cylinder) {
   Job job;
-  job.path = "job.toml";
   job.references.resize(1);
   job.references[0].name = "seat";
   job.references[0].fit.surface = surface;
@@ -50,7 +49,7 @@ TargetSurface cylinder(double radius_mm, double z_start_mm, double z_end_mm) {
 std::string cut_objection(const JobResult& result) {
   for (const JobCheck* check : {&surface_behind_ball, &material_between, &stock, &cut_too_far})
     if (const Reasons found = (*check)(result); !found.empty())
-      return words_of(found.front(), result.job);
+      return words_of(found.front(), result);
   return "";
 }
 

@@ -49,7 +49,7 @@ TEST(EndsOfStream, AStepInTheLastReadingsIsSaid) {
   for (std::size_t i = readings - 4; i < readings; ++i) left_of(result)[i] += 8.0 * sigma_mm;
   const Reasons found = axis_known(result);
   ASSERT_EQ(found.size(), 1u);
-  const std::string said = words_of(found.front(), result.job);
+  const std::string said = words_of(found.front(), result);
   EXPECT_TRUE(said.starts_with("taper seat: 4 of the last 8 readings")) << said;
   EXPECT_NE(said.find("the part may have slipped there"), std::string::npos);
 }
@@ -77,7 +77,7 @@ TEST(EndsOfStream, OneOutlierIsNoStep) {
 TEST(LeftUnexplained, MoreThanHalfAgainTheNoiseIsNoNoise) {
   JobResult result = with_noise(7);
   Diagnosis& diagnosis = *result.diagnoses.front();
-  diagnosis.noise.source = "revolution differences";
+  diagnosis.noise.source = NoiseSource::revolution_differences;
   diagnosis.noise.sigma_mm = sigma_mm, diagnosis.noise.u_sigma_mm = 0.05 * sigma_mm;
   diagnosis.gain.rms_after_mm = 1.6 * sigma_mm;  // 1.5 (1 + 2 · 0.05) = 1.65
   EXPECT_FALSE(left_unexplained({}, diagnosis));

@@ -27,7 +27,8 @@ TEST(ReportHeader, IsWhatTheJobSaysInTheOrderOfThePage) {
   const Job job = read_job_toml(std::string("[header]\ndate = \"2026-11-23\"\npart = \"<shaft>\"\n"
                                             "operator = \"\"\n") +
                                     reference,
-                                "job.toml");
+                                "job.toml")
+                      .job;
   const JobHeader expected{{"Part", "<shaft>"}, {"Date", "2026-11-23"}};
   EXPECT_EQ(job.header, expected);
   JobResult result = example::cone_job(100);
@@ -45,9 +46,10 @@ TEST(ReportHeader, ADateNeedsNoQuotes) {
                                       {"2026-03-14 07:30:00", "2026-03-14T07:30:00"},
                                       {"2026-03-14T07:30:00Z", "2026-03-14T07:30:00Z"},
                                       {"\"14.3.2026\"", "14.3.2026"}}) {
-    const Job job = read_job_toml(
-        std::string("[header]\nserial = \"7\"\ndate = ").append(written) + "\n" + reference,
-        "job.toml");
+    const Job job = read_job_toml(std::string("[header]\nserial = \"7\"\ndate = ").append(written) +
+                                      "\n" + reference,
+                                  "job.toml")
+                        .job;
     EXPECT_EQ(job.header, (JobHeader{{"Serial number", "7"}, {"Date", read}}));
     JobResult result = example::cone_job(100);
     result.job.header = job.header;
@@ -79,7 +81,7 @@ TEST(ReportWarnings, ReservationsComeFirstAndAreOffTheLine) {
   result.verdict.reasons = {{ReasonCode::no_target}};
   result.verdict.reservations = {{ReasonCode::undiagnosed_correlated, {0}},
                                  {ReasonCode::gauge_shows_no_radius, {0}}};
-  const std::vector<std::string> said = sentences_of(result.verdict.reservations, result.job);
+  const std::vector<std::string> said = sentences_of(result.verdict.reservations, result);
   const json data = report_data(result);
   EXPECT_EQ(data["verdict"]["line"], "GO with reservations: identified, no target to correct");
   EXPECT_EQ(verdict_line(result),

@@ -22,12 +22,10 @@ Finding slipped(std::vector<FitParameter> parameters) {
 }
 
 std::string objection(const JobResult& result) {
-  return words_of(part_slipped(result), "; ", result.job);
+  return words_of(part_slipped(result), "; ", result);
 }
 
-std::string moved(const JobResult& result) {
-  return words_of(moved_part(result), "; ", result.job);
-}
+std::string moved(const JobResult& result) { return words_of(moved_part(result), "; ", result); }
 
 JobResult found(const std::vector<Finding>& findings) {
   JobResult result = example::diagnosed_job(100);

@@ -53,7 +53,6 @@ ProbeStream shoulder(double l, double m) {
 
 Job job_of(const std::vector<std::pair<std::string, SurfaceKind>>& references) {
   Job job;
-  job.path = "job.toml";
   for (const auto& [name, surface] : references) {
     JobReference& one = job.references.emplace_back();
     one.name = name;

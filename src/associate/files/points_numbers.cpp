@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points of X3P, HDF5, MATLAB and NumPy files: which array, which unit is said, never guessed.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "associate/files/association_files.hpp"
@@ -17,11 +16,6 @@ constexpr std::size_t most_rows_named = 20;
 
 using Axes = std::array<NumberColumn, 3>;
 
-std::string lower(std::string text) {
-  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 class Chooser {
  public:
   Chooser(const std::string& path, const NumberFile& file, const std::string& array,
@@ -35,7 +29,7 @@ class Chooser {
       std::size_t count = 0;
       for (const NumberColumn& column : columns_)
         for (std::size_t i = 0; i < 3; ++i)
-          if (lower(name_of(column.name)) == std::string(1, "xyz"[i])) {
+          if (lower_case(name_of(column.name)) == std::string(1, "xyz"[i])) {
             found[i] = column;
             ++count;
           }
@@ -95,7 +89,7 @@ class Chooser {
     std::size_t at = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t comma = std::min(array_.find(',', at), array_.size());
-      const std::string name(csv_trimmed(std::string_view(array_).substr(at, comma - at)));
+      const std::string name(trimmed(std::string_view(array_).substr(at, comma - at)));
       for (const NumberColumn& column : columns_)
         if (column.name == name) axes[i] = column;
       if (axes[i].array == nullptr || (comma == array_.size()) != (i == 2))

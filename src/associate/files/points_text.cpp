@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cctype>
 #include <cmath>
 #include <optional>
 
@@ -18,8 +17,7 @@ constexpr std::size_t most_places = 20;
 /// "x[um]": the unit of the column, "" where it has none; nothing where the text is no such column.
 std::optional<std::string_view> unit_of_column(std::string_view text, char name) {
   const auto [written, unit] = name_with_unit(text);
-  if (written.size() != 1 || std::tolower(static_cast<unsigned char>(written[0])) != name)
-    return {};
+  if (written.size() != 1 || lower_case(written[0]) != name) return {};
   return unit.value_or("");
 }
 
@@ -32,7 +30,7 @@ class Reader {
 
   void line(std::string_view text, std::size_t number, PointText& out) {
     text = csv_without_comment(text);
-    if (csv_trimmed(text).empty()) return;
+    if (trimmed(text).empty()) return;
     // Blanks, or commas with blanks beside them.
     csv_split(text, text.find(',') != std::string_view::npos ? ',' : ' ', fields_);
     if (first_ && !starts_number(fields_.front()) && header(text, number)) return;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "math/linear_algebra.hpp"
 
 namespace trueaxis::calibrate_detail {
@@ -128,11 +129,10 @@ PatternFunction bump(const Problem& problem, std::size_t k, double at, double wi
     table.values.push_back(0.0);
     table.periodic = true;
   }
-  PatternFunction out = of_axis(
-      problem, axis,
-      "a bump of " + axis.letter() + " about " +
-          place_text(axis.name, axis.whole_turn ? at - two_pi * std::floor(at / two_pi) : at),
-      {std::move(table)});
+  PatternFunction out = of_axis(problem, axis,
+                                "a bump of " + axis.letter() + " about " +
+                                    place_text(axis.name, axis.whole_turn ? within_turn(at) : at),
+                                {std::move(table)});
   out.place = {PatternPlace::Kind::bump, k, at, width};
   return out;
 }

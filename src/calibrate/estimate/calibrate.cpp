@@ -73,7 +73,7 @@ NotDetermined in_words(const Held& held, const std::vector<Unknown>& unknowns) {
 /// σ² of the covariance: that of the residuals where they show more than is stated.
 double covariance_scale(const Problem& problem, const Solution& solution, Calibration& out) {
   const bool stated = problem.noise_stated && solution.variance <= 1.0;
-  out.noise_source = stated ? "stated" : "residuals";
+  out.noise_basis = stated ? NoiseBasis::stated : NoiseBasis::residuals;
   return stated ? 1.0 : solution.variance;
 }
 
@@ -170,7 +170,7 @@ std::optional<TipFit> fit_tips(const Machine& machine, std::span<const MachineMe
   out.rms_parameters_mm = out.rms_after_mm;
   out.rms_before_mm =
       rms_mm(problem, problem.residuals(fit.given, best_places(problem, fit.given)));
-  out.noise_mm = std::sqrt((out.noise_source == "stated" ? 1.0 : solution.variance) *
+  out.noise_mm = std::sqrt((out.noise_basis == NoiseBasis::stated ? 1.0 : solution.variance) *
                            sigma.squaredNorm() / static_cast<double>(sigma.size()));
   return fit;
 }
@@ -190,6 +190,10 @@ Calibration of_read_outs(const Machine& machine, std::span<const MachineMeasurem
 }
 
 }  // namespace calibrate_detail
+
+const char* to_string(NoiseBasis basis) {
+  return basis == NoiseBasis::stated ? "stated" : basis == NoiseBasis::residuals ? "residuals" : "";
+}
 
 Calibration calibrate(const Machine& machine, std::span<const MachineMeasurement> data,
                       const CalibrationOptions& options) {

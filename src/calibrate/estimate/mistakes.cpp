@@ -7,6 +7,7 @@
 
 #include "calibrate/estimate/read_out_mistake.hpp"
 #include "calibrate/estimate/tip_fit.hpp"
+#include "math/golden_section.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
@@ -132,11 +133,7 @@ std::vector<MachineMeasurement> some_of(std::span<const MachineMeasurement> data
     if (file.kind == MeasurementKind::axis) continue;
     const auto thin = [&](auto& column) {
       std::size_t row = 0;
-      // By the golden ratio rows of no period are kept.
-      std::erase_if(column, [&](const auto&) {
-        const double at = static_cast<double>(row++) * (std::numbers::phi - 1.0);
-        return at - std::floor(at) >= share;
-      });
+      std::erase_if(column, [&](const auto&) { return golden_share(row++) >= share; });
     };
     thin(file.setup), thin(file.ball), thin(file.axes), thin(file.deviation_mm);
     thin(file.length_mm), thin(file.along_mm), thin(file.tool_length_mm), thin(file.time_s);

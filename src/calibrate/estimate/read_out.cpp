@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/angle.hpp"
 #include "calibrate/estimate/periodic_fit.hpp"
 #include "calibrate/estimate/unknown.hpp"
 #include "infer/significance.hpp"
@@ -119,7 +120,7 @@ constexpr double clearly = 10.0;                           // Bayesian informati
 /// The widest gap that positions leave in the circle, rad.
 double widest_gap_rad(const std::vector<double>& position_rad) {
   std::vector<double> on_turn;
-  for (const double at : position_rad) on_turn.push_back(at - two_pi * std::floor(at / two_pi));
+  for (const double at : position_rad) on_turn.push_back(within_turn(at));
   std::ranges::sort(on_turn);
   double widest = on_turn.front() + two_pi - on_turn.back();
   for (std::size_t i = 1; i < on_turn.size(); ++i)

@@ -90,8 +90,8 @@ class Together {
     write_errors(out);
     write_components(out);
     out.size_of_components = effects_.times_all;
-    out.noise_source =
-        fit_.problem.noise_stated && effects_.variance == 1.0 ? "stated" : "residuals";
+    out.noise_basis = fit_.problem.noise_stated && effects_.variance == 1.0 ? NoiseBasis::stated
+                                                                            : NoiseBasis::residuals;
     const VectorXd sigma = fit_.problem.weights.cwiseInverse();
     out.noise_mm =
         std::sqrt(effects_.variance * sigma.squaredNorm() / static_cast<double>(sigma.size()));

@@ -95,7 +95,7 @@ std::string calibration_json(const Calibration& c, const Machine& machine,
        {"unknowns", c.unknowns},
        {"rms",
         {{"before", with_unit(c.rms_before_mm, "mm")}, {"after", with_unit(c.rms_after_mm, "mm")}}},
-       {"noise", {{"sigma", with_unit(c.noise_mm, "mm")}, {"source", c.noise_source}}},
+       {"noise", {{"sigma", with_unit(c.noise_mm, "mm")}, {"source", to_string(c.noise_basis)}}},
        {"read_outs", read_outs}});
 }
 

@@ -68,7 +68,7 @@ std::string calibration_text(const Calibration& c) {
   if (c.equations > 0)
     text += fmt::format("{} numbers, {} unknowns: RMS {} -> {}, noise {} ({})\n", c.equations,
                         c.unknowns, layout::um(c.rms_before_mm), layout::um(c.rms_after_mm),
-                        layout::um(c.noise_mm), c.noise_source);
+                        layout::um(c.noise_mm), to_string(c.noise_basis));
   if (!c.parameters.empty()) text += "parameters ± U (k = 2)\n";
   for (const CalibratedParameter& one : c.parameters) text += parameter_line(one);
   text += components_text(c);

@@ -70,7 +70,7 @@ std::string calibration_screen(const Calibration& c) {
     text = fmt::format(
         "DONE: {} errors of the machine found, RMS of {} numbers {} -> {}, noise {} ({})\n",
         c.parameters.size(), c.equations, um(c.rms_before_mm), um(c.rms_after_mm), um(c.noise_mm),
-        c.noise_source);
+        to_string(c.noise_basis));
   else
     text = "DONE: position errors found\n";
   for (const AxisReadOut& one : c.read_outs) text += read_out_screen(one);

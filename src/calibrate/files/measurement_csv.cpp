@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/diagnostics.hpp"
 #include "base/number.hpp"
 #include "calibrate/files/measurement_header.hpp"
 #include "format/csv_text.hpp"
@@ -15,7 +16,7 @@ using Role = MeasurementRole;
 constexpr std::size_t most_listed = 50;
 
 /// A finite number below 1e9, whole where it counts; else what is wrong.
-std::string take_number(const MeasurementColumn& column, std::string_view text, double& value) {
+std::string trouble_of(const MeasurementColumn& column, std::string_view text, double& value) {
   if (text.empty()) return column.name + " is empty: write a number or remove the row";
   std::errc error{};
   const char* const end = text.data() + text.size();
@@ -49,7 +50,7 @@ class Rows {
     begin();
     for (std::size_t k = 0; k < columns.size(); ++k) {
       double value = 0.0;
-      std::string why = take_number(columns[k], fields_[k], value);
+      std::string why = trouble_of(columns[k], fields_[k], value);
       value *= columns[k].factor;
       if (why.empty()) why = put(columns[k], value);
       if (why.empty()) continue;
@@ -160,7 +161,7 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
     if (header && rows.columns.empty()) return;
     last = number;
     const std::string_view content = csv_without_comment(line);
-    if (csv_trimmed(content).empty()) {
+    if (trimmed(content).empty()) {
       if (content.size() < line.size() && !header)
         take_measurement_comment(line, number, metadata, diagnostics);
       return;
@@ -183,17 +184,8 @@ MachineMeasurement read_measurement_csv(const std::string& path, const Machine& 
 
 std::vector<MachineMeasurement> read_measurements(const std::vector<std::string>& paths,
                                                   const Machine& machine) {
-  std::vector<MachineMeasurement> all;
-  std::vector<Diagnostic> wrong;
-  for (const std::string& path : paths) {
-    try {
-      all.push_back(read_measurement_csv(path, machine));
-    } catch (const InputError& error) {
-      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
-  if (!wrong.empty()) throw InputError(std::move(wrong));
-  return all;
+  return read_each(paths,
+                   [&](const std::string& path) { return read_measurement_csv(path, machine); });
 }
 
 }  // namespace trueaxis

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 
@@ -46,17 +47,13 @@ std::vector<Known> known_columns(const MeasurementMetadata& metadata, const Mach
   return known;
 }
 
-std::string names(const std::vector<Known>& known) {
-  std::string list;
-  for (const Known& one : known) list += (list.empty() ? "" : " ") + one.name;
-  return list;
-}
+std::string names(const std::vector<Known>& known) { return word_list(known, " ", &Known::name); }
 
 /// What is wrong with the header's field, "" where nothing is; `column` is then filled.
 std::string take(std::string_view field, const std::vector<Known>& known,
                  MeasurementColumn& column) {
   const std::size_t bracket = field.find('[');
-  const std::string name(csv_trimmed(field.substr(0, bracket)));
+  const std::string name(trimmed(field.substr(0, bracket)));
   const auto found = std::ranges::find(known, name, &Known::name);
   if (found == known.end()) {
     const bool axis =
@@ -73,8 +70,7 @@ std::string take(std::string_view field, const std::vector<Known>& known,
   const std::string give =
       std::string(": write it in brackets, one of ") + known_units(found->quantity);
   if (!unit_there) return name + " has no unit" + give;
-  const std::string_view unit =
-      csv_trimmed(field.substr(bracket + 1, field.find(']') - bracket - 1));
+  const std::string_view unit = trimmed(field.substr(bracket + 1, field.find(']') - bracket - 1));
   const auto factor = find_unit(found->quantity, unit);
   if (!factor || field.back() != ']') return csv_quoted(unit) + " is no unit of " + name + give;
   column.factor = factor->factor;

@@ -62,12 +62,12 @@ const char* meant(std::string_view word) {
 void take_measurement_comment(std::string_view line, std::size_t number,
                               MeasurementMetadata& metadata, CsvDiagnostics& diagnostics) {
   const std::size_t hash = line.find('#');
-  std::string_view text = csv_trimmed(line.substr(hash + 1));
+  std::string_view text = trimmed(line.substr(hash + 1));
   if (text.starts_with('#')) return;
   const std::size_t colon = text.find_first_of(":=");
   if (colon == std::string_view::npos) return;
-  const std::string key(csv_trimmed(text.substr(0, colon)));
-  const std::string_view value = csv_trimmed(text.substr(colon + 1));
+  const std::string key(trimmed(text.substr(0, colon)));
+  const std::string_view value = trimmed(text.substr(colon + 1));
   const std::size_t column =
       csv_character(line, static_cast<std::size_t>(text.data() - line.data()));
   if (const char* const known = meant(key)) {

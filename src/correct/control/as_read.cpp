@@ -2,10 +2,10 @@
 #include "correct/control/as_read.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <vector>
 
+#include "base/number.hpp"
 #include "correct/control/correction_grid.hpp"
 #include "correct/deviation.hpp"
 #include "trueaxis/error.hpp"
@@ -27,12 +27,11 @@ void for_lines(std::string_view text, Each each) {
 /// Every number of a line, in order.
 void numbers_of(std::string_view line, std::vector<double>& numbers) {
   numbers.clear();
-  const char *at = line.data(), *const end = at + line.size();
-  while (at < end) {
-    double value = 0.0;
-    const auto [next, error] = std::from_chars(at, end, value, std::chars_format::fixed);
-    if (error == std::errc()) numbers.push_back(value);
-    at = error == std::errc() ? next : at + 1;
+  while (!line.empty()) {
+    if (const auto value = take_plain_number(line))
+      numbers.push_back(*value);
+    else
+      line.remove_prefix(1);
   }
 }
 

@@ -7,15 +7,15 @@
 
 #include "base/hundredths.hpp"
 #include "diagnose/advise/advise.hpp"
+#include "math/golden_section.hpp"
 #include "math/statistics.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis::diagnose_detail {
 namespace {
 
-constexpr std::size_t thinned_to = 600;   // readings of what was measured
-constexpr double most_readings = 2000.0;  // of a plan, thinned likewise
-constexpr double golden = 0.6180339887498949;
+constexpr std::size_t thinned_to = 600;        // readings of what was measured
+constexpr double most_readings = 2000.0;       // of a plan, thinned likewise
 constexpr double second_speed = 151.0 / 60.0;  // no simple ratio: no order meets a line
 constexpr double least_per_turn = 8.3;         // readings that a faster turn must still have
 constexpr double jog_mm = 0.1, reindex_rad = 70.0 * rad_per_deg, less_force = 0.5;
@@ -64,8 +64,7 @@ void append(ProbeStream& stream, const Motion& motion, double readings, int pass
   const double c0 = stream.c_rad.empty() ? 0.0 : stream.c_rad.back() + motion.turned;
   for (std::size_t k = 0; k < count; ++k) {
     // A golden sequence, sorted within its own cell: dense, and no order an alias of another.
-    const double jitter = std::fmod(golden * static_cast<double>(k), 1.0);
-    const double part = (static_cast<double>(k) + jitter) / static_cast<double>(count);
+    const double part = (static_cast<double>(k) + golden_share(k)) / static_cast<double>(count);
     stream.reading_mm.push_back(0.0);
     stream.c_rad.push_back(c0 + two_pi * motion.turns * part);
     stream.position_mm.push_back(motion.z_from + (motion.z_to - motion.z_from) * part);
@@ -86,10 +85,10 @@ ProbeStream thinned(const ProbeStream& stream, const LinearisationPoint& point) 
     const std::size_t count = std::min(size, share);
     std::size_t last = point.size();
     for (std::size_t k = 0; k < count; ++k) {
-      const double jitter = std::fmod(golden * static_cast<double>(k), 1.0);
-      const auto i = std::min(size - 1, static_cast<std::size_t>((static_cast<double>(k) + jitter) *
-                                                                 static_cast<double>(size) /
-                                                                 static_cast<double>(count)));
+      const auto i =
+          std::min(size - 1, static_cast<std::size_t>((static_cast<double>(k) + golden_share(k)) *
+                                                      static_cast<double>(size) /
+                                                      static_cast<double>(count)));
       if (pass.begin + i == last) continue;
       last = pass.begin + i;
       out.reading_mm.push_back(0.0);

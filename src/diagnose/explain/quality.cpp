@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "base/counted.hpp"
 #include "diagnose/search/causes.hpp"
 #include "fit/uncertainty.hpp"
@@ -89,9 +90,8 @@ std::optional<double> repeated_sigma(const LinearisationPoint& point, const Obse
         continue;
       bool same = true;
       for (std::size_t k = 0; k < p.end - p.begin && same; ++k) {
-        same =
-            std::abs(std::remainder(point.c[p.begin + k] - point.c[q.begin + k], two_pi)) < 0.01 &&
-            std::abs(point.z[p.begin + k] - point.z[q.begin + k]) < 0.01;
+        same = apart_rad(point.c[p.begin + k], point.c[q.begin + k]) < 0.01 &&
+               std::abs(point.z[p.begin + k] - point.z[q.begin + k]) < 0.01;
       }
       if (!same) continue;
       for (std::size_t k = 0; k < p.end - p.begin; ++k) {
@@ -226,7 +226,7 @@ QualityCheck stated_noise(const NoiseReport& noise, double redundancy) {
   const double stated = *noise.stated_mm, shown = noise.sigma_mm;
   const bool found = noise_disagrees(stated, shown, redundancy);
   std::string text = fmt::format("stated {:.3g} µm, from {} {:.3g} µm", stated / mm_per_um,
-                                 noise.source, shown / mm_per_um);
+                                 to_string(noise.source), shown / mm_per_um);
   if (found) {
     text += shown > stated
                 ? fmt::format(
@@ -261,19 +261,19 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
       std::max(1.0, static_cast<double>(joint.equations.count() - joint.solution.rank));
   const double residual = joint.sigma_mm * std::sqrt(gain_of(out.autoregression));
   out.sigma_mm = residual;
-  out.source = "residuals of the extended model";
+  out.source = NoiseSource::extended_model;
   double independent = freedom;
   if (out.stationary_mm) {
-    out.sigma_mm = *out.stationary_mm, out.source = "stationary capture";
+    out.sigma_mm = *out.stationary_mm, out.source = NoiseSource::stationary_capture;
     independent = 0.0;
     for (const Pass& pass : point.passes)
       if (pass.c_sign == 0 && pass.feed_sign == 0)
         independent += static_cast<double>(pass.end - pass.begin);
   } else if (out.repeated_mm) {
-    out.sigma_mm = *out.repeated_mm, out.source = "repeated passes";
+    out.sigma_mm = *out.repeated_mm, out.source = NoiseSource::repeated_passes;
     independent *= 0.5;
   } else if (out.revolutions_mm) {
-    out.sigma_mm = *out.revolutions_mm, out.source = "revolution differences";
+    out.sigma_mm = *out.revolutions_mm, out.source = NoiseSource::revolution_differences;
     independent *= 0.5;
   } else {
     out.note =
@@ -287,7 +287,7 @@ NoiseReport report_noise(const ProbeStream& stream, const Joint& joint,
     out.note = fmt::format(
         "the extended model leaves {:.3g} µm where the {} shows {:.3g} µm: something is left that "
         "no hypothesis has named",
-        residual / mm_per_um, out.source, out.sigma_mm / mm_per_um);
+        residual / mm_per_um, to_string(out.source), out.sigma_mm / mm_per_um);
   }
   find_gaps(point, mask, out);
   return out;

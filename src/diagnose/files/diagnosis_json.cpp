@@ -219,7 +219,7 @@ double neighbour_correlation(const std::vector<double>& autoregression) {
 
 Json noise_object(const NoiseReport& noise) {
   return {{"sigma", estimate_object({noise.sigma_mm, noise.u_sigma_mm, "mm", ""})},
-          {"source", noise.source},
+          {"source", to_string(noise.source)},
           {"note", noise.note},
           {"autocorrelation", number(neighbour_correlation(noise.autoregression))},
           {"autoregression", noise.autoregression},

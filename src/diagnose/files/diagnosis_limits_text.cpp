@@ -96,13 +96,14 @@ std::string not_observable_text(const Diagnosis& d) {
 
 std::string noise_text(const NoiseReport& noise) {
   std::string text = "\nNoise\n";
-  text += wrapped(
-      "  σ           ",
-      plus_minus({noise.sigma_mm, noise.u_sigma_mm, "mm", ""}, 2.0, 1.0 / mm_per_um, "µm") +
-          " (U, k = 2), from " + noise.source + source_line("stationary", noise.stationary_mm) +
-          source_line("repeated passes", noise.repeated_mm) +
-          source_line("revolution differences", noise.revolutions_mm) +
-          source_line("stated", noise.stated_mm));
+  text +=
+      wrapped("  σ           ",
+              plus_minus({noise.sigma_mm, noise.u_sigma_mm, "mm", ""}, 2.0, 1.0 / mm_per_um, "µm") +
+                  " (U, k = 2), from " + to_string(noise.source) +
+                  source_line("stationary", noise.stationary_mm) +
+                  source_line("repeated passes", noise.repeated_mm) +
+                  source_line("revolution differences", noise.revolutions_mm) +
+                  source_line("stated", noise.stated_mm));
   if (!noise.note.empty()) text += wrapped("  note        ", noise.note);
   if (!noise.autoregression.empty()) {
     text +=

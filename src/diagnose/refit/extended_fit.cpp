@@ -144,7 +144,7 @@ FitResult extended_fit(CleanedFit cleaned, const LinearisationPoint& point,
   }
   result.sigma_mm = base.sigma_mm;
   result.u_factor = 1.0;
-  if (base.whitened) result.sigma_source = "residuals, whitened";
+  if (base.whitened) result.sigma_source = SigmaSource::whitened_residuals;
   return result;
 }
 

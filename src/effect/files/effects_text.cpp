@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.hpp"
 #include "effect/files/effects_files.hpp"
 #include "format/units.hpp"
 #include "trueaxis/effect.hpp"
@@ -153,9 +154,7 @@ void section(std::string& out, const Effect& e) {
   }
   row(out, "signature", cell(e.signature));
   row(out, "consequence", cell(e.consequence));
-  std::string others;
-  for (const std::string_view id : e.confounders) others += (others.empty() ? "" : ", ") + link(id);
-  row(out, "confused with", others);
+  row(out, "confused with", word_list(e.confounders, ", ", link));
   row(out, "absorbed by", cell(e.absorbed_by));
   std::string apart;
   for (const Separation& s : e.separations)

@@ -163,7 +163,7 @@ Json fit_object(const FitResult& result) {
   json["input"] = input_object(result);
   json["surface"] = to_string(result.surface);
   json["feature"] = result.bore ? "bore" : "shaft";
-  json["criterion"] = result.criterion;
+  json["criterion"] = "probe";
   json["loss"] = to_string(result.loss);
   json["status"] = to_string(result.status);
   json["message"] = result.message;
@@ -179,7 +179,7 @@ Json fit_object(const FitResult& result) {
   if (result.set_ups.size() > 1) json["set_ups"] = set_ups(result);
   json["rms"] = with_unit(result.rms_mm, "mm");
   json["noise"] = {{"sigma", with_unit(result.sigma_mm, "mm")},
-                   {"source", result.sigma_source},
+                   {"source", to_string(result.sigma_source)},
                    {"autocorrelation", number(result.autocorrelation)},
                    {"u_factor", number(result.u_factor)}};
   json["points"] = result.points;
@@ -229,7 +229,9 @@ FitResult fit_from_object(const Json& json) {
   fit.rms_mm = value(json, "rms");
   const Json& noise = json.at("noise");
   fit.sigma_mm = number_from(noise.at("sigma").at("value"));
-  fit.sigma_source = noise.at("source");
+  for (const SigmaSource source : {SigmaSource::residuals, SigmaSource::robust_residuals,
+                                   SigmaSource::whitened_residuals, SigmaSource::sensor})
+    if (noise.at("source") == to_string(source)) fit.sigma_source = source;
   fit.autocorrelation = number_from(noise.at("autocorrelation"));
   fit.u_factor = number_from(noise.at("u_factor"));
   fit.points = json.at("points");

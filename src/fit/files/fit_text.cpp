@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/number.hpp"
 #include "fit/files/fit_files.hpp"
 #include "trueaxis/units.hpp"
 
@@ -22,7 +23,7 @@ std::string ends(const Estimate& e, double U) {
   if (!e.interval) return "";
   const auto [low, high] = *e.interval;
   const int decimals = decimals_of(U, 0);
-  const double last_digit = std::pow(10.0, std::floor(std::log10(U)) - 1.0);
+  const double last_digit = digit_worth(U, 2);
   if (std::abs((high - e.value) - (e.value - low)) <= last_digit) return "";
   return fmt::format(" (from {:.{}f} to {:.{}f})", low, decimals, high, decimals);
 }
@@ -77,7 +78,7 @@ std::string fit_text(const FitResult& result) {
     for (const SetUpFit& one : result.set_ups) append_set_up(text, one, result.coverage_factor);
   }
   append(text, "  RMS {:.4g} µm, σ {:.4g} µm (from {})\n", result.rms_mm / mm_per_um,
-         result.sigma_mm / mm_per_um, result.sigma_source);
+         result.sigma_mm / mm_per_um, to_string(result.sigma_source));
   for (const std::string& note : result.input_notes) text += "  input: " + note + "\n";
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";
   for (std::size_t i = 0; i < result.rejected.size() && i < 10; ++i) {

@@ -59,14 +59,13 @@ EarlierRun take_away_earlier(Outputs& outputs, const Job& job,
 
 }  // namespace
 
-void name_job_files(Outputs& outputs, const Job& job, const std::string& folder) {
-  outputs.reads(job.path);
-  for (const JobReference& reference : job.references) outputs.reads(reference.stream);
-  for (const ControlTable& output : job.outputs)
-    if (!output.template_path.empty()) outputs.reads(output.template_path);
+void name_job_files(Outputs& outputs, const JobFile& file, const std::string& folder) {
+  outputs.reads(file.path);
+  for (const StreamFile& stream : file.streams) outputs.reads(stream.path);
+  for (const std::string& one : file.templates) outputs.reads(one);
   outputs.into(folder);
-  for (const ResultName& file : job_file_names(job))
-    outputs.may_write_in_folder(file.name, file.schema);
+  for (const ResultName& result : job_file_names(file.job))
+    outputs.may_write_in_folder(result.name, result.schema);
   outputs.may_write_in_folder("report.html", "trueaxis.report");
 }
 

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "format/outputs.hpp"
+#include "job/files/job_file.hpp"
 #include "job/files/job_results.hpp"
 
 namespace trueaxis {
 
 /// All that a run of the job reads and may write, into a folder.
-void name_job_files(Outputs& outputs, const Job& job, const std::string& folder);
+void name_job_files(Outputs& outputs, const JobFile& file, const std::string& folder);
 
 /// What is said of the files of an earlier job.
 struct EarlierRun {

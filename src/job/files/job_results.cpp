@@ -43,9 +43,9 @@ Json verdict_object(const JobResult& result) {
       {"go", v.go()},
       {"decision", to_string(v.decision)},
       {"line", verdict_line(result)},
-      {"reasons", reasons_array(v.reasons, result.job)},
-      {"reservations", sentences_of(v.reservations, result.job)},
-      {"reserved", reasons_array(v.reservations, result.job)},
+      {"reasons", reasons_array(v.reasons, result)},
+      {"reservations", sentences_of(v.reservations, result)},
+      {"reserved", reasons_array(v.reservations, result)},
       {"file", v.file},
       {"files", cut_files_array(v)},
       {"coaxiality_before", with_unit(v.coaxiality_before_mm, "mm")},
@@ -53,8 +53,8 @@ Json verdict_object(const JobResult& result) {
       {"coaxiality_at_least", with_unit(v.lower_mm, "mm")},
       {"coaxiality_at_most", with_unit(v.upper_mm, "mm")},
       {"risk", nonconformity_risk},
-      {"what_would_prove", words_of(v.what_would_prove(), "; ", result.job)},
-      {"moved", words_of(v.moved, "; ", result.job)},
+      {"what_would_prove", words_of(v.what_would_prove(), "; ", result)},
+      {"moved", words_of(v.moved, "; ", result)},
       {"coverage_factor", v.coverage_factor}};
   if (!result.correction)  // nothing is cut: no number, not a 0
     for (const char* of_cut :
@@ -110,7 +110,7 @@ Json agreement_object(const JobResult& result) {
     pairs.push_back(std::move(pair));
   }
   return {{"disagreements", pairs},
-          {"reason", result.agreement.reason ? words_of(*result.agreement.reason, result.job) : ""},
+          {"reason", result.agreement.reason ? words_of(*result.agreement.reason, result) : ""},
           {"odds", number(result.agreement.odds)}};
 }
 
@@ -345,7 +345,7 @@ std::string job_text(const JobResult& result) {
   if (result.datum) text += "datum       " + result.datum->name + ": " + datum_words(result) + "\n";
   if (!result.job.target && result.fits.size() > 1) text += seats_apart_screen(result);
   for (const Disagreement& d : result.agreement.disagreements)
-    text += "references  " + words_of(how_apart(d), result.job) + "\n";
+    text += "references  " + words_of(how_apart(d), result) + "\n";
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion      " + inclusion_text(inclusion);
   if (result.correction) {

@@ -10,9 +10,6 @@
 
 namespace trueaxis {
 
-/// All streams of a job. @throws InputError with the diagnostics of all of them at once.
-std::vector<ProbeStream> read_streams(const Job& job);
-
 /// A file of a folder of results.
 struct ResultFile {
   std::string name, text;

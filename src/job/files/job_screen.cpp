@@ -81,7 +81,7 @@ std::string datum_screen(const JobResult& result) {
 /// The measurement that the diagnoses ask for, the most telling of them.
 std::string next_screen(const JobResult& result) {
   if (const Reasons would = result.verdict.what_would_prove(); !would.empty())
-    return "next   " + words_of(would, "; ", result.job) + "\n";
+    return "next   " + words_of(would, "; ", result) + "\n";
   const NextMeasurement* best = nullptr;
   for (const auto& diagnosis : result.diagnoses) {
     if (!diagnosis || diagnosis->next.plan.empty() || diagnosis->findings.empty()) continue;
@@ -101,12 +101,12 @@ std::string next_screen(const JobResult& result) {
 std::string job_screen(const JobResult& result) {
   std::string text = verdict_line(result) + "\n";
   for (const Reason& reservation : result.verdict.reservations)
-    text += "but    " + words_of(reservation, result.job) + "\n";
+    text += "but    " + words_of(reservation, result) + "\n";
   for (std::size_t i = 0; i < result.fits.size(); ++i) text += reference_screen(result, i);
   const std::string apart = result.job.target ? "" : seats_apart_screen(result);
   text += apart;
   for (const Disagreement& d : result.agreement.disagreements)
-    if (apart.empty()) text += "apart  " + words_of(how_apart(d), result.job) + "\n";
+    if (apart.empty()) text += "apart  " + words_of(how_apart(d), result) + "\n";
   text += datum_screen(result);
   for (const Inclusion& inclusion : result.inclusions)
     text += "motion " + inclusion_text(inclusion);

@@ -45,9 +45,32 @@ Sensor read_sensor(TomlTable table) {
   return sensor;
 }
 
-JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor) {
+/// What the file of the readings does not say of them.
+void read_stream_keys(TomlTable& table, StreamFile& file) {
+  file.said.read.diameter_said_by = SaidBy::job;
+  if (table.has("x_convention")) {
+    file.said.read.diameter =
+        table.choice<bool>("x_convention", {{"radius", false}, {"diameter", true}}, false);
+  }
+  if (table.has("reading")) {
+    file.said.read.indication = table.choice<Indication>(
+        "reading", {{"absolute", Indication::absolute}, {"relative", Indication::relative}},
+        Indication::absolute);
+  }
+  file.said.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
+  file.said.columns = table.text("columns", "");
+  file.said.skip = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
+  file.said.read.drop_invalid = table.flag("drop_invalid", false);
+  file.z.from_mm = table.maybe_number("z_from_mm").value_or(file.z.from_mm);
+  file.z.to_mm = table.maybe_number("z_to_mm").value_or(file.z.to_mm);
+  if (!(file.z.from_mm < file.z.to_mm))
+    table.complain("z_to_mm", "is not above z_from_mm: give the lower end of Z first");
+}
+
+JobReference read_reference(TomlTable table, const Sensor& sensor, double coverage_factor,
+                            StreamFile& file) {
   JobReference reference;
-  reference.stream = table.required_path("stream");
+  file.path = table.required_path("stream");
   const std::string surface = table.required_text("surface");
   reference.name = table.text("name", surface);
   try {
@@ -59,24 +82,7 @@ JobReference read_reference(TomlTable table, const Sensor& sensor, double covera
       "loss", {{"plain", Loss::plain}, {"huber", Loss::huber}, {"tukey", Loss::tukey}},
       Loss::plain);
   reference.fit.bore = table.choice<bool>("feature", {{"shaft", false}, {"bore", true}}, false);
-  if (table.has("x_convention")) {
-    reference.read.diameter =
-        table.choice<bool>("x_convention", {{"radius", false}, {"diameter", true}}, false);
-  }
-  if (table.has("reading")) {
-    reference.read.indication = table.choice<Indication>(
-        "reading", {{"absolute", Indication::absolute}, {"relative", Indication::relative}},
-        Indication::absolute);
-  }
-  reference.read.nominal_radius_mm = table.maybe_number("nominal_radius_mm", Range::positive());
-  reference.read.columns = table.text("columns", "");
-  reference.read.skip_lines = static_cast<std::size_t>(table.integer("skip_lines", 0, 0, 1000000));
-  reference.read.drop_invalid = table.flag("drop_invalid", false);
-  reference.read.z_from_mm = table.maybe_number("z_from_mm");
-  reference.read.z_to_mm = table.maybe_number("z_to_mm");
-  if (reference.read.z_from_mm && reference.read.z_to_mm &&
-      !(*reference.read.z_from_mm < *reference.read.z_to_mm))
-    table.complain("z_to_mm", "is not above z_from_mm: give the lower end of Z first");
+  read_stream_keys(table, file);
   reference.weight = table.number("weight", 1.0, Range::positive());
   reference.face_radius_mm = table.number("face_radius_mm", 0.0, Range::non_negative());
   reference.form = read_form_task(table, reference.fit.surface);
@@ -238,9 +244,10 @@ void read_correction(TomlTable table, Job& job) {
 }
 
 /// Every `[[output]]`, held against the cut that it is of and the names beside it.
-void read_outputs(TomlTable root, Job& job) {
+void read_outputs(TomlTable root, JobFile& file) {
+  Job& job = file.job;
   for (TomlTable table : root.tables("output")) {
-    ControlTable output = read_output(table);
+    ControlTable output = read_output(table, file.templates);
     if (!std::isnan(output.position_step_mm)) {  // else it is said already
       const std::string why = objection_to(output, *job.target, job.tool);
       if (!why.empty()) table.complain("format", why);
@@ -254,7 +261,8 @@ void read_outputs(TomlTable root, Job& job) {
   }
 }
 
-void read_cut(TomlTable root, Job& job, bool required) {
+void read_cut(TomlTable root, JobFile& file, bool required) {
+  Job& job = file.job;
   auto target =
       required ? std::optional(root.required_table("target")) : root.maybe_table("target");
   if (target) {
@@ -266,7 +274,7 @@ void read_cut(TomlTable root, Job& job, bool required) {
     check_nose(cut, *job.target, job.tool);
     if (auto actuator = root.maybe_table("actuator")) job.actuator = read_actuator(*actuator);
     if (auto correction = root.maybe_table("correction")) read_correction(*correction, job);
-    read_outputs(root, job);
+    read_outputs(root, file);
   } else {
     for (TomlTable table : root.tables("output")) {
       table.complain("format", "is of no use without a [target]: add it, or remove this table");
@@ -283,26 +291,26 @@ void read_cut(TomlTable root, Job& job, bool required) {
 
 }  // namespace
 
-Job read_job_toml(const std::string& path) { return read_job_toml(read_file(path), path); }
+JobFile read_job_toml(const std::string& path) { return read_job_toml(read_file(path), path); }
 
-Job read_job_toml(std::string_view content, const std::string& path) {
+JobFile read_job_toml(std::string_view content, const std::string& path) {
   TomlDocument document(content, path);
   TomlTable root = document.root();
-  Job job;
-  job.path = path;
+  JobFile file{path};
+  Job& job = file.job;
   job.name = root.text("name", path);
   job.header = read_header(root);
   const double coverage = root.number("coverage_factor", 2.0, most_coverage);
   Sensor sensor;
   if (auto table = root.maybe_table("sensor")) sensor = read_sensor(*table);
-  for (TomlTable table : root.tables("reference"))
-    job.references.push_back(read_reference(table, sensor, coverage));
+  for (const TomlTable& table : root.tables("reference"))
+    job.references.push_back(read_reference(table, sensor, coverage, file.streams.emplace_back()));
   if (!root.has("reference"))
     root.complain("reference",
                   "is missing: add a [[reference]] with stream and surface, or, for a machine of "
                   "several axes, a [machine]");
   check_runout_datums(root, job);
-  read_cut(root, job, false);
+  read_cut(root, file, false);
   for (const JobReference& reference : job.references) {
     if (!is_diagnosed(reference.fit.surface))
       root.complain("reference", "reference '" + reference.name + "' is a " +
@@ -316,20 +324,19 @@ Job read_job_toml(std::string_view content, const std::string& path) {
     }
   }
   document.finish();
-  return job;
+  return file;
 }
 
 Job read_target_toml(const std::string& path) {
   TomlDocument document(path);
-  Job job;
-  job.path = path;
+  JobFile file{path};
   TomlTable root = document.root();
   // A whole job will do: what it says beyond the cut is not asked for here.
   for (const char* key : {"name", "coverage_factor", "sensor", "reference", "header"})
     root.has(key);
-  read_cut(root, job, true);
+  read_cut(root, file, true);
   document.finish();
-  return job;
+  return file.job;
 }
 
 }  // namespace trueaxis

@@ -4,15 +4,15 @@
 #include <string>
 #include <string_view>
 
-#include "trueaxis/job.hpp"
+#include "job/files/job_file.hpp"
 
 namespace trueaxis {
 
 /// Reads a job (TOML, keys with their unit as suffix; docs/files.md lists them).
 /// @throws InputError with every diagnostic: unknown keys, wrong types, values out of range.
-Job read_job_toml(const std::string& path);
+JobFile read_job_toml(const std::string& path);
 /// The same of `content`; `path` names it and places relative file names.
-Job read_job_toml(std::string_view content, const std::string& path);
+JobFile read_job_toml(std::string_view content, const std::string& path);
 
 /// Target, tool and actuator alone ("--target" of `correct`): the same keys as in a job; the other
 /// tables of a job may be there and are not read.

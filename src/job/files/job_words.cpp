@@ -12,10 +12,13 @@
 namespace trueaxis {
 namespace {
 
-std::vector<SpokenReference> spoken(const Job& job) {
+std::vector<SpokenReference> spoken(const IdentifiedJob& job) {
   std::vector<SpokenReference> out;
-  for (const JobReference& one : job.references)
-    out.push_back({one.name, std::filesystem::path(one.stream).filename().string()});
+  for (std::size_t i = 0; i < job.job.references.size(); ++i)
+    out.push_back({job.job.references[i].name,
+                   i < job.streams.size()
+                       ? std::filesystem::path(job.streams[i].source).filename().string()
+                       : ""});
   return out;
 }
 
@@ -52,34 +55,36 @@ bool is_face(const IdentifiedJob& job, const std::string& name) {
 
 }  // namespace
 
-std::string words_of(const Reason& reason, const Job& job) { return words_of(reason, spoken(job)); }
+std::string words_of(const Reason& reason, const IdentifiedJob& job) {
+  return words_of(reason, spoken(job));
+}
 
-std::string words_of(const Reasons& reasons, std::string_view between, const Job& job) {
+std::string words_of(const Reasons& reasons, std::string_view between, const IdentifiedJob& job) {
   return words_of(reasons, between, spoken(job));
 }
 
-Json reasons_array(const Reasons& reasons, const Job& job) {
+Json reasons_array(const Reasons& reasons, const IdentifiedJob& job) {
   return reasons_array(reasons, spoken(job));
 }
 
-std::vector<std::string> sentences_of(const Reasons& reasons, const Job& job) {
+std::vector<std::string> sentences_of(const Reasons& reasons, const IdentifiedJob& job) {
   std::vector<std::string> out;
   for (const Reason& one : reasons) out.push_back(words_of(one, job));
   return out;
 }
 
-std::string decision_line(Decision decision, const Reasons& reasons, const Job& job) {
+std::string decision_line(Decision decision, const Reasons& reasons, const IdentifiedJob& job) {
   return head_of(decision) + words_of(reasons, "; ", job);
 }
 
 std::string verdict_line_alone(const JobResult& result) {
-  return decision_line(result.verdict.decision, result.verdict.reasons, result.job);
+  return decision_line(result.verdict.decision, result.verdict.reasons, result);
 }
 
 std::string verdict_line(const JobResult& result) {
   std::string line = verdict_line_alone(result);
   for (const Reason& one : result.verdict.reservations)
-    if (is_on_the_line(one, result.verdict)) line += "; " + words_of(one, result.job);
+    if (is_on_the_line(one, result.verdict)) line += "; " + words_of(one, result);
   return line;
 }
 
@@ -111,7 +116,7 @@ std::string datum_words(const IdentifiedJob& job) {
 void word_unknown_axes(JobResult& result) {
   for (std::size_t i = 0; i < result.axis_unknown.size(); ++i) {
     if (!result.axis_unknown[i]) continue;
-    const std::string words = words_of(*result.axis_unknown[i], result.job);
+    const std::string words = words_of(*result.axis_unknown[i], result);
     withhold_axis(result.fits[i], words);
     withhold_axis(*result.diagnoses[i], words);
   }

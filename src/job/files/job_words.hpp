@@ -10,14 +10,14 @@
 
 namespace trueaxis {
 
-std::string words_of(const Reason& reason, const Job& job);
-std::string words_of(const Reasons& reasons, std::string_view between, const Job& job);
-Json reasons_array(const Reasons& reasons, const Job& job);
+std::string words_of(const Reason& reason, const IdentifiedJob& job);
+std::string words_of(const Reasons& reasons, std::string_view between, const IdentifiedJob& job);
+Json reasons_array(const Reasons& reasons, const IdentifiedJob& job);
 /// A sentence each.
-std::vector<std::string> sentences_of(const Reasons& reasons, const Job& job);
+std::vector<std::string> sentences_of(const Reasons& reasons, const IdentifiedJob& job);
 
 /// "GO with reservations: " and the reasons.
-std::string decision_line(Decision decision, const Reasons& reasons, const Job& job = {});
+std::string decision_line(Decision decision, const Reasons& reasons, const IdentifiedJob& job = {});
 
 /// The first line of a result: decision, reasons, and what a reader of it must know as well.
 std::string verdict_line(const JobResult& result);

@@ -20,14 +20,14 @@ const char* usual_name(ControlFormat format) {
 }
 
 /// What the shop has before and behind the blocks: a template with a line `( CUTTING BLOCK )`.
-void read_template(TomlTable& table, ControlTable& out) {
+void read_template(TomlTable& table, ControlTable& out, std::vector<std::string>& templates) {
   const auto path = table.maybe_path("template");
   if (!path) {
     out.head = "G90\n";
     out.tail = "M30\n";
     return;
   }
-  out.template_path = *path;
+  templates.push_back(*path);
   constexpr std::string_view place = "( CUTTING BLOCK )";
   std::string text;
   try {
@@ -46,7 +46,7 @@ void read_template(TomlTable& table, ControlTable& out) {
 
 }  // namespace
 
-ControlTable read_output(TomlTable table) {
+ControlTable read_output(TomlTable table, std::vector<std::string>& templates) {
   ControlTable out;
   out.format = table.required_choice<ControlFormat>(
       "format", {{"grid", ControlFormat::grid},
@@ -70,7 +70,7 @@ ControlTable read_output(TomlTable table) {
     out.x_is_diameter = table.required_choice<bool>("x", {{"radius", false}, {"diameter", true}});
     out.minutes = table.required_choice<bool>(
         "f", {{"blocks_per_minute", false}, {"minutes_per_block", true}});
-    read_template(table, out);
+    read_template(table, out, templates);
   }
   if (out.format == ControlFormat::beckhoff_crosscomp2) {
     const auto axis = [&](const char* key) {

@@ -8,6 +8,7 @@ namespace trueaxis {
 
 /// One `[[output]]` of a job: a file for a control. What a control leaves open (radius or diameter,
 /// what F means, numbers of axes) has no default.
-ControlTable read_output(TomlTable table);
+/// @param templates is given the file that it is made by
+ControlTable read_output(TomlTable table, std::vector<std::string>& templates);
 
 }  // namespace trueaxis

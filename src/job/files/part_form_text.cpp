@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/hundredths.hpp"
+#include "base/text.hpp"
 #include "form/files/form_text.hpp"
 #include "format/text_layout.hpp"
 #include "job/files/part_form_files.hpp"
@@ -36,7 +37,7 @@ std::string values_text(const FormResult& form) {
   for (const auto& [name, reference] : shown)
     if (const FormValue* one = worst_value(form, name, reference); one && counts(form, name))
       words.push_back(fmt::format("{} {}", name, value_text(*one, form.options.coverage_factor)));
-  return fmt::format("{}", fmt::join(words, ", "));
+  return word_list(words);
 }
 
 /// Of the first that is there: "RONt 7.3 ± 2.9 µm".

@@ -26,16 +26,14 @@ bool is_job(const std::string& path) {
   return false;
 }
 
-Job job_of_stream(const std::string& path, StreamReading read, FitOptions fit) {
-  Job job;
-  job.path = path;
-  job.name = std::filesystem::path(path).stem().string();
-  JobReference& reference = job.references.emplace_back();
+JobFile job_of_stream(StreamFile stream, FitOptions fit) {
+  JobFile file{stream.path};
+  file.job.name = std::filesystem::path(stream.path).stem().string();
+  JobReference& reference = file.job.references.emplace_back();
   reference.name = to_string(fit.surface);
-  reference.stream = path;
-  reference.read = std::move(read);
   reference.fit = std::move(fit);
-  return job;
+  file.streams.push_back(std::move(stream));
+  return file;
 }
 
 void expect_one_surface(const ProbeStream& stream, SurfaceKind surface, RangesAs ranges) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "job/evidence.hpp"
-#include "trueaxis/job.hpp"
+#include "job/files/job_file.hpp"
 
 namespace trueaxis {
 
@@ -13,7 +13,7 @@ namespace trueaxis {
 bool is_job(const std::string& path);
 
 /// The job of one stream that nothing else is said of.
-Job job_of_stream(const std::string& path, StreamReading read, FitOptions fit);
+JobFile job_of_stream(StreamFile stream, FitOptions fit);
 
 /// How a user says a stretch of Z.
 enum class RangesAs {

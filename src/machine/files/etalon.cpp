@@ -26,7 +26,7 @@ class EtalonReader {
 
   void line(std::string_view text, std::size_t number) {
     number_ = number;
-    text = csv_trimmed(text.substr(0, text.find("//")));
+    text = trimmed(text.substr(0, text.find("//")));
     if (text.empty()) return;
     if (in_grid_)
       grid_row(text);
@@ -52,7 +52,7 @@ class EtalonReader {
 
   void heading(std::string_view text) {
     close_block();
-    const std::string name(csv_trimmed(text.substr(1, text.find(']') - 1)));
+    const std::string name(trimmed(text.substr(1, text.find(']') - 1)));
     const std::string trouble =
         text.ends_with(']') ? error_name_trouble(name, machine_) : "is not closed by ]";
     if (!trouble.empty()) complain("the block " + std::string(text) + ' ' + trouble);
@@ -64,9 +64,9 @@ class EtalonReader {
 
   void entry(std::string_view text) {
     const std::size_t equals = text.find('=');
-    const std::string_view key = csv_trimmed(text.substr(0, equals));
+    const std::string_view key = trimmed(text.substr(0, equals));
     const std::string_view value =
-        equals == std::string_view::npos ? "" : csv_trimmed(text.substr(equals + 1));
+        equals == std::string_view::npos ? "" : trimmed(text.substr(equals + 1));
     double constant = 0.0;
     if (!block_open_ || filled_) {
       complain("stands in no block, or a second time in one: begin one with [NAME]");
@@ -85,7 +85,7 @@ class EtalonReader {
 
   void grid_row(std::string_view text) {
     const bool last = text.ends_with('}');
-    if (last) text = csv_trimmed(text.substr(0, text.size() - 1));
+    if (last) text = trimmed(text.substr(0, text.size() - 1));
     const auto fields = fields_of(text);
     double at = 0.0, value = 0.0;
     if (!text.empty()) {

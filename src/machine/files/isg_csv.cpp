@@ -28,7 +28,7 @@ std::vector<Block> blocks_of(std::string_view content, const std::string& path,
   std::vector<Block> blocks(1);
   for_each_line(content, [&](std::string_view line, std::size_t number) {
     line = line.substr(0, line.find("//"));
-    if (csv_trimmed(line).empty()) return;
+    if (trimmed(line).empty()) return;
     const auto fields = fields_of(line);
     if (fields.front().starts_with('#')) {
       if (!blocks.back().header.empty()) blocks.emplace_back();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
@@ -28,22 +29,17 @@ void read_by_letter(TomlTable table, const Machine& machine, AxisValues& values)
 
 /// "X0 Y-20.5 C90": words as a program has them.
 std::string read_words(std::string_view text, const Machine& machine, AxisValues& values) {
-  for (std::size_t at = 0; at < text.size();) {
-    if (text[at] == ' ' || text[at] == '\t') {
-      ++at;
-      continue;
-    }
-    const auto axis = axis_of(text.substr(at, 1));
-    double value = 0.0;
-    std::errc wrong{};
-    const char* const begin = text.data() + at + 1;
-    const char* const end = read_number(begin, text.data() + text.size(), value, wrong);
-    if (!axis || machine.find(*axis) == nullptr || end == begin || wrong != std::errc{} ||
-        !std::isfinite(value))
+  const std::size_t all = text.size();
+  while (!text.empty()) {
+    if (take_word(text, " ") || take_word(text, "\t")) continue;
+    const std::size_t at = all - text.size();
+    const auto axis = axis_of(text.substr(0, 1));
+    text.remove_prefix(1);
+    const auto value = take_number<double>(text);
+    if (!axis || machine.find(*axis) == nullptr || !value || !std::isfinite(*value))
       return "is no list of words of this machine's axes, such as \"X0 Y0 Z100\" (character " +
              std::to_string(at + 1) + ')';
-    values[index_of(*axis)] = value * edge_unit(*axis);
-    at = static_cast<std::size_t>(end - text.data());
+    values[index_of(*axis)] = *value * edge_unit(*axis);
   }
   return "";
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/text.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "machine/files/toml_parts.hpp"
 
@@ -42,8 +43,7 @@ std::string offset_text(const Machine& machine, std::size_t i) {
   std::string zeros;
   for (const MachineAxis& axis : machine.axes)
     if (const double zero = offset.zero[index_of(axis.name)]; zero != 0.0)
-      zeros += format("{}{} = {}", zeros.empty() ? "" : ", ", letter_of(axis.name),
-                      at_edge(axis.name, zero));
+      add_to_list(zeros, format("{} = {}", letter_of(axis.name), at_edge(axis.name, zero)));
   return zeros.empty() ? text : text + "zero = {" + zeros + "}\n";
 }
 
@@ -53,8 +53,7 @@ std::string program_text(const Machine& machine) {
   std::string words;
   for (const MachineAxis& axis : machine.axes)
     if (const auto word = machine.start[index_of(axis.name)])
-      words += format("{}{} = {}", words.empty() ? "" : ", ", letter_of(axis.name),
-                      at_edge(axis.name, *word));
+      add_to_list(words, format("{} = {}", letter_of(axis.name), at_edge(axis.name, *word)));
   if (!words.empty()) text += "start = {" + words + "}\n";
   return text + format("\n[compensation]\nmax_rotary_change_deg = {}\n",
                        machine.max_rotary_change_rad / rad_per_deg);

@@ -21,7 +21,7 @@ NumberTable number_table(std::string_view content, const std::string& path,
   NumberTable table;
   for_each_line(content, [&](std::string_view line, std::size_t number) {
     line = line.substr(0, line.find('#'));
-    if (csv_trimmed(line).empty()) return;
+    if (trimmed(line).empty()) return;
     const auto fields = fields_of(line);
     if (table.header.empty()) {
       table.header.assign(fields.begin(), fields.end());

@@ -100,7 +100,7 @@ class LineReader {
       return false;
     }
     const std::string_view content = csv_without_comment(text);
-    if (csv_trimmed(content).empty()) {
+    if (trimmed(content).empty()) {
       if (rows_ && text.starts_with('#') && rows_->is_row_of_no_value(text)) {
         rows_->any_row(text, line_number_);
         return true;

@@ -99,7 +99,7 @@ std::string letters_of(std::string_view text) {
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0x80U) out += c;
-    if (byte < 0x80U && std::isalnum(byte) != 0) out += static_cast<char>(std::tolower(byte));
+    if (byte < 0x80U && std::isalnum(byte) != 0) out += lower_case(c);
   }
   return out;
 }
@@ -114,8 +114,8 @@ struct Word {
 std::vector<Word> words_of(std::string_view text) {
   constexpr std::string_view blanks = " \t\r,;", signs = ":=";
   std::vector<Word> words;
-  const std::size_t start = std::min(text.find_first_not_of(" \t\r"), text.size());
-  for (std::size_t at = start; at < text.size();) {
+  text = trimmed(text);
+  for (std::size_t at = 0; at < text.size();) {
     const bool sign = signs.find(text[at]) != std::string_view::npos;
     if (sign && !words.empty()) words.back().assigned = true;
     if (sign || blanks.find(text[at]) != std::string_view::npos) {
@@ -124,7 +124,7 @@ std::vector<Word> words_of(std::string_view text) {
     }
     const std::size_t end = std::min(text.find_first_of(" \t\r,;:=", at), text.size());
     std::string word = letters_of(text.substr(at, end - at));
-    if (!word.empty()) words.push_back({std::move(word), false, text.substr(start, end - start)});
+    if (!word.empty()) words.push_back({std::move(word), false, text.substr(0, end)});
     at = end;
   }
   return words;
@@ -221,7 +221,7 @@ std::string of_whole_file(std::span<const Word> words, std::string_view text) {
 
 std::string csv_comment_trouble(std::string_view bytes) {
   const std::string utf8 = csv_utf8(bytes);
-  const std::string_view text = csv_trimmed(utf8);
+  const std::string_view text = trimmed(utf8);
   if (text.starts_with('#')) return "";
   const std::vector<Word> words = words_of(text);
   if (words.empty()) return "";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "math/statistics.hpp"
 #include "measure/files/stream_csv_metadata.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
 #include "trueaxis/units.hpp"
@@ -101,10 +102,7 @@ void refuse_mistaken_unit(const CsvHeader& header, const ProbeStream& stream,
     if (turned_rad > 0.0 && passed_s > 0.0) speeds_rad_per_s.push_back(turned_rad / passed_s);
   }
   if (speeds_rad_per_s.empty()) return;
-  const auto usual =
-      speeds_rad_per_s.begin() + static_cast<std::ptrdiff_t>(speeds_rad_per_s.size() / 2);
-  std::ranges::nth_element(speeds_rad_per_s, usual);
-  const double rpm = *usual * 60.0 / two_pi;
+  const double rpm = median(std::move(speeds_rad_per_s)) * 60.0 / two_pi;
   const double said_rpm = std::abs(*stream.spindle_rpm);
   for (const auto& [factor, column, advice] : mistaken_units) {
     if (std::abs(rpm / said_rpm / factor - 1.0) > alike) continue;

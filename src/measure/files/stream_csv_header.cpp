@@ -2,9 +2,9 @@
 #include "measure/files/stream_csv_header.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace trueaxis {
 namespace {
@@ -28,11 +28,7 @@ constexpr KnownColumn known_columns[] = {
     {"setup", CsvRole::setup, UnitKind::count, ""},
 };
 
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::tolower(x) == std::tolower(y);
-  });
-}
+bool same_name(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }
 
 /// 2 of "X_M2"; 0 of any other name.
 std::size_t sensor_number(std::string_view name) {
@@ -55,7 +51,7 @@ class HeaderParser {
   void column(std::string_view field) {
     CsvColumn column;
     const std::size_t bracket = field.find('[');
-    const std::string_view name = csv_trimmed(field.substr(0, bracket));
+    const std::string_view name = trimmed(field.substr(0, bracket));
     column.character = csv_character(line_, field);
     const auto* known = std::ranges::find_if(known_columns, [&](const KnownColumn& candidate) {
       return same_name(candidate.name, name);
@@ -97,12 +93,12 @@ class HeaderParser {
       return add(column, "the unit of " + column.name + " has no closing bracket: write " +
                              column.name + "[unit]");
     }
-    text = csv_trimmed(text.substr(0, text.size() - 1));
+    text = trimmed(text.substr(0, text.size() - 1));
     const std::string_view whole = text;
     const auto drop_word = [&](std::string_view word) {
       if (text.size() <= word.size() || !text.ends_with(word)) return false;
       if (!csv_is_blank(text[text.size() - word.size() - 1])) return false;
-      text = csv_trimmed(text.substr(0, text.size() - word.size()));
+      text = trimmed(text.substr(0, text.size() - word.size()));
       return true;
     };
     if (column.name.starts_with('X')) column.diameter = drop_word("dia");
@@ -189,7 +185,7 @@ CsvHeader csv_parse_header(std::string_view line, std::size_t line_number,
                            CsvDiagnostics& diagnostics) {
   CsvHeader header;
   header.line = line_number;
-  header.separator = csv_separator(csv_trimmed(line));
+  header.separator = csv_separator(trimmed(line));
   const auto fields = csv_fields(line, header.separator);
   if (starts_number(fields.front())) {
     diagnostics.add(line_number, csv_character(line, fields.front()),

@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <span>
 
 #include "base/counted.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/shell.hpp"
 
 namespace trueaxis {
 
 bool csv_is_no_value(std::string_view field) {
-  std::string small;
-  for (const char c : field)
-    small += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::string small = lower_case(field);
   if (small.starts_with('-') || small.starts_with('+')) small.erase(0, 1);
   return small.starts_with("nan") || small.find('#') != std::string::npos ||
          small.find_first_of("0123456789") == std::string::npos;
@@ -40,9 +40,7 @@ std::string CsvInvalidRows::left_out(const std::function<std::size_t(std::size_t
   constexpr std::size_t most = 6;
   std::vector<std::size_t> lines = lines_;
   if (line_of) std::ranges::transform(lines, lines.begin(), line_of);
-  std::string what;
-  for (std::size_t i = 0; i < std::min(most, what_.size()); ++i)
-    what += (i == 0 ? "" : ", ") + what_[i];
+  const std::string what = word_list(std::span(what_).first(std::min(most, what_.size())));
   return fmt::format("{} left out (--drop-invalid), in line{} {}: {}{}",
                      counted(lines.size(), "row is", "rows are"), lines.size() == 1 ? "" : "s",
                      ranges_text(lines), what, what_.size() > most ? " …" : "");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <optional>
 #include <set>
 
@@ -24,12 +23,10 @@ struct SetupKey {
 };
 
 std::optional<SetupKey> parse_key(std::string_view key) {
-  SetupKey out;
-  const char *begin = key.data() + prefix.size(), *end = key.data() + key.size();
-  const auto [stop, error] = std::from_chars(begin, end, out.number);
-  if (error != std::errc{} || stop == end || *stop != '.') return {};
-  out.what = {stop + 1, static_cast<std::size_t>(end - stop - 1)};
-  return out;
+  key.remove_prefix(prefix.size());
+  const auto number = take_number<int>(key);
+  if (!number || !take_word(key, ".")) return {};
+  return SetupKey{*number, key};
 }
 
 /// The keys after the number, what may stand there, and where it goes.
@@ -50,13 +47,6 @@ constexpr Quantity quantities[] = {
     {"clamp_force_ratio", UnitKind::count, &SetUp::clamp_force_ratio, "",
      "the force over that of the first clamping, 0 or more and without unit, such as 0.6"},
 };
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return out;
-}
 
 /// Of an angle that was understood: whether it looks like one in another unit; empty: it does not.
 std::string unit_trouble(std::string_view value) {
@@ -159,12 +149,12 @@ bool csv_is_key(std::string_view key) {
 void CsvMetadataReader::comment(std::string_view line, std::size_t line_number) {
   const std::size_t hash = line.find('#');
   const std::size_t colon = std::min(line.find(':', hash + 1), line.size());
-  const std::string_view written = csv_trimmed(line.substr(hash + 1, colon - hash - 1));
+  const std::string_view written = trimmed(line.substr(hash + 1, colon - hash - 1));
   std::string key = lower_case(written);
   const bool is_known_key = colon < line.size() && is_known(key);
   if (!is_known_key && refuse_trouble(line, hash, line_number)) return;
   if (colon == line.size() || !csv_is_key(written)) return;
-  const std::string_view value = csv_trimmed(line.substr(colon + 1));
+  const std::string_view value = trimmed(line.substr(colon + 1));
   if (!is_known_key) key = written;
   const auto [entry, first] = metadata.emplace(key, csv_utf8(value));
   if (is_known_key) {
@@ -188,7 +178,7 @@ void CsvMetadataReader::comment_behind(std::string_view line, std::size_t hash,
                                        std::size_t line_number) {
   const std::string_view text = line.substr(hash + 1);
   const std::size_t colon = text.find(':');
-  const std::string_view written = csv_trimmed(text.substr(0, colon));
+  const std::string_view written = trimmed(text.substr(0, colon));
   if (colon == std::string_view::npos || !is_known(lower_case(written))) {
     refuse_trouble(line, hash, line_number);
   } else {
@@ -203,8 +193,8 @@ bool CsvMetadataReader::refuse_trouble(std::string_view line, std::size_t hash,
                                        std::size_t line_number) {
   std::string trouble = csv_comment_trouble(line.substr(hash + 1));
   if (trouble.empty()) return false;
-  const std::size_t text = line.find_first_not_of(" \t", hash + 1);
-  diagnostics_.add(line_number, csv_character(line, text), std::move(trouble));
+  diagnostics_.add(line_number, csv_character(line, trimmed(line.substr(hash + 1))),
+                   std::move(trouble));
   return true;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angle.hpp"
 #include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/units.hpp"
 #include "trueaxis/units.hpp"
@@ -15,8 +17,6 @@ namespace trueaxis {
 namespace {
 
 constexpr const char* wanted = "write the sensors' angles and one unit, such as 0, 99, 202 deg";
-
-double apart_rad(double a, double b) { return std::abs(std::remainder(a - b, two_pi)); }
 
 }  // namespace
 
@@ -43,18 +43,15 @@ std::string csv_sensor_angles_trouble(std::span<const double> angles_deg) {
 std::string csv_take_sensor_angles(std::string_view text, std::vector<double>& angles_rad) {
   angles_rad.clear();
   const std::string not_understood = csv_quoted(text) + " is not understood: " + wanted;
-  const char *at = text.data(), *end = at + text.size();
+  std::string_view name = text;
   for (;;) {
-    while (at < end && (csv_is_blank(*at) || *at == ',' || *at == ';')) ++at;
-    double value = 0.0;
-    std::errc error{};
-    const char* stop = read_number(at, end, value, error);
-    if (stop == at) break;
-    if (error != std::errc{} || !std::isfinite(value)) return not_understood;
-    angles_rad.push_back(value);
-    at = stop;
+    name.remove_prefix(std::min(name.find_first_not_of(" \t,;"), name.size()));
+    const auto value = take_number<double>(name);
+    if (!value) break;
+    if (!std::isfinite(*value)) return not_understood;
+    angles_rad.push_back(*value);
   }
-  const std::string_view name = csv_trimmed({at, static_cast<std::size_t>(end - at)});
+  name = trimmed(name);
   const auto unit = find_unit(UnitKind::angle, name);
   if (angles_rad.empty()) return not_understood;
   if (name.empty()) return csv_quoted(text) + " has no unit: " + wanted;
@@ -70,9 +67,7 @@ std::string csv_take_sensor_angles(std::string_view text, std::vector<double>& a
 }
 
 std::string csv_sensor_angles_text(std::span<const double> angles_rad) {
-  std::string out;
-  for (const double angle : angles_rad) out += (out.empty() ? "" : ", ") + exact_text(angle);
-  return out + " rad";
+  return word_list(angles_rad, ", ", exact_text) + " rad";
 }
 
 void csv_finish_sensors(const CsvHeader& header, const CsvKnownMetadata& known,

@@ -27,7 +27,7 @@ std::map<std::string, std::string> metadata_to_write(const ProbeStream& stream) 
   CsvMetadataReader said(unread);
   for (const auto& [key, value] : stream.metadata) {
     expects(csv_is_key(key), "metadata keys of one word");
-    expects(value.find('\n') == std::string::npos && csv_trimmed(value) == value,
+    expects(value.find('\n') == std::string::npos && trimmed(value) == value,
             "metadata values of one line without outer blanks");
     said.comment(metadata_line(key, value), 1);
   }

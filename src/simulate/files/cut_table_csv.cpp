@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/file.hpp"
 #include "trueaxis/error.hpp"
@@ -27,17 +28,17 @@ struct Row {
 
 Row parse_row(std::string_view line) {
   Row row;
-  const char* at = line.data();
-  const char* const end = line.data() + line.size();
+  std::string_view left = line;
   for (std::size_t i = 0; i < row.values.size(); ++i) {
-    const auto [stop, error] = std::from_chars(at, end, row.values[i]);
+    const std::size_t at = line.size() - left.size();
+    const auto value = take_number<double>(left);
     const bool last = i + 1 == row.values.size();
-    const bool closed = last ? stop == end : stop != end && *stop == ',';
-    if (error != std::errc{} || !closed || !std::isfinite(row.values[i])) {
-      row.wrong_column = static_cast<std::size_t>(at - line.data()) + 1;
+    const bool closed = last ? left.empty() : take_word(left, ",");
+    if (!value || !closed || !std::isfinite(*value)) {
+      row.wrong_column = at + 1;
       return row;
     }
-    at = last ? end : stop + 1;
+    row.values[i] = *value;
   }
   return row;
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulate/files/scenario_toml.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "base/text.hpp"
 #include "format/file.hpp"
 #include "simulate/noise.hpp"
 
@@ -151,10 +150,8 @@ std::optional<Effect> read_effect(TomlTable table) {
   const auto kinds = effect_kinds();
   const auto kind = std::ranges::find(kinds, effect.id, &EffectKind::id);
   if (kind == kinds.end()) {
-    std::vector<std::string_view> known;
-    for (const EffectKind& candidate : kinds) known.push_back(candidate.id);
     if (!effect.id.empty())
-      table.complain("id", fmt::format("is not known; known ids: {}", fmt::join(known, ", ")));
+      table.complain("id", "is not known; known ids: " + word_list(kinds, ", ", &EffectKind::id));
     table.ignore_rest();
     return std::nullopt;
   }

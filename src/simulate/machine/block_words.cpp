@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/number.hpp"
+#include "base/text.hpp"
 
 namespace trueaxis::virtual_machine {
 namespace {
@@ -18,8 +19,7 @@ std::string carried_out(const std::string& line) {
   for (const char c : line) {
     if (c == ';' && !comment) break;
     if (c == '(') comment = true;
-    if (!comment && std::isspace(static_cast<unsigned char>(c)) == 0)
-      out += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (!comment && std::isspace(static_cast<unsigned char>(c)) == 0) out += upper_case(c);
     if (c == ')') comment = false;
   }
   if (out.starts_with("\xEF\xBB\xBF")) out.erase(0, 3);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/number.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 
@@ -83,7 +84,7 @@ class PolarPlot {
   /// 1, 2 or 5 times a power of ten.
   static double step_for(double largest_mm) {
     if (!(largest_mm > 0.0)) return mm_per_um;
-    const double power = std::pow(10.0, std::floor(std::log10(largest_mm)));
+    const double power = digit_worth(largest_mm, 1);
     for (const double factor : {1.0, 2.0, 5.0})
       if (factor * power >= largest_mm) return factor * power;
     return 10.0 * power;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/number.hpp"
 #include "simulate/clean_stream.hpp"
 #include "study/bound/bound.hpp"
 #include "study/bound/quantities.hpp"
@@ -159,7 +160,7 @@ PlannedMeasurement smallest_u(const PlanningTask& task, const PlanSearch& search
         for (const auto& pass : slow.plan.passes) pauses += pass.pause_s;
         const double room = *task.time_s - pauses;
         const double exact = feed->low * (measuring_time_s(slow) - pauses) / room;
-        const double step = std::pow(10.0, std::floor(std::log10(exact)) - 2.0);
+        const double step = digit_worth(exact, 3);
         const double wanted = std::ceil(exact / step - 1e-9) * step;  // three digits, and in time
         set_parameter(slow, info_of(Choice::feed).path,
                       room > 0.0 ? std::clamp(wanted, feed->low, feed->high) : feed->high);

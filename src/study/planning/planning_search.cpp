@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/number.hpp"
 #include "study/sweep/block.hpp"
 #include "study/sweep/scenario_parameters.hpp"
 
@@ -46,7 +47,7 @@ double settable(const DesignVariable& variable, double value) {
     if (std::fmod(tenths, 10.0) == 0.0) tenths += 1.0;
     return std::clamp(tenths / 10.0, variable.low, variable.high);
   }
-  const double step = std::pow(10.0, std::floor(std::log10(value)) - 2.0);
+  const double step = digit_worth(value, 3);
   const double steps = info_of(variable.choice).more_is_better ? std::ceil(value / step - 1e-9)
                                                                : std::floor(value / step + 1e-9);
   return std::clamp(steps * step, variable.low, variable.high);

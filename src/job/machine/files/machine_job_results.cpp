@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "job/machine/files/machine_job_results.hpp"
 
-#include <cctype>
 #include <filesystem>
 
+#include "base/text.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "compensate/files/compensation_json.hpp"
 #include "compensate/files/compensation_text.hpp"
@@ -77,7 +77,7 @@ std::string machine_verdict_line(const MachineJobVerdict& verdict) {
 std::string machine_next_words(const MachineJobVerdict& verdict) {
   std::string text = words_of(verdict.next, "; ");
   if (text.empty()) return text;
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  text[0] = upper_case(text[0]);
   return text.ends_with('.') ? text : text + '.';
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/diagnostics.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
@@ -95,12 +96,9 @@ void read_part(TomlTable table, MachineJob& job) {
 /// What `read` gives; what is wrong goes to the other diagnostics of the job.
 template <class Read>
 auto collected(TomlDocument& document, const Read& read) -> std::optional<decltype(read())> {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics()) document.add(one);
-    return std::nullopt;
-  }
+  std::optional<decltype(read())> out;
+  gather(document, [&] { out = read(); });
+  return out;
 }
 
 void read_data(TomlDocument& document, const Said& said, MachineJob& job) {

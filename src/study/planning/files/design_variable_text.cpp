@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <charconv>
 #include <cmath>
 
+#include "base/number.hpp"
+#include "base/text.hpp"
 #include "format/units.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
@@ -10,11 +11,11 @@ namespace trueaxis {
 namespace {
 
 double number_of(std::string_view text, std::string_view whole) {
-  double value = 0.0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc() || end.ptr != text.data() + text.size())
+  std::string_view left = text;
+  const auto value = take_number<double>(left);
+  if (!value || !left.empty())
     throw InputError(std::string(whole), "\"" + std::string(text) + "\" is no number");
-  return value;
+  return *value;
 }
 
 void check_range(double low, double high, std::string_view whole) {
@@ -42,7 +43,7 @@ study::DesignVariable parse_design_variable(std::string_view text) {
         return {choice, low * spelling.factor, high * spelling.factor};
       }
       if (spelling.key == key_spellings(study::info_of(choice).path).front().key)
-        known += (known.empty() ? "" : ", ") + std::string(shorter);
+        add_to_list(known, shorter);
     }
   }
   throw InputError(std::string(text),

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study/sweep/files/sweep_keys.hpp"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "format/nearest_key.hpp"
 #include "format/units.hpp"
 
@@ -63,12 +64,10 @@ std::vector<const SweepKeys::Variant*> SweepKeys::that_matter_for(const std::str
 /// The keys of the same table, as "noise.sigma_mm, noise.rho"; empty where there is no such table.
 static std::string keys_beside(const std::string& key, const std::vector<std::string>& usual) {
   const std::string table = key.substr(0, key.rfind('.') + 1);
-  std::vector<std::string> out;
-  for (const std::string& one : usual) {
-    const bool beside = one.substr(0, one.rfind('.') + 1) == table;
-    if (beside && !table.empty()) out.push_back(one);
-  }
-  return fmt::format("{}", fmt::join(out, ", "));
+  std::string out;
+  for (const std::string& one : usual)
+    if (!table.empty() && one.substr(0, one.rfind('.') + 1) == table) add_to_list(out, one);
+  return out;
 }
 
 std::optional<KnownKey> SweepKeys::find(TomlTable& table, std::string_view at,

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/diagnostics.hpp"
 #include "format/file.hpp"
 #include "simulate/files/scenario_toml.hpp"
 #include "study/sweep/files/sweep_axes.hpp"
@@ -75,13 +76,8 @@ std::string read_base(TomlDocument& document, TomlTable root, study::Sweep& swee
     root.complain("scenario", std::string("cannot be used: ") + error.what());
     return {};
   }
-  try {
-    sweep.base = parse_scenario_toml(content, path);
-    return content;
-  } catch (const InputError& error) {
-    for (const Diagnostic& diagnostic : error.diagnostics()) document.add(diagnostic);
-  }
-  return {};
+  const bool good = gather(document, [&] { sweep.base = parse_scenario_toml(content, path); });
+  return good ? content : std::string();
 }
 
 /// The table of every repeat is that of its own fit, and the cut lies beside the surface probed.

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/seats.hpp"
+#include "recording/import.hpp"
+#include "trueaxis/job.hpp"
+
+namespace trueaxis {
+
+/// Where readings are, and what the job or the command says of them that their file does not.
+struct StreamFile {
+  std::string path;
+  RecordingOptions said{};
+  ZRange z{};  ///< readings at other Z are passed over
+};
+
+/// A job as it is written down: what run_job() is given, and the files behind it.
+struct JobFile {
+  std::string path;
+  Job job{};
+  std::vector<StreamFile> streams{};     ///< one per reference
+  std::vector<std::string> templates{};  ///< that the files for controls are made by
+};
+
+/// @throws InputError as read_recording() does
+ProbeStream read_stream(const StreamFile& file);
+
+/// All streams of a job. @throws InputError with the diagnostics of all of them at once.
+std::vector<ProbeStream> read_streams(const JobFile& file);
+
+}  // namespace trueaxis
