@@ -33,8 +33,9 @@ struct CompensateArguments {
   bool verbose = false, check = false;
 };
 
-std::vector<CompensationInput> inputs_of(const CompensateArguments& options, const std::string& program,
-                                         const MachineFile& machine, const ErrorsOfFiles& errors) {
+std::vector<CompensationInput> inputs_of(const CompensateArguments& options,
+                                         const std::string& program, const MachineFile& machine,
+                                         const ErrorsOfFiles& errors) {
   std::vector<CompensationInput> inputs{{options.program, content_hash(program)},
                                         {options.machine.machine, machine.hash}};
   for (std::size_t i = 0; i < errors.hashes.size(); ++i)
