@@ -2,9 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "fixture/files/setup_output.hpp"
 

@@ -71,25 +71,25 @@ std::vector<std::size_t> drawn_tips(const std::vector<ProgramTip>& tips) {
 }
 
 Json tips_data(const std::vector<ProgramTip>& tips) {
-  Json data{{"count", tips.size()}};
   const std::vector<std::size_t> drawn = drawn_tips(tips);
-  data["thinned"] = drawn.size() < tips.size();
-  for (const char* key : {"line", "before_um", "after_um", "u_um"}) data[key] = Json::array();
-  for (const char* key : {"tip_mm", "by_before_um", "by_after_um"})
-    data[key] = Json::array({Json::array(), Json::array(), Json::array()});
-  for (const std::size_t i : drawn) {
-    const ProgramTip& tip = tips[i];
-    data["line"].push_back(tip.line);
-    data["before_um"].push_back(um(norm(tip.before_mm)));
-    data["after_um"].push_back(um(norm(tip.after_mm)));
-    data["u_um"].push_back(um(tip.u_mm));
-    for (std::size_t k = 0; k < 3; ++k) {
-      data["tip_mm"][k].push_back(rounded(tip.tip_mm[k], 3));
-      data["by_before_um"][k].push_back(um(tip.before_mm[k]));
-      data["by_after_um"][k].push_back(um(tip.after_mm[k]));
-    }
-  }
-  return data;
+  const auto column = [&](const auto& of) {
+    return list_of(drawn, [&](std::size_t i) { return of(tips[i]); });
+  };
+  const auto by_axis = [&](const auto& of) {
+    return list_of_first(3, [&](std::size_t k) {
+      return column([&](const ProgramTip& tip) { return of(tip, k); });
+    });
+  };
+  using Tip = const ProgramTip&;
+  return {{"count", tips.size()},
+          {"thinned", drawn.size() < tips.size()},
+          {"line", column([](Tip tip) { return tip.line; })},
+          {"before_um", column([](Tip tip) { return um(norm(tip.before_mm)); })},
+          {"after_um", column([](Tip tip) { return um(norm(tip.after_mm)); })},
+          {"u_um", column([](Tip tip) { return um(tip.u_mm); })},
+          {"tip_mm", by_axis([](Tip tip, std::size_t k) { return rounded(tip.tip_mm[k], 3); })},
+          {"by_before_um", by_axis([](Tip tip, std::size_t k) { return um(tip.before_mm[k]); })},
+          {"by_after_um", by_axis([](Tip tip, std::size_t k) { return um(tip.after_mm[k]); })}};
 }
 
 double edge_of(AxisName axis, double position) {
@@ -106,32 +106,24 @@ Json axis_data(AxisName axis, const std::vector<double>& middles) {
 }
 
 Json maps_data(const MachineJobResult& result) {
-  Json list = Json::array();
-  for (const ErrorMap& map : result.maps) {
-    Json at = Json::array(), before = Json::array(), after = Json::array();
+  return list_of(result.maps, [&](const ErrorMap& map) -> Json {
+    Json at = Json::array();
     for (const MachineAxis& axis : result.job.machine.axes)
       if (axis.name != map.across && axis.name != map.up)
         at.push_back({{"name", std::string(1, letter_of(axis.name))},
                       {"unit", is_rotary(axis.name) ? "°" : "mm"},
                       {"value", edge_of(axis.name, map.at[index_of(axis.name)])}});
-    for (const double value : map.before_mm) before.push_back(um(value));
-    for (const double value : map.after_mm) after.push_back(um(value));
-    list.push_back({{"across", axis_data(map.across, map.across_positions)},
-                    {"up", axis_data(map.up, map.up_positions)},
-                    {"at", std::move(at)},
-                    {"before_um", std::move(before)},
-                    {"after_um", std::move(after)}});
-  }
-  return list;
+    return {{"across", axis_data(map.across, map.across_positions)},
+            {"up", axis_data(map.up, map.up_positions)},
+            {"at", std::move(at)},
+            {"before_um", list_of(map.before_mm, um)},
+            {"after_um", list_of(map.after_mm, um)}};
+  });
 }
 
 Json part_data(const PartDisplacement& part) {
-  Json shift = Json::array(), turn = Json::array();
-  for (std::size_t k = 0; k < 3; ++k) {
-    shift.push_back(um(part.shift_mm[k]));
-    turn.push_back(rounded(1e6 * part.turn_rad[k], 2));
-  }
-  return {{"shift_um", std::move(shift)}, {"turn_urad", std::move(turn)}};
+  const auto urad = [](double turn_rad) { return rounded(1e6 * turn_rad, 2); };
+  return {{"shift_um", list_of(part.shift_mm, um)}, {"turn_urad", list_of(part.turn_rad, urad)}};
 }
 
 std::string title_of(const MachineJob& job) { return job.name.empty() ? job.path : job.name; }
@@ -147,13 +139,12 @@ Json machine_report_data(const MachineJobResult& result) {
       {"file", result.job.path},
       {"machine", result.job.machine.name},
       {"chain", result.job.machine.chain},
-      {"header", Json::array()},
+      {"header", result.job.header},
       {"verdict", verdict_data(result)},
       {"inputs", run.at("inputs")},
       {"ranges", run.at("ranges")},
       {"maps", maps_data(result)},
       {"diagnosis", Json::parse(machine_diagnosis_json(result.diagnosis, result.job.machine))}};
-  for (const auto& [label, text] : result.job.header) data["header"].push_back({label, text});
   if (!result.tips.empty()) data["tips"] = tips_data(result.tips);
   if (result.part) data["part"] = part_data(*result.part);
   if (result.compensation) {

@@ -8,13 +8,6 @@
 namespace trueaxis {
 namespace {
 
-template <class T, class Write>
-Json list_of(const std::vector<T>& items, const Write& write) {
-  Json list = Json::array();
-  for (const T& item : items) list.push_back(write(item));
-  return list;
-}
-
 Json rival_json(const Rival& rival) {
   return {{"effect", rival.effect},
           {"distance", number(rival.distance)},

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "format/json.hpp"
 #include "trueaxis/fit.hpp"
@@ -15,6 +16,10 @@ std::string fit_json(const FitResult& result);
 
 /// The same as an object, for results that hold one.
 Json fit_object(const FitResult& result);
+
+/// {"row", "why"} of each reading that does not count, and read back.
+Json rejected_json(const std::vector<Rejected>& rows);
+std::vector<Rejected> rejected_from(const Json& json);
 
 /// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
 /// derived quantities or covariance of the parameters; of each set-up the axis. One that did not

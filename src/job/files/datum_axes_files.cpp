@@ -26,8 +26,7 @@ Json end_object(const DatumAxis& one, double z_mm, double off_mm) {
 }  // namespace
 
 Json datum_axes_array(const std::vector<DatumAxis>& axes, const FitResult& used) {
-  Json list = Json::array();
-  for (const DatumAxis& one : axes) {
+  return list_of(axes, [&](const DatumAxis& one) {
     Json json{{"association", name_of(one.criterion)}, {"of_iso_5459", one.of_iso_5459}};
     if (!one.why.empty()) {
       json["why"] = one.why;
@@ -37,9 +36,8 @@ Json datum_axes_array(const std::vector<DatumAxis>& axes, const FitResult& used)
       json["u"] = nullptr;
       json["why_no_u"] = why_no_u;
     }
-    list.push_back(std::move(json));
-  }
-  return list;
+    return json;
+  });
 }
 
 std::string datum_axes_text(const std::vector<DatumAxis>& axes, const FitResult& used) {

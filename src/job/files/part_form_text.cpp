@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "base/hundredths.hpp"
 #include "form/files/form_text.hpp"
 #include "format/text_layout.hpp"

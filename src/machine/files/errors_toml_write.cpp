@@ -2,9 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "machine/files/covariance_toml.hpp"
 #include "machine/files/error_sizes.hpp"
 #include "machine/files/errors_toml.hpp"

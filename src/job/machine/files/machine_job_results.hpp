@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "format/json.hpp"
 #include "trueaxis/machine_job.hpp"
