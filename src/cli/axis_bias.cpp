@@ -70,10 +70,8 @@ void add_axis_bias(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   command->add_option("scenario", options->scenario,
                       "part and plan (TOML); default: those of the catalogue's figures");
-  command
-      ->add_option("-o,--output", options->folder,
-                   "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be")
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(),
+             "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be");
   add_force(*command, options->force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });

@@ -115,17 +115,6 @@ int execute(const Options& options) {
   return run_lathe(read_job_toml(content, path), options, false);
 }
 
-/// What is said of a stream beside a job would be passed over in silence.
-void expect_no_stream_options(const CLI::App& command) {
-  constexpr std::string_view fine[] = {"--help",    "--output", "--force",
-                                       "--verbose", "--check",  "stream"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
-    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
-  }
-}
-
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
@@ -137,17 +126,17 @@ void add_run(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
   options->stream.add_range_to(*command);
   options->surface = options->association.add_to(*command);
-  command
-      ->add_option("-o,--output", options->folder,
-                   "folder for table.csv or the new program, result.json and report.html, made if "
-                   "need be")
-      ->required()
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(),
+             "folder for table.csv or the new program, result.json and report.html, made if "
+             "need be")
+      ->required();
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([=, &exit_code] {
-    if (is_job(options->stream.path)) expect_no_stream_options(*command);
+    if (is_job(options->stream.path))
+      expect_only(*command, {"stream", "--output", "--force", "--verbose", "--check"},
+                  "is of a stream alone: write it into the job");
     exit_code = execute(*options);
   });
 }
