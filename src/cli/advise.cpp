@@ -6,15 +6,13 @@
 #include <optional>
 #include <utility>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
-#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -25,7 +23,7 @@
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
-#include "job/machine/files/machine_job_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 

@@ -2,14 +2,13 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "studies/axis_bias/axis_bias_cases.hpp"
 #include "studies/axis_bias/axis_bias_json.hpp"
 #include "studies/axis_bias/axis_bias_text.hpp"

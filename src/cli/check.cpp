@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/check.hpp"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "cli/guarded.hpp"
-#include "cli/screen.hpp"
+#include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "trueaxis/error.hpp"
 

@@ -4,7 +4,6 @@
 #include <optional>
 #include <utility>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"

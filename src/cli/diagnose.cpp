@@ -5,24 +5,21 @@
 #include <optional>
 
 #include "base/counted.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
-#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/outputs.hpp"
 #include "format/reason_words.hpp"
 #include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
-#include "job/files/part_form_files.hpp"
 #include "job/files/stream_job.hpp"
-#include "report/stream_report.hpp"
+#include "report/report.hpp"
 #include "trueaxis/diagnosis.hpp"
 
 namespace trueaxis::cli {

@@ -9,10 +9,7 @@
 #include "cli/results.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_json.hpp"
-#include "machine/files/errors_toml.hpp"
-#include "machine/files/etalon.hpp"
-#include "machine/files/isg_csv.hpp"
+#include "machine/files/errors_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {

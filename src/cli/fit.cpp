@@ -6,24 +6,21 @@
 #include <optional>
 
 #include "base/counted.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/fit_criterion.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/results.hpp"
-#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "fit/files/fit_files.hpp"
-#include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
 #include "format/reason_words.hpp"
 #include "format/shell.hpp"
 #include "job/doubts.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/stream_job.hpp"
-#include "report/stream_report.hpp"
+#include "report/report.hpp"
 
 namespace trueaxis::cli {
 namespace {

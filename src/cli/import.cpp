@@ -14,7 +14,7 @@
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "format/text_layout.hpp"
-#include "job/files/job_stub.hpp"
+#include "job/files/starter.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "trueaxis/error.hpp"
 

@@ -4,15 +4,14 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
 #include "cli/results.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

@@ -7,22 +7,18 @@
 #include <string_view>
 #include <utility>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/run_machine.hpp"
-#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "job/files/earlier_run.hpp"
 #include "job/files/job_results.hpp"
-#include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
-#include "job/machine/files/machine_job_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
 

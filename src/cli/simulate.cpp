@@ -4,18 +4,15 @@
 #include <memory>
 #include <optional>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/simulate_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
-#include "simulate/files/cut_table_csv.hpp"
-#include "simulate/files/scenario_toml.hpp"
-#include "simulate/files/truth_json.hpp"
-#include "simulate/machine/files/scenario_machine.hpp"
+#include "simulate/files/scenario_files.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

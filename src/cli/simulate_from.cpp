@@ -2,18 +2,17 @@
 #include <iostream>
 #include <optional>
 
-#include "cli/check.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
 #include "cli/simulate_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_write.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "resimulate/files/comparison.hpp"
-#include "simulate/files/truth_json.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
 
-#include "cli/check.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "cli/simulate_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "simulate/machine/files/cut_output.hpp"
-#include "simulate/machine/files/measurement_csv.hpp"
-#include "simulate/machine/files/measurement_toml.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis::cli {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/number.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -16,11 +15,7 @@
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
-#include "spindle/files/polar_svg.hpp"
-#include "spindle/files/spindle_json.hpp"
-#include "spindle/files/spindle_page.hpp"
-#include "spindle/files/spindle_text.hpp"
-#include "spindle/files/spindle_toml.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {

@@ -9,7 +9,6 @@
 #include <variant>
 
 #include "fit/moved.hpp"
-#include "job/ends_of_stream.hpp"
 #include "job/slip.hpp"
 #include "measure/angles_alike.hpp"
 #include "measure/passes.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/proof.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "job/conclude.hpp"
 #include "job/doubts.hpp"
 #include "job/references.hpp"
 #include "job/target_datum.hpp"

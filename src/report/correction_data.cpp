@@ -4,7 +4,6 @@
 #include "job/files/job_results.hpp"
 #include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

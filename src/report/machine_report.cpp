@@ -8,9 +8,10 @@
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "job/files/job_words.hpp"
-#include "job/machine/files/machine_job_results.hpp"
+#include "job/machine/files/machine_job_files.hpp"
+#include "report/chart_readings.hpp"
 #include "report/page.hpp"
-#include "report/thinning.hpp"
+#include "report/page_data.hpp"
 
 namespace trueaxis {
 namespace {
@@ -21,24 +22,9 @@ double um(double length_mm) { return rounded(length_mm / mm_per_um, 3); }
 
 double norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
-const char* outcome(const MachineJobVerdict& verdict) {
-  switch (verdict.decision) {
-    case Decision::go:
-      return "go";
-    case Decision::go_with_reservations:
-      return "reserved";
-    case Decision::not_proven:
-      return "not-proven";
-    case Decision::no_go:
-      return "no-go";
-    default:
-      return "done";
-  }
-}
-
 Json verdict_data(const MachineJobResult& result) {
   const MachineJobVerdict& v = result.verdict;
-  Json data{{"outcome", outcome(v)},
+  Json data{{"outcome", outcome_of(v.decision, v.decision == Decision::go)},
             {"line", machine_verdict_line(v)},
             {"next", machine_next_words(v)},
             {"reservations", sentences_of(v.reservations, {})},

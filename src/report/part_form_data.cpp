@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "job/files/part_form_files.hpp"
+#include "job/files/job_results.hpp"
+#include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -9,10 +9,8 @@
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
-#include "job/files/datum_axes_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
-#include "job/files/seats_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 
@@ -25,16 +23,7 @@ std::string job_title(const Job& job) { return job.name.empty() ? job.path : job
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
-  switch (result.verdict.decision) {
-    case Decision::not_proven:
-      return "not-proven";
-    case Decision::go_with_reservations:
-      return "reserved";
-    case Decision::no_go:
-      return "no-go";
-    default:
-      return judged ? "go" : "done";
-  }
+  return outcome_of(result.verdict.decision, judged);
 }
 
 Json verdict_data(const JobResult& result) {
@@ -140,6 +129,19 @@ Json reference_data(const JobResult& result, std::size_t i) {
 }
 
 }  // namespace
+
+const char* outcome_of(Decision decision, bool judged) {
+  switch (decision) {
+    case Decision::not_proven:
+      return "not-proven";
+    case Decision::go_with_reservations:
+      return "reserved";
+    case Decision::no_go:
+      return "no-go";
+    default:
+      return judged ? "go" : "done";
+  }
+}
 
 Json fit_data(const FitResult& fit) {
   Json data = fit_object(fit);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/thinning.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "report/chart_readings.hpp"
 
 namespace trueaxis {
 namespace {

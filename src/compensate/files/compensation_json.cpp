@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compensate/files/compensation_json.hpp"
-
+#include "compensate/files/compensation_files.hpp"
 #include "format/json.hpp"
 
 namespace trueaxis {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/files/form_json.hpp"
-
 #include <fmt/format.h>
 
+#include "form/files/form_files.hpp"
 #include "format/json.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/datum_axes_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "form/files/form_json.hpp"
-#include "job/files/part_form_files.hpp"
+#include "form/files/form_files.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

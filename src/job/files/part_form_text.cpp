@@ -3,9 +3,9 @@
 #include <fmt/ranges.h>
 
 #include "base/hundredths.hpp"
-#include "form/files/form_text.hpp"
+#include "form/files/form_files.hpp"
 #include "format/text_layout.hpp"
-#include "job/files/part_form_files.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

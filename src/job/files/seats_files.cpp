@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/seats_files.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
 #include "base/hundredths.hpp"
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
+#include "job/files/job_results.hpp"
 #include "job/references.hpp"
 #include "job/seat_distance.hpp"
 #include "trueaxis/units.hpp"

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/files/scenario_toml.hpp"
-
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <numbers>
 
 #include "format/file.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "simulate/noise.hpp"
 
 namespace trueaxis {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/files/truth_json.hpp"
-
 #include <cmath>
 
 #include "format/json.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spindle/files/spindle_json.hpp"
-
 #include "format/json.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibrate/files/edge_json.hpp"
-#include "job/machine/files/harm_files.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 
 namespace trueaxis {
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/files/machine_job_results.hpp"
-
 #include <cctype>
 #include <filesystem>
 
 #include "calibrate/files/machine_diagnosis_files.hpp"
-#include "compensate/files/compensation_json.hpp"
-#include "compensate/files/compensation_text.hpp"
+#include "compensate/files/compensation_files.hpp"
 #include "format/text_layout.hpp"
 #include "format/toml_header.hpp"
 #include "job/files/job_words.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

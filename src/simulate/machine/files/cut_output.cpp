@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/cut_output.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "format/file.hpp"
 #include "format/json.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -52,4 +52,18 @@ std::vector<virtual_lathe::PlannedPass> read_passes(TomlTable table, bool face);
 std::vector<virtual_lathe::Chucking> read_setups(TomlTable table);
 std::vector<virtual_lathe::Effect> read_effects(TomlTable table);
 
+/// What the virtual lathe knows, schema "trueaxis.truth/1": part, effects, noise, seed, rows of
+/// outliers and clipped readings (0-based). Lengths in mm, angles in degrees, times in s, each
+/// value with its unit. `half_angle` is in (0, 90°); the place of k says which way the cone opens.
+std::string truth_json(const virtual_lathe::Truth& truth);
+
+/// Reads a correction table for the virtual cut: `#` lines, then a header
+/// `rev,Z[mm],C[deg],X_fts[mm],X_command[mm]` (face: `rev,X[mm],C[deg],Z_fts[mm],Z_command[mm]`)
+/// and rows. C may be wrapped to [0, 360) or running; it is unwrapped in the `sense` (±1) of the
+/// cut.
+/// @throws InputError with every diagnostic.
+virtual_lathe::CutTable read_cut_table(const std::string& path, int sense);
+virtual_lathe::CutTable parse_cut_table(std::string_view content, const std::string& path,
+                                        int sense);
+
 }  // namespace trueaxis
