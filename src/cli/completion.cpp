@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/described.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
 
 namespace trueaxis::cli {
 namespace {

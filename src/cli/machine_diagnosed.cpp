@@ -9,6 +9,7 @@
 #include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
 #include "cli/results.hpp"
 #include "cli/terminal.hpp"
 #include "format/file.hpp"
