@@ -7,14 +7,13 @@
 #include <utility>
 
 #include "base/diagnostics.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_diagnosed.hpp"
 #include "cli/options.hpp"
-#include "cli/screen.hpp"
+#include "cli/results.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
@@ -25,7 +24,7 @@
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
-#include "job/machine/files/machine_job_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
 
@@ -37,6 +36,7 @@ struct AdviseArguments {
   MachineDiagnosed machine;
   StreamOptions stream;
   AssociationOptions association;
+  Results results;
   double false_alarm = DiagnoseOptions{}.false_alarm;
   bool verbose = false, check = false;
 };
@@ -106,18 +106,14 @@ int advise_job(const AdviseArguments& options) {
 bool is_of_machine(const CLI::App& command, const AdviseArguments& options) {
   const bool machine = !options.machine.machine.machine.empty();
   if (!machine && options.data.empty()) throw CLI::RequiredError("stream");
-  if (!machine && options.data.size() > 1)
-    throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    constexpr std::array machines{"--errors", "--sign",   "--program",
-                                  "--json",   "--output", "--force"};
-    const bool of_machine = std::ranges::find(machines, name) != machines.end();
-    const bool of_both = name == "stream" || name == "--machine" || name == "--false-alarm" ||
-                         name == "--check" || name == "--verbose";
-    if (option->count() == 0 || of_both || of_machine == machine || name == "--help") continue;
-    throw CLI::ValidationError(name, machine ? "is of a stream: --machine has none"
-                                             : "is of a machine: name it with --machine");
+  if (machine) {
+    expect_only(command,
+                {"stream", "--machine", "--errors", "--sign", "--large-errors", "--program",
+                 "--json", "--output", "--force", "--false-alarm", "--check", "--verbose"},
+                "is of a stream: --machine has none");
+  } else {
+    expect_one_stream(command, options.data.size());
+    expect_none(command, {"--json", "--force"}, "is of a machine: name it with --machine");
   }
   return machine;
 }
@@ -135,29 +131,24 @@ void add_advise(CLI::App& app, int& exit_code) {
   options->stream.add_meaning_to(*command);
   options->stream.add_range_to(*command);
   options->machine.add_to(*command);
-  command
-      ->add_option("-o,--output", options->machine.plan_output,
-                   "with --machine: write the positions of the next measurement here (CSV), to be "
-                   "filled in; '-' prints them")
-      ->check(a_place());
-  command
-      ->add_option("--json", options->machine.json,
-                   "with --machine: write everything here (JSON), '-' prints it")
-      ->check(a_place());
-  add_force(*command, options->machine.force);
+  options->results.add(
+      *command, "-o,--output", "trueaxis.measurement_plan",
+      "with --machine: write the positions of the next measurement here (CSV), to be "
+      "filled in; '-' prints them");
+  options->results.add(*command, "--json", "trueaxis.machine_diagnosis",
+                       "with --machine: write everything here (JSON), '-' prints it");
+  add_force(*command, options->results.force);
   const CLI::Option* surface = options->association.add_to(*command);
   add_false_alarm(*command, options->false_alarm);
   add_verbose(*command, options->verbose)->description("of a machine: print everything");
   add_check(*command, options->check);
   command->callback([options, command, surface, &exit_code] {
     if (is_of_machine(*command, *options)) {
-      if (!options->machine.json.empty() && options->machine.json == options->machine.plan_output)
-        throw CLI::ValidationError("-o", "cannot go where --json goes");
       options->machine.data = options->data;
       options->machine.false_alarm = options->false_alarm;
       options->machine.verbose = options->verbose;
       options->machine.check = options->check;
-      exit_code = options->machine.advise();
+      exit_code = options->machine.advise(options->results);
       return;
     }
     options->stream.path = options->data.front();

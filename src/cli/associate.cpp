@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <iostream>
-#include <map>
 #include <memory>
 
 #include "associate/files/association_files.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "format/outputs.hpp"
 #include "format/text_layout.hpp"
 #include "interchange/number_file.hpp"
@@ -17,9 +17,8 @@ namespace {
 
 struct AssociateCommand {
   std::string path, element, criterion = "gaussian", material, unit, array;
-  std::string json, certificate, distances, qif, x3p;
+  Results results;
   int threads = 0;
-  bool force = false;
 };
 
 template <class Enum, std::size_t N>
@@ -31,13 +30,10 @@ Enum named(const std::array<const char*, N>& names, const std::string& name) {
 int execute(const AssociateCommand& options) {
   const auto element = named<Element>(element_names, options.element);
   const auto criterion = named<Criterion>(criterion_names, options.criterion);
-  Outputs outputs(options.force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.path);
-  outputs.may_write(options.json, "trueaxis.association");
-  outputs.may_write(options.certificate, "trueaxis.certificate");
-  outputs.may_write(options.distances, "trueaxis.distances");
-  outputs.may_write(options.qif, "trueaxis.qif");
-  outputs.may_write(options.x3p, "trueaxis.cloud");
+  results.name_to(outputs);
   outputs.check();
   const PointText points = read_points(options.path, options.unit, options.array);
   const AssociatedFeature result =
@@ -46,24 +42,22 @@ int execute(const AssociateCommand& options) {
                  .threads = options.threads});
   if (result.status == AssociationStatus::too_few || result.status == AssociationStatus::degenerate)
     throw InputError(options.path, result.why);
-  if (!options.json.empty()) outputs.write(options.json, association_json(result, points));
   const bool converged = result.status == AssociationStatus::converged;
-  if (converged && !options.certificate.empty())
-    outputs.write(options.certificate, association_certificate(result, points));
-  if (converged && !options.distances.empty())
-    outputs.write(options.distances, association_distances(result, points));
-  if (converged && !options.qif.empty())
-    outputs.write(options.qif, association_qif(result, points));
-  if (!options.x3p.empty())
-    outputs.write(options.x3p, x3p_of_points(metres_of(points), TRUEAXIS_VERSION));
+  results.write(outputs, "--json", [&] { return association_json(result, points); });
+  if (converged) {
+    results.write(outputs, "--certificate",
+                  [&] { return association_certificate(result, points); });
+    results.write(outputs, "--distances", [&] { return association_distances(result, points); });
+    results.write(outputs, "--qif", [&] { return association_qif(result, points); });
+  }
+  results.write(outputs, "--x3p",
+                [&] { return x3p_of_points(metres_of(points), TRUEAXIS_VERSION); });
   outputs.commit();
   if (!converged) {
     std::cerr << options.path << ": " << result.why << ".\n";
     return numerical;
   }
-  for (const std::string& place :
-       {options.json, options.certificate, options.distances, options.qif})
-    if (place == "-") return done;
+  if (results.printed()) return done;
   std::cout << association_text(result);
   for (const std::string& note : points.notes)
     std::cout << layout::wrapped("  note           ", note);
@@ -83,48 +77,33 @@ void add_associate(CLI::App& app, int& exit_code) {
           "points", options->path,
           "x y z a line (text), or an X3P, HDF5, MATLAB or NumPy file; '-' for standard input")
       ->required();
-  command
-      ->add_option("--element", options->element,
-                   "line, circle, plane, sphere, cylinder, cone or torus; with z = 0 throughout a "
-                   "line or circle is one of the plane")
-      ->required()
-      ->check(CLI::IsMember(std::vector<std::string>(element_names.begin(), element_names.end())));
-  command
-      ->add_option(
-          "--criterion", options->criterion,
-          "gaussian, minimum_zone, minimum_circumscribed, maximum_inscribed or constrained "
-          "(gaussian)")
-      ->check(
-          CLI::IsMember(std::vector<std::string>(criterion_names.begin(), criterion_names.end())));
-  command
-      ->add_option("--material", options->material,
-                   "of --criterion constrained: inside of the element (a shaft; of a plane or a "
-                   "line of the plane against its direction or to its right) or outside (a bore)")
-      ->check(CLI::IsMember(std::vector<std::string>{"inside", "outside"}));
-  command
-      ->add_option("--unit", options->unit,
-                   "of the coordinates: mm, um, m or in (mm; of a binary file what it says)")
-      ->check(CLI::IsMember(std::vector<std::string>{"mm", "um", "m", "in"}));
-  command->add_option("--array", options->array, array_help)->check(a_place());
-  command->add_option("--json", options->json, "write the result here, '-' prints it")
-      ->check(a_place());
-  command
-      ->add_option("--certificate", options->certificate,
-                   "write what proves it here, to be checked by hand, '-' prints it")
-      ->check(a_place());
-  command
-      ->add_option("--distances", options->distances,
-                   "write every point with its distance here (CSV), '-' prints them")
-      ->check(a_place());
-  command
-      ->add_option("--qif", options->qif,
-                   "write the element as a measured feature here (QIF 3.0, XML), '-' prints it")
-      ->check(a_place());
-  command->add_option("--x3p", options->x3p, "write the points here as X3P (ISO 25178-72)")
-      ->check(a_place());
-  command->add_option("--threads", options->threads, "threads (0: as many as there are)")
-      ->check(CLI::NonNegativeNumber);
-  add_force(*command, options->force);
+  add_option(*command, "--element", options->element,
+             one_of({element_names.begin(), element_names.end()}),
+             "line, circle, plane, sphere, cylinder, cone or torus; with z = 0 throughout a "
+             "line or circle is one of the plane")
+      ->required();
+  add_option(*command, "--criterion", options->criterion,
+             one_of({criterion_names.begin(), criterion_names.end()}),
+             "gaussian, minimum_zone, minimum_circumscribed, maximum_inscribed or constrained "
+             "(gaussian)");
+  add_option(*command, "--material", options->material, one_of({"inside", "outside"}),
+             "of --criterion constrained: inside of the element (a shaft; of a plane or a "
+             "line of the plane against its direction or to its right) or outside (a bore)");
+  add_option(*command, "--unit", options->unit, one_of({"mm", "um", "m", "in"}),
+             "of the coordinates: mm, um, m or in (mm; of a binary file what it says)");
+  add_option(*command, "--array", options->array, a_place(), array_help);
+  Results& results = options->results;
+  results.add(*command, "--json", "trueaxis.association", "write the result here, '-' prints it");
+  results.add(*command, "--certificate", "trueaxis.certificate",
+              "write what proves it here, to be checked by hand, '-' prints it");
+  results.add(*command, "--distances", "trueaxis.distances",
+              "write every point with its distance here (CSV), '-' prints them");
+  results.add(*command, "--qif", "trueaxis.qif",
+              "write the element as a measured feature here (QIF 3.0, XML), '-' prints it");
+  results.add(*command, "--x3p", "trueaxis.cloud", "write the points here as X3P (ISO 25178-72)");
+  add_option(*command, "--threads", options->threads, CLI::NonNegativeNumber,
+             "threads (0: as many as there are)");
+  add_force(*command, options->results.force);
   command->callback([options, &exit_code] {
     const std::string objection =
         association_objection(named<Element>(element_names, options->element),
@@ -134,12 +113,7 @@ void add_associate(CLI::App& app, int& exit_code) {
       throw CLI::ValidationError("--material", options->material.empty()
                                                    ? "say where the material is, inside or outside"
                                                    : "is for --criterion constrained");
-    expect_apart({{"--json", options->json},
-                  {"--certificate", options->certificate},
-                  {"--distances", options->distances},
-                  {"--qif", options->qif},
-                  {"--x3p", options->x3p}});
-    if (options->x3p == "-")
+    if (options->results["--x3p"] == "-")
       throw CLI::ValidationError("--x3p", "is a binary file: give it a name");
     exit_code = execute(*options);
   });

@@ -2,14 +2,13 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "studies/axis_bias/axis_bias_cases.hpp"
 #include "studies/axis_bias/axis_bias_json.hpp"
 #include "studies/axis_bias/axis_bias_text.hpp"
@@ -70,10 +69,8 @@ void add_axis_bias(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AxisBiasArguments>();
   command->add_option("scenario", options->scenario,
                       "part and plan (TOML); default: those of the catalogue's figures");
-  command
-      ->add_option("-o,--output", options->folder,
-                   "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be")
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(),
+             "folder for axis_bias.csv, axis_bias.json, axis_bias.md, made if need be");
   add_force(*command, options->force);
   add_check(*command, options->check);
   command->callback([options, &exit_code] { exit_code = execute(*options); });

@@ -7,17 +7,15 @@
 #include "calibrate/files/calibration_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
-#include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
-#include "cli/screen.hpp"
-#include "cli/waiting.hpp"
+#include "cli/results.hpp"
+#include "cli/terminal.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "trueaxis/calibration.hpp"
 #include "trueaxis/error.hpp"
 
@@ -27,17 +25,17 @@ namespace {
 struct CalibrateArguments {
   MachineOptions machine;
   std::vector<std::string> data;
-  std::string output, json;
-  bool force = false, verbose = false, check = false;
+  Results results;
+  bool verbose = false, check = false;
 };
 
 int execute(const CalibrateArguments& options) {
-  Outputs outputs(options.force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.data) outputs.reads(path);
   for (const std::string& path : options.machine.errors) outputs.reads(path);
-  outputs.may_write(options.output, "trueaxis.errors");
-  outputs.may_write(options.json, "trueaxis.calibration");
+  results.name_to(outputs);
   MachineFile file;
   CalibrationOptions calibration;
   ErrorsOfFiles given;
@@ -60,17 +58,16 @@ int execute(const CalibrateArguments& options) {
     std::cerr << options.data.front() << ": not converged: " << found.message << '\n';
     return numerical;
   }
-  outputs.write(options.output, errors_toml(found.errors, &file.machine));
-  if (!options.json.empty())
-    outputs.write(options.json, calibration_json(found, file.machine, given.remarks));
+  results.write(outputs, "--output", [&] { return errors_toml(found.errors, &file.machine); });
+  results.write(outputs, "--json",
+                [&] { return calibration_json(found, file.machine, given.remarks); });
   outputs.commit();
-  if (options.json == "-" || options.output == "-") return done;
+  if (results.printed()) return done;
   if (options.verbose)
     std::cout << calibration_text(found) << notes_screen(given.remarks);
   else
     print_screen(with_notes(calibration_screen(found), given.remarks));
-  std::cout << "errors " << options.output << '\n';
-  if (!options.json.empty()) std::cout << "result " << options.json << '\n';
+  std::cout << results.line("errors ", "--output") << results.line("result ", "--json");
   return done;
 }
 
@@ -86,21 +83,16 @@ void add_calibrate(CLI::App& app, int& exit_code) {
                    "measurements (CSV) of kinds ball, bar, array, axis: together they are one")
       ->required();
   options->machine.add_errors_to(*command);
-  command
-      ->add_option("-o,--output", options->output,
-                   "write the errors here (TOML): those given and those found")
-      ->required()
-      ->check(a_place());
-  command->add_option("--json", options->json, "write the result here, '-' prints it")
-      ->check(a_place());
-  add_force(*command, options->force);
+  Results& results = options->results;
+  results
+      .add(*command, "-o,--output", "trueaxis.errors",
+           "write the errors here (TOML): those given and those found")
+      ->required();
+  results.add(*command, "--json", "trueaxis.calibration", "write the result here, '-' prints it");
+  add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
-  command->callback([options, &exit_code] {
-    if (options->json == options->output)
-      throw CLI::ValidationError("--json", "cannot go where -o goes");
-    exit_code = execute(*options);
-  });
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 
 }  // namespace trueaxis::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/check.hpp"
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,7 @@
 #include "base/diagnostics.hpp"
 #include "base/text.hpp"
 #include "cli/guarded.hpp"
-#include "cli/screen.hpp"
+#include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "trueaxis/error.hpp"
 

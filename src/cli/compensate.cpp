@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "base/counted.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
-#include "cli/program_place.hpp"
-#include "cli/screen.hpp"
-#include "cli/waiting.hpp"
-#include "compensate/files/compensation_json.hpp"
-#include "compensate/files/compensation_screen.hpp"
-#include "compensate/files/compensation_text.hpp"
+#include "cli/results.hpp"
+#include "cli/terminal.hpp"
+#include "compensate/files/compensation_files.hpp"
 #include "compensate/program_axes.hpp"
 #include "format/file.hpp"
 #include "format/notes.hpp"
@@ -29,11 +25,12 @@ namespace trueaxis::cli {
 namespace {
 
 struct CompensateArguments {
-  std::string program, output, json, method = "exact", rotary = "moved";
+  std::string program, method = "exact", rotary = "moved";
   MachineOptions machine;
   std::optional<double> tolerance_um, arcs_mm;
   CompensationOptions compensation;
-  bool force = false, verbose = false, check = false;
+  Results results;
+  bool verbose = false, check = false;
 };
 
 std::vector<CompensationInput> inputs_of(const CompensateArguments& options,
@@ -47,19 +44,19 @@ std::vector<CompensationInput> inputs_of(const CompensateArguments& options,
 }
 
 int execute(const CompensateArguments& options) {
-  Outputs outputs(options.force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.program);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.machine.errors) outputs.reads(path);
-  outputs.may_write(options.output, "");
-  outputs.may_write(options.json, "trueaxis.compensation");
+  results.name_to(outputs);
   MachineFile machine;
   ErrorsOfFiles of_files;
   std::string text;
   all_of({[&] { outputs.check(); }, [&] { machine = options.machine.read_machine(); },
           [&] {
             text = read_file(options.program);
-            expect_no_other_program(options.output, text, options.force);
+            expect_no_other_program(results["--output"], text, results.force);
           }});
   if (options.check) {
     std::size_t moves = 0;
@@ -86,49 +83,39 @@ int execute(const CompensateArguments& options) {
   if (result.blocks_moved == 0)
     throw InputError(options.program,
                      "moves no axis of the machine: name the program that cuts the part");
-  if (!options.json.empty())
-    outputs.write(options.json, compensation_json(result, task, inputs, of_files.remarks));
+  results.write(outputs, "--json",
+                [&] { return compensation_json(result, task, inputs, of_files.remarks); });
   const bool worse = result.unreachable.empty() && result.comes_out_worse();
-  if (result.unreachable.empty() && !worse) outputs.open(options.output).write(result.text);
+  if (result.unreachable.empty() && !worse) outputs.open(results["--output"]).write(result.text);
   outputs.commit();
   if (!result.unreachable.empty()) throw Refusal(unreachable_text(result, options.program));
   if (worse) throw Refusal(options.program + ": " + worse_text(result, task));
-  if (options.json == "-" || is_standard_output(options.output)) return done;
+  if (results.printed()) return done;
   if (options.verbose)
     std::cout << compensation_text(result) << notes_screen(of_files.remarks);
   else
     print_screen(with_notes(compensation_screen(result, task), of_files.remarks));
-  std::cout << "program " << options.output << '\n';
-  if (!options.json.empty()) std::cout << "result  " << options.json << '\n';
+  std::cout << results.line("program ", "--output") << results.line("result  ", "--json");
   return done;
 }
 
 void add_accuracy(CLI::App& command, CompensateArguments& options) {
-  command.add_option("--method", options.method, "exact, or differential: Δq = -J⁻¹ L (exact)")
-      ->check(CLI::IsMember({"exact", "differential"}));
-  command
-      .add_option("--rotary", options.rotary,
-                  "rotary axes that a block may correct: moved (those that it moves), all (moved)")
-      ->check(CLI::IsMember({"moved", "all"}));
-  command
-      .add_option(
-          "--tolerance-um", options.tolerance_um,
-          "cut G1 blocks in pieces: how far the tip may be from the line between their ends")
-      ->check(number_in(0.0, true, 1e4, "a length above 0, up to 10000 um"));
-  command
-      .add_option("--arcs", options.arcs_mm,
-                  "replace G2 and G3 by chords: how far these may be from the arc, in mm")
-      ->check(number_in(0.0, true, 1.0, "a length above 0, up to 1 mm"));
-  command
-      .add_option("--decimals", options.compensation.decimals,
-                  "of changed X Y Z, where the program has not more; two more under G20 (4)")
-      ->check(CLI::Range(0, 15));
-  command
-      .add_option("--angle-decimals", options.compensation.angle_decimals,
-                  "of changed A B C, where the program has not more (5)")
-      ->check(CLI::Range(0, 15));
-  command.add_option("--threads", options.compensation.threads, "0: as many as there are (0)")
-      ->check(CLI::Range(0, 1024));
+  add_option(command, "--method", options.method, one_of({"exact", "differential"}),
+             "exact, or differential: Δq = -J⁻¹ L (exact)");
+  add_option(command, "--rotary", options.rotary, one_of({"moved", "all"}),
+             "rotary axes that a block may correct: moved (those that it moves), all (moved)");
+  add_option(command, "--tolerance-um", options.tolerance_um,
+             number_in(0.0, true, 1e4, "a length above 0, up to 10000 um"),
+             "cut G1 blocks in pieces: how far the tip may be from the line between their ends");
+  add_option(command, "--arcs", options.arcs_mm,
+             number_in(0.0, true, 1.0, "a length above 0, up to 1 mm"),
+             "replace G2 and G3 by chords: how far these may be from the arc, in mm");
+  add_option(command, "--decimals", options.compensation.decimals, CLI::Range(0, 15),
+             "of changed X Y Z, where the program has not more; two more under G20 (4)");
+  add_option(command, "--angle-decimals", options.compensation.angle_decimals, CLI::Range(0, 15),
+             "of changed A B C, where the program has not more (5)");
+  add_option(command, "--threads", options.compensation.threads, CLI::Range(0, 1024),
+             "0: as many as there are (0)");
 }
 
 }  // namespace
@@ -141,20 +128,15 @@ void add_compensate(CLI::App& app, int& exit_code) {
   command->add_option("program", options->program, "a program of ISO 6983 words")->required();
   command->add_option("--machine", options->machine.machine, "the machine (TOML)")->required();
   options->machine.add_errors_to(*command);
-  command->add_option("-o,--output", options->output, "the new program")
-      ->required()
-      ->check(a_place());
-  command->add_option("--json", options->json, "write the result here (JSON), '-' prints it")
-      ->check(a_place());
+  Results& results = options->results;
+  results.add(*command, "-o,--output", "", "the new program")->required();
+  results.add(*command, "--json", "trueaxis.compensation",
+              "write the result here (JSON), '-' prints it");
   add_accuracy(*command, *options);
-  add_force(*command, options->force);
+  add_force(*command, options->results.force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
-  command->callback([options, &exit_code] {
-    if (options->json == options->output)
-      throw CLI::ValidationError("--json", "cannot go where the program goes");
-    exit_code = execute(*options);
-  });
+  command->callback([options, &exit_code] { exit_code = execute(*options); });
 }
 
 }  // namespace trueaxis::cli

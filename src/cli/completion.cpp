@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/described.hpp"
 #include "cli/guarded.hpp"
+#include "cli/options.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -94,8 +95,7 @@ void add_completion(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "completion", "prints what makes a shell complete trueaxis: source <(trueaxis completion)");
   auto shell = std::make_shared<std::string>("bash");
-  command->add_option("shell", *shell, "bash (default) or zsh")
-      ->check(CLI::IsMember({"bash", "zsh"}));
+  add_option(*command, "shell", *shell, one_of({"bash", "zsh"}), "bash (default) or zsh");
   command->callback([&app, shell, &exit_code] {
     std::cout << completion_script(app, *shell);
     exit_code = done;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/diagnostics.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnosed_stream.hpp"
 #include "cli/guarded.hpp"
@@ -161,8 +160,8 @@ void add_correct(CLI::App& app, int& exit_code) {
       ->add_option("--target", options->target,
                    "TOML with [target], [cut] and [actuator], as in a job")
       ->required();
-  auto* table = command->add_option("-o,--output", options->table, "the table (CSV), '-' prints it")
-                    ->check(a_place());
+  auto* table = add_option(*command, "-o,--output", options->table, a_place(),
+                           "the table (CSV), '-' prints it");
   auto* preview = command->add_flag("--preview", options->preview,
                                     "print extremes and harmonics, write nothing");
   preview->excludes(table);

@@ -6,12 +6,10 @@
 #include "cli/guarded.hpp"
 #include "cli/machine_options.hpp"
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_json.hpp"
-#include "machine/files/errors_toml.hpp"
-#include "machine/files/etalon.hpp"
-#include "machine/files/isg_csv.hpp"
+#include "machine/files/errors_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
@@ -19,9 +17,9 @@ namespace {
 
 struct ErrorsArguments {
   MachineOptions machine;
-  std::string at, json, output, format = "toml", output_sign;
+  Results results;
+  std::string at, format = "toml", output_sign;
   int points = 101;
-  bool force = false;
 };
 
 /// "X=50,A=-35": mm and degrees, axes that are left out at 0.
@@ -47,12 +45,7 @@ AxisPositions positions_of(const std::string& text, const Machine& machine) {
   return axes;
 }
 
-std::string schema_of(const std::string& format) {
-  return format == "toml" ? "trueaxis.errors" : "trueaxis." + format;
-}
-
-std::string converted(const ErrorsArguments& options, const Machine& machine,
-                      const ErrorModel& errors) {
+std::string converted(const ErrorsArguments& options, const Machine& machine, const ErrorModel& errors) {
   const auto sign = sign_of(options.output_sign);
   if (options.format == "toml") return errors_toml(errors, &machine);
   return options.format == "isg" ? isg_csv_text(errors, machine, *sign, options.points)
@@ -60,7 +53,8 @@ std::string converted(const ErrorsArguments& options, const Machine& machine,
 }
 
 int execute(const ErrorsArguments& options) {
-  if (options.format != "toml" && !options.output.empty() && options.output_sign.empty())
+  const Results& results = options.results;
+  if (options.format != "toml" && results.asked("--output") && options.output_sign.empty())
     throw CLI::ValidationError("--output-sign",
                                "is needed: an " + options.format + " file does not say its sign");
   if (options.format == "toml" && !options.output_sign.empty())
@@ -68,18 +62,15 @@ int execute(const ErrorsArguments& options) {
   const MachineFile file = options.machine.read_machine();
   const auto [errors, hashes, remarks] = options.machine.read_errors_of(file);
   const AxisPositions at = positions_of(options.at, file.machine);
-  Outputs outputs(options.force);
+  Outputs outputs(results.force);
   outputs.reads(options.machine.machine);
   for (const std::string& path : options.machine.errors) outputs.reads(path);
-  outputs.may_write(options.json, "trueaxis.errors_at");
-  outputs.may_write(options.output, schema_of(options.format));
+  results.name_to(outputs);
   outputs.check();
-  if (!options.json.empty())
-    outputs.write(options.json, errors_json(file.machine, errors, at, remarks));
-  if (!options.output.empty())
-    outputs.write(options.output, converted(options, file.machine, errors));
+  results.write(outputs, "--json", [&] { return errors_json(file.machine, errors, at, remarks); });
+  results.write(outputs, "--output", [&] { return converted(options, file.machine, errors); });
   outputs.commit();
-  if (options.json != "-" && options.output != "-")
+  if (!results.printed())
     std::cout << errors_text(file.machine, errors, at) << notes_screen(remarks);
   return done;
 }
@@ -94,25 +85,20 @@ void add_errors(CLI::App& app, int& exit_code) {
   options->machine.add_errors_to(*command);
   command->add_option("--at", options->at,
                       "position: \"X=50,A=-35\", mm and deg; axes that are left out at 0");
-  command->add_option("--json", options->json, "write the result here, '-' prints it")
-      ->check(a_place());
-  command->add_option("-o,--output", options->output, "write the errors of all files here")
-      ->check(a_place());
-  command->add_option("--format", options->format, "of --output: toml, etalon or isg (toml)")
-      ->check(CLI::IsMember({"toml", "etalon", "isg"}));
-  command
-      ->add_option("--output-sign", options->output_sign,
-                   "of component errors in an etalon or isg file")
-      ->check(a_sign());
-  command
-      ->add_option("--points", options->points,
-                   "of an etalon or isg table over the travel of an axis whose errors are none "
-                   "(101)")
-      ->check(CLI::Range(2, 100000));
-  add_force(*command, options->force);
+  options->results.add(*command, "--json", "trueaxis.errors_at",
+                       "write the result here, '-' prints it");
+  options->results.add(*command, "-o,--output", "trueaxis.errors",
+                       "write the errors of all files here");
+  add_option(*command, "--format", options->format, one_of({"toml", "etalon", "isg"}),
+             "of --output: toml, etalon or isg (toml)");
+  add_option(*command, "--output-sign", options->output_sign, a_sign(),
+             "of component errors in an etalon or isg file");
+  add_option(*command, "--points", options->points, CLI::Range(2, 100000),
+             "of an etalon or isg table over the travel of an axis whose errors are none "
+             "(101)");
+  add_force(*command, options->results.force);
   command->callback([options, &exit_code] {
-    if (!options->json.empty() && options->json == options->output)
-      throw CLI::ValidationError("--output", "cannot go where --json goes");
+    if (options->format != "toml") options->results.say("--output", "trueaxis." + options->format);
     exit_code = execute(*options);
   });
 }

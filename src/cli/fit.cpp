@@ -6,22 +6,20 @@
 #include <optional>
 
 #include "base/counted.hpp"
-#include "cli/check.hpp"
 #include "cli/checked_fit.hpp"
 #include "cli/commands.hpp"
 #include "cli/fit_criterion.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/screen.hpp"
+#include "cli/results.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "fit/files/fit_files.hpp"
-#include "fit/files/fit_screen.hpp"
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/stream_job.hpp"
-#include "report/stream_report.hpp"
+#include "report/report.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -29,7 +27,7 @@ namespace {
 struct FitArguments {
   StreamOptions stream;
   AssociationOptions association;
-  ResultOptions result;
+  Results results;
   FitCriterion criterion;
   bool verbose = false, check = false;
 };
@@ -44,12 +42,10 @@ std::string diagnose_command(const FitArguments& options) {
 }
 
 int execute(const FitArguments& options) {
-  const auto& [json, residuals, report, force] = options.result;
-  Outputs outputs(force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.stream.path);
-  outputs.may_write(json, "trueaxis.fit");
-  outputs.may_write(residuals, "trueaxis.residuals");
-  outputs.may_write(report, "trueaxis.report");
+  results.name_to(outputs);
   ProbeStream stream;
   all_of({[&] {
             stream = options.stream.read();
@@ -64,12 +60,12 @@ int execute(const FitArguments& options) {
   const FitResult result = checked_fit(stream, chosen);
   waiting.reset();
   expect_enough_readings(result);
-  if (!json.empty()) outputs.write(json, fit_json(result));
-  if (!residuals.empty()) outputs.write(residuals, residuals_csv(stream, result));
-  if (!report.empty()) outputs.write(report, render_fit_report(stream, result, chosen));
+  results.write(outputs, "--json", [&] { return fit_json(result); });
+  results.write(outputs, "--residuals", [&] { return residuals_csv(stream, result); });
+  results.write(outputs, "--report", [&] { return render_fit_report(stream, result, chosen); });
   outputs.commit();
-  if (!options.result.printed() && options.verbose) std::cout << fit_text(result);
-  if (!options.result.printed() && !options.verbose)
+  if (!results.printed() && options.verbose) std::cout << fit_text(result);
+  if (!results.printed() && !options.verbose)
     print_screen(fit_screen(result) + (is_diagnosed(chosen.surface)
                                            ? "next   " + diagnose_command(options) +
                                                  ": what the surface does not explain\n"
@@ -85,22 +81,21 @@ void add_fit(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command);
   options->stream.add_range_to(*command);
   options->association.add_to(*command, true)->required();
-  options->criterion.add_to(*command);
-  options->result.add_to(*command, "its residual here (CSV)");
+  options->criterion.add_to(*command, options->results);
+  add_stream_results(*command, options->results, "trueaxis.fit", "its residual here (CSV)");
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([options, command, &exit_code] {
-    options->result.expect_apart();
-    if (!options->result.report.empty() &&
+    if (options->results.asked("--report") &&
         !is_diagnosed(surface_from_id(options->association.surface)))
       throw CLI::ValidationError("--report",
                                  "is of a cone, cylinder, plane or section: leave it "
                                  "out, --json has the numbers");
-    options->criterion.expect_fitting(options->association, options->result, *command);
+    options->criterion.expect_fitting(options->association, options->results, *command);
     exit_code =
         options->criterion.along_probe()
             ? execute(*options)
-            : options->criterion.execute(options->stream, options->association, options->result);
+            : options->criterion.execute(options->stream, options->association, options->results);
   });
 }
 

@@ -7,6 +7,7 @@
 #include "associate/files/stream_association.hpp"
 #include "cli/checked_fit.hpp"
 #include "cli/guarded.hpp"
+#include "cli/results.hpp"
 #include "format/outputs.hpp"
 #include "job/files/stream_job.hpp"
 #include "trueaxis/error.hpp"
@@ -22,26 +23,23 @@ Criterion criterion_of(const std::string& name) {
 
 }  // namespace
 
-void FitCriterion::add_to(CLI::App& command) {
-  command
-      .add_option("--criterion", name,
-                  "probe (default: least squares along the probe line), or of the readings as "
-                  "points: orthogonal, minimum_zone, minimum_circumscribed, maximum_inscribed")
-      ->check(CLI::IsMember(std::vector<std::string>{
-          "probe", "orthogonal", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
-  command
-      .add_option("--certificate", certificate,
-                  "of these: write what proves the optimum here, '-' prints it")
-      ->check(a_place());
+void FitCriterion::add_to(CLI::App& command, Results& results) {
+  add_option(
+      command, "--criterion", name,
+      one_of({"probe", "orthogonal", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}),
+      "probe (default: least squares along the probe line), or of the readings as "
+      "points: orthogonal, minimum_zone, minimum_circumscribed, maximum_inscribed");
+  results.add(command, "--certificate", "trueaxis.certificate",
+              "of these: write what proves the optimum here, '-' prints it");
 }
 
-void FitCriterion::expect_fitting(const AssociationOptions& association,
-                                  const ResultOptions& result, const CLI::App& command) const {
+void FitCriterion::expect_fitting(const AssociationOptions& association, const Results& results,
+                                  const CLI::App& command) const {
   const auto refuse = [](const std::string& option, const std::string& why) {
     throw CLI::ValidationError(option, why);
   };
   if (along_probe()) {
-    if (!certificate.empty())
+    if (results.asked("--certificate"))
       refuse("--certificate", "is of a --criterion other than probe, whose proof is its U");
     return;
   }
@@ -50,17 +48,15 @@ void FitCriterion::expect_fitting(const AssociationOptions& association,
   const std::string objection =
       association_objection(element_of(surface_from_id(association.surface)), criterion_of(name));
   if (!objection.empty()) refuse("--criterion", objection);
-  if (!certificate.empty() && (certificate == result.json || certificate == result.residuals))
-    refuse("--certificate", "cannot go where --json or --residuals goes");
 }
 
 int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions& association,
-                          const ResultOptions& result) const {
-  Outputs outputs(result.force);
+                          Results& results) const {
+  results.say("--json", "trueaxis.association");
+  results.say("--residuals", "trueaxis.distances");
+  Outputs outputs(results.force);
   outputs.reads(stream.path);
-  outputs.may_write(result.json, "trueaxis.association");
-  outputs.may_write(result.residuals, "trueaxis.distances");
-  outputs.may_write(certificate, "trueaxis.certificate");
+  results.name_to(outputs);
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
@@ -74,17 +70,19 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
       readings, surface_from_id(association.surface), criterion_of(name),
       {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
   const bool converged = found.of_centres.status == AssociationStatus::converged;
-  if (!result.json.empty()) outputs.write(result.json, stream_association_json(found));
-  if (converged && !certificate.empty())
-    outputs.write(certificate, association_certificate(found.of_centres, found.points));
-  if (converged && !result.residuals.empty())
-    outputs.write(result.residuals, association_distances(found.of_centres, found.points));
+  results.write(outputs, "--json", [&] { return stream_association_json(found); });
+  if (converged) {
+    results.write(outputs, "--certificate",
+                  [&] { return association_certificate(found.of_centres, found.points); });
+    results.write(outputs, "--residuals",
+                  [&] { return association_distances(found.of_centres, found.points); });
+  }
   outputs.commit();
   if (!converged) {
     std::cerr << stream.path << ": " << found.of_centres.why << ".\n";
     return numerical;
   }
-  if (!result.printed() && certificate != "-") std::cout << stream_association_text(found);
+  if (!results.printed()) std::cout << stream_association_text(found);
   return done;
 }
 

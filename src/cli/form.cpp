@@ -11,12 +11,10 @@
 #include "cli/form_tolerance.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/screen.hpp"
+#include "cli/results.hpp"
 #include "cli/stream_options.hpp"
-#include "form/files/form_json.hpp"
-#include "form/files/form_qif.hpp"
-#include "form/files/form_text.hpp"
-#include "form/files/spindle_motion.hpp"
+#include "cli/terminal.hpp"
+#include "form/files/form_files.hpp"
 #include "format/outputs.hpp"
 #include "job/files/stream_job.hpp"
 
@@ -26,11 +24,11 @@ namespace {
 struct FormArguments {
   StreamOptions stream;
   FormOptions form;
-  std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle, json, profile,
-              qif;
+  std::string filter = "gaussian", upr = "1-50", datum, datum_association, spindle;
   std::string tolerances, element, unit, array;
   double noise_um = -1.0, spindle_range_um = 0.0;
-  bool verbose = false, force = false;
+  Results results;
+  bool verbose = false;
 };
 
 /// "1-50", "15-500", or one number, the upper.
@@ -90,82 +88,64 @@ FormResult assessed(const FormArguments& options, const FormOptions& form) {
 int execute(const FormArguments& options) {
   const auto tolerances = parse_form_tolerances(options.tolerances);
   const FormOptions form = chosen(options);
-  Outputs outputs(options.force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.stream.path);
   if (!options.spindle.empty()) outputs.reads(options.spindle);
   if (!options.datum.empty()) outputs.reads(options.datum);
-  outputs.may_write(options.json, "trueaxis.form");
-  outputs.may_write(options.profile, "trueaxis.form_profile");
-  outputs.may_write(options.qif, "trueaxis.qif");
+  results.name_to(outputs);
   outputs.check();
   const FormResult result = assessed(options, form);
   const FormVerdict verdict = judge_form(result, tolerances);
-  if (!options.json.empty()) outputs.write(options.json, form_json(result));
-  if (!options.profile.empty()) outputs.write(options.profile, form_profile_csv(result));
-  if (!options.qif.empty())
-    outputs.write(options.qif, form_qif(result, tolerances, options.element.empty()));
+  results.write(outputs, "--json", [&] { return form_json(result); });
+  results.write(outputs, "--profile", [&] { return form_profile_csv(result); });
+  results.write(outputs, "--qif",
+                [&] { return form_qif(result, tolerances, options.element.empty()); });
   outputs.commit();
-  if (options.json != "-" && options.profile != "-" && options.qif != "-")
-    std::cout << verdict.text << form_text(result, options.verbose);
+  if (!results.printed()) std::cout << verdict.text << form_text(result, options.verbose);
   return verdict.met ? done : refused;
 }
 
 void add_filter(CLI::App& command, FormArguments& options) {
-  command
-      .add_option("--filter", options.filter,
-                  "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none")
-      ->check(CLI::IsMember({"gaussian", "robust", "spline", "none"}));
+  add_option(command, "--filter", options.filter, one_of({"gaussian", "robust", "spline", "none"}),
+             "gaussian (default, ISO 16610-21), robust (-31), spline (-22) or none");
   command.add_option("--upr", options.upr,
                      "pass band, undulations per revolution (1-50): 1-15, 1-150, 1-500, 15-500");
-  command
-      .add_option("--spindle", options.spindle,
-                  "JSON of `trueaxis spindle`: its error motion is taken off, its u counts")
-      ->check(a_place());
-  command
-      .add_option("--spindle-range-um", options.spindle_range_um,
-                  "range of a synchronous error motion that is not known by its orders, in U")
-      ->check(a_length());
+  add_option(command, "--spindle", options.spindle, a_place(),
+             "JSON of `trueaxis spindle`: its error motion is taken off, its u counts");
+  add_option(command, "--spindle-range-um", options.spindle_range_um, a_length(),
+             "range of a synchronous error motion that is not known by its orders, in U");
 }
 
 void add_rest(CLI::App& command, FormArguments& options) {
   command.add_flag("--bore", options.form.bore, "probed from inside");
-  command
-      .add_option("--ball-radius", options.form.ball_radius_mm,
-                  "X_M is the centre of a ball of this radius, mm")
-      ->check(a_length());
-  command.add_option("--noise", options.noise_um, "standard deviation of one reading, µm")
-      ->check(a_length());
-  command
-      .add_option("--datum", options.datum,
-                  "probe stream (CSV) of the datum, in the same clamping (the spindle axis)")
-      ->check(a_place());
-  command
-      .add_option("--datum-association", options.datum_association,
-                  "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
-                  "5459:2011) or maximum_inscribed (a bore's)")
-      ->check(CLI::IsMember(
-          {"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}));
+  add_option(command, "--ball-radius", options.form.ball_radius_mm, a_length(),
+             "X_M is the centre of a ball of this radius, mm");
+  add_option(command, "--noise", options.noise_um, a_length(),
+             "standard deviation of one reading, µm");
+  add_option(command, "--datum", options.datum, a_place(),
+             "probe stream (CSV) of the datum, in the same clamping (the spindle axis)");
+  add_option(command, "--datum-association", options.datum_association,
+             one_of({"gaussian", "minimum_zone", "minimum_circumscribed", "maximum_inscribed"}),
+             "gaussian (default), minimum_zone, minimum_circumscribed (a shaft's of ISO "
+             "5459:2011) or maximum_inscribed (a bore's)");
   command.add_option("--tolerance-um", options.tolerances,
                      "RONt=2,CYLt=5: judged by ISO 14253-1, exit 1 where one is not proven met");
-  command.add_option("--coverage-factor", options.form.coverage_factor, "k of U = k u (2)")
-      ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
-  command.add_option("--trials", options.form.trials, "of the Monte Carlo behind U (400)")
-      ->check(CLI::Range(10, 1000000));
+  add_option(command, "--coverage-factor", options.form.coverage_factor,
+             number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
+  add_option(command, "--trials", options.form.trials, CLI::Range(10, 1000000),
+             "of the Monte Carlo behind U (400)");
   command.add_option("--seed", options.form.seed, "of the Monte Carlo (12181)");
-  command.add_option("--threads", options.form.threads, "as many as there are (0)")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--json", options.json, "write the result here (JSON), '-' prints it")
-      ->check(a_place());
-  command
-      .add_option("--profile", options.profile,
-                  "write the profiles here (CSV), before and behind the filter; '-' prints them")
-      ->check(a_place());
-  command
-      .add_option("--qif", options.qif,
-                  "write a QIF 3.0 results document here (XML): features with their form, and what "
-                  "has a tolerance as a characteristic; '-' prints it")
-      ->check(a_place());
-  add_force(command, options.force);
+  add_option(command, "--threads", options.form.threads, CLI::Range(0, 1024),
+             "as many as there are (0)");
+  Results& results = options.results;
+  results.add(command, "--json", "trueaxis.form", "write the result here (JSON), '-' prints it");
+  results.add(command, "--profile", "trueaxis.form_profile",
+              "write the profiles here (CSV), before and behind the filter; '-' prints them");
+  results.add(command, "--qif", "trueaxis.qif",
+              "write a QIF 3.0 results document here (XML): features with their form, and what "
+              "has a tolerance as a characteristic; '-' prints it");
+  add_force(command, results.force);
   add_verbose(command, options.verbose);
 }
 
@@ -179,20 +159,16 @@ void add_form(CLI::App& app, int& exit_code) {
                          "probe stream (CSV), or points x y z (with --element); '-' for standard "
                          "input");
   options->stream.add_range_to(*command);
-  auto* element =
-      command
-          ->add_option("--element", options->element,
-                       "the file holds points x y z of a circle, cylinder, plane or line")
-          ->check(CLI::IsMember({"circle", "cylinder", "plane", "line"}));
-  command->add_option("--unit", options->unit, "of the points: mm, um, m or in (mm)")
-      ->check(CLI::IsMember({"mm", "um", "m", "in"}))
+  auto* element = add_option(*command, "--element", options->element,
+                             one_of({"circle", "cylinder", "plane", "line"}),
+                             "the file holds points x y z of a circle, cylinder, plane or line");
+  add_option(*command, "--unit", options->unit, one_of({"mm", "um", "m", "in"}),
+             "of the points: mm, um, m or in (mm)")
       ->needs(element);
-  command->add_option("--array", options->array, array_help)->check(a_place())->needs(element);
+  add_option(*command, "--array", options->array, a_place(), array_help)->needs(element);
   add_filter(*command, *options);
   add_rest(*command, *options);
   command->callback([options, &exit_code] {
-    expect_apart(
-        {{"--json", options->json}, {"--profile", options->profile}, {"--qif", options->qif}});
     if (!options->element.empty() && (options->stream.says_anything() || !options->datum.empty()))
       throw CLI::ValidationError("--element",
                                  "points have no X_M and no datum: leave out what says of these");

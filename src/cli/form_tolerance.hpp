@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "form/files/form_qif.hpp"
+#include "form/files/form_files.hpp"
 #include "trueaxis/form.hpp"
 
 namespace trueaxis::cli {

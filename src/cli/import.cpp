@@ -14,7 +14,7 @@
 #include "format/outputs.hpp"
 #include "format/shell.hpp"
 #include "format/text_layout.hpp"
-#include "job/files/job_stub.hpp"
+#include "job/files/starter.hpp"
 
 namespace trueaxis::cli {
 namespace {
@@ -63,11 +63,9 @@ void add_import(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command,
                          "spreadsheet (CSV or text), LinuxCNC probe log or halsampler file, DPRNT, "
                          "camonitor, TwinCAT Scope");
-  command->add_option("-o,--output", options->output, "the stream (CSV), '-' prints it")
-      ->required()
-      ->check(a_place());
-  command->add_option("--job", options->job, "the job (TOML); else beside the stream")
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->output, a_place(), "the stream (CSV), '-' prints it")
+      ->required();
+  add_option(*command, "--job", options->job, a_place(), "the job (TOML); else beside the stream");
   add_force(*command, options->force);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

@@ -19,9 +19,8 @@ void add_init(CLI::App& app, int& exit_code) {
       "init",
       "files to begin with: a scenario, its job, its cut, a sweep; commented, and they run");
   auto options = std::make_shared<Options>();
-  command->add_option("-o,--output", options->folder, "folder, made if need be")
-      ->required()
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(), "folder, made if need be")
+      ->required();
   add_force(*command, options->force);
   command->callback([options, &exit_code] {
     Outputs outputs(options->force);

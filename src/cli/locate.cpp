@@ -1,8 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <iostream>
+#include <memory>
+
 #include "cli/commands.hpp"
-#include "cli/setup_command.hpp"
+#include "cli/guarded.hpp"
+#include "cli/options.hpp"
+#include "cli/results.hpp"
+#include "cli/terminal.hpp"
+#include "fixture/files/setup_output.hpp"
+#include "format/outputs.hpp"
 
 namespace trueaxis::cli {
+namespace {
+
+/// What `locate` and `datum` have in common: one file in, a set-up out.
+struct SetupCommand {
+  const char *name, *description, *file;
+  /// Reads the file and finds the set-up, its frames with so many decimals.
+  SetupResult (*solve)(const std::string& path, int decimals);
+};
+
+struct Options {
+  std::string path;
+  Results results;
+  int decimals = 6;
+  bool verbose = false, check = false;
+};
+
+int execute(const Options& options, const SetupCommand& which) {
+  const SetupResult result = which.solve(options.path, options.decimals);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
+  for (const SetupSource& source : result.sources) outputs.reads(source.file);
+  results.name_to(outputs);
+  outputs.check();
+  if (options.check) return checked(outputs, "say where the part of " + options.path + " is");
+  if (!result.setup.converged) {
+    std::cerr << options.path << ": the six contacts do not converge: are the datum errors those "
+              << "of this part?\n";
+    return numerical;
+  }
+  results.write(outputs, "--output", [&] { return setup_errors_toml(result); });
+  results.write(outputs, "--json", [&] { return setup_json(result); });
+  outputs.commit();
+  if (results.printed()) return done;
+  if (options.verbose)
+    std::cout << setup_text(result);
+  else
+    print_screen(setup_screen(result));
+  std::cout << results.line("errors ", "--output") << results.line("result ", "--json");
+  return done;
+}
+
+void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code) {
+  CLI::App* command = app.add_subcommand(which.name, which.description);
+  auto options = std::make_shared<Options>();
+  command->add_option("file", options->path, which.file)->required();
+  Results& results = options->results;
+  results.add(*command, "-o,--output", "trueaxis.errors",
+              "write it as errors of the workpiece, X0W … C0W, here (TOML), '-' prints them");
+  results.add(*command, "--json", "trueaxis.setup", "write the result here (JSON), '-' prints it");
+  add_option(*command, "--decimals", options->decimals,
+             CLI::Range(least_frame_decimals, most_frame_decimals),
+             "of mm and degrees in the frames of the controls (6)");
+  add_force(*command, options->results.force);
+  add_verbose(*command, options->verbose);
+  add_check(*command, options->check);
+  command->callback([options, which, &exit_code] { exit_code = execute(*options, which); });
+}
+
+}  // namespace
 
 void add_locate(CLI::App& app, int& exit_code) {
   add_setup_command(app,
@@ -10,6 +77,16 @@ void add_locate(CLI::App& app, int& exit_code) {
                      "locators: ideal and measured (TOML)",
                      [](const std::string& path, int decimals) {
                        return result_of(read_locate_toml(path), decimals);
+                     }},
+                    exit_code);
+}
+
+void add_datum(CLI::App& app, int& exit_code) {
+  add_setup_command(app,
+                    {"datum", "where a part is whose datum surfaces have errors",
+                     "nine datum errors, or points of the datums (TOML)",
+                     [](const std::string& path, int decimals) {
+                       return result_of(read_datum_toml(path), decimals);
                      }},
                     exit_code);
 }

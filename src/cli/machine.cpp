@@ -5,7 +5,7 @@
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "trueaxis/error.hpp"
 
@@ -47,13 +47,10 @@ void add_machine(CLI::App& app, int& exit_code) {
       "machine", "a Denavit-Hartenberg table made a machine in the zero-position form");
   auto options = std::make_shared<MachineArguments>();
   command->add_option("dh", options->input, "a machine with [[dh]] rows (TOML)")->required();
-  command->add_option("-o,--output", options->output, "write the machine here (TOML)")
-      ->check(a_place())
+  add_option(*command, "-o,--output", options->output, a_place(), "write the machine here (TOML)")
       ->required();
-  command
-      ->add_option("--errors-output", options->errors_output,
-                   "write the errors of the parameters here, as location errors (TOML)")
-      ->check(a_place());
+  add_option(*command, "--errors-output", options->errors_output, a_place(),
+             "write the errors of the parameters here, as location errors (TOML)");
   add_force(*command, options->force);
   command->callback([options, &exit_code] { exit_code = execute(*options); });
 }

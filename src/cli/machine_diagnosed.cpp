@@ -8,17 +8,16 @@
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "calibrate/files/measurement_csv.hpp"
-#include "cli/check.hpp"
-#include "cli/expect_no_mistake.hpp"
 #include "cli/guarded.hpp"
-#include "cli/screen.hpp"
-#include "cli/waiting.hpp"
+#include "cli/options.hpp"
+#include "cli/results.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/json.hpp"
 #include "format/notes.hpp"
 #include "format/outputs.hpp"
-#include "job/machine/files/harm_files.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
+#include "machine/files/errors_files.hpp"
 #include "report/machine_report.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/program_harm.hpp"
@@ -116,6 +115,14 @@ std::string would_do(const MachineDiagnosed& run, const Read& read) {
   return text + (run.program.empty() ? "" : ", weigh what is found on " + run.program);
 }
 
+void write_json(const Results& results, Outputs& outputs, const Said& said, const Read& read) {
+  results.write(outputs, "--json", [&] {
+    Json object = machine_diagnosis_object(said.found, read.file.machine);
+    if (said.harm) object["program"] = said.program;
+    return json_text(object);
+  });
+}
+
 int not_converged(const MachineDiagnosed& run, const MachineDiagnosis& found) {
   std::cerr << run.data.front() << ": not converged: " << found.baseline.message << '\n';
   return numerical;
@@ -140,62 +147,59 @@ void MachineDiagnosed::add_to(CLI::App& command) {
                      "tip are weighed");
 }
 
-int MachineDiagnosed::diagnose() const {
-  Outputs outputs(force);
+int MachineDiagnosed::diagnose(Results& results) const {
+  results.say("--json", "trueaxis.machine_diagnosis");
+  results.say("--report", "trueaxis.machine_report");
+  Outputs outputs(results.force);
   inputs_of(*this, outputs);
-  outputs.may_write(json, "trueaxis.machine_diagnosis");
-  outputs.may_write(errors_output, "trueaxis.errors");
-  outputs.may_write(report, "trueaxis.machine_report");
+  results.name_to(outputs);
   const Read read = read_of(*this, outputs);
   if (check) return checked(outputs, would_do(*this, read));
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
-  if (!json.empty()) {
-    Json object = machine_diagnosis_object(said.found, read.file.machine);
-    if (said.harm) object["program"] = said.program;
-    outputs.write(json, json_text(object));
-  }
-  outputs.write(errors_output, errors_toml(said.found.errors, &read.file.machine));
-  if (!report.empty())
-    outputs.write(report,
-                  render_machine_diagnosis_report(as_job(*this, read, said.found), said.program));
+  write_json(results, outputs, said, read);
+  results.write(outputs, "--output",
+                [&] { return errors_toml(said.found.errors, &read.file.machine); });
+  results.write(outputs, "--report", [&] {
+    return render_machine_diagnosis_report(as_job(*this, read, said.found), said.program);
+  });
   outputs.commit();
-  if (json == "-" || errors_output == "-" || report == "-") return done;
+  if (results.printed()) return done;
   if (verbose)
     std::cout << machine_diagnosis_text(said.found) << (said.harm ? harm_text(*said.harm) : "");
   else
     print_screen(machine_diagnosis_screen(said.found) + (said.harm ? harm_screen(*said.harm) : "") +
                  notes_screen(read.given.remarks) + next_screen(said.found));
-  for (const std::string& file : {json, errors_output})
-    if (!file.empty()) std::cout << "result " << file << '\n';
-  if (!report.empty()) std::cout << "report " << report << '\n';
+  std::cout << results.line("result ", "--json") << results.line("result ", "--output")
+            << results.line("report ", "--report");
   return done;
 }
 
-int MachineDiagnosed::advise() const {
-  Outputs outputs(force);
+int MachineDiagnosed::advise(const Results& results) const {
+  Outputs outputs(results.force);
   inputs_of(*this, outputs);
-  outputs.may_write(json, "trueaxis.machine_diagnosis");
-  outputs.may_write(plan_output, "trueaxis.measurement_plan");
+  results.name_to(outputs);
   const Read read = read_of(*this, outputs);
   if (check) return checked(outputs, would_do(*this, read) + ", propose the next measurement");
   const Said said = said_of(*this, read);
   if (!said.found.baseline.converged) return not_converged(*this, said.found);
-  if (!plan_output.empty() && said.found.next_plan.empty())
+  if (results.asked("--output") && said.found.next_plan.empty())
     throw Refusal("no plan shows or separates anything more: there are no positions to write");
-  if (!json.empty()) {
-    Json object = machine_diagnosis_object(said.found, read.file.machine);
-    if (said.harm) object["program"] = said.program;
-    outputs.write(json, json_text(object));
-  }
-  if (!plan_output.empty())
-    outputs.write(plan_output, measurement_plan_csv(said.found, read.file.machine));
+  write_json(results, outputs, said, read);
+  results.write(outputs, "--output",
+                [&] { return measurement_plan_csv(said.found, read.file.machine); });
   outputs.commit();
-  if (json == "-" || plan_output == "-") return done;
+  if (results.printed()) return done;
   say_advice(said.found, said.harm, verbose);
-  for (const std::string& file : {json, plan_output})
-    if (!file.empty()) std::cout << "result " << file << '\n';
+  std::cout << results.line("result ", "--json") << results.line("result ", "--output");
   return done;
+}
+
+void expect_one_stream(const CLI::App& command, std::size_t streams) {
+  if (streams > 1)
+    throw CLI::ValidationError("stream", "one stream, or several measurements with --machine");
+  expect_none(command, {"--errors", "--sign", "--large-errors", "--program", "--output"},
+              "is of a machine: name it with --machine");
 }
 
 int advise_machine_job(const MachineJob& job, bool verbose) {

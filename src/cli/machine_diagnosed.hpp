@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/machine_options.hpp"
+#include "cli/results.hpp"
 #include "trueaxis/machine_job.hpp"
 
 namespace trueaxis::cli {
@@ -14,18 +15,19 @@ struct MachineDiagnosed {
   MachineOptions machine;
   std::vector<std::string> data;  ///< measurements; none: a plan before any
   std::string program;            ///< a part on which the harm is weighed
-  std::string json, errors_output, report;
-  std::string plan_output;  ///< of `advise`: the next measurement as a table
   double false_alarm = 0.01;
-  bool force = false, verbose = false, check = false;
+  bool verbose = false, check = false;
 
   void add_to(CLI::App& command);
 
   /// Diagnoses the data and writes what is asked for. @returns the exit code
-  int diagnose() const;
+  int diagnose(Results& results) const;
   /// Prints the next measurement and what every other would show. @returns the exit code
-  int advise() const;
+  int advise(const Results& results) const;
 };
+
+/// That nothing of a machine stands beside a stream. @throws CLI::ValidationError
+void expect_one_stream(const CLI::App& command, std::size_t streams);
 
 /// The same of a machine's job: its measurements, what is known, and its program if it has one.
 int advise_machine_job(const MachineJob& job, bool verbose);

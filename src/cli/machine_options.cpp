@@ -17,19 +17,17 @@ void MachineOptions::add_errors_to(CLI::App& command) {
   command.add_option("--errors", errors,
                      "errors of the machine: trueaxis.errors/1 (.toml), an ISG table (.csv), the "
                      "Etalon exchange format (other names); several files add");
-  command
-      .add_option(
-          "--sign", sign,
-          "what component errors in ISG and Etalon files are of: the part that moves, or tool "
-          "minus workpiece")
-      ->check(a_sign());
+  add_option(command, "--sign", sign, a_sign(),
+             "what component errors in ISG and Etalon files are of: the part that moves, or tool "
+             "minus workpiece");
   command.add_flag("--large-errors", large_errors,
                    "the errors are larger than machines have, and in the unit that is said");
 }
 
 void MachineOptions::add_work_offset_to(CLI::App& command) {
-  command.add_option("--work-offset", work_offset, "the program frame: G54 … G59 (G54)")
-      ->check(CLI::IsMember({"G54", "G55", "G56", "G57", "G58", "G59"}));
+  add_option(command, "--work-offset", work_offset,
+             one_of({"G54", "G55", "G56", "G57", "G58", "G59"}),
+             "the program frame: G54 … G59 (G54)");
 }
 
 MachineFile MachineOptions::read_machine() const { return read_machine_toml(machine); }
@@ -49,7 +47,7 @@ Setting MachineOptions::setting_of(const Machine& of) const {
 }
 
 void TableOutput::add_to(CLI::App& command) {
-  command.add_option("-o,--output", place, "write here instead of printing")->check(a_place());
+  add_option(command, "-o,--output", place, a_place(), "write here instead of printing");
   add_force(command, force);
 }
 

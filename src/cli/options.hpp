@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -41,6 +42,17 @@ inline CLI::Validator positive_length() {
   return number_in(0.0, true, 1e6, "a length above 0, up to 1e6");
 }
 
+/// An option whose value is checked.
+template <class Value>
+CLI::Option* add_option(CLI::App& command, const std::string& name, Value& value,
+                        const CLI::Validator& check, const std::string& help) {
+  return command.add_option(name, value, help)->check(check);
+}
+
+inline CLI::Validator one_of(std::vector<std::string> words) {
+  return CLI::IsMember(std::move(words));
+}
+
 /// `--false-alarm` of a diagnosis.
 inline void add_false_alarm(CLI::App& command, double& level) {
   command
@@ -66,34 +78,23 @@ inline CLI::Option* add_force(CLI::App& command, bool& force) {
                           "never one that is read");
 }
 
-/// Each file goes to a place of its own: an option and its place each. @throws CLI::ValidationError
-inline void expect_apart(const std::vector<std::pair<std::string, std::string>>& places) {
-  for (std::size_t i = 1; i < places.size(); ++i)
-    for (std::size_t k = 0; k < i; ++k)
-      if (!places[i].second.empty() && places[i].second == places[k].second)
-        throw CLI::ValidationError(places[i].first, "cannot go where " + places[k].first + " goes");
+/// What has no effect in one use of a command would be passed over in silence.
+/// @throws CLI::ValidationError for an option that was given and is one of `names`, or is none
+inline void refuse_given(const CLI::App& command, bool one_of_these,
+                         const std::vector<std::string>& names, const std::string& why) {
+  for (const CLI::Option* option : command.get_options()) {
+    const bool listed = std::ranges::find(names, option->get_name()) != names.end();
+    if (option->count() > 0 && listed == one_of_these && option->get_name() != "--help")
+      throw CLI::ValidationError(option->get_name(), why);
+  }
 }
-
-/// `--json`, `--residuals`, `--report` and `--force` of a command that fits a stream.
-struct ResultOptions {
-  std::string json, residuals, report;
-  bool force = false;
-
-  void add_to(CLI::App& command, const std::string& residuals_hold) {
-    command.add_option("--json", json, "write the result here, '-' prints it")->check(a_place());
-    command.add_option("--residuals", residuals, "write every reading with " + residuals_hold)
-        ->check(a_place());
-    command.add_option("--report", report, "write a page here (HTML), '-' prints it")
-        ->check(a_place());
-    add_force(command, force);
-  }
-  void expect_apart() const {
-    if (!json.empty() && json == residuals)
-      throw CLI::ValidationError("--residuals", "cannot go where --json goes");
-    if (!report.empty() && (report == json || report == residuals))
-      throw CLI::ValidationError("--report", "cannot go where --json or --residuals goes");
-  }
-  bool printed() const { return json == "-" || residuals == "-" || report == "-"; }
-};
+inline void expect_only(const CLI::App& command, const std::vector<std::string>& fine,
+                        const std::string& why) {
+  refuse_given(command, false, fine, why);
+}
+inline void expect_none(const CLI::App& command, const std::vector<std::string>& of_another,
+                        const std::string& why) {
+  refuse_given(command, true, of_another, why);
+}
 
 }  // namespace trueaxis::cli

@@ -4,14 +4,14 @@
 #include <iostream>
 #include <memory>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
-#include "cli/progress.hpp"
+#include "cli/results.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "study/planning/files/planning_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
@@ -43,12 +43,13 @@ struct Simple {
 };
 
 struct PlanArguments {
-  std::string scenario, json;
+  std::string scenario;
+  Results results;
   Simple simple;
   std::vector<std::string> free;
   double goal_um = 1.0;
   study::PlanningTask task;
-  bool force = false, check = false;
+  bool check = false;
 };
 
 /// A line for the search, then one for the simulations.
@@ -102,30 +103,29 @@ int execute(PlanArguments options) {
   } catch (const InputError& error) {
     throw CLI::ValidationError("--free", error.what());
   }
-  Outputs outputs(options.force);
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   if (!options.scenario.empty()) outputs.reads(options.scenario);
-  outputs.may_write(options.json, "trueaxis.plan");
+  results.name_to(outputs);
   outputs.check();
   if (options.check) return checked(outputs, "search the plans and confirm them by simulation");
   PlanProgress progress;
   const study::PlanningAnswer answer = study::plan_measurement(task, std::ref(progress));
   progress.end();
-  if (!options.json.empty()) outputs.write(options.json, planning_json(task, answer, hash));
+  results.write(outputs, "--json", [&] { return planning_json(task, answer, hash); });
   outputs.commit();
-  if (options.json != "-") std::cout << planning_text(task, answer);
+  if (!results.printed()) std::cout << planning_text(task, answer);
   return answer.reached && answer.confirmed ? done : refused;
 }
 
 void add_simple(CLI::App& command, Simple& simple, CLI::Option* scenario) {
   const auto add = [&](const char* name, double& value, const char* what) {
-    command.add_option(name, value, what)
-        ->check(more_than_0())
+    add_option(command, name, value, more_than_0(), what)
         ->capture_default_str()
         ->excludes(scenario)
         ->group("Without a scenario");
   };
-  command.add_option("--surface", simple.surface, "cone or cylinder")
-      ->check(CLI::IsMember({"cone", "cylinder"}))
+  add_option(command, "--surface", simple.surface, one_of({"cone", "cylinder"}), "cone or cylinder")
       ->capture_default_str()
       ->excludes(scenario)
       ->group("Without a scenario");
@@ -145,28 +145,27 @@ void add_plan(CLI::App& app, int& exit_code) {
       "plan", "which length, readings and probe an uncertainty of the axis needs");
   auto options = std::make_shared<PlanArguments>();
   auto* scenario = command->add_option("scenario", options->scenario, "part and plan (TOML)");
-  command->add_option("--goal-um", options->goal_um, "largest U of the axis over the length")
-      ->check(more_than_0())
+  add_option(*command, "--goal-um", options->goal_um, more_than_0(),
+             "largest U of the axis over the length")
       ->capture_default_str();
-  command->add_option("--k", options->task.coverage_factor, "coverage factor of U")
-      ->check(more_than_0())
+  add_option(*command, "--k", options->task.coverage_factor, more_than_0(), "coverage factor of U")
       ->capture_default_str();
   command->add_option("--free", options->free,
                       "what may be chosen, KEY=LOW:HIGH, each once: readings_per_revolution, "
                       "sigma_um, feed_mm_per_rev, length_mm");
-  command->add_option("--time-s", options->task.time_s, "time that the measurement may take")
-      ->check(more_than_0());
-  command->add_option("--rate-hz", options->task.rate_hz, "readings a second that the probe gives")
-      ->check(more_than_0());
-  command->add_option("--repeats", options->task.repeats, "of each confirmation")
-      ->check(CLI::Range(100, 10'000'000))
+  add_option(*command, "--time-s", options->task.time_s, more_than_0(),
+             "time that the measurement may take");
+  add_option(*command, "--rate-hz", options->task.rate_hz, more_than_0(),
+             "readings a second that the probe gives");
+  add_option(*command, "--repeats", options->task.repeats, CLI::Range(100, 10'000'000),
+             "of each confirmation")
       ->capture_default_str();
   command->add_option("--seed", options->task.seed, "of the confirmations")->capture_default_str();
-  command->add_option("--threads", options->task.threads, "default: as many as there are")
-      ->check(CLI::Range(0, 4096));
-  command->add_option("--json", options->json, "the answer (trueaxis.plan/1), '-' prints it")
-      ->check(a_place());
-  add_force(*command, options->force);
+  add_option(*command, "--threads", options->task.threads, CLI::Range(0, 4096),
+             "default: as many as there are");
+  options->results.add(*command, "--json", "trueaxis.plan",
+                       "the answer (trueaxis.plan/1), '-' prints it");
+  add_force(*command, options->results.force);
   add_check(*command, options->check);
   add_simple(*command, options->simple, scenario);
   command->callback([options, &exit_code] { exit_code = execute(*options); });

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/program_place.hpp"
-
 #include <filesystem>
 
+#include "cli/guarded.hpp"
 #include "format/file.hpp"
 #include "nc/skeleton.hpp"
 #include "trueaxis/error.hpp"

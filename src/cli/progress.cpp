@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/progress.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
 #include <utility>
+
+#include "cli/terminal.hpp"
 
 namespace trueaxis::cli {
 namespace {

@@ -7,22 +7,18 @@
 #include <utility>
 
 #include "base/diagnostics.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/run_machine.hpp"
-#include "cli/screen.hpp"
 #include "cli/stream_options.hpp"
-#include "cli/waiting.hpp"
+#include "cli/terminal.hpp"
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "job/files/earlier_run.hpp"
 #include "job/files/job_results.hpp"
-#include "job/files/job_screen.hpp"
 #include "job/files/job_toml.hpp"
 #include "job/files/job_words.hpp"
 #include "job/files/stream_job.hpp"
-#include "job/machine/files/machine_job_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "report/report.hpp"
 #include "trueaxis/job.hpp"
 
@@ -108,17 +104,6 @@ int execute(const RunArguments& options) {
   return run_lathe(read_job_toml(content, path), options, false);
 }
 
-/// What is said of a stream beside a job would be passed over in silence.
-void expect_no_stream_options(const CLI::App& command) {
-  constexpr std::string_view fine[] = {"--help",    "--output", "--force",
-                                       "--verbose", "--check",  "stream"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || std::ranges::find(fine, name) != std::end(fine)) continue;
-    throw CLI::ValidationError(name, "is of a stream alone: write it into the job");
-  }
-}
-
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
@@ -130,17 +115,17 @@ void add_run(CLI::App& app, int& exit_code) {
   options->stream.add_to(*command, "job file (TOML), or a stream or another program's recording");
   options->stream.add_range_to(*command);
   options->surface = options->association.add_to(*command);
-  command
-      ->add_option("-o,--output", options->folder,
-                   "folder for table.csv or the new program, result.json and report.html, made if "
-                   "need be")
-      ->required()
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(),
+             "folder for table.csv or the new program, result.json and report.html, made if "
+             "need be")
+      ->required();
   add_force(*command, options->force);
   add_verbose(*command, options->verbose);
   add_check(*command, options->check);
   command->callback([=, &exit_code] {
-    if (is_job(options->stream.path)) expect_no_stream_options(*command);
+    if (is_job(options->stream.path))
+      expect_only(*command, {"stream", "--output", "--force", "--verbose", "--check"},
+                  "is of a stream alone: write it into the job");
     exit_code = execute(*options);
   });
 }

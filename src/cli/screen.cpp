@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/screen.hpp"
-
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -11,6 +9,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "cli/terminal.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis::cli {

@@ -9,18 +9,14 @@
 
 #include "base/diagnostics.hpp"
 #include "base/number.hpp"
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
+#include "cli/results.hpp"
 #include "cli/stream_options.hpp"
 #include "format/outputs.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
-#include "spindle/files/polar_svg.hpp"
-#include "spindle/files/spindle_json.hpp"
-#include "spindle/files/spindle_page.hpp"
-#include "spindle/files/spindle_text.hpp"
-#include "spindle/files/spindle_toml.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis::cli {
@@ -34,12 +30,13 @@ struct SpindleArguments {
   std::vector<std::string> streams;
   StreamOptions meaning;
   std::vector<double> angles_deg;
-  std::string orders = "2-100", json, svg, report;
+  std::string orders = "2-100";
+  Results results;
   std::optional<double> sensitive_deg;
   double u_angle_deg = 0.0, u_reindex_deg = 0.0, coverage_factor = 2.0;
   double largest_condition = SpindleOptions{}.largest_condition, apart_deg = 20.0;
   int sensors = 0;
-  bool advise = false, verbose = false, force = false, check = false;
+  bool advise = false, verbose = false, check = false;
 
   std::vector<double> angles_rad() const {
     std::vector<double> out = angles_deg;
@@ -81,14 +78,8 @@ void expect_job_alone(const CLI::App& command, const SpindleArguments& options) 
   if (job == options.streams.end()) return;
   if (options.streams.size() > 1)
     throw CLI::ValidationError("stream", *job + " is a job and names its streams: give it alone");
-  constexpr const char* beside[] = {"--json", "--svg", "--verbose", "--force", "--check", "--help"};
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    if (option->count() == 0 || !name.starts_with("--") ||
-        std::ranges::find(beside, name) != std::end(beside))
-      continue;
-    throw CLI::ValidationError(name, *job + " is a job: say it there or in the stream");
-  }
+  expect_only(command, {"stream", "--json", "--svg", "--verbose", "--force", "--check"},
+              *job + " is a job: say it there or in the stream");
 }
 
 /// What the command line says, or the job that it names.
@@ -111,25 +102,31 @@ SpindleJob job_of(const SpindleArguments& options, const OrderRange& orders) {
 int separate(const SpindleArguments& options, const OrderRange& orders) {
   SpindleJob job = job_of(options, orders);
   job.read.several_sensors = true;
-  const std::vector<ProbeStream> streams = read_each(
-      job.streams, [&](const std::string& path) { return read_stream_csv(path, job.read); });
-  Outputs outputs(options.force);
+  std::vector<ProbeStream> streams;
+  std::vector<Diagnostic> wrong;
+  for (const std::string& path : job.streams) {
+    try {
+      streams.push_back(read_stream_csv(path, job.read));
+    } catch (const InputError& error) {
+      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
+    }
+  }
+  if (!wrong.empty()) throw InputError(std::move(wrong));
+  const Results& results = options.results;
+  Outputs outputs(results.force);
   outputs.reads(options.streams.front());
   for (const std::string& path : job.streams) outputs.reads(path);
-  outputs.may_write(options.json, "trueaxis.spindle");
-  outputs.may_write(options.svg, "trueaxis.spindle_plot");
-  outputs.may_write(options.report, "trueaxis.spindle_report");
+  results.name_to(outputs);
   outputs.check();
   if (options.check)
     return checked(outputs, "separate part and spindle in " + std::to_string(streams.size()) +
                                 " streams, orders 2 to " + std::to_string(orders.high));
   const SpindleResult result = separate_spindle(streams, job.options);
-  if (!options.json.empty()) outputs.write(options.json, spindle_json(result, job.options));
-  if (!options.svg.empty()) outputs.write(options.svg, polar_svg(result));
-  if (!options.report.empty()) outputs.write(options.report, spindle_page(result));
+  results.write(outputs, "--json", [&] { return spindle_json(result, job.options); });
+  results.write(outputs, "--svg", [&] { return polar_svg(result); });
+  results.write(outputs, "--report", [&] { return spindle_page(result); });
   outputs.commit();
-  if (options.json != "-" && options.svg != "-" && options.report != "-")
-    std::cout << spindle_text(result, options.verbose);
+  if (!results.printed()) std::cout << spindle_text(result, options.verbose);
   return done;
 }
 
@@ -146,27 +143,25 @@ int execute(const SpindleArguments& options) {
 }
 
 void add_estimate(CLI::App& command, SpindleArguments& options) {
-  command
-      .add_option("--sensitive-deg", options.sensitive_deg,
-                  "direction of the tool from +X towards +Y (0)")
-      ->check(number_in(-360.0, false, 360.0, "an angle of -360 to 360 deg"));
-  command
-      .add_option("--u-angle-deg", options.u_angle_deg, "standard uncertainty of a sensor's angle")
-      ->check(number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"));
-  command.add_option("--u-reindex-deg", options.u_reindex_deg, "of the angle of a re-indexing")
-      ->check(number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"));
-  command.add_option("--coverage-factor", options.coverage_factor, "k of U = k u (2)")
-      ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
-  command.add_option("--json", options.json, "write the result here (JSON), '-' prints it")
-      ->check(a_place());
-  command.add_option("--svg", options.svg, "write polar plots here (SVG), '-' prints them")
-      ->check(a_place());
-  command
-      .add_option("--report", options.report,
-                  "write a page here (HTML): values, polar plots, orders; '-' prints it")
-      ->check(a_place());
+  add_option(command, "--sensitive-deg", options.sensitive_deg,
+             number_in(-360.0, false, 360.0, "an angle of -360 to 360 deg"),
+             "direction of the tool from +X towards +Y (0)");
+  add_option(command, "--u-angle-deg", options.u_angle_deg,
+             number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
+             "standard uncertainty of a sensor's angle");
+  add_option(command, "--u-reindex-deg", options.u_reindex_deg,
+             number_in(0.0, false, 90.0, "an angle of 0 to 90 deg"),
+             "of the angle of a re-indexing");
+  add_option(command, "--coverage-factor", options.coverage_factor,
+             number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
+  Results& results = options.results;
+  results.add(command, "--json", "trueaxis.spindle", "write the result here (JSON), '-' prints it");
+  results.add(command, "--svg", "trueaxis.spindle_plot",
+              "write polar plots here (SVG), '-' prints them");
+  results.add(command, "--report", "trueaxis.spindle_report",
+              "write a page here (HTML): values, polar plots, orders; '-' prints it");
   command.add_flag("--verbose", options.verbose, "a table of the orders too");
-  add_force(command, options.force);
+  add_force(command, results.force);
   add_check(command, options.check);
   options.meaning.add_meaning_to(command);
 }
@@ -185,26 +180,19 @@ void add_spindle(CLI::App& app, int& exit_code) {
                    "of the sensors X_M1, X_M2 …, deg from +X towards +Y: 0,99,202")
       ->delimiter(',');
   command->add_option("--orders", options->orders, "undulations per revolution (2-100)");
-  command
-      ->add_option("--largest-condition", options->largest_condition,
-                   "an order with a larger condition number is suppressed (100)")
-      ->check(number_in(1.0, false, 1e6, "a number of 1 to 1e6"));
+  add_option(*command, "--largest-condition", options->largest_condition,
+             number_in(1.0, false, 1e6, "a number of 1 to 1e6"),
+             "an order with a larger condition number is suppressed (100)");
   add_estimate(*command, *options);
   auto* advise = command->add_flag("--advise", options->advise,
                                    "propose angles of sensors, and judge those of --angles");
-  command->add_option("--sensors", options->sensors, "how many (3)")
-      ->check(CLI::Range(2, 16))
+  add_option(*command, "--sensors", options->sensors, CLI::Range(2, 16), "how many (3)")
       ->needs(advise);
-  command->add_option("--min-separation-deg", options->apart_deg, "between two sensors (20)")
-      ->check(number_in(0.0, false, 120.0, "an angle of 0 to 120 deg"))
+  add_option(*command, "--min-separation-deg", options->apart_deg,
+             number_in(0.0, false, 120.0, "an angle of 0 to 120 deg"), "between two sensors (20)")
       ->needs(advise);
   command->callback([options, command, &exit_code] {
-    if (!options->json.empty() && options->json == options->svg)
-      throw CLI::ValidationError("--svg", "cannot go where --json goes");
     expect_job_alone(*command, *options);
-    if (!options->report.empty() &&
-        (options->report == options->json || options->report == options->svg))
-      throw CLI::ValidationError("--report", "cannot go where --json or --svg goes");
     exit_code = execute(*options);
   });
 }

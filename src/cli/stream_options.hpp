@@ -37,35 +37,29 @@ struct StreamOptions {
     auto* as_diameter = command.add_flag("--diameter", diameter, "X_M is a diameter");
     command.add_flag("--radius", radius, "X_M is a radius")->excludes(as_diameter);
     command.add_flag("--relative", relative, "X_M is a gauge's reading, not a position");
-    command.add_option("--nominal-radius", nominal_radius_mm, "of a relative gauge, mm")
-        ->check(positive_length());
-    command
-        .add_option("--columns", columns,
-                    "of another program's file: which is which, by name or number, such as "
-                    "\"X=Diameter,C=Angle(°),Z=3[mm]\"")
-        ->check(a_place());
-    command
-        .add_option("--skip", skip,
-                    "of another program's file: lines above its table that are passed over")
-        ->check(CLI::Range(0, 1000000));
+    add_option(command, "--nominal-radius", nominal_radius_mm, positive_length(),
+               "of a relative gauge, mm");
+    add_option(command, "--columns", columns, a_place(),
+               "of another program's file: which is which, by name or number, such as "
+               "\"X=Diameter,C=Angle(°),Z=3[mm]\"");
+    add_option(command, "--skip", skip, CLI::Range(0, 1000000),
+               "of another program's file: lines above its table that are passed over");
     command.add_flag("--drop-invalid", drop_invalid,
                      "leave out rows without a value (NaN, #N/A, empty), and list them");
   }
 
   /// The options that take a stretch of Z alone.
   void add_range_to(CLI::App& command) {
-    command.add_option("--z-from-mm", range.from_mm, "lower end of the Z that is read, mm (all)")
-        ->check(number_in(-1e6, true, 1e6, "a length in mm"));
-    command.add_option("--z-to-mm", range.to_mm, "upper end of the Z that is read, mm (all)")
-        ->check(number_in(-1e6, true, 1e6, "a length in mm"));
+    add_option(command, "--z-from-mm", range.from_mm, number_in(-1e6, true, 1e6, "a length in mm"),
+               "lower end of the Z that is read, mm (all)");
+    add_option(command, "--z-to-mm", range.to_mm, number_in(-1e6, true, 1e6, "a length in mm"),
+               "upper end of the Z that is read, mm (all)");
   }
 
   /// `--ball-radius` of a command that reads a diagnosed stream again.
   static CLI::Option* add_ball_radius(CLI::App& command, double& radius_mm) {
-    return command
-        .add_option("--ball-radius", radius_mm,
-                    "of the probe's ball, mm, as given to the diagnosis")
-        ->check(a_length());
+    return add_option(command, "--ball-radius", radius_mm, a_length(),
+                      "of the probe's ball, mm, as given to the diagnosis");
   }
 
   bool says_anything() const {
@@ -104,22 +98,18 @@ struct AssociationOptions {
     std::vector<std::string> surfaces;
     for (const SurfaceInfo& info : surface_catalogue())
       if (fit_only || is_diagnosed(info.kind)) surfaces.emplace_back(info.id);
-    CLI::Option* option = command.add_option("--surface", surface, "reference surface")
-                              ->check(CLI::IsMember(surfaces));
-    command
-        .add_option("--loss", loss,
-                    "how readings far off count: plain (least squares, default); huber and tukey "
-                    "count them less")
-        ->check(CLI::IsMember({"plain", "huber", "tukey"}));
+    CLI::Option* option =
+        add_option(command, "--surface", surface, one_of(surfaces), "reference surface");
+    add_option(command, "--loss", loss, one_of({"plain", "huber", "tukey"}),
+               "how readings far off count: plain (least squares, default); huber and tukey "
+               "count them less");
     command.add_flag("--bore", fit.bore, "probed from inside");
-    command
-        .add_option("--ball-radius", fit.ball_radius_mm,
-                    "X_M is the centre of a ball of this radius, mm")
-        ->check(a_length());
-    command.add_option("--noise", noise_um, "standard deviation of one reading if known, µm")
-        ->check(a_length());
-    command.add_option("--coverage-factor", fit.coverage_factor, "k of U = k u (2)")
-        ->check(number_in(0.0, true, 100.0, "a number above 0, up to 100"));
+    add_option(command, "--ball-radius", fit.ball_radius_mm, a_length(),
+               "X_M is the centre of a ball of this radius, mm");
+    add_option(command, "--noise", noise_um, a_length(),
+               "standard deviation of one reading if known, µm");
+    add_option(command, "--coverage-factor", fit.coverage_factor,
+               number_in(0.0, true, 100.0, "a number above 0, up to 100"), "k of U = k u (2)");
     return option;
   }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <iostream>
 #include <memory>
 
-#include "cli/check.hpp"
 #include "cli/commands.hpp"
 #include "cli/guarded.hpp"
 #include "cli/options.hpp"
@@ -22,15 +20,13 @@ void add_sweep(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "repeat a scenario over a grid, against the theoretical limit");
   auto options = std::make_shared<Options>();
   command->add_option("sweep", options->sweep, "sweep (TOML)")->required();
-  command
-      ->add_option("-o,--output", options->folder,
-                   "folder of the results, the report and the journal, made if need be; without it "
-                   "nothing is kept")
-      ->check(a_place());
+  add_option(*command, "-o,--output", options->folder, a_place(),
+             "folder of the results, the report and the journal, made if need be; without it "
+             "nothing is kept");
   add_force(*command, options->force);
   add_check(*command, options->check);
-  command->add_option("--threads", options->threads, "default: as many as there are")
-      ->check(CLI::Range(0, 4096));
+  add_option(*command, "--threads", options->threads, CLI::Range(0, 4096),
+             "default: as many as there are");
   command->callback([options, &exit_code] {
     const study::PublishedSweep file = read_published_sweep(options->sweep);
     if (options->check) {

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <optional>
 
-#include "cli/check.hpp"
-#include "cli/progress.hpp"
+#include "cli/guarded.hpp"
+#include "cli/terminal.hpp"
 #include "format/outputs.hpp"
 #include "report/sweep_report.hpp"
 #include "studies/published/placement.hpp"

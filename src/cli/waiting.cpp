@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/waiting.hpp"
-
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -10,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include "cli/terminal.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis::cli {

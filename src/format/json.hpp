@@ -5,6 +5,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "trueaxis/units.hpp"
 
@@ -25,6 +26,55 @@ inline Json quantity_object(double value, const char* unit, const char* why = "n
   Json json = with_unit(value, unit);
   if (!std::isfinite(value)) json["why"] = why;
   return json;
+}
+
+inline Json mm_json(double length_mm) { return with_unit(length_mm, "mm"); }
+inline Json deg_json(double angle_rad) { return with_unit(angle_rad / rad_per_deg, "deg"); }
+
+/// An array of what `write` makes of each item.
+template <class Items, class Write>
+Json list_of(const Items& items, const Write& write) {
+  Json list = Json::array();
+  for (const auto& item : items) list.push_back(write(item));
+  return list;
+}
+
+/// The same of the numbers 0 … count − 1.
+template <class Write>
+Json list_of_first(std::size_t count, const Write& write) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < count; ++i) list.push_back(write(i));
+  return list;
+}
+
+/// Rows of a square matrix; `at(i, j)` is its element as the file has it.
+template <class At>
+Json square_json(std::size_t size, const At& at) {
+  return list_of_first(size, [&](std::size_t i) {
+    return list_of_first(size, [&](std::size_t j) { return number(at(i, j)); });
+  });
+}
+
+/// {"file", "hash"} of whatever has both.
+template <class Files>
+Json files_json(const Files& files) {
+  return list_of(files, [](const auto& one) -> Json {
+    return {{"file", one.file}, {"hash", one.hash}};
+  });
+}
+
+/// The same of paths and hashes that lie beside each other.
+inline Json files_json(const std::vector<std::string>& files,
+                       const std::vector<std::string>& hashes) {
+  return list_of_first(files.size(), [&](std::size_t i) -> Json {
+    return {{"file", files[i]}, {"hash", hashes[i]}};
+  });
+}
+
+/// A quantity, and the line of a program where it is met; null for none.
+inline Json at_line(Json quantity, std::size_t line) {
+  quantity["line"] = line == 0 ? Json(nullptr) : Json(line);
+  return quantity;
 }
 
 /// A name whose suffix is the unit inside, as a file has it: "half_angle_rad" is half_angle in deg.

@@ -155,9 +155,7 @@ Json reason_object(const Reason& reason, Spoken references) {
 }
 
 Json reasons_array(const Reasons& reasons, Spoken references) {
-  Json list = Json::array();
-  for (const Reason& one : reasons) list.push_back(reason_object(one, references));
-  return list;
+  return list_of(reasons, [&](const Reason& one) { return reason_object(one, references); });
 }
 
 }  // namespace trueaxis

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "job/exchanged.hpp"
 #include "job/mistakes.hpp"
 #include "trueaxis/units.hpp"
 

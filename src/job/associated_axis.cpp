@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/associated_axis.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>

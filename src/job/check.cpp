@@ -5,13 +5,9 @@
 #include <utility>
 
 #include "job/agreement.hpp"
-#include "job/cut_checks.hpp"
-#include "job/datum_doubts.hpp"
+#include "job/checks.hpp"
 #include "job/doubts.hpp"
-#include "job/model_doubts.hpp"
-#include "job/outcome_checks.hpp"
 #include "job/references.hpp"
-#include "job/sensor_doubts.hpp"
 #include "job/slip.hpp"
 
 namespace trueaxis {

@@ -4,15 +4,14 @@
 #include <algorithm>
 
 #include "correct/coaxiality_distribution.hpp"
-#include "job/associated_axis.hpp"
 #include "job/check.hpp"
-#include "job/cut_checks.hpp"
+#include "job/checks.hpp"
+#include "job/datum_axes.hpp"
 #include "job/doubts.hpp"
 #include "job/inclusion.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "job/target_datum.hpp"
-#include "job/verdict.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/cut_checks.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "fit/describe.hpp"
 #include "job/beyond_probed.hpp"
+#include "job/checks.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "job/part_readings.hpp"
+#include "job/part_form_steps.hpp"
 #include "job/references.hpp"
 
 namespace trueaxis {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "trueaxis/job.hpp"
@@ -21,5 +22,11 @@ std::vector<Point3> datum_points(const PlannedJob& result, std::size_t reference
 /// The axis of one association; `why` says where there is none.
 DatumAxis datum_axis(std::span<const Point3> points_mm, Element element, Criterion criterion,
                      bool bore);
+
+/// By how much the axis of a reference's `association` is off that of least squares, from the same
+/// readings, with the covariance that their noise gives this difference (Eq. 303), at z_ref of the
+/// fit used. Nothing where the job states none, or least squares.
+/// @throws Refusal where the readings give no such axis
+std::optional<AxisEstimate> associated_difference(const PlannedJob& result, std::size_t reference);
 
 }  // namespace trueaxis

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/datum_doubts.hpp"
-
 #include <algorithm>
 
 #include "correct/coaxiality_distribution.hpp"
+#include "job/checks.hpp"
 #include "job/references.hpp"
 
 namespace trueaxis {

@@ -10,7 +10,6 @@
 
 #include "base/angle.hpp"
 #include "fit/moved.hpp"
-#include "job/ends_of_stream.hpp"
 #include "job/slip.hpp"
 #include "measure/angles_alike.hpp"
 #include "measure/column_checks.hpp"

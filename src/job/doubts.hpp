@@ -51,4 +51,14 @@ std::optional<Reason> sensor_limit_of(const ProbeStream& stream);
 void withhold_axis(FitResult& fit, const std::string& why);
 void withhold_axis(Diagnosis& diagnosis, const std::string& why);
 
+// A slip near an end of a stream leaves too few readings beside it to be a finding, and where it is
+// the last end the part stands elsewhere now.
+
+/// Outliers gather at an end of a pass.
+extern const AxisDoubt left_out_at_an_end;
+
+/// Several of the last eight readings lie farther off than in any other eight, and than their share
+/// elsewhere makes once in a thousand streams.
+extern const AxisDoubt far_off_at_the_end;
+
 }  // namespace trueaxis

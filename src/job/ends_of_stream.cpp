@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/ends_of_stream.hpp"
-
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
 #include <cmath>
 #include <iterator>
 #include <vector>
 
+#include "job/doubts.hpp"
 #include "math/statistics.hpp"
 #include "measure/passes.hpp"
 

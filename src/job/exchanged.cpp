@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/exchanged.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/form_judgement.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "job/part_form_steps.hpp"
 
 namespace trueaxis {
 namespace {

@@ -7,7 +7,7 @@
 #include "job/agreement.hpp"
 #include "job/conclude.hpp"
 #include "job/datum_axes.hpp"
-#include "job/form_judgement.hpp"
+#include "job/part_form_steps.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "job/axis_likelihood.hpp"
+#include "job/check.hpp"
 #include "trueaxis/probe_stream.hpp"
 #include "trueaxis/reason.hpp"
 
@@ -34,5 +35,13 @@ HeldAxis mended(HeldAxis axis, const Mistake& mistake, double number = 0.0);
 /// ln of the density of a right axis over that of the axis as it was read, where that is smaller: a
 /// mistake that shrinks everything would make all axes agree.
 double log_shrinkage(const Mistake& mistake, bool plane);
+
+inline constexpr Threshold exchanged_better{"left", 1.0 / 3.0, "of the RMS as given",
+                                            "for one of the two"};
+inline constexpr Threshold exchanged_as_good{"left", 1.2, "of the RMS as given", "for both"};
+
+/// That two references have each other's stream: each stream is fitted better, or as well, with the
+/// surface of the other.
+std::optional<Reason> exchanged_streams(const IdentifiedJob& job);
 
 }  // namespace trueaxis

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/model_doubts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <variant>
 
+#include "job/checks.hpp"
 #include "job/doubts.hpp"
 #include "measure/passes.hpp"
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/motion_columns.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "diagnose/geometry/hypothesis.hpp"
+#include "job/part_form_steps.hpp"
 #include "trueaxis/effect.hpp"
 
 namespace trueaxis {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/one_surface.hpp"
-
 #include <cmath>
 
 #include "fit/plausible.hpp"
+#include "job/evidence.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/outcome_checks.hpp"
-
 #include <cmath>
 
 #include "fit/plausible.hpp"
+#include "job/checks.hpp"
 #include "job/doubts.hpp"
 
 namespace trueaxis {

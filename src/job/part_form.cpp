@@ -7,8 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "job/form_judgement.hpp"
-#include "job/part_readings.hpp"
+#include "job/part_form_steps.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

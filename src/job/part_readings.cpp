@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/part_readings.hpp"
-
 #include <algorithm>
+
+#include "job/part_form_steps.hpp"
 
 namespace trueaxis {
 namespace {

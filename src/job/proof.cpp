@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/proof.hpp"
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "base/number.hpp"
 #include "correct/coaxiality_distribution.hpp"
+#include "job/conclude.hpp"
 #include "job/doubts.hpp"
 #include "job/references.hpp"
 #include "job/target_datum.hpp"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/seat_references.hpp"
-
 #include <string>
 #include <utility>
 
 #include "fit/plausible.hpp"
-#include "job/one_surface.hpp"
+#include "job/evidence.hpp"
 #include "measure/seats.hpp"
 #include "trueaxis/error.hpp"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/sensor_doubts.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <variant>
+
+#include "job/checks.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/verdict.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "correct/coaxiality_distribution.hpp"
 #include "job/check.hpp"
+#include "job/checks.hpp"
+#include "job/conclude.hpp"
 #include "job/cut_files.hpp"
-#include "job/form_judgement.hpp"
-#include "job/model_doubts.hpp"
-#include "job/outcome_checks.hpp"
-#include "job/proof.hpp"
+#include "job/part_form_steps.hpp"
 #include "job/references.hpp"
 #include "job/slip.hpp"
 #include "job/target_datum.hpp"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
 

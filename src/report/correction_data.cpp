@@ -4,7 +4,6 @@
 #include "job/files/job_results.hpp"
 #include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -51,9 +50,7 @@ Json turns_data(const CorrectionRows& rows, std::vector<Turn> turns) {
   std::erase_if(turns, [&](Turn turn) { return length(turn) < longest; });
   std::vector<std::size_t> shown{0, turns.size() / 2, turns.size() - 1};
   shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
-  Json list = Json::array();
-  for (const std::size_t i : shown) list.push_back(turn_data(rows, turns[i]));
-  return list;
+  return list_of(shown, [&](std::size_t i) { return turn_data(rows, turns[i]); });
 }
 
 Json map_data(const CorrectionRows& rows, std::size_t turns) {

@@ -8,10 +8,11 @@
 #include "calibrate/files/machine_diagnosis_files.hpp"
 #include "calibrate/files/machine_screen.hpp"
 #include "job/files/job_words.hpp"
-#include "job/machine/files/machine_job_results.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "machine/error_name.hpp"
+#include "report/chart_readings.hpp"
 #include "report/page.hpp"
-#include "report/thinning.hpp"
+#include "report/page_data.hpp"
 
 namespace trueaxis {
 namespace {
@@ -22,24 +23,9 @@ double um(double length_mm) { return rounded(length_mm / mm_per_um, 3); }
 
 double norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
 
-const char* outcome(const MachineJobVerdict& verdict) {
-  switch (verdict.decision) {
-    case Decision::go:
-      return "go";
-    case Decision::go_with_reservations:
-      return "reserved";
-    case Decision::not_proven:
-      return "not-proven";
-    case Decision::no_go:
-      return "no-go";
-    default:
-      return "done";
-  }
-}
-
 Json verdict_data(const MachineJobResult& result) {
   const MachineJobVerdict& v = result.verdict;
-  Json data{{"outcome", outcome(v)},
+  Json data{{"outcome", outcome_of(v.decision, v.decision == Decision::go)},
             {"line", machine_verdict_line(v)},
             {"next", machine_next_words(v)},
             {"reservations", sentences_of(v.reservations, {})},
@@ -72,25 +58,25 @@ std::vector<std::size_t> drawn_tips(const std::vector<ProgramTip>& tips) {
 }
 
 Json tips_data(const std::vector<ProgramTip>& tips) {
-  Json data{{"count", tips.size()}};
   const std::vector<std::size_t> drawn = drawn_tips(tips);
-  data["thinned"] = drawn.size() < tips.size();
-  for (const char* key : {"line", "before_um", "after_um", "u_um"}) data[key] = Json::array();
-  for (const char* key : {"tip_mm", "by_before_um", "by_after_um"})
-    data[key] = Json::array({Json::array(), Json::array(), Json::array()});
-  for (const std::size_t i : drawn) {
-    const ProgramTip& tip = tips[i];
-    data["line"].push_back(tip.line);
-    data["before_um"].push_back(um(norm(tip.before_mm)));
-    data["after_um"].push_back(um(norm(tip.after_mm)));
-    data["u_um"].push_back(um(tip.u_mm));
-    for (std::size_t k = 0; k < 3; ++k) {
-      data["tip_mm"][k].push_back(rounded(tip.tip_mm[k], 3));
-      data["by_before_um"][k].push_back(um(tip.before_mm[k]));
-      data["by_after_um"][k].push_back(um(tip.after_mm[k]));
-    }
-  }
-  return data;
+  const auto column = [&](const auto& of) {
+    return list_of(drawn, [&](std::size_t i) { return of(tips[i]); });
+  };
+  const auto by_axis = [&](const auto& of) {
+    return list_of_first(3, [&](std::size_t k) {
+      return column([&](const ProgramTip& tip) { return of(tip, k); });
+    });
+  };
+  using Tip = const ProgramTip&;
+  return {{"count", tips.size()},
+          {"thinned", drawn.size() < tips.size()},
+          {"line", column([](Tip tip) { return tip.line; })},
+          {"before_um", column([](Tip tip) { return um(norm(tip.before_mm)); })},
+          {"after_um", column([](Tip tip) { return um(norm(tip.after_mm)); })},
+          {"u_um", column([](Tip tip) { return um(tip.u_mm); })},
+          {"tip_mm", by_axis([](Tip tip, std::size_t k) { return rounded(tip.tip_mm[k], 3); })},
+          {"by_before_um", by_axis([](Tip tip, std::size_t k) { return um(tip.before_mm[k]); })},
+          {"by_after_um", by_axis([](Tip tip, std::size_t k) { return um(tip.after_mm[k]); })}};
 }
 
 double edge_of(AxisName axis, double position) {
@@ -107,32 +93,24 @@ Json axis_data(AxisName axis, const std::vector<double>& middles) {
 }
 
 Json maps_data(const MachineJobResult& result) {
-  Json list = Json::array();
-  for (const ErrorMap& map : result.maps) {
-    Json at = Json::array(), before = Json::array(), after = Json::array();
+  return list_of(result.maps, [&](const ErrorMap& map) -> Json {
+    Json at = Json::array();
     for (const MachineAxis& axis : result.job.machine.axes)
       if (axis.name != map.across && axis.name != map.up)
         at.push_back({{"name", std::string(1, letter_of(axis.name))},
                       {"unit", is_rotary(axis.name) ? "°" : "mm"},
                       {"value", edge_of(axis.name, map.at[index_of(axis.name)])}});
-    for (const double value : map.before_mm) before.push_back(um(value));
-    for (const double value : map.after_mm) after.push_back(um(value));
-    list.push_back({{"across", axis_data(map.across, map.across_positions)},
-                    {"up", axis_data(map.up, map.up_positions)},
-                    {"at", std::move(at)},
-                    {"before_um", std::move(before)},
-                    {"after_um", std::move(after)}});
-  }
-  return list;
+    return {{"across", axis_data(map.across, map.across_positions)},
+            {"up", axis_data(map.up, map.up_positions)},
+            {"at", std::move(at)},
+            {"before_um", list_of(map.before_mm, um)},
+            {"after_um", list_of(map.after_mm, um)}};
+  });
 }
 
 Json part_data(const PartDisplacement& part) {
-  Json shift = Json::array(), turn = Json::array();
-  for (std::size_t k = 0; k < 3; ++k) {
-    shift.push_back(um(part.shift_mm[k]));
-    turn.push_back(rounded(1e6 * part.turn_rad[k], 2));
-  }
-  return {{"shift_um", std::move(shift)}, {"turn_urad", std::move(turn)}};
+  const auto urad = [](double turn_rad) { return rounded(1e6 * turn_rad, 2); };
+  return {{"shift_um", list_of(part.shift_mm, um)}, {"turn_urad", list_of(part.turn_rad, urad)}};
 }
 
 /// What every error and effect is called that a text may name.
@@ -160,7 +138,7 @@ Json machine_report_data(const MachineJobResult& result) {
             {"file", result.job.path},
             {"machine", result.job.machine.name},
             {"chain", result.job.machine.chain},
-            {"header", Json::array()},
+            {"header", result.job.header},
             {"verdict", verdict_data(result)},
             {"inputs", run.at("inputs")},
             {"ranges", run.at("ranges")},
@@ -171,7 +149,6 @@ Json machine_report_data(const MachineJobResult& result) {
   data["diagnosis"].erase("effects");
   for (const MachinePlan& plan : result.diagnosis.plans)
     data["words"]["measurements"][plan.code] = plan.what;
-  for (const auto& [label, text] : result.job.header) data["header"].push_back({label, text});
   if (!result.tips.empty()) data["tips"] = tips_data(result.tips);
   if (result.part) data["part"] = part_data(*result.part);
   if (result.compensation) {

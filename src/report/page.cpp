@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "report/plain_tables.hpp"
 #include "trueaxis/error.hpp"
 
 extern "C" {

@@ -32,4 +32,9 @@ std::string fill_template(
     std::string_view page,
     std::initializer_list<std::pair<std::string_view, std::string_view>> texts);
 
+/// A result as HTML that needs no script: a section a member, objects as tables of name and value,
+/// arrays of objects as tables with a row each, what lies deeper folded. A quantity is written with
+/// its unit and u. Columns of charts (more than 16 numbers) are counted, not listed.
+std::string plain_tables(const Json& result);
+
 }  // namespace trueaxis

@@ -51,4 +51,8 @@ Json next_data(const JobResult& result);
 /// The table as revolutions and a map, harmonics, the actuator's margin.
 Json correction_data(const Correction& correction);
 
+/// What a page's banner is coloured by.
+/// @param judged that something was, so that a decision without an objection is a go
+const char* outcome_of(Decision decision, bool judged);
+
 }  // namespace trueaxis

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "job/files/part_form_files.hpp"
+#include "job/files/job_results.hpp"
+#include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -47,10 +47,10 @@ Json values_data(const std::vector<const FormResult*>& cases) {
   for (const auto& [name, reference] : shown) {
     if (!worst_value(*cases.front(), name, reference)) continue;
     if (cone && of_cylinder(name)) continue;
-    Json row{{"name", name}, {"reference", reference}, {"cases", Json::array()}};
-    for (const FormResult* one : cases)
-      row["cases"].push_back(estimate_data(worst_value(*one, name, reference)));
-    rows.push_back(std::move(row));
+    const auto of_case = [&](const FormResult* one) {
+      return estimate_data(worst_value(*one, name, reference));
+    };
+    rows.push_back({{"name", name}, {"reference", reference}, {"cases", list_of(cases, of_case)}});
   }
   return rows;
 }
@@ -70,18 +70,16 @@ std::vector<std::size_t> worst_sections(const FormResult& form) {
 Json sections_data(const std::vector<const FormResult*>& cases) {
   std::vector<std::size_t> list = worst_sections(*cases.back());
   std::ranges::sort(list);
-  Json rows = Json::array();
-  for (const std::size_t i : list) {
+  return list_of(list, [&](std::size_t i) -> Json {
     const SectionForm& section = cases.front()->sections[i];
-    Json row{{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
-             {"readings", section.readings},
-             {"cases", Json::array()},
-             {"lobes", cases.back()->sections[i].lobes}};
-    for (const FormResult* one : cases)
-      row["cases"].push_back(estimate_data(of(one->sections[i], "RONt", "MZCI")));
-    rows.push_back(std::move(row));
-  }
-  return rows;
+    const auto of_case = [i](const FormResult* one) {
+      return estimate_data(of(one->sections[i], "RONt", "MZCI"));
+    };
+    return {{"z_mm", section.z_mm ? Json(*section.z_mm) : Json(nullptr)},
+            {"readings", section.readings},
+            {"cases", list_of(cases, of_case)},
+            {"lobes", cases.back()->sections[i].lobes}};
+  });
 }
 
 Json column_of(std::span<const double> values, double scale, int decimals, std::size_t step) {
@@ -147,10 +145,10 @@ Json worst_data(const FormResult& form) {
 }  // namespace
 
 Json part_form_data(const PartForm& form) {
-  Json data{{"why_not", form.why_not}, {"judgements", Json::array()}};
-  for (const FormJudgement& one : form.judgements)
-    data["judgements"].push_back(
-        {{"conformity", to_string(one.conformity)}, {"text", judgement_text(form, one)}});
+  const auto judgement = [&](const FormJudgement& one) -> Json {
+    return {{"conformity", to_string(one.conformity)}, {"text", judgement_text(form, one)}};
+  };
+  Json data{{"why_not", form.why_not}, {"judgements", list_of(form.judgements, judgement)}};
   if (!form.why_not.empty()) return data;
   std::vector<const FormResult*> cases{&form.probed};
   if (form.less_motion) cases.push_back(&*form.less_motion);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/plain_tables.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "format/html.hpp"
+#include "report/page.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

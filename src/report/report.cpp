@@ -2,16 +2,15 @@
 #include "report/report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "diagnose/files/axes_text.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/seen.hpp"
 #include "fit/files/fit_files.hpp"
-#include "job/files/datum_axes_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
-#include "job/files/seats_files.hpp"
 #include "report/page.hpp"
 #include "report/page_data.hpp"
 
@@ -26,16 +25,7 @@ const std::string& job_title(const JobResult& result, const std::string& file) {
 /// What the banner says in one word: without tolerance or target nothing is met or missed.
 const char* outcome(const JobResult& result) {
   const bool judged = result.job.coaxiality_tolerance_mm && result.target_axis;
-  switch (result.verdict.decision) {
-    case Decision::not_proven:
-      return "not-proven";
-    case Decision::go_with_reservations:
-      return "reserved";
-    case Decision::no_go:
-      return "no-go";
-    default:
-      return judged ? "go" : "done";
-  }
+  return outcome_of(result.verdict.decision, judged);
 }
 
 Json verdict_data(const JobResult& result) {
@@ -52,12 +42,6 @@ Json verdict_data(const JobResult& result) {
     data["coaxiality_at_most_mm"] = verdict.upper_mm;
   }
   return data;
-}
-
-Json header_data(const JobResult& result) {
-  Json lines = Json::array();
-  for (const auto& [label, text] : result.job.header) lines.push_back({label, text});
-  return lines;
 }
 
 /// Ids of effects and codes of measurements in words, for texts that hold them.
@@ -82,22 +66,18 @@ Json titles_of(const Diagnosis& diagnosis) {
 /// What was seen, finding by finding.
 void add_words(Json& data, const Diagnosis& diagnosis) {
   const double k = diagnosis.baseline.coverage_factor;
-  data["seen"] = {{"findings", Json::array()}, {"unexplained", Json::array()}};
-  for (const Finding& finding : diagnosis.findings)
-    data["seen"]["findings"].push_back(seen_text(finding, k));
-  for (const Unexplained& pattern : diagnosis.unexplained)
-    data["seen"]["unexplained"].push_back(seen_text(pattern, k));
+  const auto seen = [k](const auto& one) { return seen_text(one, k); };
+  data["seen"] = {{"findings", list_of(diagnosis.findings, seen)},
+                  {"unexplained", list_of(diagnosis.unexplained, seen)}};
 }
 
 /// x, y and u of an axis at both ends of what was probed, mm.
 Json axis_ends(const FitResult& fit) {
-  Json ends = Json::array();
-  if (fit.status != FitStatus::converged) return ends;
-  for (const double z : {fit.position_min_mm, fit.position_max_mm}) {
+  if (fit.status != FitStatus::converged) return Json::array();
+  return list_of(std::array{fit.position_min_mm, fit.position_max_mm}, [&](double z) -> Json {
     const auto [x, y] = fit.axis.axis.at(z);
-    ends.push_back({{"z", z}, {"x", x}, {"y", y}, {"u", fit.axis.u_at(z)}});
-  }
-  return ends;
+    return {{"z", z}, {"x", x}, {"y", y}, {"u", fit.axis.u_at(z)}};
+  });
 }
 
 /// A diagnosis as in its file, without what the page has elsewhere or only counts.
@@ -113,9 +93,7 @@ Json diagnosis_data(const ProbeStream& stream, const Diagnosis& diagnosis,
   data["noise"]["masked"] = diagnosis.noise.masked.size();
   data["noise"]["interruptions"] = diagnosis.noise.interruptions.size();
   if (diagnosis.extended.surface != SurfaceKind::plane) {
-    data["shares"] = Json::array();
-    for (const AxisShare& share : telling_shares(diagnosis))
-      data["shares"].push_back(share_object(share));
+    data["shares"] = list_of(telling_shares(diagnosis), share_object);
   }
   data["titles"] = titles_of(diagnosis);
   add_words(data, diagnosis);
@@ -154,6 +132,19 @@ Json reference_data(const JobResult& result, std::size_t i) {
 
 }  // namespace
 
+const char* outcome_of(Decision decision, bool judged) {
+  switch (decision) {
+    case Decision::not_proven:
+      return "not-proven";
+    case Decision::go_with_reservations:
+      return "reserved";
+    case Decision::no_go:
+      return "no-go";
+    default:
+      return judged ? "go" : "done";
+  }
+}
+
 Json fit_data(const FitResult& fit) {
   Json data = fit_object(fit);
   const auto listed =
@@ -165,21 +156,25 @@ Json fit_data(const FitResult& fit) {
 }
 
 Json report_data(const JobResult& result, const std::string& file) {
-  Json data{{"schema", "trueaxis.report/2"},    {"version", TRUEAXIS_VERSION},
-            {"title", job_title(result, file)}, {"file", file},
-            {"verdict", verdict_data(result)},  {"inputs", inputs_data(result)},
-            {"target", target_data(result)},    {"seats", seats_data(result)},
-            {"header", header_data(result)},    {"warnings", warnings_data(result)},
-            {"next", next_data(result)},        {"words", words_data()},
-            {"references", Json::array()}};
-  if (result.fits.size() > 1 && !result.job.target) {
+  const std::size_t count = result.fits.size();
+  const auto reference = [&](std::size_t i) { return reference_data(result, i); };
+  Json data{{"schema", "trueaxis.report/2"},
+            {"version", TRUEAXIS_VERSION},
+            {"title", job_title(result, file)},
+            {"file", file},
+            {"verdict", verdict_data(result)},
+            {"inputs", inputs_data(result)},
+            {"target", target_data(result)},
+            {"seats", seats_data(result)},
+            {"header", result.job.header},
+            {"warnings", warnings_data(result)},
+            {"next", next_data(result)},
+            {"words", words_data()},
+            {"references", list_of_first(count, reference)}};
+  if (count > 1 && !result.job.target) {
     data["seats_apart"] = seats_apart_array(result);
-    data["seat_axes"] = Json::array();
-    for (std::size_t i = 0; i < result.fits.size(); ++i)
-      data["seat_axes"].push_back(seat_axis_object(result, i));
-  }
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
-    data["references"].push_back(reference_data(result, i));
+    data["seat_axes"] =
+        list_of_first(count, [&](std::size_t i) { return seat_axis_object(result, i); });
   }
   if (result.correction) data["correction"] = correction_data(*result.correction);
   return data;

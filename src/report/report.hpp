@@ -5,7 +5,11 @@
 #include <string>
 
 #include "format/json.hpp"
+#include "trueaxis/diagnosis.hpp"
+#include "trueaxis/fit.hpp"
 #include "trueaxis/job.hpp"
+#include "trueaxis/part_form.hpp"
+#include "trueaxis/probe_stream.hpp"
 
 namespace trueaxis {
 
@@ -23,5 +27,13 @@ Json fit_data(const FitResult& fit);
 
 /// Rejected readings that are listed one by one; the rest is counted.
 inline constexpr std::size_t max_rejected_listed = 200;
+
+/// The page of one fitted stream: that of a job without a target.
+std::string render_fit_report(const ProbeStream& stream, const FitResult& fit,
+                              const FitOptions& options);
+
+/// The same of a diagnosed one; the part is measured again by the virtual lathe, as in a run.
+std::string render_diagnosis_report(const ProbeStream& stream, const Diagnosis& diagnosis,
+                                    const FitOptions& options, const PartForm& form);
 
 }  // namespace trueaxis

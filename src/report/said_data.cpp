@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/files/job_results.hpp"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

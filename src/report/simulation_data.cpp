@@ -4,7 +4,6 @@
 
 #include "report/chart_readings.hpp"
 #include "report/page_data.hpp"
-#include "report/thinning.hpp"
 #include "resimulate/diagnosed_scenarios.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/stream_report.hpp"
-
 #include <filesystem>
 
 #include "diagnose/files/diagnosis_screen.hpp"
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "job/datum_axes.hpp"
 #include "job/files/job_results.hpp"
 #include "report/page.hpp"

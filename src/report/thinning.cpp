@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "report/thinning.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "report/chart_readings.hpp"
 
 namespace trueaxis {
 
@@ -28,12 +28,10 @@ void CellMeans::add(double x, double y, double value) {
 }
 
 Json CellMeans::to_json(int decimals) const {
-  Json means = Json::array();
-  for (std::size_t cell = 0; cell < sum_.size(); ++cell) {
+  return list_of_first(sum_.size(), [&](std::size_t cell) {
     const double count = static_cast<double>(count_[cell]);
-    means.push_back(count_[cell] == 0 ? not_there : rounded(sum_[cell] / count, decimals));
-  }
-  return means;
+    return count_[cell] == 0 ? not_there : rounded(sum_[cell] / count, decimals);
+  });
 }
 
 Envelope::Envelope(Bins x)
@@ -86,9 +84,7 @@ Json histogram(std::vector<double> values, int decimals) {
 }
 
 Json column(const std::vector<double>& values, int decimals) {
-  Json list = Json::array();
-  for (const double value : values) list.push_back(rounded(value, decimals));
-  return list;
+  return list_of(values, [decimals](double value) { return rounded(value, decimals); });
 }
 
 double rounded(double value, int decimals) {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "blind_machine/elsewhere.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "support/case_runs.hpp"
 
 namespace trueaxis::blind_machine {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "support/command.hpp"
 #include "support/places.hpp"
 #include "trueaxis/effect.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "support/command_fixture.hpp"
 #include "support/part_alignment.hpp"

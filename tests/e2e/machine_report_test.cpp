@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "format/file.hpp"
-#include "job/machine/files/machine_job_results.hpp"
-#include "job/machine/files/machine_job_toml.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "support/open_page.hpp"
 #include "support/places.hpp"
 #include "trueaxis/error.hpp"

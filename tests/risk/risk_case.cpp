@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "job/verdict.hpp"
+#include "job/conclude.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
 namespace trueaxis::risk {

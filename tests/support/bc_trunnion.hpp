@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "support/chain_matrices.hpp"
 #include "support/command_fixture.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/cut_checks.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "job/beyond_probed.hpp"
+#include "job/checks.hpp"
 #include "job/files/job_words.hpp"
 #include "job/material.hpp"
 #include "trueaxis/error.hpp"

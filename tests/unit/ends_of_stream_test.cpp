@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A part that moved in the last readings leaves too few of them for a finding; what nothing
 // explains may move the axis. Neither is a GO.
-#include "job/ends_of_stream.hpp"
-
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -6,7 +6,6 @@
 #include <fstream>
 
 #include "machine/files/errors_files.hpp"
-#include "machine/files/errors_toml.hpp"
 #include "machine/uncertainty.hpp"
 #include "support/places.hpp"
 #include "trueaxis/error.hpp"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "support/command.hpp"
 #include "support/places.hpp"
 

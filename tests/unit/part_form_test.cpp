@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "job/motion_columns.hpp"
+#include "job/part_form_steps.hpp"
 #include "support/diagnose_lathe.hpp"
 #include "support/form_profiles.hpp"
 

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "associate/files/association_files.hpp"
-#include "form/files/form_qif.hpp"
+#include "form/files/form_files.hpp"
 #include "format/outputs.hpp"
 #include "interchange/qif_parts.hpp"
 #include "support/qif_reader.hpp"

@@ -8,9 +8,9 @@
 
 #include "diagnose/files/diagnosis_json.hpp"
 #include "job/files/job_words.hpp"
+#include "report/chart_readings.hpp"
 #include "report/page.hpp"
 #include "report/report.hpp"
-#include "report/thinning.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/error.hpp"
 

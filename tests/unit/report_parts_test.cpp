@@ -12,7 +12,6 @@
 #include "job/files/job_words.hpp"
 #include "report/page_data.hpp"
 #include "report/report.hpp"
-#include "report/stream_report.hpp"
 #include "support/diagnosis_example.hpp"
 #include "trueaxis/error.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <random>
 
+#include "job/conclude.hpp"
 #include "job/files/job_words.hpp"
-#include "job/verdict.hpp"
 #include "support/diagnosis_example.hpp"
 
 namespace trueaxis {

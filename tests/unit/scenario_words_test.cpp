@@ -6,7 +6,7 @@
 
 #include "base/never.hpp"
 #include "format/text_layout.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 
 namespace trueaxis {
 namespace {

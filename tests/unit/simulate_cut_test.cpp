@@ -7,7 +7,7 @@
 #include <complex>
 #include <numbers>
 
-#include "simulate/files/cut_table_csv.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 #include "trueaxis/virtual_lathe.hpp"

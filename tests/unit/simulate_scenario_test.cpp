@@ -3,8 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "simulate/files/scenario_toml.hpp"
-#include "simulate/files/truth_json.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "support/places.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "study/sweep/files/sweep_toml.hpp"
 #include "support/sweep_examples.hpp"
 #include "support/sweep_text.hpp"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "fit/files/fit_screen.hpp"
-#include "report/stream_report.hpp"
+#include "fit/files/fit_files.hpp"
+#include "report/report.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

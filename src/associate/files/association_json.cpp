@@ -24,14 +24,14 @@ Json vector(const Point3& value, const Point3& u, const char* unit, const std::s
 
 Json certificate_json(const AssociatedFeature& of, const PointText& points) {
   const AssociationCertificate& certificate = of.certificate;
-  Json contacts = Json::array();
-  for (const AssociationCertificate::Contact& contact : certificate.contacts)
-    contacts.push_back({{"point", contact.point + 1},
-                        {"line", points.lines[contact.point]},
-                        {"side", contact.sign > 0 ? "outer" : "inner"},
-                        {"distance", with_unit(contact.distance_mm, "mm")},
-                        {"multiplier", contact.multiplier}});
-  return {{"contacts", contacts},
+  const auto contact = [&](const AssociationCertificate::Contact& one) -> Json {
+    return {{"point", one.point + 1},
+            {"line", points.lines[one.point]},
+            {"side", one.sign > 0 ? "outer" : "inner"},
+            {"distance", mm_json(one.distance_mm)},
+            {"multiplier", one.multiplier}};
+  };
+  return {{"contacts", list_of(certificate.contacts, contact)},
           {"stationarity", number(certificate.stationarity)},
           {"gap", with_unit(certificate.gap_mm, "mm")},
           {"global", certificate.global},

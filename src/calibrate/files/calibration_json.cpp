@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
 
 #include "calibrate/files/calibration_files.hpp"
 #include "calibrate/files/edge_json.hpp"
@@ -8,17 +7,14 @@ namespace trueaxis {
 namespace {
 
 Json covariance_json(const Calibration& c) {
-  Json names = Json::array(), rows = Json::array();
-  const std::size_t n = c.parameters.size();
+  const auto name = [](const CalibratedParameter& one) { return one.name; };
   const auto factor = [&](std::size_t i) { return edge_factor(c.parameters[i].estimate.unit); };
-  for (std::size_t i = 0; i < n; ++i) {
-    names.push_back(c.parameters[i].name);
-    Json row = Json::array();
-    for (std::size_t j = 0; j < n; ++j)
-      row.push_back(number(factor(i) * factor(j) * c.covariance(i, j)));
-    rows.push_back(std::move(row));
-  }
-  return {{"parameters", names}, {"unit", "mm and deg"}, {"matrix", rows}};
+  const auto value = [&](std::size_t i, std::size_t j) {
+    return factor(i) * factor(j) * c.covariance(i, j);
+  };
+  return {{"parameters", list_of(c.parameters, name)},
+          {"unit", "mm and deg"},
+          {"matrix", square_json(c.parameters.size(), value)}};
 }
 
 /// u and, of it, what noise alone would leave.
@@ -54,19 +50,19 @@ Json read_out_json(const AxisReadOut& one) {
   const bool rotary = is_rotary(one.axis);
   const double factor = rotary ? 1.0 / rad_per_deg : 1.0;
   const char* const unit = rotary ? "deg" : "mm";
-  Json orders = Json::array(), polynomial = Json::array();
-  for (const AxisReadOut::Order& order : one.orders)
-    orders.push_back({{"order", order.order},
-                      {"amplitude", with_unit(factor * order.amplitude(), unit)},
-                      {"cos", to_json(order.cos)},
-                      {"sin", to_json(order.sin)}});
-  for (const Estimate& coefficient : one.polynomial) polynomial.push_back(to_json(coefficient));
+  const auto order_json = [&](const AxisReadOut::Order& order) -> Json {
+    return {{"order", order.order},
+            {"amplitude", with_unit(factor * order.amplitude(), unit)},
+            {"cos", to_json(order.cos)},
+            {"sin", to_json(order.sin)}};
+  };
+  const auto coefficient = [](const Estimate& of) { return to_json(of); };
   return {{"axis", std::string(1, letter_of(one.axis))},
           {"readings", one.readings},
           {"range", {{"low", factor * one.low}, {"high", factor * one.high}, {"unit", unit}}},
           {"period", one.period > 0.0 ? with_unit(factor * one.period, unit) : Json(nullptr)},
-          {"orders", orders},
-          {"legendre", polynomial},
+          {"orders", list_of(one.orders, order_json)},
+          {"legendre", list_of(one.polynomial, coefficient)},
           {"rms_before", with_unit(factor * one.rms_before, unit)},
           {"rms_after", with_unit(factor * one.rms_after, unit)}};
 }
@@ -75,9 +71,7 @@ Json read_out_json(const AxisReadOut& one) {
 
 std::string calibration_json(const Calibration& c, const Machine& machine,
                              const std::vector<std::string>& remarks) {
-  Json balls = Json::array(), read_outs = Json::array();
-  for (const PlacedBall& ball : c.balls) balls.push_back(ball_json(ball, c));
-  for (const AxisReadOut& one : c.read_outs) read_outs.push_back(read_out_json(one));
+  const auto ball = [&](const PlacedBall& one) { return ball_json(one, c); };
   return json_text(
       {{"schema", "trueaxis.calibration/1"},
        {"version", TRUEAXIS_VERSION},
@@ -90,13 +84,13 @@ std::string calibration_json(const Calibration& c, const Machine& machine,
        {"remarks", remarks},
        {"covariance", covariance_json(c)},
        {"component_errors", components_json(c)},
-       {"balls", balls},
+       {"balls", list_of(c.balls, ball)},
        {"equations", c.equations},
        {"unknowns", c.unknowns},
        {"rms",
         {{"before", with_unit(c.rms_before_mm, "mm")}, {"after", with_unit(c.rms_after_mm, "mm")}}},
        {"noise", {{"sigma", with_unit(c.noise_mm, "mm")}, {"source", to_string(c.noise_basis)}}},
-       {"read_outs", read_outs}});
+       {"read_outs", list_of(c.read_outs, read_out_json)}});
 }
 
 }  // namespace trueaxis

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "format/json.hpp"
@@ -16,18 +15,12 @@ inline Json parameters_json(const std::vector<CalibratedParameter>& parameters) 
   return json;
 }
 
-inline Json inputs_json(const Calibration& c) {
-  Json list = Json::array();
-  for (std::size_t i = 0; i < c.sources.size(); ++i)
-    list.push_back({{"file", c.sources[i]}, {"hash", c.input_hashes[i]}});
-  return list;
-}
+inline Json inputs_json(const Calibration& c) { return files_json(c.sources, c.input_hashes); }
 
 inline Json not_determined_json(const Calibration& c) {
-  Json list = Json::array();
-  for (const NotDetermined& one : c.not_determined)
-    list.push_back({{"class", one.members}, {"why", one.why}});
-  return list;
+  return list_of(c.not_determined, [](const NotDetermined& one) -> Json {
+    return {{"class", one.members}, {"why", one.why}};
+  });
 }
 
 }  // namespace trueaxis

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compensate/files/compensation_json.hpp"
-
+#include "compensate/files/compensation_files.hpp"
 #include "format/json.hpp"
 
 namespace trueaxis {
 namespace {
 
 Json largest_json(const LargestInProgram& largest, bool angle) {
-  Json json =
-      angle ? with_unit(largest.value / rad_per_deg, "deg") : with_unit(largest.value, "mm");
-  json["line"] = largest.line == 0 ? Json(nullptr) : Json(largest.line);
-  return json;
+  return at_line(angle ? deg_json(largest.value) : mm_json(largest.value), largest.line);
 }
 
 Json tool_json(const LargestToolError& largest) {
@@ -27,27 +23,16 @@ Json axes_json(const std::array<LargestInProgram, axis_count>& axes) {
   return json;
 }
 
-Json singular_json(const std::vector<SingularBlock>& blocks) {
-  Json list = Json::array();
-  for (const SingularBlock& one : blocks)
-    list.push_back({{"line", one.line},
-                    {"direction_left", with_unit(one.direction_left_rad / rad_per_deg, "deg")}});
-  return list;
+Json singular_json(const SingularBlock& one) {
+  return {{"line", one.line}, {"direction_left", deg_json(one.direction_left_rad)}};
 }
 
-Json unreachable_json(const std::vector<UnreachableBlock>& blocks) {
-  Json list = Json::array();
-  for (const UnreachableBlock& one : blocks) list.push_back({{"line", one.line}, {"why", one.why}});
-  return list;
+Json unreachable_json(const UnreachableBlock& one) {
+  return {{"line", one.line}, {"why", one.why}};
 }
 
-Json by_error_json(const std::vector<ErrorAlone>& errors) {
-  Json list = Json::array();
-  for (const ErrorAlone& one : errors)
-    list.push_back({{"name", one.name},
-                    {"tip", with_unit(one.tip.value, "mm")},
-                    {"line", one.tip.line == 0 ? Json(nullptr) : Json(one.tip.line)}});
-  return list;
+Json by_error_json(const ErrorAlone& one) {
+  return at_line({{"name", one.name}, {"tip", mm_json(one.tip.value)}}, one.tip.line);
 }
 
 }  // namespace
@@ -55,12 +40,9 @@ Json by_error_json(const std::vector<ErrorAlone>& errors) {
 std::string compensation_json(const ProgramCompensation& result, const CompensationOptions& options,
                               const std::vector<CompensationInput>& inputs,
                               const std::vector<std::string>& remarks) {
-  Json files = Json::array();
-  for (const CompensationInput& input : inputs)
-    files.push_back({{"file", input.file}, {"hash", input.hash}});
   Json json{{"schema", "trueaxis.compensation/1"},
             {"version", TRUEAXIS_VERSION},
-            {"inputs", std::move(files)},
+            {"inputs", files_json(inputs)},
             {"method", options.method == CompensationMethod::exact ? "exact" : "differential"},
             {"rotary", options.rotary == RotaryUse::moved ? "moved" : "all"},
             {"decimals", options.decimals},
@@ -82,11 +64,11 @@ std::string compensation_json(const ProgramCompensation& result, const Compensat
   json["about_tool_axis"] = largest_json(result.about_tool_axis, true);
   json["worse"] = result.worse;
   json["comes_out_worse"] = result.comes_out_worse();
-  json["singular"] = singular_json(result.singular);
-  json["unreachable"] = unreachable_json(result.unreachable);
+  json["singular"] = list_of(result.singular, singular_json);
+  json["unreachable"] = list_of(result.unreachable, unreachable_json);
   json["exact_minus_differential"] = axes_json(result.exact_minus_differential);
   json["rounding"] = tool_json(result.rounding);
-  json["by_error"] = by_error_json(result.by_error);
+  json["by_error"] = list_of(result.by_error, by_error_json);
   json["remarks"] = remarks;
   if (result.u_tip) {
     LargestInProgram expanded = *result.u_tip;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compensate/files/compensation_screen.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/counted.hpp"
+#include "compensate/files/compensation_files.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

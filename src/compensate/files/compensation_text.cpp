@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "compensate/files/compensation_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "compensate/files/compensation_files.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

@@ -14,14 +14,14 @@ namespace {
 Json length(double value_mm) { return quantity_object(value_mm, "mm"); }
 
 Json separating_object(const Separating& s) {
-  Json others = Json::array();
-  for (const Separating::Other& o : s.others)
-    others.push_back({{"plan", o.plan},
-                      {"what", o.what},
-                      {"power", number(o.power)},
-                      {"minutes", number(o.minutes)}});
+  const auto other = [](const Separating::Other& o) -> Json {
+    return {{"plan", o.plan},
+            {"what", o.what},
+            {"power", number(o.power)},
+            {"minutes", number(o.minutes)}};
+  };
   return {{"plan", s.plan},
-          {"others", others},
+          {"others", list_of(s.others, other)},
           {"what", s.what},
           {"power", number(s.power)},
           {"power_before", number(s.power_before)},
@@ -91,13 +91,13 @@ Json next_object(const NextMeasurement& next) {
 }
 
 Json spectrum_object(const std::vector<SpectrumBin>& spectrum) {
-  Json order = Json::array(), before = Json::array(), after = Json::array();
-  for (const SpectrumBin& bin : spectrum) {
-    order.push_back(number(bin.order));
-    before.push_back(number(bin.before_mm));
-    after.push_back(number(bin.after_mm));
-  }
-  return {{"order", order}, {"before", before}, {"after", after}, {"unit", "mm"}};
+  const auto column = [&](double SpectrumBin::*of) {
+    return list_of(spectrum, [of](const SpectrumBin& bin) { return number(bin.*of); });
+  };
+  return {{"order", column(&SpectrumBin::order)},
+          {"before", column(&SpectrumBin::before_mm)},
+          {"after", column(&SpectrumBin::after_mm)},
+          {"unit", "mm"}};
 }
 
 Json options_object(const Diagnosis& d) {
@@ -111,12 +111,6 @@ Json options_object(const Diagnosis& d) {
 Json maybe_length(const std::optional<double>& value_mm) {
   return value_mm ? length(*value_mm)
                   : Json{{"value", nullptr}, {"unit", "mm"}, {"why", "the data have no such part"}};
-}
-
-Json rows(const std::vector<Rejected>& rejected) {
-  Json list = Json::array();
-  for (const Rejected& r : rejected) list.push_back({{"row", r.row}, {"why", r.why}});
-  return list;
 }
 
 }  // namespace
@@ -227,9 +221,9 @@ Json noise_object(const NoiseReport& noise) {
           {"repeated", maybe_length(noise.repeated_mm)},
           {"revolutions", maybe_length(noise.revolutions_mm)},
           {"stated", maybe_length(noise.stated_mm)},
-          {"masked", rows(noise.masked)},
+          {"masked", rejected_json(noise.masked)},
           {"gaps", noise.gaps},
-          {"interruptions", rows(noise.interruptions)}};
+          {"interruptions", rejected_json(noise.interruptions)}};
 }
 
 }  // namespace trueaxis

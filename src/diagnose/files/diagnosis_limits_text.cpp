@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"

@@ -9,12 +9,6 @@ namespace {
 
 double value(const Json& object, const char* key) { return object.at(key).at("value"); }
 
-std::vector<Rejected> rows_from(const Json& list) {
-  std::vector<Rejected> rows;
-  for (const Json& entry : list) rows.push_back({entry.at("row"), entry.at("why")});
-  return rows;
-}
-
 DiagnosisVerdict verdict_from(const std::string& text) {
   for (const DiagnosisVerdict verdict :
        {DiagnosisVerdict::ideal, DiagnosisVerdict::effects, DiagnosisVerdict::unexplained}) {
@@ -68,7 +62,7 @@ NoiseReport noise_from(const Json& json) {
   noise.u_sigma_mm = number_from(json.at("sigma").at("u"));
   if (!json.at("stated").at("value").is_null()) noise.stated_mm = value(json, "stated");
   noise.autoregression = json.at("autoregression").get<std::vector<double>>();
-  noise.masked = rows_from(json.at("masked"));
+  noise.masked = rejected_from(json.at("masked"));
   return noise;
 }
 

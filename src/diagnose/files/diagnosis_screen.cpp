@@ -9,7 +9,7 @@
 #include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/seen.hpp"
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

@@ -39,24 +39,22 @@ Json scenario_keys_json(std::string_view id) {
 }
 
 Json effect_object(const Effect& effect) {
-  Json parameters = Json::array(), separations = Json::array();
-  for (const EffectParameter& p : effect.parameters) parameters.push_back(parameter_object(p));
-  for (const Separation& s : effect.separations) {
-    separations.push_back({{"measurement", s.code}, {"how", s.how}});
-  }
+  const auto separation = [](const Separation& s) -> Json {
+    return {{"measurement", s.code}, {"how", s.how}};
+  };
   Json json{{"id", effect.id},
             {"title", effect.title},
             {"check", effect.check.has_value()},
             {"slot", to_string(effect.slot)},
             {"frame", to_string(effect.frame)},
             {"formula", effect.formula},
-            {"parameters", parameters},
+            {"parameters", list_of(effect.parameters, parameter_object)},
             {"scenario_keys", scenario_keys_json(effect.id)},
             {"signature", effect.signature},
             {"consequence", effect.consequence},
             {"confounders", effect.confounders},
             {"absorbed_by", effect.absorbed_by},
-            {"separations", separations}};
+            {"separations", list_of(effect.separations, separation)}};
   if (effect.axis_bias) {
     json["axis_bias_per_unit"] = {{"value", effect.axis_bias->value},
                                   {"unit", effect.axis_bias->unit},
@@ -74,8 +72,7 @@ std::string effects_json(const std::vector<const Effect*>& effects) {
   Json json;
   json["schema"] = "trueaxis.effects/1";
   json["version"] = TRUEAXIS_VERSION;
-  json["effects"] = Json::array();
-  for (const Effect* effect : effects) json["effects"].push_back(effect_object(*effect));
+  json["effects"] = list_of(effects, [](const Effect* effect) { return effect_object(*effect); });
   Json measurements = Json::object();
   for (const Separator& separator : separators()) {
     measurements[std::string(separator.code)] = separator.what;

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "format/json.hpp"
 #include "trueaxis/fit.hpp"
@@ -16,6 +17,10 @@ std::string fit_json(const FitResult& result);
 /// The same as an object, for results that hold one.
 Json fit_object(const FitResult& result);
 
+/// {"row", "why"} of each reading that does not count, and read back.
+Json rejected_json(const std::vector<Rejected>& rows);
+std::vector<Rejected> rejected_from(const Json& json);
+
 /// The fit that `fit_object` wrote, but for what only its readings can tell: no residuals, budget,
 /// derived quantities or covariance of the parameters; of each set-up the axis. One that did not
 /// converge has no numbers. @throws Json::exception and InputError for what is no fit.
@@ -28,5 +33,19 @@ FitResult fit_from_json(std::string_view text, const std::string& path);
 
 /// The fit for a person at a terminal: status, parameters with U, what is left, what to do.
 std::string fit_text(const FitResult& result);
+
+/// A fit in some eight lines for a person: how good it is, the axis, the sizes, what to know of
+/// it. Lines are not broken (the command does). fit_text() has every parameter.
+std::string fit_screen(const FitResult& result);
+
+/// "axis   x 48.19 µm, y -31.01 µm, U 0.35 µm at Z 0 mm" at both ends of the readings; of a plane
+/// its tilt; empty where nothing was fitted. With tap_text().
+std::string axis_screen(const FitResult& result);
+
+/// For those without a servo: at which C the part stands out towards the probe, at the end that is
+/// farther off, and how far to tap it there. The run-out is twice the distance of the axis; a probe
+/// behind meets what stands out half a turn later. Empty where the offset is within twice its U, of
+/// a plane, and where nothing was fitted.
+std::string tap_text(const FitResult& result);
 
 }  // namespace trueaxis

@@ -24,16 +24,6 @@ bool withdrawn(const FitResult& result, std::string_view name) {
   });
 }
 
-Json matrix(std::span<const double> values, std::size_t columns) {
-  Json rows = Json::array();
-  for (std::size_t i = 0; i < values.size(); i += columns) {
-    Json row = Json::array();
-    for (std::size_t j = 0; j < columns; ++j) row.push_back(number(values[i + j]));
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 Json estimates(const std::vector<FitParameter>& parameters) {
   Json object = Json::object();
   for (const FitParameter& p : parameters) object[p.name] = to_json(p.estimate);
@@ -42,48 +32,39 @@ Json estimates(const std::vector<FitParameter>& parameters) {
 
 /// Covariance of the parameters; null where one of the two was not determined.
 Json covariance_object(const FitResult& result) {
-  const std::size_t count = result.parameters.size();
-  Covariance values = result.covariance;
-  Json order = Json::array();
-  for (std::size_t i = 0; i < count; ++i) {
-    order.push_back(result.parameters[i].name);
-    if (values.empty()) continue;
-    const double to_edge =
-        withdrawn(result.parameters[i]) ? none : edge_factor(result.parameters[i].estimate.unit);
-    for (std::size_t j = 0; j < count; ++j) values(i, j) *= to_edge, values(j, i) *= to_edge;
-  }
-  return {{"order", order},
-          {"matrix", matrix({values.data(), values.size() * values.size()},
-                            std::max<std::size_t>(1, count))}};
+  const auto name = [](const FitParameter& one) { return one.name; };
+  const auto to_edge = [&](std::size_t i) {
+    const FitParameter& one = result.parameters[i];
+    return withdrawn(one) ? none : edge_factor(one.estimate.unit);
+  };
+  const auto value = [&](std::size_t i, std::size_t j) {
+    return result.covariance(i, j) * to_edge(std::min(i, j)) * to_edge(std::max(i, j));
+  };
+  return {{"order", list_of(result.parameters, name)},
+          {"matrix", square_json(result.covariance.size(), value)}};
 }
 
 Json budget(const FitResult& result) {
-  Json lines = Json::array();
-  for (const BudgetLine& line : result.budget) {
+  return list_of(result.budget, [&](const BudgetLine& line) -> Json {
     Json u = Json::object();
     for (std::size_t i = 0; i < line.u.size(); ++i) {
       u[result.parameters[i].name] = edge_size(withdrawn(result.parameters[i]) ? none : line.u[i],
                                                result.parameters[i].estimate.unit);
     }
-    lines.push_back({{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}});
-  }
-  return lines;
+    return {{"source", line.source}, {"type", std::string(1, line.type)}, {"u", u}};
+  });
 }
 
 /// What was done before each set-up, and the part as it then stood.
-Json set_ups(const FitResult& result) {
-  Json list = Json::array();
-  for (const SetUpFit& one : result.set_ups) {
-    const SetUp& set_up = one.set_up;
-    list.push_back({{"number", set_up.number},
-                    {"side", one.side == Root::rear ? "rear" : "front"},
-                    {"reindex", with_unit(set_up.reindex_rad / rad_per_deg, "deg")},
-                    {"z_shift", with_unit(set_up.z_shift_mm, "mm")},
-                    {"x_jog", with_unit(set_up.x_jog_mm, "mm")},
-                    {"clamp_force_ratio", with_unit(set_up.clamp_force_ratio, "1")},
-                    {"parameters", estimates(one.parameters)}});
-  }
-  return list;
+Json set_up_object(const SetUpFit& one) {
+  const SetUp& set_up = one.set_up;
+  return {{"number", set_up.number},
+          {"side", one.side == Root::rear ? "rear" : "front"},
+          {"reindex", deg_json(set_up.reindex_rad)},
+          {"z_shift", mm_json(set_up.z_shift_mm)},
+          {"x_jog", mm_json(set_up.x_jog_mm)},
+          {"clamp_force_ratio", with_unit(set_up.clamp_force_ratio, "1")},
+          {"parameters", estimates(one.parameters)}};
 }
 
 /// The axis and the shape as determined: NaN where the readings leave them open. (The axis of a
@@ -115,7 +96,9 @@ Json axis_object(const AxisEstimate& estimate) {
           {"z_ref", with_unit(axis.z_ref_mm, "mm")},
           {"covariance",
            {{"order", {"x", "y", "slope_x", "slope_y"}},
-            {"matrix", matrix(estimate.covariance.by_rows, 4)}}}};
+            {"matrix", square_json(4, [&](std::size_t i, std::size_t j) {
+               return estimate.covariance.by_rows[4 * i + j];
+             })}}}};
 }
 
 /// The file, what was taken of it that nothing says, and what of it was not used.
@@ -154,9 +137,19 @@ Axis axis_from_parameters(const Json& parameters) {
 
 }  // namespace
 
+Json rejected_json(const std::vector<Rejected>& rows) {
+  return list_of(rows, [](const Rejected& one) -> Json {
+    return {{"row", one.row}, {"why", one.why}};
+  });
+}
+
+std::vector<Rejected> rejected_from(const Json& json) {
+  std::vector<Rejected> rows;
+  for (const Json& row : json) rows.push_back({row.at("row"), row.at("why")});
+  return rows;
+}
+
 Json fit_object(const FitResult& result) {
-  Json rejected = Json::array();
-  for (const Rejected& r : result.rejected) rejected.push_back({{"row", r.row}, {"why", r.why}});
   Json json;
   json["schema"] = "trueaxis.fit/1";
   json["version"] = TRUEAXIS_VERSION;
@@ -176,7 +169,7 @@ Json fit_object(const FitResult& result) {
   json["budget"] = budget(result);
   json["axis"] = axis_object(determined_axis(result));
   json["shape"] = shape_object(result);
-  if (result.set_ups.size() > 1) json["set_ups"] = set_ups(result);
+  if (result.set_ups.size() > 1) json["set_ups"] = list_of(result.set_ups, set_up_object);
   json["rms"] = with_unit(result.rms_mm, "mm");
   json["noise"] = {{"sigma", with_unit(result.sigma_mm, "mm")},
                    {"source", to_string(result.sigma_source)},
@@ -185,7 +178,7 @@ Json fit_object(const FitResult& result) {
   json["points"] = result.points;
   json["range"] = {{"min", with_unit(result.position_min_mm, "mm")},
                    {"max", with_unit(result.position_max_mm, "mm")}};
-  json["rejected"] = rejected;
+  json["rejected"] = rejected_json(result.rejected);
   json["iterations"] = result.iterations;
   return json;
 }
@@ -235,8 +228,7 @@ FitResult fit_from_object(const Json& json) {
   fit.autocorrelation = number_from(noise.at("autocorrelation"));
   fit.u_factor = number_from(noise.at("u_factor"));
   fit.points = json.at("points");
-  for (const Json& row : json.at("rejected"))
-    fit.rejected.push_back({row.at("row"), row.at("why")});
+  fit.rejected = rejected_from(json.at("rejected"));
   fit.position_min_mm = value(json.at("range"), "min");
   fit.position_max_mm = value(json.at("range"), "max");
   return fit;

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fit/files/fit_screen.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "base/counted.hpp"
 #include "base/hundredths.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/files/form_json.hpp"
-
 #include <fmt/format.h>
 
+#include "form/files/form_files.hpp"
 #include "format/json.hpp"
 #include "trueaxis/units.hpp"
 
@@ -24,22 +23,16 @@ Json value_json(const FormValue& one) {
   return json;
 }
 
-Json values_json(const std::vector<FormValue>& values) {
-  Json list = Json::array();
-  for (const FormValue& one : values) list.push_back(value_json(one));
-  return list;
-}
-
 Json circle_json(const FormCircle& circle, bool limacon) {
-  Json touches = Json::array();
-  for (const auto& [angle_rad, multiplier] : circle.touches)
-    touches.push_back({{"angle", number(angle_rad / rad_per_deg)}, {"multiplier", multiplier}});
   Json json{{"reference", name_of(circle.criterion)},
             {"x", with_unit(circle.x_mm, "mm")},
             {"y", with_unit(circle.y_mm, "mm")}};
   if (!circle.why_not.empty()) json["why"] = circle.why_not;
   if (!limacon) json["radius"] = with_unit(circle.radius_mm, "mm");
-  if (!circle.touches.empty()) json["touches"] = std::move(touches);
+  if (!circle.touches.empty())
+    json["touches"] = list_of(circle.touches, [](const auto& one) -> Json {
+      return {{"angle", number(one[0] / rad_per_deg)}, {"multiplier", one[1]}};
+    });
   return json;
 }
 
@@ -52,19 +45,18 @@ Json section_json(const SectionForm& section, bool limacon) {
   json["transmission_at_cut_off"] = number(section.transmission);
   json["gaps"] = with_unit(section.gaps_rad / rad_per_deg, "deg");
   json["noise"] = with_unit(section.noise_mm, "mm");
-  json["values"] = values_json(section.values);
-  json["circles"] = Json::array();
-  for (const FormCircle& circle : section.circles)
-    json["circles"].push_back(circle_json(circle, limacon));
+  json["values"] = list_of(section.values, value_json);
+  json["circles"] = list_of(section.circles,
+                            [&](const FormCircle& circle) { return circle_json(circle, limacon); });
   json["lobes"] = section.lobes;
   json["lobes_share"] = number(section.lobes_share);
   json["harmonic_unit"] = {{"amplitude", "mm"}, {"phase", "deg"}, {"u", "mm"}};
-  json["harmonics"] = Json::array();
-  for (const FormHarmonic& one : section.harmonics)
-    json["harmonics"].push_back({{"order", one.order},
-                                 {"amplitude", number(one.amplitude_mm)},
-                                 {"phase", number(one.phase_rad / rad_per_deg)},
-                                 {"u", number(one.u_mm)}});
+  json["harmonics"] = list_of(section.harmonics, [](const FormHarmonic& one) -> Json {
+    return {{"order", one.order},
+            {"amplitude", number(one.amplitude_mm)},
+            {"phase", number(one.phase_rad / rad_per_deg)},
+            {"u", number(one.u_mm)}};
+  });
   return json;
 }
 
@@ -84,12 +76,11 @@ Json options_json(const FormOptions& options) {
 }  // namespace
 
 Json swallowed_json(const FormResult& result) {
-  Json list = Json::array();
-  for (const SwallowedLobes& one : result.swallowed)
-    list.push_back({{"order", one.order},
-                    {"amplitude", to_json(Estimate{one.amplitude_mm, one.u_mm, "mm", ""})},
-                    {"passed", number(one.passed)}});
-  return list;
+  return list_of(result.swallowed, [](const SwallowedLobes& one) -> Json {
+    return {{"order", one.order},
+            {"amplitude", to_json(Estimate{one.amplitude_mm, one.u_mm, "mm", ""})},
+            {"passed", number(one.passed)}};
+  });
 }
 
 std::string form_json(const FormResult& result) {
@@ -102,12 +93,12 @@ std::string form_json(const FormResult& result) {
   json["coverage_factor"] = result.options.coverage_factor;
   json["options"] = options_json(result.options);
   json["radius_known"] = result.radius_known;
-  json["groups"] = Json::array();
-  for (const FormGroup& group : result.groups)
-    json["groups"].push_back({{"name", group.name}, {"values", values_json(group.values)}});
-  json["sections"] = Json::array();
-  for (const SectionForm& section : result.sections)
-    json["sections"].push_back(section_json(section, !result.radius_known));
+  json["groups"] = list_of(result.groups, [](const FormGroup& group) -> Json {
+    return {{"name", group.name}, {"values", list_of(group.values, value_json)}};
+  });
+  json["sections"] = list_of(result.sections, [&](const SectionForm& section) {
+    return section_json(section, !result.radius_known);
+  });
   json["swallowed"] = swallowed_json(result);
   json["notes"] = result.notes;
   return json_text(json);

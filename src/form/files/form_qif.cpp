@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/files/form_qif.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
+#include "form/files/form_files.hpp"
 #include "interchange/qif.hpp"
 
 namespace trueaxis {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/files/form_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "form/files/form_files.hpp"
 #include "format/text_layout.hpp"
 
 namespace trueaxis {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "form/files/spindle_motion.hpp"
-
 #include <cmath>
 
+#include "form/files/form_files.hpp"
 #include "format/file.hpp"
 #include "format/json.hpp"
 #include "trueaxis/error.hpp"

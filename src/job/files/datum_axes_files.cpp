@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/datum_axes_files.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "base/hundredths.hpp"
 #include "format/text_layout.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -26,8 +25,7 @@ Json end_object(const DatumAxis& one, double z_mm, double off_mm) {
 }  // namespace
 
 Json datum_axes_array(const std::vector<DatumAxis>& axes, const FitResult& used) {
-  Json list = Json::array();
-  for (const DatumAxis& one : axes) {
+  return list_of(axes, [&](const DatumAxis& one) {
     Json json{{"association", name_of(one.criterion)}, {"of_iso_5459", one.of_iso_5459}};
     if (!one.why.empty()) {
       json["why"] = one.why;
@@ -37,9 +35,8 @@ Json datum_axes_array(const std::vector<DatumAxis>& axes, const FitResult& used)
       json["u"] = nullptr;
       json["why_no_u"] = why_no_u;
     }
-    list.push_back(std::move(json));
-  }
-  return list;
+    return json;
+  });
 }
 
 std::string datum_axes_text(const std::vector<DatumAxis>& axes, const FitResult& used) {

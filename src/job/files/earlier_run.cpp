@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/earlier_run.hpp"
-
 #include <algorithm>
 #include <filesystem>
 
 #include "format/file.hpp"
 #include "format/json.hpp"
+#include "job/files/job_results.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/form_toml.hpp"
-
 #include <algorithm>
 #include <string>
+
+#include "job/files/job_toml_parts.hpp"
 
 namespace trueaxis {
 namespace {

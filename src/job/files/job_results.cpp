@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "correct/files/table_files.hpp"
 #include "diagnose/files/diagnosis_json.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
@@ -14,10 +12,7 @@
 #include "job/agreement.hpp"
 #include "job/beyond_probed.hpp"
 #include "job/cut_files.hpp"
-#include "job/files/datum_axes_files.hpp"
 #include "job/files/job_words.hpp"
-#include "job/files/part_form_files.hpp"
-#include "job/files/seats_files.hpp"
 #include "recording/import.hpp"
 #include "resimulate/files/comparison.hpp"
 #include "trueaxis/error.hpp"
@@ -28,13 +23,12 @@ namespace {
 
 /// What each file that a go would write adds, as its control reads it.
 Json cut_files_array(const Verdict& v) {
-  Json files = Json::array();
-  for (const CutFile& file : v.files)
-    files.push_back({{"name", file.name},
-                     {"adds", with_unit(file.adds_mm, "mm")},
-                     {"by_actuator", with_unit(file.actuator_mm, "mm")},
-                     {"by_file", with_unit(file.file_mm, "mm")}});
-  return files;
+  return list_of(v.files, [](const CutFile& file) -> Json {
+    return {{"name", file.name},
+            {"adds", mm_json(file.adds_mm)},
+            {"by_actuator", mm_json(file.actuator_mm)},
+            {"by_file", mm_json(file.file_mm)}};
+  });
 }
 
 Json verdict_object(const JobResult& result) {
@@ -65,17 +59,14 @@ Json verdict_object(const JobResult& result) {
 }
 
 Json remainders_array(const std::vector<Remainder>& list) {
-  Json remainders = Json::array();
-  for (const Remainder& r : list) {
-    remainders.push_back(
-        {{"reference", r.name},
-         {"offset_start", with_unit(r.offset_start_mm, "mm")},
-         {"offset_end", with_unit(r.offset_end_mm, "mm")},
-         {"tilt", with_unit(r.tilt_rad / rad_per_deg, "deg")},
-         {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})},
-         {"coaxiality_at_most", with_unit(r.limit_mm, "mm")}});
-  }
-  return remainders;
+  return list_of(list, [](const Remainder& r) -> Json {
+    return {{"reference", r.name},
+            {"offset_start", mm_json(r.offset_start_mm)},
+            {"offset_end", mm_json(r.offset_end_mm)},
+            {"tilt", deg_json(r.tilt_rad)},
+            {"coaxiality", to_json(Estimate{r.coaxiality_mm, r.u_coaxiality_mm, "mm", ""})},
+            {"coaxiality_at_most", mm_json(r.limit_mm)}};
+  });
 }
 
 Json target_axis_object(const TargetAxis& target, const TargetSurface& surface) {
@@ -99,17 +90,16 @@ Json datum_object(const JobResult& result) {
 /// The references held against each other: what is apart beyond its U, and why nothing may be cut.
 Json agreement_object(const JobResult& result) {
   const double k = result.job.references.front().fit.coverage_factor;
-  Json pairs = Json::array();
-  for (const Disagreement& d : result.agreement.disagreements) {
+  const auto pair_json = [&](const Disagreement& d) {
     Json pair{{"first", result.job.references[d.first].name},
               {"second", result.job.references[d.second].name},
               {"tilt", to_json(Estimate{d.tilt_rad, d.U_tilt_rad / k, "rad", ""})},
               {"p_value", d.p_value}};
     if (d.U_offset_mm > 0.0)
       pair["offset"] = to_json(Estimate{d.offset_mm, d.U_offset_mm / k, "mm", ""});
-    pairs.push_back(std::move(pair));
-  }
-  return {{"disagreements", pairs},
+    return pair;
+  };
+  return {{"disagreements", list_of(result.agreement.disagreements, pair_json)},
           {"reason", result.agreement.reason ? words_of(*result.agreement.reason, result) : ""},
           {"odds", number(result.agreement.odds)}};
 }
@@ -136,16 +126,14 @@ Json diagnosis_of(const JobResult& result, std::size_t i) {
 }
 
 Json inclusions_array(const std::vector<Inclusion>& inclusions) {
-  Json list = Json::array();
-  for (const Inclusion& i : inclusions) {
-    list.push_back({{"effect", i.effect},
-                    {"reference", i.reference},
-                    {"included", i.included},
-                    {"refused", i.refused},
-                    {"code", i.why ? Json(to_string(i.why->code)) : Json(nullptr)},
-                    {"why", i.why ? words_of(*i.why) : ""}});
-  }
-  return list;
+  return list_of(inclusions, [](const Inclusion& i) -> Json {
+    return {{"effect", i.effect},
+            {"reference", i.reference},
+            {"included", i.included},
+            {"refused", i.refused},
+            {"code", i.why ? Json(to_string(i.why->code)) : Json(nullptr)},
+            {"why", i.why ? words_of(*i.why) : ""}};
+  });
 }
 
 /// Number and name of a reference, as far as any file system takes it.
@@ -168,16 +156,15 @@ std::string diagnosis_text_of(const JobResult& result, std::size_t i) {
 }  // namespace
 
 Json correction_object(const Correction& correction) {
-  Json harmonics = Json::array();
-  for (const CorrectionHarmonic& h : correction.harmonics) {
-    harmonics.push_back({{"order", h.order},
-                         {"amplitude_start", with_unit(h.amplitude_start_mm, "mm")},
-                         {"phase_start", with_unit(h.phase_start_rad / rad_per_deg, "deg")},
-                         {"amplitude_end", with_unit(h.amplitude_end_mm, "mm")},
-                         {"phase_end", with_unit(h.phase_end_rad / rad_per_deg, "deg")},
-                         {"actuator_gain", h.gain},
-                         {"actuator_lag", with_unit(h.lag_rad / rad_per_deg, "deg")}});
-  }
+  const auto harmonic = [](const CorrectionHarmonic& h) -> Json {
+    return {{"order", h.order},
+            {"amplitude_start", mm_json(h.amplitude_start_mm)},
+            {"phase_start", deg_json(h.phase_start_rad)},
+            {"amplitude_end", mm_json(h.amplitude_end_mm)},
+            {"phase_end", deg_json(h.phase_end_rad)},
+            {"actuator_gain", h.gain},
+            {"actuator_lag", deg_json(h.lag_rad)}};
+  };
   const ActuatorMargin& m = correction.margin;
   const TargetSurface& target = correction.target;
   const bool face = target.kind == TargetKind::face;
@@ -191,7 +178,7 @@ Json correction_object(const Correction& correction) {
           {"between_rows",
            {{"largest", with_unit(correction.between_rows.largest_mm, "mm")},
             {"once", with_unit(correction.between_rows.once_mm, "mm")}}},
-          {"harmonics", harmonics},
+          {"harmonics", list_of(correction.harmonics, harmonic)},
           {"margin",
            {{"follows", m.follows},
             {"breaks", words_of(m.breaks, "; ")},
@@ -227,8 +214,7 @@ Json job_object(const JobResult& result) {
   json["job"] = result.job.name;
   if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
   json["verdict"] = verdict_object(result);
-  Json references = Json::array();
-  for (std::size_t i = 0; i < result.fits.size(); ++i) {
+  json["references"] = list_of_first(result.fits.size(), [&](std::size_t i) {
     Json reference{{"name", result.job.references[i].name},
                    {"weight", result.job.references[i].weight},
                    {"fit", fit_object(result.fits[i])}};
@@ -242,9 +228,8 @@ Json job_object(const JobResult& result) {
           association ? name_of(*association) : "least squares along the probe line";
       reference["other_associations"] = datum_axes_array(result.datum_axes[i], fit_used(result, i));
     }
-    references.push_back(reference);
-  }
-  json["references"] = references;
+    return reference;
+  });
   json["forms_met"] = forms_met(result);
   if (result.fits.size() > 1 || result.agreement.reason)
     json["agreement"] = agreement_object(result);
@@ -262,9 +247,9 @@ Json job_object(const JobResult& result) {
 
 std::string job_json(const JobResult& result, const std::vector<ResultFile>& beside) {
   Json json = job_object(result);
-  json["files"] = Json::array();
-  for (const ResultFile& file : beside)
-    json["files"].push_back({{"name", file.name}, {"hash", content_hash(file.text)}});
+  json["files"] = list_of(beside, [](const ResultFile& file) -> Json {
+    return {{"name", file.name}, {"hash", content_hash(file.text)}};
+  });
   return json_text(json);
 }
 

@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "format/json.hpp"
+#include "format/outputs.hpp"
+#include "job/files/job_file.hpp"
 #include "trueaxis/diagnosis.hpp"
 #include "trueaxis/job.hpp"
+#include "trueaxis/part_form.hpp"
 
 namespace trueaxis {
 
@@ -65,5 +68,65 @@ std::string residuals_csv(const ProbeStream& stream, const FitResult& result);
 /// simulated_after[mm].
 std::string residuals_csv(const ProbeStream& stream, const Diagnosis& diagnosis,
                           const SimulatedReadings* simulated = nullptr);
+
+/// As in result.json: association, its axis at both ends of the probed length, how far it is from
+/// that of the job there, and why there is no u.
+Json datum_axes_array(const std::vector<DatumAxis>& axes, const FitResult& used);
+
+/// A line an association.
+std::string datum_axes_text(const std::vector<DatumAxis>& axes, const FitResult& used);
+
+/// The axis of a reference at the ends of its length: offset from the spindle axis, tilt, where to
+/// tap; null where it is not known.
+Json seat_axis_object(const JobResult& result, std::size_t reference);
+
+/// How far the axes of each two seats are apart.
+Json seats_apart_array(const JobResult& result);
+
+/// The same for a terminal: lines "axis", "tap", "ecc", "apart", "coax"; empty where not known.
+std::string seat_axis_screen(const JobResult& result, std::size_t reference);
+std::string seats_apart_screen(const JobResult& result);
+
+/// As in result.json: filter, values as probed and of the part, a row a section, judgements.
+Json part_form_object(const PartForm& form);
+
+/// What a screen has of it: a line of the values, or a line a tolerance.
+/// @param name of the reference; empty: the only one
+std::string part_form_screen(const PartForm& form, const std::string& name);
+
+/// The file of a diagnosis, with `form`.
+std::string diagnosis_with_form(const Diagnosis& diagnosis, const PartForm& form);
+
+/// All of it in words, with the sections.
+std::string part_form_text(const PartForm& form);
+
+/// "roundness NOT MET: RONt 8.1 ± 0.4 µm at Z = 12 mm, tolerance 5 µm (Gaussian 1-50 UPR, ISO
+/// 14253-1)".
+std::string judgement_text(const PartForm& form, const FormJudgement& judgement);
+
+/// "Gaussian 1-50 UPR" or "no filter".
+std::string filter_words(const FormOptions& options);
+
+/// Whether the sections' radii change as a cone's: conicity then stands for cylindricity.
+bool is_tapered(const FormResult& form);
+
+/// A job in some ten lines for a person: the verdict, its reasons, what each reference shows, what
+/// the tool does, what to do next. Lines are not broken (the command does). job_text() has the
+/// rest.
+std::string job_screen(const JobResult& result);
+
+/// All that a run of the job reads and may write, into a folder.
+void name_job_files(Outputs& outputs, const JobFile& file, const std::string& folder);
+
+/// What is said of the files of an earlier job.
+struct EarlierRun {
+  std::string removed, kept;
+};
+
+/// The files of a result into their folder. Tables stand there only when they may be run; what an
+/// earlier job wrote there and this one does not goes as it was written, and is named where it was
+/// changed since.
+EarlierRun write_job_files(Outputs& outputs, const JobResult& result,
+                           const std::vector<ResultFile>& files);
 
 }  // namespace trueaxis

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/job_screen.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/counted.hpp"
 #include "diagnose/files/diagnosis_screen.hpp"
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
 #include "job/agreement.hpp"
 #include "job/cut_files.hpp"
 #include "job/files/job_results.hpp"
 #include "job/files/job_words.hpp"
-#include "job/files/part_form_files.hpp"
-#include "job/files/seats_files.hpp"
 #include "job/references.hpp"
 #include "trueaxis/units.hpp"
 

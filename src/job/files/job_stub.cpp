@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/job_stub.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "format/reason_words.hpp"
+#include "job/files/starter.hpp"
 #include "job/files/stream_job.hpp"
 #include "measure/seats.hpp"
 

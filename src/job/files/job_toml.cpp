@@ -11,9 +11,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
-#include "job/files/datums_toml.hpp"
-#include "job/files/form_toml.hpp"
-#include "job/files/output_toml.hpp"
+#include "job/files/job_toml_parts.hpp"
 #include "surface/surface.hpp"
 #include "trueaxis/units.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/output_toml.hpp"
-
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <string>
 
 #include "format/file.hpp"
+#include "job/files/job_toml_parts.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

@@ -3,8 +3,8 @@
 #include <set>
 
 #include "diagnose/files/diagnosis_json.hpp"
-#include "form/files/form_json.hpp"
-#include "job/files/part_form_files.hpp"
+#include "form/files/form_files.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -58,10 +58,7 @@ Json section_object(const SectionForm& section) {
 }
 
 Json case_object(const FormResult& form) {
-  Json json{{"values", values_object(form)}, {"sections", Json::array()}};
-  for (const SectionForm& section : form.sections)
-    json["sections"].push_back(section_object(section));
-  return json;
+  return {{"values", values_object(form)}, {"sections", list_of(form.sections, section_object)}};
 }
 
 Json judgement_object(const FormJudgement& one) {
@@ -107,9 +104,7 @@ Json part_form_object(const PartForm& form) {
     for (const std::string& note : form.probed.notes)
       if (said.insert(note).second) json["notes"].push_back(note);
   }
-  json["judgements"] = Json::array();
-  for (const FormJudgement& one : form.judgements)
-    json["judgements"].push_back(judgement_object(one));
+  json["judgements"] = list_of(form.judgements, judgement_object);
   return json;
 }
 

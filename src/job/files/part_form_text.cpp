@@ -2,13 +2,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-
 #include "base/hundredths.hpp"
 #include "base/text.hpp"
-#include "form/files/form_text.hpp"
+#include "form/files/form_files.hpp"
 #include "format/text_layout.hpp"
-#include "job/files/part_form_files.hpp"
+#include "job/files/job_results.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/files/seats_files.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
 #include "base/hundredths.hpp"
-#include "fit/files/fit_screen.hpp"
+#include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
+#include "job/files/job_results.hpp"
 #include "job/references.hpp"
 #include "job/seat_distance.hpp"
 #include "trueaxis/units.hpp"
@@ -58,26 +57,23 @@ Json seat_axis_object(const JobResult& result, std::size_t reference) {
   const AxisEstimate axis = axis_of_reference(result, reference);
   Json json{{"tilt", to_json(tilt_of(axis))}, {"tap", tap_text(fit)}};
   if (fit.surface == SurfaceKind::plane) return json;
-  json["ends"] = Json::array();
-  for (const AxisOffset& end : ends_of(fit, axis)) json["ends"].push_back(offset_object(end));
+  json["ends"] = list_of(ends_of(fit, axis), offset_object);
   return json;
 }
 
 Json seats_apart_array(const JobResult& result) {
-  Json list = Json::array();
-  for (const SeatDistance& d : seat_distances(result)) {
-    Json both = Json::array();
-    for (std::size_t s = 0; s < 2; ++s)
-      both.push_back({{"reference", result.job.references[s == 0 ? d.first : d.second].name},
-                      {"in_its_middle", offset_object(d.middle[s])},
-                      {"coaxiality_about_the_other",
-                       to_json(Estimate{d.coaxiality_mm(s), d.u_coaxiality_mm(s), "mm", ""})}});
-    list.push_back({{"first", result.job.references[d.first].name},
-                    {"second", result.job.references[d.second].name},
-                    {"angle", to_json(Estimate{d.tilt_rad, d.u_tilt_rad, "rad", ""})},
-                    {"at", both}});
-  }
-  return list;
+  return list_of(seat_distances(result), [&](const SeatDistance& d) -> Json {
+    const auto seat = [&](std::size_t s) -> Json {
+      return {{"reference", result.job.references[s == 0 ? d.first : d.second].name},
+              {"in_its_middle", offset_object(d.middle[s])},
+              {"coaxiality_about_the_other",
+               to_json(Estimate{d.coaxiality_mm(s), d.u_coaxiality_mm(s), "mm", ""})}};
+    };
+    return {{"first", result.job.references[d.first].name},
+            {"second", result.job.references[d.second].name},
+            {"angle", to_json(Estimate{d.tilt_rad, d.u_tilt_rad, "rad", ""})},
+            {"at", list_of_first(2, seat)}};
+  });
 }
 
 std::string seat_axis_screen(const JobResult& result, std::size_t reference) {

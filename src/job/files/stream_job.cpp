@@ -7,8 +7,7 @@
 
 #include "base/counted.hpp"
 #include "format/reason_words.hpp"
-#include "job/one_surface.hpp"
-#include "job/seat_references.hpp"
+#include "job/evidence.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/axis_ranges.hpp"
-
 #include <algorithm>
+
+#include "job/machine/machine_job_steps.hpp"
 
 namespace trueaxis::machine_job {
 namespace {

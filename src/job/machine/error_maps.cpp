@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/error_maps.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "job/machine/machine_job_steps.hpp"
 
 namespace trueaxis::machine_job {
 namespace {

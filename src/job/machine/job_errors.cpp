@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/job_errors.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "calibrate/estimate/total_uncertainty.hpp"
 #include "calibrate/estimate/unknown.hpp"
+#include "job/machine/machine_job_steps.hpp"
 #include "machine/uncertainty.hpp"
 
 namespace trueaxis::machine_job {

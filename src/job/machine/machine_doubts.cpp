@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "job/machine/axis_ranges.hpp"
+#include "job/machine/machine_job_steps.hpp"
 
 namespace trueaxis::machine_job {
 namespace {

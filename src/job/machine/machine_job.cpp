@@ -3,12 +3,8 @@
 
 #include <utility>
 
-#include "job/machine/axis_ranges.hpp"
-#include "job/machine/error_maps.hpp"
-#include "job/machine/job_errors.hpp"
 #include "job/machine/machine_doubts.hpp"
-#include "job/machine/machine_job_verdict.hpp"
-#include "job/machine/path_before.hpp"
+#include "job/machine/machine_job_steps.hpp"
 #include "machine/algebra.hpp"
 #include "trueaxis/error.hpp"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/machine_job_verdict.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "job/machine/machine_doubts.hpp"
+#include "job/machine/machine_job_steps.hpp"
 
 namespace trueaxis::machine_job {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/path_before.hpp"
-
 #include <cmath>
 
 #include "compensate/largest_on_way.hpp"
+#include "job/machine/machine_job_steps.hpp"
 #include "machine/algebra.hpp"
 
 namespace trueaxis::machine_job {

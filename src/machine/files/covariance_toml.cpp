@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/covariance_toml.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
@@ -8,8 +6,9 @@
 #include <cmath>
 
 #include "format/units.hpp"
-#include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
+#include "machine/files/errors_files.hpp"
+#include "machine/files/toml_parts.hpp"
 #include "machine/uncertainty.hpp"
 #include "math/covariance.hpp"
 

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/denavit_hartenberg_toml.hpp"
-
-#include <algorithm>
-
 #include "machine/files/toml_parts.hpp"
 #include "machine/zero_position.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/error_names.hpp"
+#include "machine/files/errors_files.hpp"
 
 namespace trueaxis {
 

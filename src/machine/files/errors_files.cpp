@@ -6,9 +6,6 @@
 
 #include "format/file.hpp"
 #include "format/outputs.hpp"
-#include "machine/files/errors_toml.hpp"
-#include "machine/files/etalon.hpp"
-#include "machine/files/isg_csv.hpp"
 #include "machine/files/machine_identity.hpp"
 #include "machine/uncertainty.hpp"
 #include "trueaxis/error.hpp"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/errors_json.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "format/json.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/errors_toml.hpp"
-
 #include <algorithm>
 
 #include "format/file.hpp"
 #include "format/units.hpp"
-#include "machine/files/covariance_toml.hpp"
-#include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_identity.hpp"
 #include "machine/files/toml_parts.hpp"
 

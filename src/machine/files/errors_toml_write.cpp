@@ -2,13 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include "machine/files/covariance_toml.hpp"
 #include "machine/files/error_sizes.hpp"
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_identity.hpp"
+#include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/etalon.hpp"
-
 #include <fmt/format.h>
 
 #include <utility>
 
 #include "base/number.hpp"
 #include "format/csv_text.hpp"
-#include "machine/files/error_names.hpp"
 #include "machine/files/error_sizes.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/number_table.hpp"
 #include "machine/files/toml_parts.hpp"
 #include "machine/sampled_errors.hpp"

@@ -6,8 +6,6 @@
 #include <algorithm>
 
 #include "format/file.hpp"
-#include "machine/files/denavit_hartenberg_toml.hpp"
-#include "machine/files/machine_toml_program.hpp"
 #include "machine/files/toml_parts.hpp"
 
 namespace trueaxis {

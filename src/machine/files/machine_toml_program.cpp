@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "machine/files/machine_toml_program.hpp"
-
 #include <fmt/format.h>
 
 #include "base/number.hpp"

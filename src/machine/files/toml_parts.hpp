@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
 
 #include "format/toml_reader.hpp"
+#include "machine/files/machine_toml.hpp"
 #include "trueaxis/machine.hpp"
 
 /// What the tables of a machine and of its errors have alike.
@@ -57,5 +57,27 @@ inline std::string quoted(const std::string& text) {
   }
   return out + '"';
 }
+
+/// `chain` of either form; what is wrong with it is noted there.
+void read_chain(TomlTable& root, Machine& machine);
+
+/// `[[dh]]`, `part` and `tool` of a D-H file, whose chain is read already, made a zero-position
+/// machine in the frame of the part: joint i turns about, or moves along, the z axis of frame i − 1
+/// with all variables at 0 (Talyan et al., Tables 1 to 3).
+void read_denavit_hartenberg(TomlTable& root, MachineFile& file);
+
+/// `tools`, `workpiece`, `program` and `compensation`: what both forms of a machine's file have.
+/// `mode_needed`: `program.mode` has no default.
+void read_program_parts(TomlTable& root, Machine& machine, bool mode_needed);
+
+/// The table [covariance] of an errors file (docs/machine.md) into `errors`, whose terms give up
+/// the u that it has. Complains of amounts that are none or twice, of a matrix that is none of a
+/// covariance, of a u that is another one than the matrix', and, unless `large_errors`, of one that
+/// no error of a machine has.
+void read_covariance(TomlTable& root, const Machine& machine, bool large_errors,
+                     ErrorModel& errors);
+
+/// What `read_covariance` reads back; "" where there is none.
+std::string covariance_toml(const ErrorCovariance& covariance);
 
 }  // namespace trueaxis

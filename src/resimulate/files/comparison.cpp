@@ -21,19 +21,18 @@ std::string row(const char* name, const Discrepancy& d) {
 }  // namespace
 
 Json comparison_object(const Comparison& comparison) {
-  Json lines = Json::array();
-  for (const SpectrumBin& line : comparison.lines) {
-    lines.push_back({{"order", number(line.order)},
-                     {"before", with_unit(line.before_mm, "mm")},
-                     {"after", with_unit(line.after_mm, "mm")}});
-  }
+  const auto line = [](const SpectrumBin& one) -> Json {
+    return {{"order", number(one.order)},
+            {"before", mm_json(one.before_mm)},
+            {"after", mm_json(one.after_mm)}};
+  };
   return {{"readings", comparison.readings},
           {"masked", comparison.masked},
           {"before", discrepancy(comparison.before)},
           {"after", discrepancy(comparison.after)},
           {"noise", discrepancy(comparison.noise)},
           {"j_test_lambda", to_json(comparison.j_test_lambda)},
-          {"lines", lines}};
+          {"lines", list_of(comparison.lines, line)}};
 }
 
 std::string comparison_json(const Comparison& comparison, const std::string& diagnosis,

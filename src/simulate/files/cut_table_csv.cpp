@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/files/cut_table_csv.hpp"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -10,6 +8,7 @@
 #include "base/text.hpp"
 #include "format/csv_text.hpp"
 #include "format/file.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "trueaxis/error.hpp"
 #include "trueaxis/units.hpp"
 

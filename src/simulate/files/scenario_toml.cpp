@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/files/scenario_toml.hpp"
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include "base/text.hpp"
 #include "format/file.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "simulate/noise.hpp"
 
 namespace trueaxis {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/files/truth_json.hpp"
-
 #include <cmath>
 
 #include "format/json.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -11,24 +10,21 @@ namespace {
 
 using namespace virtual_lathe;
 
-Json length(double value_mm) { return with_unit(value_mm, "mm"); }
-Json angle(double value_rad) { return with_unit(value_rad / rad_per_deg, "deg"); }
-
 Json part_json(const Part& part) {
   static constexpr const char* kinds[] = {"cone", "cylinder", "plane"};
   Json parameters;
   if (part.kind != PartKind::face) {
-    parameters["x0"] = length(part.x0_mm);
-    parameters["y0"] = length(part.y0_mm);
+    parameters["x0"] = mm_json(part.x0_mm);
+    parameters["y0"] = mm_json(part.y0_mm);
   }
   parameters["l"] = with_unit(part.l, "1");
   parameters["m"] = with_unit(part.m, "1");
-  if (part.kind == PartKind::face) parameters["d"] = length(part.d_mm);
-  if (part.kind == PartKind::cylinder) parameters["radius"] = length(part.radius_mm);
+  if (part.kind == PartKind::face) parameters["d"] = mm_json(part.d_mm);
+  if (part.kind == PartKind::cylinder) parameters["radius"] = mm_json(part.radius_mm);
   if (part.kind == PartKind::cone) {
     const double tangent = std::tan(part.half_angle_rad);
-    parameters["k"] = length(part.apex_mm.value_or(part.radius_at_mm - part.radius_mm / tangent));
-    parameters["half_angle"] = angle(std::abs(part.half_angle_rad));
+    parameters["k"] = mm_json(part.apex_mm.value_or(part.radius_at_mm - part.radius_mm / tangent));
+    parameters["half_angle"] = deg_json(std::abs(part.half_angle_rad));
   }
   return {{"surface", kinds[static_cast<std::size_t>(part.kind)]},
           {"bore", part.bore},
@@ -36,48 +32,44 @@ Json part_json(const Part& part) {
 }
 
 Json noise_json(const Noise& noise) {
-  return {{"sigma", length(noise.sigma_mm)},
-          {"uniform", length(noise.uniform_mm)},
+  return {{"sigma", mm_json(noise.sigma_mm)},
+          {"uniform", mm_json(noise.uniform_mm)},
           {"rho", with_unit(noise.rho, "1")},
           {"autoregression", noise.autoregression},
           {"student_dof", with_unit(noise.student_dof, "1")},
           {"incidence", with_unit(noise.incidence, "1")},
           {"outlier_fraction", with_unit(noise.outlier_fraction, "1")},
-          {"outlier_size", length(noise.outlier_size_mm)},
+          {"outlier_size", mm_json(noise.outlier_size_mm)},
           {"outliers_one_sided", noise.outliers_one_sided},
-          {"quantisation", length(noise.quantisation_mm)}};
+          {"quantisation", mm_json(noise.quantisation_mm)}};
 }
 
 Json effects_json(const std::vector<Effect>& effects) {
-  Json list = Json::array();
-  for (const Effect& effect : effects) {
+  return list_of(effects, [](const Effect& effect) -> Json {
     Json parameters = Json::object();
     for (const LatheParameter& known : find_effect_kind(effect.id).parameters) {
       const NameAndUnit written = name_and_unit(known.name);
       parameters[written.name] =
           with_unit(written.factor * parameter(effect, known.name), written.unit);
     }
-    list.push_back({{"effect", effect.id}, {"parameters", parameters}});
-  }
-  return list;
+    return {{"effect", effect.id}, {"parameters", parameters}};
+  });
 }
 
 Json setups_json(const std::vector<Chucking>& setups) {
-  Json list = Json::array();
-  for (const Chucking& setup : setups) {
+  return list_of(setups, [](const Chucking& setup) {
     Json entry{{"number", setup.number},
-               {"reindex", angle(setup.reindex_rad)},
-               {"z_shift", length(setup.z_shift_mm)},
+               {"reindex", deg_json(setup.reindex_rad)},
+               {"z_shift", mm_json(setup.z_shift_mm)},
                {"side", setup.rear ? "rear" : "front"},
-               {"x_jog", length(setup.x_jog_mm)},
+               {"x_jog", mm_json(setup.x_jog_mm)},
                {"clamp_force_ratio", with_unit(setup.clamp_force_ratio, "1")}};
-    if (setup.x0_mm) entry["x0"] = length(*setup.x0_mm);
-    if (setup.y0_mm) entry["y0"] = length(*setup.y0_mm);
+    if (setup.x0_mm) entry["x0"] = mm_json(*setup.x0_mm);
+    if (setup.y0_mm) entry["y0"] = mm_json(*setup.y0_mm);
     if (setup.l) entry["l"] = with_unit(*setup.l, "1");
     if (setup.m) entry["m"] = with_unit(*setup.m, "1");
-    list.push_back(entry);
-  }
-  return list;
+    return entry;
+  });
 }
 
 }  // namespace
@@ -89,13 +81,12 @@ std::string truth_json(const Truth& truth) {
   json["effects"] = effects_json(scenario.effects);
   json["noise"] = noise_json(scenario.noise);
   json["setups"] = setups_json(scenario.plan.setups);
-  json["probe"] = {{"ball_radius", length(scenario.probe.ball_radius_mm)}};
+  json["probe"] = {{"ball_radius", mm_json(scenario.probe.ball_radius_mm)}};
   if (scenario.probe.relative_zero_mm) {
-    json["probe"]["relative_zero"] = length(*scenario.probe.relative_zero_mm);
+    json["probe"]["relative_zero"] = mm_json(*scenario.probe.relative_zero_mm);
   }
   if (!scenario.probe.sensor_angles_rad.empty()) {
-    Json& angles = json["probe"]["sensor_angles"] = Json::array();
-    for (const double rad : scenario.probe.sensor_angles_rad) angles.push_back(angle(rad));
+    json["probe"]["sensor_angles"] = list_of(scenario.probe.sensor_angles_rad, deg_json);
   }
   json["seed"] = scenario.seed;
   json["points"] = truth.clean_mm.size();

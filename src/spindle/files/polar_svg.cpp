@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spindle/files/polar_svg.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "base/number.hpp"
 #include "format/text_layout.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

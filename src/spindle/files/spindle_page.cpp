@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spindle/files/spindle_page.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "format/html.hpp"
 #include "format/text_layout.hpp"
-#include "spindle/files/polar_svg.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -79,12 +77,6 @@ std::string values_of(const ErrorMotion& motion, bool axial, double k) {
   return scrolled(rows);
 }
 
-std::string harmonic(const SpindleHarmonic& one, double k) {
-  if (!one.determined()) return "suppressed";
-  return format("{:.4g} ± {:.2g} nm, {:.0f}°", one.amplitude_mm() * 1e6, k * one.u_mm * 1e6,
-                one.phase_rad() / rad_per_deg);
-}
-
 std::string orders_of(const ErrorMotion& motion, double k) {
   const bool form = motion.form.determined();
   std::vector<std::string> head{"condition"};
@@ -95,9 +87,9 @@ std::string orders_of(const ErrorMotion& motion, double k) {
   for (const SeparatedOrder& one : motion.orders) {
     std::vector<std::string> cells{std::isfinite(one.condition) ? format("{:.1f}", one.condition)
                                                                 : "infinite"};
-    if (form) cells.push_back(harmonic(one.form, k));
-    cells.push_back(harmonic(one.sensitive, k));
-    if (motion.across_seen) cells.push_back(harmonic(one.across, k));
+    if (form) cells.push_back(harmonic_text(one.form, k));
+    cells.push_back(harmonic_text(one.sensitive, k));
+    if (motion.across_seen) cells.push_back(harmonic_text(one.across, k));
     rows += row(std::to_string(one.order), cells);
   }
   return "<details><summary>Orders</summary>" + scrolled(rows) + "</details>\n";

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spindle/files/spindle_text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <vector>
 
 #include "format/text_layout.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {
@@ -96,12 +94,7 @@ std::string motion_text(const ErrorMotion& motion, bool axial, double k) {
   return text + suppressed_text(motion);
 }
 
-std::string cell(const SpindleHarmonic& one, double k) {
-  if (!one.determined()) return padded("suppressed", 34);
-  return padded(format("{} ± {} nm, {:.0f}°", format("{:.4g}", one.amplitude_mm() * 1e6),
-                       format("{:.2g}", k * one.u_mm * 1e6), one.phase_rad() / rad_per_deg),
-                34);
-}
+std::string cell(const SpindleHarmonic& one, double k) { return padded(harmonic_text(one, k), 34); }
 
 std::string table(const ErrorMotion& motion, double k) {
   const bool form = motion.form.determined();
@@ -150,6 +143,12 @@ std::string layout_text(std::span<const double> angles_rad, int order_min, int o
 }
 
 }  // namespace
+
+std::string harmonic_text(const SpindleHarmonic& one, double k) {
+  if (!one.determined()) return "suppressed";
+  return format("{:.4g} ± {:.2g} nm, {:.0f}°", one.amplitude_mm() * 1e6, k * one.u_mm * 1e6,
+                one.phase_rad() / rad_per_deg);
+}
 
 std::string spindle_text(const SpindleResult& result, bool verbose) {
   const double k = result.coverage_factor;

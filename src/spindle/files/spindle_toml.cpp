@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "spindle/files/spindle_toml.hpp"
-
 #include "format/toml_reader.hpp"
 #include "measure/files/stream_csv_sensors.hpp"
+#include "spindle/files/spindle_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

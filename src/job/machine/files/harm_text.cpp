@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "format/text_layout.hpp"
-#include "job/machine/files/harm_files.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,25 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/files/machine_job_results.hpp"
-
+#include <cctype>
 #include <filesystem>
 
 #include "base/text.hpp"
 #include "calibrate/files/machine_diagnosis_files.hpp"
-#include "compensate/files/compensation_json.hpp"
-#include "compensate/files/compensation_text.hpp"
+#include "compensate/files/compensation_files.hpp"
 #include "format/text_layout.hpp"
 #include "format/toml_header.hpp"
 #include "job/files/job_words.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "trueaxis/error.hpp"
 
 namespace trueaxis {
 namespace {
-
-Json at_line(double value_mm, std::size_t line) {
-  Json json = with_unit(value_mm, "mm");
-  json["line"] = line == 0 ? Json(nullptr) : Json(line);
-  return json;
-}
 
 Json verdict_json(const MachineJobResult& result) {
   const MachineJobVerdict& v = result.verdict;
@@ -33,9 +26,9 @@ Json verdict_json(const MachineJobResult& result) {
             {"next_steps", reasons_array(v.next, Spoken{})},
             {"remarks", sentences_of(result.remarks, {})}};
   if (result.tips.empty()) return json;
-  json["tip_before"] = at_line(v.before_mm, v.before_line);
-  json["tip_after"] = at_line(v.after_mm, v.after_line);
-  json["between_blocks_before"] = at_line(v.between_before_mm, v.between_before_line);
+  json["tip_before"] = at_line(mm_json(v.before_mm), v.before_line);
+  json["tip_after"] = at_line(mm_json(v.after_mm), v.after_line);
+  json["between_blocks_before"] = at_line(mm_json(v.between_before_mm), v.between_before_line);
   json["between_blocks_after"] = with_unit(v.between_mm, "mm");
   json["not_corrected"] = with_unit(v.not_corrected_mm, "mm");
   json["U_without_place_of_part"] = with_unit(v.U_mm, "mm");
@@ -88,14 +81,14 @@ std::string new_program_name(const MachineJob& job) {
 }
 
 Json machine_job_object(const MachineJobResult& result) {
-  Json inputs = Json::array();
-  for (const JobInput& input : result.job.inputs)
-    inputs.push_back({{"what", input.what}, {"file", input.file}, {"hash", input.hash}});
+  const auto input = [](const JobInput& one) -> Json {
+    return {{"what", one.what}, {"file", one.file}, {"hash", one.hash}};
+  };
   Json json{{"schema", "trueaxis.machine_run/1"},
             {"version", TRUEAXIS_VERSION},
             {"job", result.job.name},
             {"machine", result.job.machine.name},
-            {"inputs", std::move(inputs)},
+            {"inputs", list_of(result.job.inputs, input)},
             {"verdict", verdict_json(result)}};
   if (!result.job.header.empty()) json["header"] = header_object(result.job.header);
   if (result.part)

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/files/machine_job_screen.hpp"
-
 #include <fmt/format.h>
 
 #include "calibrate/files/machine_screen.hpp"
-#include "compensate/files/compensation_screen.hpp"
+#include "compensate/files/compensation_files.hpp"
 #include "format/reason_words.hpp"
-#include "job/machine/files/machine_job_results.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "trueaxis/units.hpp"
 
 namespace trueaxis {

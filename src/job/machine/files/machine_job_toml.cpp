@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "job/machine/files/machine_job_toml.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -11,6 +9,7 @@
 #include "format/file.hpp"
 #include "format/toml_header.hpp"
 #include "format/toml_reader.hpp"
+#include "job/machine/files/machine_job_files.hpp"
 #include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
 #include "nc/program.hpp"

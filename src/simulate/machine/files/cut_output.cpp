@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/cut_output.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "format/file.hpp"
 #include "format/json.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 namespace {
@@ -15,12 +14,6 @@ namespace {
 using virtual_machine::Cut;
 using virtual_machine::CutRow;
 using virtual_machine::LargestOff;
-
-Json largest_json(const LargestOff& largest, const char* unit, double of_unit) {
-  Json json = with_unit(largest.value / of_unit, unit);
-  json["line"] = largest.line == 0 ? Json(nullptr) : Json(largest.line);
-  return json;
-}
 
 std::string said(const LargestOff& largest, const char* unit, double of_unit) {
   if (largest.line == 0) return fmt::format("0 {}", unit);
@@ -48,20 +41,22 @@ std::string cut_csv(const Cut& cut) {
 }
 
 std::string cut_json(const Cut& cut, const CutScenario& scenario) {
-  Json files = Json::array();
-  for (const std::string& path : scenario.of.read)
-    files.push_back({{"file", path}, {"hash", content_hash(read_file(path))}});
+  const auto input = [](const std::string& path) -> Json {
+    return {{"file", path}, {"hash", content_hash(read_file(path))}};
+  };
   Json json{{"schema", "trueaxis.cut/1"},
             {"version", TRUEAXIS_VERSION},
-            {"inputs", std::move(files)},
+            {"inputs", list_of(scenario.of.read, input)},
             {"program", scenario.plan.program_file},
             {"nominal", scenario.plan.nominal_file},
             {"moves", cut.blocks},
             {"block_ends", cut.judged_ends},
             {"time", with_unit(cut.time_s, "s")}};
-  json["off_at_ends"] = {{"position", largest_json(cut.off_at_ends, "mm", 1.0)},
-                         {"direction", largest_json(cut.angle_at_ends, "deg", rad_per_deg)}};
-  json["off_between"] = largest_json(cut.off_between, "mm", 1.0);
+  const auto off = [](const LargestOff& one) { return at_line(mm_json(one.value), one.line); };
+  const LargestOff& angle = cut.angle_at_ends;
+  json["off_at_ends"] = {{"position", off(cut.off_at_ends)},
+                         {"direction", at_line(deg_json(angle.value), angle.line)}};
+  json["off_between"] = off(cut.off_between);
   return json_text(json);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/cut_toml.hpp"
-
 #include "format/file.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 

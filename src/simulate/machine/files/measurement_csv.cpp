@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/measurement_csv.hpp"
-
 #include <fmt/format.h>
 
 #include <iterator>
+
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/measurement_toml.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "format/toml_reader.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "simulate/machine/files/scenario_machine.hpp"
-
 #include <algorithm>
 
-#include "machine/files/errors_toml.hpp"
+#include "machine/files/errors_files.hpp"
 #include "machine/files/machine_toml.hpp"
+#include "simulate/machine/files/machine_scenario_files.hpp"
 
 namespace trueaxis {
 

@@ -32,14 +32,27 @@ Json confirmed_json(const Confirmation& confirmed) {
           {"states_more", confirmed.states_more}};
 }
 
-Json recommendations_json(const std::vector<Recommendation>& list) {
-  Json json = Json::array();
-  for (const Recommendation& one : list) {
-    json.push_back({{"what", one.what},
-                    {"plan", plan_json(one.plan)},
-                    {"confirmed", confirmed_json(one.confirmed)}});
-  }
-  return json;
+Json recommendation_json(const Recommendation& one) {
+  return {{"what", one.what},
+          {"plan", plan_json(one.plan)},
+          {"confirmed", confirmed_json(one.confirmed)}};
+}
+
+Json variable_json(const DesignVariable& one) {
+  const ChoiceInfo& info = info_of(one.choice);
+  return {{"choice", info.name},
+          {"low", with_unit(one.low, info.unit)},
+          {"high", with_unit(one.high, info.unit)}};
+}
+
+Json alone_json(const Alone& one) {
+  return {{"choice", info_of(one.choice).name},
+          {"reached", one.reached},
+          {"plan", plan_json(one.plan)}};
+}
+
+Json row_json(const TableRow& row) {
+  return {{"reached", row.reached}, {"plan", plan_json(row.plan)}};
 }
 
 }  // namespace
@@ -58,29 +71,14 @@ std::string planning_json(const PlanningTask& task, const PlanningAnswer& answer
             {"repeats", task.repeats}};
   json["rate_limit"] = task.rate_hz ? with_unit(*task.rate_hz, "Hz") : Json(nullptr);
   json["time_limit"] = task.time_s ? with_unit(*task.time_s, "s") : Json(nullptr);
-  Json variables = Json::array();
-  for (const DesignVariable& one : task.variables) {
-    const ChoiceInfo& info = info_of(one.choice);
-    variables.push_back({{"choice", info.name},
-                         {"low", with_unit(one.low, info.unit)},
-                         {"high", with_unit(one.high, info.unit)}});
-  }
-  json["free"] = std::move(variables);
+  json["free"] = list_of(task.variables, variable_json);
   json["as_given"] = plan_json(answer.as_given);
   json["nearest"] = plan_json(answer.nearest);
-  Json alone = Json::array(), table = Json::array();
-  for (const Alone& one : answer.alone) {
-    alone.push_back({{"choice", info_of(one.choice).name},
-                     {"reached", one.reached},
-                     {"plan", plan_json(one.plan)}});
-  }
-  for (const TableRow& row : answer.table)
-    table.push_back({{"reached", row.reached}, {"plan", plan_json(row.plan)}});
-  json["alone"] = std::move(alone);
+  json["alone"] = list_of(answer.alone, alone_json);
   json["solved_for"] = info_of(answer.solved_for).name;
-  json["table"] = std::move(table);
-  json["recommended"] = recommendations_json(answer.recommended);
-  json["not_confirmed"] = recommendations_json(answer.not_confirmed);
+  json["table"] = list_of(answer.table, row_json);
+  json["recommended"] = list_of(answer.recommended, recommendation_json);
+  json["not_confirmed"] = list_of(answer.not_confirmed, recommendation_json);
   json["remarks"] = answer.remarks;
   return json_text(json);
 }

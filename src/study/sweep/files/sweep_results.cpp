@@ -65,28 +65,23 @@ Json share_json(const Share& share) {
 }
 
 Json axes_json(const Sweep& sweep) {
-  Json axes = Json::array();
-  for (const GridAxis& axis : sweep.axes) {
-    Json labels = Json::array();
-    for (const AxisPoint& point : axis.points) labels.push_back(point.label);
-    axes.push_back({{"name", axis.name}, {"values", labels}});
-  }
-  return axes;
+  const auto label = [](const AxisPoint& point) { return point.label; };
+  return list_of(sweep.axes, [&](const GridAxis& axis) -> Json {
+    return {{"name", axis.name}, {"values", list_of(axis.points, label)}};
+  });
 }
 
 /// In the units inside, which the path names.
 Json drawn_json(const Sweep& sweep) {
   static constexpr const char* kinds[] = {"uniform", "normal", "log-uniform"};
-  Json list = Json::array();
-  for (const Drawn& drawn : sweep.drawn) {
+  return list_of(sweep.drawn, [](const Drawn& drawn) -> Json {
     const bool normal = drawn.kind == Drawn::Kind::normal;
-    list.push_back({{"name", drawn.name},
-                    {"path", drawn.path},
-                    {"distribution", kinds[static_cast<std::size_t>(drawn.kind)]},
-                    {normal ? "mean" : "low", drawn.first},
-                    {normal ? "sd" : "high", drawn.second}});
-  }
-  return list;
+    return {{"name", drawn.name},
+            {"path", drawn.path},
+            {"distribution", kinds[static_cast<std::size_t>(drawn.kind)]},
+            {normal ? "mean" : "low", drawn.first},
+            {normal ? "sd" : "high", drawn.second}};
+  });
 }
 
 Json row_json(const Row& row) {
@@ -158,8 +153,7 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
             {"drawn", drawn_json(sweep)},
             {"coverage_factor", 2.0},
             {"bonferroni_level", bonferroni_level}};
-  Json cells = Json::array();
-  for (std::size_t cell = 0; cell < summary.cells.size(); ++cell) {
+  json["cells"] = list_of_first(summary.cells.size(), [&](std::size_t cell) {
     const Cell at = cell_at(sweep, cell);
     const CellSummary& of = summary.cells[cell];
     Json point = Json::object();
@@ -178,12 +172,9 @@ std::string sweep_json(const Sweep& sweep, const Summary& summary) {
       one["found"] = share_json(of.found);
       one["named"] = share_json(of.named);
     }
-    Json rows = Json::array();
-    for (const Row& row : summary.rows_of(cell)) rows.push_back(row_json(row));
-    one["rows"] = std::move(rows);
-    cells.push_back(std::move(one));
-  }
-  json["cells"] = std::move(cells);
+    one["rows"] = list_of(summary.rows_of(cell), row_json);
+    return one;
+  });
   return json_text(json);
 }
 

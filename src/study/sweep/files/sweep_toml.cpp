@@ -7,7 +7,7 @@
 
 #include "base/diagnostics.hpp"
 #include "format/file.hpp"
-#include "simulate/files/scenario_toml.hpp"
+#include "simulate/files/scenario_files.hpp"
 #include "study/sweep/files/sweep_axes.hpp"
 #include "trueaxis/error.hpp"
 

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/results.hpp"
+
+#include <algorithm>
+
+#include "cli/options.hpp"
+#include "format/file.hpp"
+#include "trueaxis/error.hpp"
+
+namespace trueaxis::cli {
+
+CLI::Option* Results::add(CLI::App& command, const std::string& option, const std::string& schema,
+                          const std::string& help) {
+  Result& one = all_.emplace_back(Result{option.substr(option.rfind(',') + 1), schema, ""});
+  return add_option(command, option, one.place, a_place(), help);
+}
+
+void Results::say(const std::string& option, const std::string& schema) {
+  const auto found = std::ranges::find(all_, option, &Result::option);
+  expects(found != all_.end(), "a result of this command");
+  found->schema = schema;
+}
+
+const std::string& Results::operator[](const std::string& option) const {
+  const auto found = std::ranges::find(all_, option, &Result::option);
+  expects(found != all_.end(), "a result of this command");
+  return found->place;
+}
+
+bool Results::printed() const {
+  return std::ranges::any_of(all_, [](const Result& one) { return is_standard_output(one.place); });
+}
+
+void Results::name_to(Outputs& outputs) const {
+  for (const Result& one : all_) {
+    const Result& first = *std::ranges::find(all_, one.place, &Result::place);
+    if (!one.place.empty() && &first != &one)
+      throw CLI::ValidationError(one.option, "cannot go where " + first.option + " goes");
+    outputs.may_write(one.place, one.schema);
+  }
+}
+
+void add_stream_results(CLI::App& command, Results& results, const std::string& schema,
+                        const std::string& residuals_hold) {
+  results.add(command, "--json", schema, "write the result here, '-' prints it");
+  results.add(command, "--residuals", "trueaxis.residuals",
+              "write every reading with " + residuals_hold);
+  results.add(command, "--report", "trueaxis.report", "write a page here (HTML), '-' prints it");
+  add_force(command, results.force);
+}
+
+}  // namespace trueaxis::cli

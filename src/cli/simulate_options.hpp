@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cli/results.hpp"
+#include "cli/stream_options.hpp"
+
+namespace trueaxis::cli {
+
+/// What `trueaxis simulate` is told: a scenario, or the diagnosis of a part to be measured again.
+struct SimulateOptions {
+  std::string scenario, diagnosis, table, program;
+  Results results;
+  std::optional<std::uint64_t> seed;
+  StreamOptions stream;  ///< of the diagnosis; path empty: as the diagnosis names it
+  double ball_radius_mm = 0.0;
+  bool before = false, noise_free = false, compare = false, check = false;
+};
+
+/// `simulate --from DIAGNOSIS`.
+int simulate_from(SimulateOptions& options);
+
+/// What a machine of several axes would read of balls on its table.
+int simulate_measurement(SimulateOptions& options);
+
+/// What it cuts of a program, and how far that is from what should be cut.
+int simulate_machine_cut(SimulateOptions& options);
+
+}  // namespace trueaxis::cli
