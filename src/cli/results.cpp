@@ -12,7 +12,11 @@ namespace trueaxis::cli {
 CLI::Option* Results::add(CLI::App& command, const std::string& option, const std::string& schema,
                           const std::string& help) {
   Result& one = all_.emplace_back(Result{option.substr(option.rfind(',') + 1), schema, ""});
-  return add_option(command, option, one.place, a_place(), help);
+  return add_option(command, option, one.place, a_place(), help)
+      ->check([this](const std::string& place) {
+        const auto other = std::ranges::find(all_, place, &Result::place);
+        return other == all_.end() ? std::string() : "cannot go where " + other->option + " goes";
+      });
 }
 
 void Results::say(const std::string& option, const std::string& schema) {
@@ -32,12 +36,7 @@ bool Results::printed() const {
 }
 
 void Results::name_to(Outputs& outputs) const {
-  for (const Result& one : all_) {
-    const Result& first = *std::ranges::find(all_, one.place, &Result::place);
-    if (!one.place.empty() && &first != &one)
-      throw CLI::ValidationError(one.option, "cannot go where " + first.option + " goes");
-    outputs.may_write(one.place, one.schema);
-  }
+  for (const Result& one : all_) outputs.may_write(one.place, one.schema);
 }
 
 void add_stream_results(CLI::App& command, Results& results, const std::string& schema,

@@ -15,6 +15,7 @@ class Results {
  public:
   bool force = false;
 
+  /// Two results do not go to the same place.
   /// @param option "--json" or "-o,--output"
   /// @param schema as of Outputs::may_write
   CLI::Option* add(CLI::App& command, const std::string& option, const std::string& schema,
@@ -36,7 +37,6 @@ class Results {
   void write(Outputs& outputs, const std::string& option, const Make& make) const {
     if (asked(option)) outputs.write((*this)[option], make());
   }
-  /// @throws CLI::ValidationError where two have the same place
   void name_to(Outputs& outputs) const;
 
  private:
