@@ -20,14 +20,14 @@ struct SetupCommand {
   SetupResult (*solve)(const std::string& path, int decimals);
 };
 
-struct Options {
+struct SetupArguments {
   std::string path;
   Results results;
   int decimals = 6;
   bool verbose = false, check = false;
 };
 
-int execute(const Options& options, const SetupCommand& which) {
+int execute(const SetupArguments& options, const SetupCommand& which) {
   const SetupResult result = which.solve(options.path, options.decimals);
   const Results& results = options.results;
   Outputs outputs(results.force);
@@ -54,7 +54,7 @@ int execute(const Options& options, const SetupCommand& which) {
 
 void add_setup_command(CLI::App& app, const SetupCommand& which, int& exit_code) {
   CLI::App* command = app.add_subcommand(which.name, which.description);
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SetupArguments>();
   command->add_option("file", options->path, which.file)->required();
   Results& results = options->results;
   results.add(*command, "-o,--output", "trueaxis.errors",
