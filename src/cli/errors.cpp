@@ -45,7 +45,8 @@ AxisPositions positions_of(const std::string& text, const Machine& machine) {
   return axes;
 }
 
-std::string converted(const ErrorsArguments& options, const Machine& machine, const ErrorModel& errors) {
+std::string converted(const ErrorsArguments& options, const Machine& machine,
+                      const ErrorModel& errors) {
   const auto sign = sign_of(options.output_sign);
   if (options.format == "toml") return errors_toml(errors, &machine);
   return options.format == "isg" ? isg_csv_text(errors, machine, *sign, options.points)

@@ -102,16 +102,8 @@ SpindleJob job_of(const SpindleArguments& options, const OrderRange& orders) {
 int separate(const SpindleArguments& options, const OrderRange& orders) {
   SpindleJob job = job_of(options, orders);
   job.read.several_sensors = true;
-  std::vector<ProbeStream> streams;
-  std::vector<Diagnostic> wrong;
-  for (const std::string& path : job.streams) {
-    try {
-      streams.push_back(read_stream_csv(path, job.read));
-    } catch (const InputError& error) {
-      wrong.insert(wrong.end(), error.diagnostics().begin(), error.diagnostics().end());
-    }
-  }
-  if (!wrong.empty()) throw InputError(std::move(wrong));
+  const std::vector<ProbeStream> streams = read_each(
+      job.streams, [&](const std::string& path) { return read_stream_csv(path, job.read); });
   const Results& results = options.results;
   Outputs outputs(results.force);
   outputs.reads(options.streams.front());
