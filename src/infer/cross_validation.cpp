@@ -11,6 +11,11 @@ namespace {
 
 constexpr int resamplings = 999;
 
+/// Sums of squares of a block, predicted by two models.
+struct HeldOutBlock {
+  double before = 0.0, after = 0.0, rows = 0.0;
+};
+
 double root_mean(double sum, double rows) { return rows > 0.0 ? std::sqrt(sum / rows) : 0.0; }
 
 /// Percentiles of a statistic over resampled blocks .
@@ -39,7 +44,15 @@ Interval interval(std::span<const HeldOutBlock> blocks, Statistic statistic) {
 
 }  // namespace
 
-void cross_validate(std::span<const HeldOutBlock> blocks, Explained& out) {
+void cross_validate(const Eigen::MatrixXd& total, std::span<const Fold> folds,
+                    const Columns& before, const Columns& after, Explained& out) {
+  std::vector<HeldOutBlock> blocks;
+  for (const Fold& fold : folds) {
+    const auto sum = [&](const Columns& columns) {
+      return fold.unit2 * std::max(0.0, held_out(total, fold.gram, columns));
+    };
+    blocks.push_back({sum(before), sum(after), fold.rows});
+  }
   if (blocks.empty()) return;
   out.held_out_before_mm =
       interval(blocks, [](const HeldOutBlock& b) { return root_mean(b.before, b.rows); });

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "calibrate/diagnose/pattern.hpp"
 #include "calibrate/estimate/geometry.hpp"
 #include "calibrate/estimate/plausible_errors.hpp"
 #include "calibrate/estimate/random_effects.hpp"
@@ -18,12 +19,6 @@ constexpr int last_order = 4;
 double factor_of_sizes() {
   const SizeSpread spread;
   return std::exp(1.96 * std::hypot(std::log(spread.group), std::log(spread.all)));
-}
-
-double plausible_rms(const ErrorName& error, AxisName axis) {
-  const PlausibleSizes sizes;
-  if (is_rotary(axis)) return error.angular() ? sizes.rotary_angle_rad : sizes.rotary_length_mm;
-  return error.angular() ? sizes.linear_angle_rad : sizes.linear_length_mm;
 }
 
 std::string consequence_of(const ErrorName& error, AxisName axis) {
@@ -42,7 +37,7 @@ MachineEffect component(const ErrorName& error, AxisName axis, const char* kind,
   out.title = words_of(error) + ", " + form;
   out.term = ErrorOfPosition{error, {}, {}};
   out.unit = error.angular() ? "rad" : "mm";
-  const double median = plausible_rms(error, axis) / order;
+  const double median = PlausibleSizes{}.of(is_rotary(axis), error.angular()) / order;
   out.low = median / factor_of_sizes(), out.high = median * factor_of_sizes();
   out.consequence = consequence_of(error, axis);
   return out;
@@ -69,12 +64,10 @@ void add_harmonics(AxisName axis, const ErrorName& error, std::vector<MachineEff
   for (int order = 1; order <= last_order; ++order) {
     MachineEffect one =
         component(error, axis, "harmonic", order, std::to_string(order) + " times a turn");
-    const auto n = static_cast<double>(order);
-    std::get<ErrorOfPosition>(one.term).functions = {FourierError{{{n, 1.0, 0.0}}, two_pi},
-                                                     FourierError{{{n, 0.0, 1.0}}, two_pi}};
+    std::get<ErrorOfPosition>(one.term).functions = harmonic(order);
     one.parameters = {"cos", "sin"};
     one.formula = "cos cos(order q) + sin sin(order q)";
-    one.shape = {{"order", n, "1"}};
+    one.shape = {{"order", static_cast<double>(order), "1"}};
     out.push_back(std::move(one));
   }
 }

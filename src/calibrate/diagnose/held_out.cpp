@@ -41,12 +41,11 @@ void hold_out(const Problem& problem, const MatrixXd& columns, Index base, const
   if (out.blocks < 2) return;
   MatrixXd all(columns.rows(), columns.cols() + 1);
   all << readings, columns;
-  const MatrixXd total = linear::gram(all);
   infer::Columns before(static_cast<std::size_t>(base)),
       after(static_cast<std::size_t>(columns.cols()));
   std::iota(before.begin(), before.end(), 1U);
   std::iota(after.begin(), after.end(), 1U);
-  std::vector<infer::HeldOutBlock> blocks;
+  std::vector<infer::Fold> folds;
   for (std::size_t block = 0; block < out.blocks; ++block) {
     std::vector<Index> held;
     double sigma2 = 0.0;
@@ -57,13 +56,11 @@ void hold_out(const Problem& problem, const MatrixXd& columns, Index base, const
       sigma2 += static_cast<double>(row.equations()) * row.sigma_mm * row.sigma_mm;
     }
     const MatrixXd own = all(held, Eigen::all);
-    const MatrixXd fold = linear::gram(own);
     const auto n = static_cast<double>(held.size());
     // Over σ here; mm by the mean σ of the block.
-    blocks.push_back({sigma2 / n * infer::held_out(total, fold, before),
-                      sigma2 / n * infer::held_out(total, fold, after), n});
+    folds.push_back({linear::gram(own), n, sigma2 / n});
   }
-  infer::cross_validate(blocks, out.gain);
+  infer::cross_validate(linear::gram(all), folds, before, after, out.gain);
 }
 
 }  // namespace trueaxis::calibrate_detail

@@ -50,11 +50,6 @@ PatternFunction of_axis(const Problem& problem, const Axis& axis, std::string wo
   return out;
 }
 
-std::vector<ErrorFunction> harmonic(int order) {
-  const auto n = static_cast<double>(order);
-  return {FourierError{{{n, 1.0, 0.0}}, two_pi}, FourierError{{{n, 0.0, 1.0}}, two_pi}};
-}
-
 /// The two lowest orders, or degrees.
 std::vector<PatternFunction> lowest(const Problem& problem, const Axis& axis) {
   std::vector<PatternFunction> out;
@@ -114,6 +109,11 @@ Orthonormal effects_of_axis(const Problem& problem, const Axis& axis, int highes
 }
 
 }  // namespace
+
+std::vector<ErrorFunction> harmonic(int order) {
+  const auto n = static_cast<double>(order);
+  return {FourierError{{{n, 1.0, 0.0}}, two_pi}, FourierError{{{n, 0.0, 1.0}}, two_pi}};
+}
 
 // A raised cosine; of a whole turn it goes round.
 PatternFunction bump(const Problem& problem, std::size_t k, double at, double width) {

@@ -28,6 +28,9 @@ std::vector<PatternFunction> functions_of_time(const Problem& problem);
 /// What grows along an axis with the time.
 std::vector<PatternFunction> growths(const Problem& problem, std::size_t axis);
 
+/// cos and sin of an order of a whole turn, of size 1.
+std::vector<ErrorFunction> harmonic(int order);
+
 PatternFunction bump(const Problem& problem, std::size_t axis, double at, double width);
 PatternFunction step(const Problem& problem, std::size_t axis, double at);
 

@@ -65,13 +65,11 @@ std::vector<PlausibleError> plausible_errors(const Problem& problem,
       PlausibleError error;
       error.name = {true, direction, index_of(axis.name)};
       if (std::ranges::find(known, error.name) != known.end()) continue;
-      if (rotary) {
-        error.plausible = direction < 3 ? sizes.rotary_length_mm : sizes.rotary_angle_rad;
+      error.plausible = sizes.of(rotary, error.name.angular());
+      if (rotary)
         add_harmonics(error);
-      } else {
-        error.plausible = direction < 3 ? sizes.linear_length_mm : sizes.linear_angle_rad;
+      else
         add_polynomials(travel_of(problem, axis), error);
-      }
       out.push_back(std::move(error));
     }
   return out;

@@ -24,6 +24,11 @@ struct PlausibleSizes {
   double rotary_length_mm = 2e-3;   ///< radial and axial motion of a rotary axis
   double rotary_angle_rad = 12e-6;  ///< its tilt and its position
   double factor = 2.0;
+
+  double of(bool rotary, bool angular) const {
+    return rotary ? (angular ? rotary_angle_rad : rotary_length_mm)
+                  : (angular ? linear_angle_rad : linear_length_mm);
+  }
 };
 
 /// The component errors of every axis that `known` does not name: Legendre polynomials over the

@@ -40,13 +40,9 @@ Json finding_json(const MachineFinding& finding) {
   return json;
 }
 
-struct KindOf {
-  Json operator()(std::monostate) const { return nullptr; }
-  Json operator()(const ErrorOfPosition&) const { return "position"; }
-  Json operator()(const ErrorOfSense&) const { return "sense"; }
-  Json operator()(const TipDrift&) const { return "drift"; }
-  Json operator()(const BallStep&) const { return "step"; }
-};
+/// Of the alternatives of `MachineTerm`, in their order.
+const Json kinds_of_term[] = {nullptr, "position", "sense", "drift", "step"};
+static_assert(std::variant_size_v<MachineTerm> == std::size(kinds_of_term));
 
 /// What stands behind each id of the catalogue, so that nobody takes an id apart: its kind is the
 /// term that it is, its axis that which it is a function of.
@@ -56,7 +52,7 @@ Json effects_json(const MachineDiagnosis& d) {
     const auto axis = axis_of(effect.term);
     const auto* error = std::get_if<ErrorOfPosition>(&effect.term);
     json[effect.id] = {{"title", effect.title},
-                       {"kind", std::visit(KindOf{}, effect.term)},
+                       {"kind", kinds_of_term[effect.term.index()]},
                        {"axis", axis ? Json(std::string(1, letter_of(*axis))) : Json(nullptr)},
                        {"error", error ? Json(to_string(error->error)) : Json(nullptr)}};
   }

@@ -27,20 +27,15 @@ Gain measure_gain(const Problem& problem, const Joint& joint, const AveragedAxis
   const auto rows = static_cast<double>(equations.count());
   out.rms_before_mm = root_mean(solve(equations.total(), before).rss, rows);
   out.rms_after_mm = root_mean(plain.solution.rss, rows);
-  std::vector<HeldOutBlock> blocks;
+  std::vector<Fold> folds;
   for (std::size_t f = 0; f < equations.folds().size(); ++f) {
-    HeldOutBlock b;
+    Fold fold{equations.folds()[f]};
     for (std::size_t i = problem.mask.fold_begin[f]; i < problem.mask.fold_begin[f + 1]; ++i)
-      b.rows += problem.mask.used[i] != 0;
-    if (b.rows == 0.0) continue;
-    b.before = std::max(0.0, held_out(equations.total(), equations.folds()[f], before));
-    b.after = joint.terms.empty()
-                  ? b.before
-                  : std::max(0.0, held_out(equations.total(), equations.folds()[f], after));
-    blocks.push_back(b);
+      fold.rows += problem.mask.used[i] != 0;
+    if (fold.rows > 0.0) folds.push_back(std::move(fold));
   }
-  cross_validate(blocks, out);
-  out.blocks = std::to_string(blocks.size()) + " blocks, each " + problem.mask.block;
+  cross_validate(equations.total(), folds, before, after, out);
+  out.blocks = std::to_string(folds.size()) + " blocks, each " + problem.mask.block;
 
   const Solution bare = solve(joint.equations.total(), before);
   const Eigen::MatrixXd extended = average.within + average.between;
