@@ -12,13 +12,6 @@
 /// JSON of what the diagnoses of a part and of a machine state alike.
 namespace trueaxis {
 
-template <class Items, class Write>
-Json list_of(const Items& items, const Write& write) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push_back(write(item));
-  return list;
-}
-
 /// id, class, parameters and what the tests say of a finding.
 Json finding_object(const std::string& effect, const NamedFinding& finding, Json parameters);
 /// Its share of the readings, and its rivals.
