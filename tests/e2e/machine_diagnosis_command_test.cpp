@@ -85,9 +85,9 @@ TEST(MachineDiagnosisCommand, SaysWhatIsBehindEveryId) {
                                                {"error", "EXC"}}));
   EXPECT_EQ(effects.at("reversal.C").at("kind"), "sense");
   EXPECT_EQ(effects.at("reversal.C").at("axis"), "C");
-  EXPECT_EQ(effects.at("drift.Z").at("kind"), "drift");
+  EXPECT_EQ(effects.at("drift.Z").at("kind"), "tip_drift");
   EXPECT_TRUE(effects.at("drift.Z").at("axis").is_null());
-  EXPECT_EQ(effects.at("ball.slip").at("kind"), "step");
+  EXPECT_EQ(effects.at("ball.slip").at("kind"), "ball_step");
   std::set<std::string> named;
   for (const json& finding : d.at("findings"))
     for (const std::string id : finding.at("class")) named.insert(id);

@@ -41,7 +41,7 @@ Json finding_json(const MachineFinding& finding) {
 }
 
 /// Of the alternatives of `MachineTerm`, in their order.
-const Json kinds_of_term[] = {nullptr, "position", "sense", "drift", "step"};
+const Json kinds_of_term[] = {nullptr, "position", "sense", "tip_drift", "ball_step"};
 static_assert(std::variant_size_v<MachineTerm> == std::size(kinds_of_term));
 
 /// What stands behind each id of the catalogue, so that nobody takes an id apart: its kind is the

@@ -58,21 +58,16 @@ void add_tests(Json& json, const Conclusion& conclusion) {
 }
 
 void add_linear(Json& json, std::span<const LinearValue> values, const Covariance& covariance) {
-  Json linear = Json::array(), rows = Json::array();
-  for (const LinearValue& one : values) {
-    linear.push_back(quantity_object(edge_factor(one.unit) * one.value,
-                                     one.unit == "rad" ? "deg" : one.unit.c_str()));
-    linear.back()["name"] = one.name;
-  }
-  for (std::size_t i = 0; i < values.size() && !covariance.empty(); ++i) {
-    Json row = Json::array();
-    for (std::size_t j = 0; j < values.size(); ++j)
-      row.push_back(
-          number(edge_factor(values[i].unit) * edge_factor(values[j].unit) * covariance(i, j)));
-    rows.push_back(row);
-  }
-  json["linear"] = linear;
-  json["covariance"] = rows;
+  json["linear"] = list_of(values, [](const LinearValue& one) {
+    Json linear = quantity_object(edge_factor(one.unit) * one.value,
+                                  one.unit == "rad" ? "deg" : one.unit.c_str());
+    linear["name"] = one.name;
+    return linear;
+  });
+  json["covariance"] =
+      square_json(covariance.empty() ? 0 : values.size(), [&](std::size_t i, std::size_t j) {
+        return edge_factor(values[i].unit) * edge_factor(values[j].unit) * covariance(i, j);
+      });
 }
 
 }  // namespace trueaxis
