@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "format/toml_reader.hpp"
 
-#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -157,7 +156,7 @@ std::vector<double> TomlTable::numbers(std::string_view key, const Range& range)
 
 std::vector<std::vector<double>> TomlTable::rows(std::string_view key, std::size_t width,
                                                  std::size_t without_unit) {
-  const std::string give = fmt::format("a list of rows of {} numbers [[…], …]", width);
+  const std::string give = "a list of rows of " + std::to_string(width) + " numbers [[…], …]";
   const State::Found found = state_->find(key, &toml::node::is_array, give);
   if (!found.node) return {};
   std::vector<std::vector<double>> rows;

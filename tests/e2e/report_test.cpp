@@ -16,8 +16,8 @@ using example::can_open_pages;
 using example::open_page;
 using example::Opinion;
 
-void expect_sound(const JobResult& result, const std::string& name) {
-  const Opinion opinion = open_page(render_report(result), name);
+void expect_sound(const JobResult& result, const std::string& name, const std::string& file = "") {
+  const Opinion opinion = open_page(render_report(result, file), name);
   EXPECT_TRUE(opinion.sound) << opinion.log;
   for (const char* looked_at : {"wide folded: ", "phone folded: "})
     EXPECT_TRUE(opinion.log.find(looked_at) != std::string::npos) << opinion.log;
@@ -98,7 +98,7 @@ TEST_F(ReportPage, HostileNamesStayText) {
   result.fits.front().notes = {hostile};
   result.verdict.reservations = result.verdict.reasons;
   result.job.header = {{"Part", hostile}, {hostile, "7"}};
-  expect_sound(result, "hostile");
+  expect_sound(result, "hostile", hostile);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
