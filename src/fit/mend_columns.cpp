@@ -113,23 +113,25 @@ void turn_as_reading_does(ProbeStream& stream) {
   const Wave wave(stream);
   if (!(wave.turns > 0.0)) return;
   const double step = 0.25 / std::max(wave.turns, 1.0);
-  double best = 1.0, most = 0.0;
-  for (double order = lowest_order; order <= highest_order; order += step) {
+  // Where a ninth of the square goes once a revolution of C as written, only a line beside that,
+  // which takes part of it, can be the misreading: any other leaves too much.
+  const bool once = 9.0 * wave.share(1.0) > 1.0;
+  const double from = once ? 1.0 - 4.0 * step : lowest_order;
+  const double to = once ? 1.0 + 4.0 * step : highest_order;
+  double best = 1.0, most = once ? wave.power(1.0) : 0.0;
+  for (double order = from; order <= to; order += step) {
     const double power = wave.power(order);
     if (power <= most) continue;
     most = power;
     best = order;
   }
+  if (std::abs(best - 1.0) < 0.5 * step) return;
   for (double width = 0.5 * step; width > 1e-6; width *= 0.5)
     for (const double order : {best - width, best + width})
       if (const double power = wave.power(order); power > most) {
         most = power;
         best = order;
       }
-  // A line beside one revolution takes part of its square, one farther off none: then a ninth of it
-  // going once a revolution of C as written is too much for a misreading.
-  const bool beside = std::abs(best - 1.0) < 4.0 * step;
-  if (!beside && 9.0 * wave.share(1.0) > 1.0) return;
   constexpr double lobes = 0.02;
   const double whole = std::round(best);
   if (whole >= 2.0 && std::abs(best - whole) < std::max(lobes, step)) return;
