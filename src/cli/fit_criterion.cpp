@@ -60,15 +60,15 @@ int FitCriterion::execute(const StreamOptions& stream, const AssociationOptions&
   outputs.check();
   const ProbeStream readings = stream.read();
   expect_one_surface(readings, surface_from_id(association.surface), RangesAs::options);
+  const StreamAssociation found = associate_stream(
+      readings, surface_from_id(association.surface), criterion_of(name),
+      {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
   // What the readings cannot be, they are by no criterion.
   const FitResult along_probe = checked_fit(readings, association.chosen());
   if (along_probe.status != FitStatus::converged) return exit_code_of(along_probe, readings.source);
   for (const auto& [name, estimate] : along_probe.parameters)
     if (!along_probe.axis_known() && !estimate.why_not.empty())
       throw Refusal(readings.source + ": " + estimate.why_not);
-  const StreamAssociation found = associate_stream(
-      readings, surface_from_id(association.surface), criterion_of(name),
-      {.bore = association.fit.bore, .ball_radius_mm = association.fit.ball_radius_mm});
   const bool converged = found.of_centres.status == AssociationStatus::converged;
   results.write(outputs, "--json", [&] { return stream_association_json(found); });
   if (converged) {
