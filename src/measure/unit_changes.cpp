@@ -62,6 +62,8 @@ std::optional<UnitChange> way_changes_unit(const std::vector<double>& column, bo
     for (const auto& [unit, what] : units) {
       for (const double factor : {unit, 1.0 / unit}) {
         const double expected = factor * (column[i - 1] + before), step = factor * before;
+        // About zero a pass that turns back looks as one of the other sign.
+        if (unit < 0.0 && std::abs(expected) < shown_run * std::abs(step)) continue;
         if (std::abs(after - step) <= alike * std::abs(step) &&
             std::abs(column[i] - expected) <= near_steps * std::abs(step))
           return UnitChange{i + 1, what};

@@ -97,6 +97,19 @@ TEST(ColumnOrder, OrdinaryStreamsPass) {
   EXPECT_EQ(column_out_of_order(touches), "");
 }
 
+TEST(UnitChanges, APassThatTurnsBackNearZeroHasNoOtherSign) {
+  ProbeStream down_and_up = helix(), mirrored = helix();
+  for (std::size_t i = 0; i < readings; ++i) {
+    const double step = 0.25, k = static_cast<double>(i);
+    const bool back = i >= readings / 2;  // it begins at 0, where the one before ended at 0.97
+    down_and_up.position_mm[i] =
+        back ? step * (k - readings / 2) : 0.97 + step * (readings / 2 - 1 - k);
+    if (back) mirrored.position_mm[i] *= -1.0;
+  }
+  EXPECT_EQ(unit_changes(down_and_up), "");
+  EXPECT_TRUE(unit_changes(mirrored).find("(its sign)") != std::string::npos);
+}
+
 TEST(ColumnOrder, ASensorAtItsLimitIsSeenAndAQuantisedOneIsNot) {
   ProbeStream clipped = helix(), rounded = helix(0.0, 0.0);
   for (double& x : clipped.reading_mm) x = std::min(x, 20.04);
