@@ -113,6 +113,9 @@ struct Refinement {
   By by = By::factor;
   double range = 1.0, low = 0.0, high = 1e300;
   std::optional<std::size_t> reader = {};  ///< the linear parameter that reads it; none: all
+  /// It is where the effect's one linear parameter is linearised, and in the end that parameter's
+  /// value: such an effect occurs once.
+  bool linearises = false;
 };
 
 /// A measurement that tells causes apart.
@@ -233,9 +236,8 @@ bool has_free_order(const Effect& effect);
 /// not at all.
 const EffectParameter* parameter_for(const Effect& effect, std::string_view name);
 
-/// The parameter whose typical sizes are those of a linear one: of its name, or as amplitude of
-/// amplitude_cos; nullptr: none.
-const EffectParameter* size_for(const Effect& effect, std::string_view linear);
+/// The parameter whose typical sizes are those of a linear one; nullptr: none.
+const EffectParameter* size_for(const Effect& effect, const LinearParameter& linear);
 
 /// All effects and checks, family by family.
 std::span<const Effect> effect_catalogue();

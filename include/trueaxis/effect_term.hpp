@@ -22,7 +22,7 @@ struct TermContext {
   std::span<const double> x_mm;                       ///< predicted X
   std::span<const double> sensed_mm;                  ///< predicted X without the jogs of the slide
   std::span<const double> dx_dc, dx_dz;               ///< mm per rad, mm per mm
-  std::span<const double> d2x_dc2;                    ///< mm per rad², for probe.lag only
+  std::span<const double> d2x_dc2;                    ///< mm per rad²; probe.lag, probe.hysteresis
   std::span<const double> dx_dy;                      /**< across the probe, mm per mm: of a face;
       else it follows from dx_dc */
   std::span<const double> theta_rad, theta_chuck_rad; /**< polar angle of the contact about the
@@ -52,6 +52,9 @@ struct TermShape {
   double onset_s = 0.0;            ///< instant of a slip
   double reference_x_mm = 0.0;     ///< X_ref of the sensor
   double range_mm = 1.0;           ///< that v of probe.nonlinearity is 1 at
+  double play_mm = 0.0;            ///< of probe.hysteresis: the play to linearise at
+
+  bool operator==(const TermShape&) const = default;
 };
 
 /// What a term's value moves. The derivative of the reading along it is the chain rule's other
@@ -132,7 +135,8 @@ struct Response {
     nonlinearity,  ///< v², v³ with v = (X − X_ref)/range
     cyclic,        ///< cos, sin (2π X/period)
     pretravel,     ///< into the material: 1; and cos, sin (n ψ) × tilt of the normal
-    lag            ///< first order, at T
+    lag,           ///< first order, at T
+    hysteresis     ///< what X must go back before the reading does, at a play
   };
   Of of = Of::gain;
 };
@@ -141,15 +145,20 @@ using EffectTerm =
     std::variant<std::monostate, Harmonic, PolynomialInZ, PeriodicInZ, PeriodicInTime, GrowthInTime,
                  PartStep, ArgumentShift, ProbeLine, Response>;
 
-/// A parameter in which X_M is linear, near zero.
+/// A parameter in which X_M is linear, near zero. Two that follow each other are the factors of cos
+/// and sin of one size: NAME_cos, NAME_sin. a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ)
+/// (a cos φ, −a sin φ).
 struct LinearParameter {
+  enum class Factor { itself, cosine, sine };
   std::string name;
   std::string unit;
+  std::string size = {};  ///< the name of its size, where that is another
+  Factor factor = Factor::itself;
+
+  std::string_view size_name() const { return size.empty() ? name : size; }
 };
 
-/// The linear parameters of a term, in the order of its columns. A pair NAME_cos, NAME_sin are the
-/// factors of cos and sin: a cos(n θ − φ) has (a cos φ, a sin φ), a cos(k z + φ) (a cos φ, −a sin
-/// φ).
+/// The linear parameters of a term, in the order of its columns.
 std::vector<LinearParameter> linear_parameters(const EffectTerm& term, const TermShape& shape);
 
 /// Writes ∂X_M/∂(linear parameter) at zero amplitude over the readings of `context`;

@@ -66,10 +66,11 @@ int execute(const FitArguments& options) {
   outputs.commit();
   if (!results.printed() && options.verbose) std::cout << fit_text(result);
   if (!results.printed() && !options.verbose)
-    print_screen(fit_screen(result) + (is_diagnosed(chosen.surface)
-                                           ? "next   " + diagnose_command(options) +
-                                                 ": what the surface does not explain\n"
-                                           : std::string()));
+    print_screen(
+        fit_screen(result) +
+        (is_diagnosed(chosen.surface) && result.status != FitStatus::implausible
+             ? "next   " + diagnose_command(options) + ": what the surface does not explain\n"
+             : std::string()));
   return exit_code_of(result, stream.source);
 }
 

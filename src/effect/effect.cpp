@@ -12,7 +12,7 @@
 namespace trueaxis {
 namespace {
 
-// A column that is not there is empty; the one column that only probe.lag reads may be.
+// A column that is not there is empty; the one that only lag and hysteresis read may be.
 void check(const EffectTerm& term, const TermContext& at) {
   for (const auto column :
        {at.z_mm, at.time_s, at.speed_rad_per_s, at.velocity_mm_per_s, at.x_mm, at.sensed_mm,
@@ -20,8 +20,9 @@ void check(const EffectTerm& term, const TermContext& at) {
     expects(column.size() == at.size(), "every column of the context has its size");
   }
   const auto* response = std::get_if<Response>(&term);
-  const bool second = response != nullptr && response->of == Response::Of::lag;
-  expects(!second || at.d2x_dc2.size() == at.size(), "probe.lag has d2x_dc2");
+  const bool second = response != nullptr && (response->of == Response::Of::lag ||
+                                              response->of == Response::Of::hysteresis);
+  expects(!second || at.d2x_dc2.size() == at.size(), "a sensor that follows has d2x_dc2");
   expects(!at.face || at.dx_dy.size() == at.size(), "a face has dx_dy");
   expects(at.z_half_mm > 0.0, "the probed length is not 0");
 }
@@ -63,7 +64,8 @@ double TermShape::*place_of(std::string_view name) {
       {"time_constant_s", &TermShape::time_constant_s},
       {"onset_s", &TermShape::onset_s},
       {"reference_x_mm", &TermShape::reference_x_mm},
-      {"range_mm", &TermShape::range_mm}};
+      {"range_mm", &TermShape::range_mm},
+      {"play_mm", &TermShape::play_mm}};
   for (const auto& [known, place] : places)
     if (known == name) return place;
   throw ContractViolation("no parameter of a shape: " + std::string(name));
@@ -126,7 +128,7 @@ bool has_two_orders(const EffectTerm& term) {
 std::vector<LinearParameter> TermValue::parameters() const {
   if (effect) return linear_parameters(effect->term, shape);
   if (columns() == 1) return {{"amplitude", "mm"}};
-  return {{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}};
+  return kind::amplitude_pair("mm").linear;
 }
 
 std::size_t TermValue::columns() const {
@@ -185,11 +187,9 @@ const EffectParameter* parameter_for(const Effect& effect, std::string_view name
   return found == effect.parameters.end() ? nullptr : &*found;
 }
 
-const EffectParameter* size_for(const Effect& effect, std::string_view linear) {
-  const auto found = std::ranges::find_if(effect.parameters, [&](const EffectParameter& p) {
-    return linear.starts_with(p.name) &&
-           (linear.size() == p.name.size() || linear[p.name.size()] == '_');
-  });
+const EffectParameter* size_for(const Effect& effect, const LinearParameter& linear) {
+  const auto found =
+      std::ranges::find(effect.parameters, linear.size_name(), &EffectParameter::name);
   return found == effect.parameters.end() ? nullptr : &*found;
 }
 

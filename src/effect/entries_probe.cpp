@@ -180,8 +180,31 @@ std::vector<Effect> probe_response() {
        .needs = {.time = true},
        .typical = {{&TermShape::time_constant_s, {0.0}}},
        .search = {.forms = {{.starts = {&TermShape::time_constant_s, {0.0, 5e-3}}}}},
-       .refinement = Refinement{&TermShape::time_constant_s, Refinement::By::sum, 0.02, 0.0, 0.05},
+       .refinement =
+           Refinement{&TermShape::time_constant_s, Refinement::By::sum, 0.02, 0.0, 0.05, {}, true},
        .second_order_twin = "probe.latency"},
+      {.id = "probe.hysteresis",
+       .title = "hysteresis of the probe, or play of an X that follows it",
+       .slot = Slot::sensor,
+       .frame = EffectFrame::probe,
+       .term = Response{Response::Of::hysteresis},
+       .formula =
+           "X - b/2 while X grows, X + b/2 while it falls; reversed, the reading waits for b",
+       .parameters = {{"play", "mm", 5e-4, 0.01, "b", "", 0.0, 0.0}},
+       .signature = "flat tops: odd orders a quarter wave off the eccentricity, 1/3, 1/5, 1/7",
+       .consequence =
+           "the axis turns by 0.64 of it: clean or exchange the probe, probe reversed too",
+       .confounders = {"part.roundness", "spindle.radial_synchronous", "probe.lag", "probe.latency",
+                       "probe.nonlinearity"},
+       .absorbed_by = "direction of x0, y0, l, m, but for the odd orders",
+       .separations = {{"RV", "reversed, the reading stays behind on the other side"},
+                       {"XJ", "a jog there and back shows it"}},
+       .axis_bias = AxisBias{0.64, "mm/mm", "0.64 of the play"},
+       .source = "play operator (Krasnosel'skii and Pokrovskii 1989); hysteresis of ISO 463",
+       .typical = {{&TermShape::play_mm, {0.0}}},
+       .search = {.forms = {{.starts = {&TermShape::play_mm, {0.0, 5e-3}}}}},
+       .refinement =
+           Refinement{&TermShape::play_mm, Refinement::By::sum, 0.02, 0.0, 0.2, {}, true}},
   };
 }
 

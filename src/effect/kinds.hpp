@@ -27,6 +27,18 @@ struct Parameters {
   std::vector<std::string> shape = {};
 };
 
+/// The factors of cos and sin of a size.
+inline void add_pair(std::string size, const std::string& unit, std::vector<LinearParameter>& to) {
+  using Factor = LinearParameter::Factor;
+  to.push_back({size + "_cos", unit, size, Factor::cosine});
+  to.push_back({size + "_sin", unit, std::move(size), Factor::sine});
+}
+inline Parameters amplitude_pair(const std::string& unit, std::vector<std::string> shape = {}) {
+  Parameters out{{}, std::move(shape)};
+  add_pair("amplitude", unit, out.linear);
+  return out;
+}
+
 inline Parameters parameters(const std::monostate&, const TermShape&) { return {}; }
 inline std::size_t count(const std::monostate&, const TermShape&) { return 0; }
 inline void fill(const std::monostate&, const TermContext&, const TermShape&, Columns) {}

@@ -14,6 +14,8 @@ double sign(double v) { return v > 0.0 ? 1.0 : v < 0.0 ? -1.0 : 0.0; }
 
 using Of = Response::Of;
 
+constexpr double pi = 0.5 * two_pi;
+
 // The trigger path lies along X, into the material, and varies with the direction ψ of the normal
 // across the stylus, sin of its angle to X being the size (Eq. 51).
 void fill_pretravel(const TermContext& at, const TermShape& shape, Columns out) {
@@ -54,6 +56,29 @@ double lag(const TermContext& at, double T, std::size_t i) {
   const double turning =
       ((-rate + 2.0 * T * rate2) * q - (-T * rate + T * T * rate2) * 2.0 * w * w * T) / (q * q);
   return turning - at.velocity_mm_per_s[i] * at.dx_dz[i];
+}
+
+// Reversed, X goes back by the play b before the reading follows; until then the reading stands. X
+// is nearly E cos ψ + p ψ, ψ running with the spindle and p what the feed adds: it grows from
+// ψ = −π − a to a and falls from a to π − a, sin a = p/E (Eq. 53a).
+double hysteresis(const TermContext& at, double play_mm, std::size_t i) {
+  const double turning = std::abs(at.speed_rad_per_s[i]);
+  const double advancing = at.velocity_mm_per_s[i] * at.dx_dz[i];
+  const double swing = std::hypot(at.dx_dc[i], at.d2x_dc2[i]);
+  if (turning * swing <= std::abs(advancing)) return -0.5 * sign(advancing);
+  const double per_rad = advancing / turning, extreme = std::asin(per_rad / swing);
+  double psi = std::atan2(-sign(at.speed_rad_per_s[i]) * at.dx_dc[i], -at.d2x_dc2[i]);
+  if (psi >= pi - extreme) psi -= two_pi;
+  if (psi < -pi - extreme) psi += two_pi;
+  const bool grows = psi < extreme, outward = per_rad >= 0.0;
+  if (play_mm <= 0.0) return grows ? -0.5 : 0.5;
+  const auto x_mm = [&](double angle) { return swing * std::cos(angle) + per_rad * angle; };
+  const double low = x_mm(-pi - extreme), high = x_mm(extreme), end = x_mm(pi - extreme);
+  const double flat = std::min({play_mm, high - low, high - end});
+  const double back = std::clamp(grows ? x_mm(psi) - low : high - x_mm(psi), 0.0, flat);
+  // Where the feed goes all of the play is taken up, the other way what there is of it.
+  const double taken_up = grows == outward ? flat - back : back;
+  return (outward ? -1.0 : 1.0) * (0.5 - taken_up / play_mm);
 }
 
 }  // namespace
@@ -125,11 +150,16 @@ Parameters parameters(const Response& term, const TermShape&) {
     case Of::nonlinearity:
       return {{{"quadratic", "mm"}, {"cubic", "mm"}}, {"reference_x_mm", "range_mm"}};
     case Of::cyclic:
-      return {{{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}}, {"period_mm"}};
-    case Of::pretravel:
-      return {{{"amplitude", "mm"}, {"lobing_cos", "mm"}, {"lobing_sin", "mm"}}, {"order"}};
+      return amplitude_pair("mm", {"period_mm"});
+    case Of::pretravel: {
+      Parameters out{{{"amplitude", "mm"}}, {"order"}};
+      add_pair("lobing", "mm", out.linear);
+      return out;
+    }
     case Of::lag:
       return {{{"time_constant", "s"}}, {"time_constant_s"}};
+    case Of::hysteresis:
+      return {{{"play", "mm"}}, {"play_mm"}};
     case Of::gain:
       break;
   }
@@ -145,6 +175,7 @@ std::size_t count(const Response& term, const TermShape&) {
       return 3;
     case Of::gain:
     case Of::lag:
+    case Of::hysteresis:
       break;
   }
   return 1;
@@ -176,6 +207,9 @@ void fill(const Response& term, const TermContext& at, const TermShape& shape, C
       return fill_pretravel(at, shape, out);
     case Of::lag:
       for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = lag(at, shape.time_constant_s, i);
+      return;
+    case Of::hysteresis:
+      for (std::size_t i = 0; i < at.size(); ++i) out[0][i] = hysteresis(at, shape.play_mm, i);
       return;
   }
 }

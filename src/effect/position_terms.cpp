@@ -90,17 +90,14 @@ int last_degree(const PolynomialInZ& term, const TermShape& shape) {
 
 Parameters parameters(const Harmonic& term, const TermShape&) {
   const std::string unit = term.envelope == Envelope::lever ? "rad" : unit_of(term.port);
-  Parameters out{{{"amplitude_cos", unit}, {"amplitude_sin", unit}}};
+  Parameters out = amplitude_pair(unit);
   if (term.fixed_order == 0.0) out.shape.emplace_back("order");
   if (term.envelope == Envelope::lever) out.shape.emplace_back("lever_from_mm");
-  if (term.envelope == Envelope::growing)
-    out.linear.insert(out.linear.end(), {{"growth_cos", unit}, {"growth_sin", unit}});
-  if (term.envelope == Envelope::lever) {
-    const std::string motion = term.port == TermPort::z ? "axial" : "radial";
-    out.linear.insert(out.linear.end(), {{motion + "_cos", "mm"}, {motion + "_sin", "mm"}});
-  }
+  if (term.envelope == Envelope::growing) add_pair("growth", unit, out.linear);
+  if (term.envelope == Envelope::lever)
+    add_pair(term.port == TermPort::z ? "axial" : "radial", "mm", out.linear);
   if (term.envelope == Envelope::jaws) {
-    out.linear.insert(out.linear.end(), {{"second_cos", unit}, {"second_sin", unit}});
+    add_pair("second", unit, out.linear);
     out.shape.insert(out.shape.end(), {"lever_from_mm", "decay_length_mm"});
   }
   return out;
@@ -139,7 +136,7 @@ Parameters parameters(const PolynomialInZ& term, const TermShape& shape) {
   }
   if (term.dish) out.linear.push_back({"dish", unit_of(term.port)});
   for (int l = term.first; l <= last_degree(term, shape); ++l)
-    out.linear.push_back({"amplitude_" + std::to_string(l), unit_of(term.port)});
+    out.linear.push_back({"amplitude_" + std::to_string(l), unit_of(term.port), "amplitude"});
   return out;
 }
 
@@ -184,8 +181,7 @@ void fill(const PolynomialInZ& term, const TermContext& at, const TermShape& sha
 }
 
 Parameters parameters(const PeriodicInZ& term, const TermShape&) {
-  const std::string unit = unit_of(term.port);
-  return {{{"amplitude_cos", unit}, {"amplitude_sin", unit}}, {"period_mm"}};
+  return amplitude_pair(unit_of(term.port), {"period_mm"});
 }
 
 void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape, Columns out) {
@@ -200,7 +196,7 @@ void fill(const PeriodicInZ& term, const TermContext& at, const TermShape& shape
 }
 
 Parameters parameters(const PeriodicInTime&, const TermShape&) {
-  return {{{"amplitude_cos", "mm"}, {"amplitude_sin", "mm"}}, {"frequency_hz"}};
+  return amplitude_pair("mm", {"frequency_hz"});
 }
 
 void fill(const PeriodicInTime&, const TermContext& at, const TermShape& shape, Columns out) {

@@ -15,4 +15,12 @@ inline std::string short_name(const Effect& effect) {
   return name;
 }
 
+/// What it is called in a sentence: "probe latency".
+inline std::string plain_name(const Effect& effect) {
+  std::string name(effect.id);
+  std::ranges::replace(name, '.', ' ');
+  std::ranges::replace(name, '_', ' ');
+  return name;
+}
+
 }  // namespace trueaxis

@@ -69,8 +69,7 @@ LatheEffects growing(const Effect& entry, const Parameters& values) {
 
 /// In the lathe a tilt is about a bearing; the motion beside it is another effect.
 LatheEffects tilt(const Effect& entry, const Parameters& values) {
-  const auto cosine = linear_parameters(entry.term, {}).at(2).name;
-  const std::string motion = cosine.substr(0, cosine.rfind('_'));
+  const std::string motion(linear_parameters(entry.term, {}).at(2).size_name());
   return {by_name(entry, values),
           {std::string(entry.motion_beside),
            {{"order", values.at("order")},

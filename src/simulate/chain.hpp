@@ -73,6 +73,7 @@ struct Chain {
   bool local_form = false;  ///< form with edges: contacts are searched step by step from outside
   bool needs_normal = false;
   double lag_s = 0.0;
+  double play_mm = 0.0;
   double low_mm = -std::numeric_limits<double>::infinity();
   double high_mm = std::numeric_limits<double>::infinity();
   double quantisation_mm = 0.0;

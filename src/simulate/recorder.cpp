@@ -60,6 +60,7 @@ Recording recording_of(const Scenario& scenario, const Chain& chain) {
   return {scenario.noise,
           scenario.seed,
           chain.lag_s,
+          chain.play_mm,
           {scenario.probe.relative_zero_mm.value_or(0.0), chain.low_mm, chain.high_mm, rounding}};
 }
 

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <utility>
 #include <vector>
@@ -14,6 +12,7 @@
 #include "simulate/clean_stream.hpp"
 #include "simulate/noise.hpp"
 #include "simulate/prober.hpp"
+#include "simulate/sensor_dynamics.hpp"
 #include "simulate/timeline.hpp"
 #include "trueaxis/virtual_lathe.hpp"
 
@@ -23,7 +22,7 @@ namespace trueaxis::virtual_lathe {
 struct Recording {
   Noise noise;
   std::uint64_t seed = 1;
-  double lag_s = 0.0;
+  double lag_s = 0.0, play_mm = 0.0;
   SensorLimits sensor;
 };
 
@@ -41,45 +40,6 @@ inline Shown shown(const SensorLimits& sensor, double value_mm) {
   }
   return out;
 }
-
-/// First-order low pass T v' + v = x in continuous time: the convolution between two readings is
-/// integrated over panels short against T and against a turn.
-class LagFilter {
- public:
-  LagFilter(double time_constant_s, double omega_rad_per_s) : time_constant_s_(time_constant_s) {
-    constexpr double panel_rad = std::numbers::pi / 18.0;
-    panel_s_ = 4.0 * time_constant_s;  // seven Gauss points take e^-4 to 1e-10
-    if (omega_rad_per_s != 0.0)
-      panel_s_ = std::min(panel_s_, panel_rad / std::abs(omega_rad_per_s));
-  }
-
-  /// Indication at `t`, from what it was at the call before; input(time) is what the sensor meets.
-  /// At the first call the sensor has followed the same motion for long.
-  template <class Input>
-  double at(double t, const Input& input) {
-    const double memory = 40.0 * time_constant_s_;  // e^-40: nothing is left
-    double now = started_ ? std::max(now_s_, t - memory) : t - memory;
-    double value = started_ && now == now_s_ ? value_mm_ : input(now);
-    while (now < t) {
-      const double next = std::min(t, now + panel_s_);
-      const auto weighted = [&](double time) {
-        return std::exp((time - next) / time_constant_s_) * input(time);
-      };
-      value = value * std::exp((now - next) / time_constant_s_) +
-              boost::math::quadrature::gauss<double, 7>::integrate(weighted, now, next) /
-                  time_constant_s_;
-      now = next;
-    }
-    started_ = true;
-    now_s_ = t;
-    return value_mm_ = value;
-  }
-
- private:
-  double time_constant_s_, panel_s_ = 0.0;
-  bool started_ = false;
-  double now_s_ = 0.0, value_mm_ = 0.0;
-};
 
 /// Turns clean readings into recorded ones, in their order.
 class Recorder {
@@ -132,15 +92,20 @@ CleanStream record_clean(const std::vector<TimedPass>& timeline, const Recording
     const TimedPass& pass = timeline[p];
     const auto reader = make_reader(pass.setup);
     LagFilter lag(how.lag_s, pass.omega_rad_per_s);
+    PlayFilter play(how.play_mm, pass.omega_rad_per_s);
+    const auto met = [&](double time) { return reader.read(pass.at(time), false).value_mm; };
+    const auto lagged = [&](double time) {
+      return how.lag_s > 0.0 ? lag.at(time, met) : met(time);
+    };
     for (std::size_t i = 0; i < pass.count; ++i) {
       double t = pass.t_s + static_cast<double>(i) * pass.interval_s;
       if (pass.jitter > 0.0) t += pass.jitter * pass.interval_s * (uniform_01(jitter) - 0.5);
       const Moment moment = pass.at(t);
       CleanReading reading = reader.read(moment, with_incidence);
-      if (how.lag_s > 0.0) {
-        reading.value_mm =
-            lag.at(t, [&](double time) { return reader.read(pass.at(time), false).value_mm; });
-      }
+      if (how.play_mm > 0.0)
+        reading.value_mm = play.at(t, lagged);
+      else if (how.lag_s > 0.0)
+        reading.value_mm = lagged(t);
       out.value_mm.push_back(reading.value_mm);
       if (with_incidence) out.tan_incidence.push_back(reading.tan_incidence);
       stream.c_rad.push_back(moment.c_rad);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trueaxis/virtual_lathe.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -44,6 +46,21 @@ class RecordedMotion {
     } else {
       now.t_s = static_cast<double>(i);  // the order of the readings is all that is known
     }
+    return now;
+  }
+
+  /// Between two readings, and before the first as between the first two: a row with a fraction.
+  Moment between(const Pass& pass, double row) const {
+    if (pass.end - pass.begin < 2) return at(pass, pass.begin);
+    const auto last = static_cast<double>(pass.end - 2);
+    const double from = std::clamp(std::floor(row), static_cast<double>(pass.begin), last);
+    const auto i = static_cast<std::size_t>(from);
+    Moment now = at(pass, i);
+    const Moment next = at(pass, i + 1);
+    const double share = row - from;
+    now.t_s = std::lerp(now.t_s, next.t_s, share);
+    now.c_rad = std::lerp(now.c_rad, next.c_rad, share);
+    now.position_mm = std::lerp(now.position_mm, next.position_mm, share);
     return now;
   }
 
@@ -122,14 +139,23 @@ Simulation simulate_at(const Scenario& scenario, const ProbeStream& recorded) {
   for (const Pass& pass : motion.passes()) {
     LagFilter lag(how.lag_s, pass.speed_rad_per_s);
     const bool lags = how.lag_s > 0.0 && pass.speed_rad_per_s != 0.0;
+    const double per_turn = pass.readings_per_revolution;
+    PlayFilter play(how.play_mm, per_turn > 0.0 ? two_pi / per_turn : 0.0);
     for (std::size_t i = pass.begin; i < pass.end; ++i) {
       const Prober& prober =
           probers.at(recorded.setup.empty() ? probers.begin()->first : recorded.setup[i]);
       const Moment now = motion.at(pass, i);
+      const auto met = [&](const Moment& then) { return prober.read(then, false).value_mm; };
+      const auto lagged = [&](const Moment& then) {
+        return lags ? lag.at(then.t_s, [&](double time) { return met(moved_on(then, time)); })
+                    : met(then);
+      };
       CleanReading reading = prober.read(now, recorder.wants_incidence());
-      if (lags) {
-        reading.value_mm = lag.at(
-            now.t_s, [&](double time) { return prober.read(moved_on(now, time), false).value_mm; });
+      if (how.play_mm > 0.0) {
+        reading.value_mm = play.at(static_cast<double>(i),
+                                   [&](double row) { return lagged(motion.between(pass, row)); });
+      } else if (lags) {
+        reading.value_mm = lagged(now);
       }
       recorder.add(reading, prober.away(), out);
     }

@@ -26,7 +26,7 @@ std::string_view in_lathe(const trueaxis::Effect& entry, std::string_view name) 
 std::vector<Size> sizes_of(const trueaxis::Effect& entry) {
   std::vector<Size> sizes;
   for (const LinearParameter& linear : linear_parameters(entry.term, {})) {
-    const EffectParameter* size = size_for(entry, linear.name);
+    const EffectParameter* size = size_for(entry, linear);
     const std::string_view name = size ? in_lathe(entry, size->name) : "";
     if (name.empty() || std::ranges::find(sizes, name, &Size::name) != sizes.end()) continue;
     sizes.push_back({name, size->high});

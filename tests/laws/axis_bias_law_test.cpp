@@ -131,10 +131,11 @@ TEST_P(AxisBiasLaw, EveryEffectOfTheCatalogueHasACase) {
   const std::vector<AxisBiasCase> cases = axis_bias_cases(reference(GetParam()));
   for (const AxisBiasCase& one : cases) covered.insert(one.effect);
   for (const Effect& effect : effect_catalogue()) {
-    // Of a cone a taper is the angle itself.
+    // Of a cone a taper is the angle itself. A play has no limit (PlayTurnsTheAxis).
     const StreamKind kind = GetParam() == PartKind::face ? StreamKind::face : StreamKind::lateral;
     const bool asked = !effect.check && effect.needs.stream.value_or(kind) == kind &&
-                       !(effect.id == "part.taper" && GetParam() == PartKind::cone);
+                       !(effect.id == "part.taper" && GetParam() == PartKind::cone) &&
+                       effect.id != "probe.hysteresis";
     EXPECT_EQ(covered.contains(effect.id), asked) << effect.id;
   }
 }
@@ -168,6 +169,36 @@ TEST(AxisBiasGeometry, FiguresOfACylinder) {
   expect("probe.latency", away * two_pi);  // 60 rpm
   expect("probe.gain", away);
   expect("probe.height", away / part.radius_mm);
+}
+
+// What a play leaves of a harmonic of amplitude A is its describing function: with k = b/2A
+// ((π/2 + asin(1 − 2k) + 2(1 − 2k)√(k(1 − k))) − j 4k(1 − k))/π. Towards b = 0 the axis is off by
+// 2/π of it. The orders 3, 5, … that come with it leave the axis alone over whole revolutions.
+TEST(AxisBiasGeometry, PlayTurnsTheAxis) {
+  Scenario scenario = reference(PartKind::cylinder);
+  virtual_lathe::Part& part = scenario.part;
+  part.l = part.m = 0.0;
+  const double away = std::hypot(part.x0_mm, part.y0_mm);
+  for (const double play_mm : {1e-4, 0.01, 0.1}) {
+    SCOPED_TRACE(play_mm);
+    scenario.effects = {{"probe.hysteresis", {{"play_mm", play_mm}}}};
+    FitOptions options;
+    options.surface = SurfaceKind::cylinder;
+    const FitResult fit = trueaxis::fit(virtual_lathe::simulate(scenario), options);
+    const double k = play_mm / (2.0 * away), pi = 0.5 * two_pi;
+    const double in_phase =
+        (0.5 * pi + std::asin(1.0 - 2.0 * k) + 2.0 * (1.0 - 2.0 * k) * std::sqrt(k * (1.0 - k))) /
+        pi;
+    const double across = 4.0 * k * (1.0 - k) / pi;
+    const double off_mm = away * std::hypot(1.0 - in_phase, across);
+    const auto at = fit.shape.axis.at(0.5 * (fit.position_min_mm + fit.position_max_mm));
+    const double found_mm = std::hypot(at[0] - part.x0_mm, at[1] - part.y0_mm);
+    // Turns that end in the middle leak the odd orders: 1 % where there are thirty.
+    EXPECT_NEAR(found_mm, off_mm, 0.02 * off_mm);
+    if (play_mm < 1e-3) {
+      EXPECT_NEAR(found_mm / play_mm, find_effect("probe.hysteresis")->axis_bias->value, 0.01);
+    }
+  }
 }
 
 // The catalogue's figures that do not depend on how the turns end, to the digits that it gives.

@@ -24,6 +24,7 @@ struct LatheCase {
   std::function<std::map<std::string, double>(double size)> lathe;
   TermShape shape;
   std::vector<double> linear;
+  bool has_limit = true;  ///< flat tops have none: they last by the root of the play
 };
 
 inline void PrintTo(const LatheCase& c, std::ostream* out) { *out << c.id; }
@@ -266,6 +267,14 @@ inline std::vector<LatheCase> all_lathe_cases(double middle_mm = 24.0, double ha
        },
        {.time_constant_s = 0.0},
        {1.0}},
+      {"probe.hysteresis",
+       2e-3,
+       [](double b) {
+         return Parameters{{"play_mm", b}};
+       },
+       {.play_mm = 2e-3},
+       {1.0},
+       false},
       {"encoder.offset",
        1e-4,
        [](double a) {

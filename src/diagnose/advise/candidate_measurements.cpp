@@ -46,7 +46,7 @@ Manner manner_of(const LinearisationPoint& point) {
   } else {
     m.feed = std::max((high - low) / 30.0, 1e-6);
   }
-  if (best->speed_rad_per_s != 0.0) m.speed = std::abs(best->speed_rad_per_s);
+  if (point.has_time && best->speed_rad_per_s != 0.0) m.speed = std::abs(best->speed_rad_per_s);
   if (best->readings_per_revolution > 1.0) m.per_turn = best->readings_per_revolution;
   m.dwelt = static_cast<double>(best->end - best->begin) / m.per_turn;
   m.seconds = std::abs(m.turns()) * two_pi / m.speed;

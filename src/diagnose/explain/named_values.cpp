@@ -30,13 +30,14 @@ std::vector<NamedValue> values_of(const TermValue& term) {
   };
   for (std::size_t j = 0; j < names.size(); ++j) {
     if (!free(j)) continue;
-    const auto& [name, unit] = names[j];
-    if (!name.ends_with("_cos")) {
-      const EffectParameter* told = parameter_for(effect, name);
-      out.push_back({told ? std::string(told->name) : name, unit, term.linear[j]});
+    const LinearParameter& linear = names[j];
+    const std::string& unit = linear.unit;
+    if (linear.factor != LinearParameter::Factor::cosine) {
+      const EffectParameter* told = parameter_for(effect, linear.name);
+      out.push_back({told ? std::string(told->name) : linear.name, unit, term.linear[j]});
       continue;
     }
-    const std::string of = name.substr(0, name.size() - 4);
+    const std::string of(linear.size_name());
     const double c = term.linear[j], s = term.linear[j + 1];
     out.push_back({of, unit, std::hypot(c, s)});
     const double phase = std::atan2(effect.line ? -s : s, c);

@@ -29,7 +29,7 @@ std::string why_not(const Requirement& needs, const LinearisationPoint& point) {
 }
 
 double size_of(const Effect& effect, const LinearParameter& linear) {
-  const EffectParameter* p = size_for(effect, linear.name);
+  const EffectParameter* p = size_for(effect, linear);
   return p && p->high > 0.0 ? p->high : no_size;
 }
 
@@ -141,7 +141,8 @@ std::vector<Unobservable> unobservable_effects(const Problem& problem, const Mod
     if (h.power >= seen) continue;
     double kept = 0.0, whole = 0.0;
     double worst = 0.0;
-    for (std::size_t j = 0; j < std::min<std::size_t>(own.size(), 2); ++j) {
+    // Without what it needs its harm is not known either: that of a delay goes by the speed.
+    for (std::size_t j = 0; can && j < std::min<std::size_t>(own.size(), 2); ++j) {
       const auto c = static_cast<Eigen::Index>(own[j]);
       kept += std::max(0.0, projection.gram(c, c)), whole += projection.norm2(c);
       const Eigen::VectorXd right = joint.equations.total()(taken, c);

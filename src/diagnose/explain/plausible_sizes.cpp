@@ -19,7 +19,7 @@ constexpr double beyond = 20.0;
 double largest_mm(const Effect& effect) {
   double largest = 0.0;
   for (const LinearParameter& one : linear_parameters(effect.term, {})) {
-    const EffectParameter* size = size_for(effect, one.name);
+    const EffectParameter* size = size_for(effect, one);
     if (size == nullptr || size->unit != "mm") return 0.0;
     largest = std::max(largest, size->high);
   }

@@ -9,6 +9,7 @@
 #include "base/never.hpp"
 #include "diagnose/files/diagnosis_text.hpp"
 #include "diagnose/files/seen.hpp"
+#include "effect/short_name.hpp"
 #include "fit/files/fit_files.hpp"
 #include "format/text_layout.hpp"
 #include "trueaxis/units.hpp"
@@ -85,7 +86,7 @@ std::string unseen_screen(const Diagnosis& d) {
                      : milli                   ? fmt::format("{:.2g} ms", 1e3 * size)
                      : shown.unit == "1"       ? fmt::format("{:.2g}", size)
                                          : fmt::format("{:.2g} {}", shown.value, shown.unit)) +
-                    " of " + n.effect);
+                    " of " + (effect ? plain_name(*effect) : n.effect));
   }
   return sizes.empty() ? ""
                        : line("unseen ",

@@ -15,7 +15,7 @@ std::string diagnosis_screen(const Diagnosis& diagnosis, const std::string& form
 /// The part of it about what was seen, at most `most` findings.
 std::string findings_screen(const Diagnosis& diagnosis, std::size_t most);
 
-/// "unseen 2.2 ms of probe.latency … would move the axis by U, and …": what no size of is seen in
+/// "unseen 2.2 ms of probe latency … would move the axis by U, and …": what no size of is seen in
 /// these readings, by how much of it moves the axis by as much as U; empty: nothing, or of a plane.
 std::string unseen_screen(const Diagnosis& diagnosis);
 

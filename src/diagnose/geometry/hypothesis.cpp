@@ -142,17 +142,17 @@ std::size_t columns_of(std::span<const Hypothesis> list) {
   return sum;
 }
 
+bool is_linearised_at_its_size(const Hypothesis& h) {
+  return h.effect && h.effect->refinement && h.effect->refinement->linearises;
+}
+
 bool same(const Hypothesis& a, const Hypothesis& b) {
-  const auto shape = [](const TermShape& s) {
-    return std::tie(s.order, s.lever_from_mm, s.decay_length_mm, s.degree, s.period_mm,
-                    s.frequency_hz, s.time_constant_s, s.onset_s, s.reference_x_mm, s.range_mm);
-  };
   const auto pattern = [](const Pattern& p) {
     return std::tie(p.kind, p.order, p.spindle, p.degree, p.in_time, p.frequency, p.angle_rad,
                     p.position_mm, p.width_rad, p.length_mm);
   };
-  return a.effect == b.effect && a.free == b.free && a.tests == b.tests &&
-         shape(a.shape) == shape(b.shape) && pattern(a.pattern) == pattern(b.pattern);
+  return a.effect == b.effect && a.free == b.free && a.tests == b.tests && a.shape == b.shape &&
+         pattern(a.pattern) == pattern(b.pattern);
 }
 
 bool same(std::span<const Hypothesis> a, std::span<const Hypothesis> b) {

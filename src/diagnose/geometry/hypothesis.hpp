@@ -40,6 +40,9 @@ Hypothesis of_effect(const char* id, TermShape shape, std::vector<std::size_t> f
 
 std::size_t columns_of(std::span<const Hypothesis> list);
 
+/// Whether it has a place of linearisation that is its own size (Refinement::linearises).
+bool is_linearised_at_its_size(const Hypothesis& h);
+
 /// What terms do to X, one entry a reading, mm. @param linear of all terms, term after term
 std::vector<double> contribution(const LinearisationPoint& point, std::span<const Hypothesis> terms,
                                  std::span<const double> linear, int threads = 1);

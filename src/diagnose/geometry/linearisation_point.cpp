@@ -17,7 +17,8 @@ namespace {
 constexpr double least_range_mm = 1e-3;
 
 // Without a clock the spindle's stated speed gives one, while C runs one way; else the number of
-// the reading is all that is known of the time: enough for an instant.
+// the reading is all that is known of the time: enough for an instant. The spindle then turns once
+// a second: enough for the sense in which X moves.
 void fill_time(const std::optional<double>& spindle_rpm, LinearisationPoint& point) {
   point.has_time = point.time.size() > 0;
   if (point.has_time) return;
@@ -30,6 +31,7 @@ void fill_time(const std::optional<double>& spindle_rpm, LinearisationPoint& poi
     point.has_time = true;
   } else {
     std::iota(time.begin(), time.end(), 0.0);
+    for (Pass& pass : point.passes) pass.speed_rad_per_s = two_pi * pass.c_sign;
   }
   point.time = SharedColumn(std::move(time));
 }

@@ -36,6 +36,19 @@ std::vector<double> contribution_of(const Hypothesis& h, const LinearisationPoin
   return contribution(point, {&h, 1}, span_of(linear), threads);
 }
 
+/// Where a lag or a play is of the size that was found. @param of which of them
+template <class Which>
+void linearise_at_sizes(std::vector<Hypothesis>& terms, const Eigen::VectorXd& found, Which of) {
+  Eigen::Index at = 0;
+  for (Hypothesis& h : terms) {
+    if (of(h)) {
+      const Refinement& place = *h.effect->refinement;
+      h.shape.*place.parameter = std::clamp(found(at), place.low, place.high);
+    }
+    at += static_cast<Eigen::Index>(h.columns());
+  }
+}
+
 /// Takes off what a shift of the base does to X, block by block.
 void subtract_base(std::vector<double>& from, const LinearisationPoint& point,
                    const Eigen::VectorXd& shift, int threads) {
@@ -100,24 +113,37 @@ std::vector<double> RelinearisedFit::residual_mm() const {
                    problem_->threads);
 }
 
-/// About the extended surface, where the terms leave one.
+/// About the extended surface, where the terms leave one. A play is where the eccentricity turns
+/// back, which it has moved itself: each round leaves a tenth of that.
 void RelinearisedFit::relinearise(const Model& model) {
+  constexpr int rounds_of_play = 4;
   const Problem& first = ideal_.problem;
-  const Joint near(first, model.phi, terms_, terms_.size());
-  const Eigen::VectorXd found =
-      near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
   FitOptions bare = ideal_.fit_options;  // a place is wanted, not its uncertainty
   bare.influences.clear();
-  const FitResult extended =
-      fit_cleaned(ideal_.stream, bare,
-                  contribution(first.point, terms_, span_of(found), first.threads), first.mask,
-                  ideal_.masked)
-          .fit;
-  if (!is_diagnosable(extended)) return;
-  const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
-  if (std::ranges::any_of(terms_, turns)) return turn(found, clampings);
-  point_ =
-      linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore, first.threads);
+  const auto plays = [](const Hypothesis& h) { return is_linearised_at_its_size(h) && !turns(h); };
+  std::optional<Problem> about = first;
+  for (int rounds = std::ranges::any_of(terms_, plays) ? rounds_of_play : 1; rounds > 0; --rounds) {
+    const Joint near(*about, model.phi, terms_, terms_.size());
+    const Eigen::VectorXd found =
+        near.solution.coefficients.tail(static_cast<Eigen::Index>(columns_of(terms_)));
+    const FitResult extended =
+        fit_cleaned(ideal_.stream, bare,
+                    contribution(about->point, terms_, span_of(found), first.threads), first.mask,
+                    ideal_.masked)
+            .fit;
+    if (!is_diagnosable(extended)) return;
+    const std::vector<Clamping> clampings = clampings_of(extended, ideal_.ball_mm);
+    linearise_at_sizes(terms_, found, plays);
+    if (rounds == 1 && std::ranges::any_of(terms_, turns)) {
+      linearise_at_sizes(terms_, found, is_linearised_at_its_size);
+      return turn(found, clampings);
+    }
+    about.reset();  // it is about the point that goes
+    point_ =
+        linearise_at(ideal_.stream, clampings, first.point.base, first.point.bore, first.threads);
+    deviation_mm_ = deviation_from(ideal_.stream, *point_, first.threads);
+    about.emplace(first.about(*point_, deviation_mm_));
+  }
 }
 
 /// Moves what all terms are about to the angles that delays and lags make true, and notes what is
@@ -129,9 +155,8 @@ void RelinearisedFit::turn(const Eigen::VectorXd& found, const std::vector<Clamp
   };
   moved_ = ideal_.stream;
   Eigen::Index at = 0;
-  for (Hypothesis& h : terms_) {
+  for (const Hypothesis& h : terms_) {
     const double by = found(at);
-    if (is_lag(h)) h.shape.time_constant_s = by;
     for (std::size_t p = 0; turns(h) && p < first.passes.size(); ++p) {
       const Pass& pass = first.passes[p];
       for (std::size_t i = pass.begin; i < pass.end; ++i)

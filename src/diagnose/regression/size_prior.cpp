@@ -36,10 +36,10 @@ SizePrior size_prior(const Hypothesis& h) {
   const auto names = linear_parameters(h.effect->term, h.shape);
   for (Eigen::Index j = 0; j < count; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    const std::string& name = names[h.free.empty() ? k : h.free[k]].name;
-    const EffectParameter* parameter = size_for(*h.effect, name);
+    const LinearParameter& linear = names[h.free.empty() ? k : h.free[k]];
+    const EffectParameter* parameter = size_for(*h.effect, linear);
     const Range range = range_of_size(parameter, h.shape);
-    const bool pair = name.ends_with("_cos") || name.ends_with("_sin");
+    const bool pair = linear.factor != LinearParameter::Factor::itself;
     out.median(j) = range.median / (pair ? std::sqrt(2.0) : 1.0);
     if (parameter) {
       out.most(j) = parameter->most;

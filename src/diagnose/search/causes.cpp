@@ -47,13 +47,14 @@ std::vector<std::size_t> visible(const Effect& effect, const SearchForm& form,
                                  const TermShape& shape, const Problem& problem) {
   if (!problem.resolution.half_seen || shape.order != problem.resolution.half_seen)
     return form.free;
+  using Factor = LinearParameter::Factor;
   const bool cosine =
       std::abs(std::cos(shape.order * problem.point.at(&PointPart::theta, 0))) > 0.5;
   const auto names = linear_parameters(effect.term, shape);
   std::vector<std::size_t> out;
   for (std::size_t j = 0; j < names.size(); ++j) {
     const bool asked = form.free.empty() || std::ranges::find(form.free, j) != form.free.end();
-    if (asked && names[j].name.ends_with(cosine ? "_cos" : "_sin")) out.push_back(j);
+    if (asked && names[j].factor == (cosine ? Factor::cosine : Factor::sine)) out.push_back(j);
   }
   return out;
 }

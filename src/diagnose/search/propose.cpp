@@ -330,6 +330,10 @@ Proposal Proposer::propose(const std::vector<Hypothesis>& terms, int threads) co
   std::vector<Hypothesis> causes = joined(shortlist(now, best_presets), now.steps);
   take_peaks(std::move(now.scans.causes), most_peaks, now.line_choice, causes);
   take_fast(problem_.fast, true, now.line_choice, causes);
+  std::erase_if(causes, [&](const Hypothesis& cause) {
+    return is_linearised_at_its_size(cause) &&
+           std::ranges::find(terms, cause.effect, &Hypothesis::effect) != terms.end();
+  });
   std::vector<Hypothesis> patterns = hypotheses_of(now.basis, best_patterns);
   take_peaks(std::move(now.scans.patterns), best_patterns, now.line_choice, patterns);
   take_fast(problem_.fast, false, now.line_choice, patterns);
