@@ -3,38 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <map>
-#include <ostream>
 #include <string>
 #include <vector>
 
-#include "trueaxis/effect.hpp"
+#include "laws/face_lathe_cases.hpp"
+#include "laws/lathe_case.hpp"
 
 namespace trueaxis::testing {
 
-inline constexpr double phi = 0.7;           ///< phase of all that have one
-inline constexpr double face_end_mm = 40.0;  ///< X where the probing of a face ends
-
-/// An effect of the virtual lathe at a size, and the linear parameters that docs/theory.md gives it
-/// per unit of the size.
-struct LatheCase {
-  std::string id;
-  double size;  ///< small enough for the second order to be below a twentieth of the first
-  std::function<std::map<std::string, double>(double size)> lathe;
-  TermShape shape;
-  std::vector<double> linear;
-  bool has_limit = true;  ///< flat tops have none: they last by the root of the play
-};
-
-inline void PrintTo(const LatheCase& c, std::ostream* out) { *out << c.id; }
-
-/// @param middle_mm, half_mm of the X that a face is probed at
-inline std::vector<LatheCase> all_lathe_cases(double middle_mm = 24.0, double half_mm = 16.0) {
+/// What a shaft or a bore shows, and of these what a face shows too.
+inline std::vector<LatheCase> lateral_lathe_cases() {
   const double co = std::cos(phi), si = std::sin(phi);
   const double ring = std::pow((9.0 - 1.0) / (36.0 - 1.0), 2);  // three jaws
-  const double mean =
-      (middle_mm * middle_mm + half_mm * half_mm / 3.0) / (face_end_mm * face_end_mm);
   using Parameters = std::map<std::string, double>;
   return {
       {"part.chuck_lobing",
@@ -303,93 +285,14 @@ inline std::vector<LatheCase> all_lathe_cases(double middle_mm = 24.0, double ha
        },
        {.frequency_hz = 3.3},
        {co, -si}},
-      {"part.face_saddle",
-       1e-3,
-       [](double a) {
-         return Parameters{{"amplitude_mm", a}, {"radius_mm", face_end_mm}, {"phase_rad", phi}};
-       },
-       {},
-       {co, si}},
-      {"part.face_lobes",
-       1e-3,
-       [](double a) {
-         return Parameters{
-             {"order", 3}, {"amplitude_mm", a}, {"growth_mm", 0.5 * a}, {"phase_rad", phi}};
-       },
-       {.order = 3},
-       {co, si, 0.5 * co, 0.5 * si}},
-      {"part.face_cone",
-       1e-3,
-       [](double a) {
-         return Parameters{{"amplitude_mm", a}};
-       },
-       {},
-       {1.0}},
-      {"part.face_crown",
-       1e-3,
-       [mean](double a) {
-         return Parameters{{"dish_mm", a},
-                           {"amplitude_mm", 0.5 * a},
-                           {"cubic_mm", -0.4 * a},
-                           {"radius_mm", face_end_mm},
-                           {"dish_mean", mean}};
-       },
-       {},
-       {1.0, 0.5, -0.4}},
-      {"part.face_spiral",
-       1e-3,
-       [](double a) {
-         return Parameters{{"amplitude_mm", a}, {"feed_mm_per_rev", 3}, {"phase_rad", phi}};
-       },
-       {.period_mm = 3},
-       {co, -si}},
-      {"part.seat_slip",
-       1e-3,
-       [](double a) {
-         return Parameters{{"time_s", 12.345},
-                           {"dz_mm", a},
-                           {"tilt_x_rad", 0.02 * a},
-                           {"tilt_y_rad", -0.01 * a},
-                           {"ends", 1}};
-       },
-       {.onset_s = 12.345},
-       {1.0, 0.02, -0.01}},
-      {"spindle.axial_fundamental",
-       1e-3,
-       [](double a) {
-         return Parameters{{"amplitude_mm", a}, {"phase_rad", phi}};
-       },
-       {},
-       {co, si}},
-      {"spindle.axial_asynchronous",
-       1e-3,
-       [](double a) {
-         return Parameters{{"order", 0.42}, {"amplitude_mm", a}, {"phase_rad", phi}};
-       },
-       {.order = 0.42},
-       {co, -si}},
-      {"spindle.face_tilt",
-       1e-5,
-       [](double a) {
-         return Parameters{{"order", 2}, {"amplitude_rad", a}, {"phase_rad", phi}};
-       },
-       {.order = 2},
-       {co, si, 0.0, 0.0}},
-      {"slide.xz_squareness",
-       1e-5,
-       [middle_mm](double a) {
-         return Parameters{{"slope_rad", a}, {"middle_mm", middle_mm}};
-       },
-       {},
-       {1.0}},
-      {"slide.x_straightness",
-       1e-3,
-       [](double a) {
-         return Parameters{{"degree", 3}, {"amplitude_mm", a}};
-       },
-       {.degree = 3},
-       {0.0, 0.0, 1.0}},
   };
+}
+
+/// @param middle_mm, half_mm of the X that a face is probed at
+inline std::vector<LatheCase> all_lathe_cases(double middle_mm = 24.0, double half_mm = 16.0) {
+  std::vector<LatheCase> list = lateral_lathe_cases();
+  std::ranges::move(face_lathe_cases(middle_mm, half_mm), std::back_inserter(list));
+  return list;
 }
 
 /// Those of the effects that streams of a kind have.
