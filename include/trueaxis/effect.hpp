@@ -33,9 +33,11 @@ struct EffectParameter {
   std::string_view unit;  ///< mm, rad, s, Hz, 1 and quotients of them
   double low = 0.0, high = 0.0;
   std::string_view meaning;
-  std::string_view of = {};     ///< shape or linear parameter that it tells, where named otherwise
-  double share_of_range = 0.0;  ///< share of shape.range_mm that `high` is at most; 0: any
+  std::string_view of = {};  ///< shape or linear parameter that it tells, where named otherwise
+  double share = 0.0;  ///< of a parameter of the shape that `high` is at most, and ten times that
+                       ///< any size; 0: any
   double least = -1e300, most = 1e300;  ///< of a linear one; what is beyond is no such effect
+  double TermShape::*share_of = &TermShape::range_mm;
 };
 
 /// What a stream must have for an effect to be seen in it.

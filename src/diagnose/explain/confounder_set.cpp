@@ -9,6 +9,33 @@
 #include "infer/classes.hpp"
 
 namespace trueaxis::diagnose_detail {
+namespace {
+
+/// Whether the named form, about a place on the axis that was fitted, is a special case of a
+/// rival's: lobes that grow along the part.
+bool is_case_of(const Hypothesis& named, const Hypothesis& rival) {
+  const auto* lever = named.effect ? std::get_if<Harmonic>(&named.effect->term) : nullptr;
+  const auto* lobes = std::get_if<Harmonic>(&rival.effect->term);
+  return lever && lobes && lever->envelope == Harmonic::Envelope::lever && !named.free.empty() &&
+         lobes->envelope == Harmonic::Envelope::growing && rival.shape.order == named.shape.order;
+}
+
+/// Of a rival that might have been just the named form: their sizes tell which of both it is, and
+/// not that the one formula has fewer parameters.
+double criterion_as(const Hypothesis& rival, const Columns& its, const Hypothesis& named,
+                    const Columns& own, const Projection& beside, std::size_t count) {
+  const auto norm2 = [&](const Columns& of) {
+    return beside.norm2(static_cast<Eigen::Index>(of.front()));
+  };
+  infer::SizePrior sizes = size_prior(rival);
+  sizes.median = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(own.size()),
+                                           sizes.median(0) * std::sqrt(norm2(its) / norm2(own)));
+  sizes.least.resize(0), sizes.most.resize(0);
+  return infer::weigh(sizes, beside, own, count).criterion +
+         2.0 * std::log(std::max({rival.tests, named.tests, 1.0}));
+}
+
+}  // namespace
 
 ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::size_t term,
                           int threads) {
@@ -17,6 +44,8 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   const Hypothesis& named = model.terms[term];
   std::vector<Candidate> causes = proposer.rivals(named, others, threads);
   std::erase_if(causes, [](const Candidate& c) { return c.rank == 0; });
+  for (Candidate& c : causes)
+    if (is_case_of(named, c.hypothesis)) c.hypothesis.free.clear();
 
   std::vector<Hypothesis> list = others;
   list.push_back(named);
@@ -31,10 +60,16 @@ ConfounderSet distinguish(const Proposer& proposer, const Model& model, std::siz
   std::vector<Cause> rivals;
   std::vector<std::size_t> place;
   for (std::size_t k = 0; k < causes.size(); ++k) {
-    const Candidate& c = causes[k];
+    Candidate& c = causes[k];
+    const Columns& its = joint.places[others.size() + 1 + k];
+    if (is_case_of(named, c.hypothesis)) {
+      const Score all = score(beside, its);
+      c.gain = all.gain, c.rank = all.rank;
+      c.criterion = std::min(c.criterion, criterion_as(c.hypothesis, its, named, own, beside,
+                                                       joint.equations.count()));
+    }
     if (c.hypothesis.effect != named.effect) {
-      rivals.push_back(
-          {c.hypothesis.id(), joint.places[others.size() + 1 + k], c.gain, c.rank, c.criterion});
+      rivals.push_back({c.hypothesis.id(), its, c.gain, c.rank, c.criterion});
       place.push_back(k);
     } else if (out.members.empty()) {
       out.members.push_back(c);
