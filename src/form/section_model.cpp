@@ -61,6 +61,26 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
   profile_mm_ = filtered(raw().value_mm);
   orders_ = harmonics_of(
       raw(), std::max(1, std::min(highest_order(raw()), static_cast<int>(raw().size()) / 3)));
+  associate_circles();
+}
+
+SectionModel::SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options)
+    : trace_(station.raw, {station.x_mm, station.y_mm, station.mean_mm}, radius_known),
+      z_mm_(station.z_mm),
+      noise_mm_(station.noise_mm),
+      shown_mm_(station.noise_mm),
+      low_upr_(options.low_upr),
+      high_upr_(options.high_upr),
+      turns_(station.turns),
+      readings_(station.readings),
+      profile_mm_(station.profile_mm),
+      orders_(station.orders) {
+  make_slope(options);
+  associate_circles();
+  station_ = std::move(station);
+}
+
+void SectionModel::associate_circles() {
   for (const Criterion criterion : form_criteria) {
     circles_.push_back(associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion));
     near_.emplace_back(limacon_rows(raw().at), criterion);
@@ -79,8 +99,13 @@ void SectionModel::make_filter(const FormOptions& options) {
   high_ = low_pass(options.filter, raw(), cutoff_rad_);
   if (high_ && options.low_upr > 1.0)
     low_ = low_pass(options.filter, raw(), two_pi / options.low_upr);
-  const double longest =
-      options.filter == ProfileFilter::none ? 0.1 * two_pi : longest_step(cutoff_rad_);
+  make_slope(options);
+}
+
+void SectionModel::make_slope(const FormOptions& options) {
+  const double longest = options.filter == ProfileFilter::none
+                             ? 0.1 * two_pi
+                             : longest_step(two_pi / options.high_upr);
   slope_ = std::make_shared<Derivative>(raw(), longest);
 }
 
@@ -142,6 +167,10 @@ SectionForm SectionModel::form() const {
     for (const Gap& gap : gaps_of(raw(), longest_step(cutoff_rad_))) form.gaps_rad += gap.length;
     form.transmission = measured_transmission(raw(), *high_, cutoff_rad_);
   }
+  if (station_) {
+    form.points_per_cycle = station_->points_per_cycle;
+    form.gaps_rad = station_->gaps_rad;
+  }
   for (std::size_t c = 0; c < form_criteria.size(); ++c) {
     const AssociatedCircle& circle = circles_[c];
     FormCircle& out = form.circles.emplace_back();
@@ -174,9 +203,10 @@ SectionForm SectionModel::form() const {
   const double u_centre = form.harmonics.empty() ? 0.0 : form.harmonics.front().u_mm;
   form.values.push_back(
       {"eccentricity", "LSCI", {std::hypot(least.x_mm, least.y_mm), u_centre, "mm", ""}, 0.0});
+  const double u_radius =
+      station_ ? noise_mm_ * orders_.front().u_per_sigma : noise_mm_ / std::sqrt(n);
   if (radius_known())
-    form.values.push_back(
-        {"radius", "LSCI", {least.radius_mm, noise_mm_ / std::sqrt(n), "mm", ""}, 0.0});
+    form.values.push_back({"radius", "LSCI", {least.radius_mm, u_radius, "mm", ""}, 0.0});
   form.profile = {raw().at, raw().value_mm, profile_mm_};
   return form;
 }

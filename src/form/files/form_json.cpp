@@ -20,6 +20,7 @@ Json value_json(const FormValue& one) {
     json["why"] = edge.why_not;
     json["at_most"] = number(edge.interval->back());
   }
+  if (one.unresolved) json["unresolved"] = true;
   return json;
 }
 
@@ -83,6 +84,15 @@ Json swallowed_json(const FormResult& result) {
   });
 }
 
+Json surface_json(const FormSurface& surface) {
+  return {{"readings", surface.readings},
+          {"turns", number(surface.turns)},
+          {"orders", surface.orders},
+          {"degrees_along_z", surface.degrees},
+          {"noise", with_unit(surface.noise_mm, "mm")},
+          {"orders_found", surface.orders_found}};
+}
+
 std::string form_json(const FormResult& result) {
   Json json{{"schema", "trueaxis.form/1"}, {"version", TRUEAXIS_VERSION}};
   json["input"] = {{"file", result.source}, {"hash", result.input_hash}};
@@ -100,6 +110,7 @@ std::string form_json(const FormResult& result) {
     return section_json(section, !result.radius_known);
   });
   json["swallowed"] = swallowed_json(result);
+  if (result.surface) json["surface"] = surface_json(*result.surface);
   json["notes"] = result.notes;
   return json_text(json);
 }
