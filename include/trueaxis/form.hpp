@@ -50,8 +50,11 @@ struct FormOptions {
   double spindle_range_mm = 0.0;          ///< range of a motion that is not known by its orders
   Criterion datum = Criterion::gaussian;  ///< of the datum's circle or cylinder
   double coverage_factor = 2.0;
+  /// false: about least squares and the minimum zone alone, by Eqs. 265 and 273 about the axis of
+  /// least squares (to 1e-9 mm), as quick as a diagnosis wants it.
+  bool all_references = true;
   bool each_turn_by_itself = false;  ///< a helix is not estimated as one surface
-  int trials = 400;                  ///< of the Monte Carlo: u to 3.5 %; of a surface 200 at least
+  int trials = 400;                  ///< of the Monte Carlo: u to 3.5 %; of a surface 100 at least
   std::uint64_t seed = 12181;
   int threads = 0;  ///< 0: as many as there are; the values do not depend on it
 };

@@ -117,8 +117,9 @@ class Assessment {
              const FormOptions& options)
       : part_(part), datum_(datum), options_(options) {
     const Criterion of_datum[] = {Criterion::gaussian, options.datum};
-    if (part.size() > 1 && part.front().radius_known()) whole_.emplace(part, form_criteria);
-    if (datum.size() > 1) whole_datum_.emplace(datum, of_datum);
+    if (part.size() > 1 && part.front().radius_known())
+      whole_.emplace(part, criteria_of(options.all_references), options.all_references);
+    if (datum.size() > 1) whole_datum_.emplace(datum, of_datum, options.all_references);
   }
 
   std::vector<NamedValue> measured(const Profiles& profiles) const {
@@ -152,7 +153,7 @@ class Assessment {
     if (whole_datum_) add(whole_datum_->rocking(options_.datum), "Datum: ");
     for (const Criterion criterion :
          {Criterion::minimum_circumscribed, Criterion::maximum_inscribed})
-      if (whole_) add(whole_->rocking(criterion), "");
+      if (whole_ && options_.all_references) add(whole_->rocking(criterion), "");
     return out;
   }
 
@@ -191,7 +192,7 @@ class Unresolved {
  public:
   Unresolved(const std::vector<NamedValue>& values, const std::vector<Spread>& spread, double k) {
     for (std::size_t v = 0; v < values.size(); ++v)
-      resolved_[family(values[v])] |= values[v].value > k * spread[v].u;
+      resolved_[family(values[v])] |= is_whole(values[v]) && values[v].value > k * spread[v].u;
   }
   bool has(const NamedValue& value, const Spread& spread) const {
     return std::ranges::find(of_form, value.name) != std::end(of_form) && spread.u > 0.0 &&
@@ -203,6 +204,10 @@ class Unresolved {
                                                  "CYLt",        "CYLp",  "CYLv",  "CYLq",
                                                  "CONt",        "STRsa", "STRsg", "runout_circular",
                                                  "runout_total"};
+  /// RONt, and not its parts RONp, RONv and RONq.
+  static bool is_whole(const NamedValue& value) {
+    return value.name.size() > 4 || value.name.ends_with('t');
+  }
   /// Of RONt, RONp … about one circle.
   static std::string family(const NamedValue& value) {
     return value.name.substr(0, 3) + (value.name.size() > 4 ? value.name : "") + value.reference;

@@ -61,7 +61,7 @@ SectionModel::SectionModel(const SectionReadings& readings, bool radius_known,
   profile_mm_ = filtered(raw().value_mm);
   orders_ = harmonics_of(
       raw(), std::max(1, std::min(highest_order(raw()), static_cast<int>(raw().size()) / 3)));
-  associate_circles();
+  associate_circles(options.all_references);
 }
 
 SectionModel::SectionModel(StationOfSurface station, bool radius_known, const FormOptions& options)
@@ -76,15 +76,19 @@ SectionModel::SectionModel(StationOfSurface station, bool radius_known, const Fo
       profile_mm_(station.profile_mm),
       orders_(station.orders) {
   make_slope(options);
-  associate_circles();
+  associate_circles(options.all_references);
   station_ = std::move(station);
 }
 
-void SectionModel::associate_circles() {
-  for (const Criterion criterion : form_criteria) {
-    circles_.push_back(associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion));
-    near_.emplace_back(limacon_rows(raw().at), criterion);
-    near_.back()(profile_mm_);
+void SectionModel::associate_circles(bool all_references) {
+  const Exchange::Rows rows = limacon_rows(raw().at);
+  for (const Criterion criterion : criteria_of(all_references)) {
+    near_.emplace_back(rows, criterion);
+    const Nearest nearest = near_.back()(profile_mm_);
+    circles_.push_back(
+        all_references
+            ? associate_circle(raw().at, profile_mm_, trace_.radius_mm(), criterion)
+            : circle_near(near_.back().off(profile_mm_, nearest), nearest, trace_.radius_mm()));
   }
 }
 
@@ -136,7 +140,7 @@ std::vector<NamedValue> SectionModel::near(std::span<const double> filtered_mm) 
 std::vector<NamedValue> SectionModel::values_of(const std::vector<std::vector<double>>& off_mm,
                                                 std::span<const double> filtered_mm) const {
   std::vector<NamedValue> values;
-  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+  for (std::size_t c = 0; c < off_mm.size(); ++c) {
     const Criterion criterion = form_criteria[c];
     const std::vector<double>& off = off_mm[c];
     const auto [low, high] = range_of(off);
@@ -171,7 +175,7 @@ SectionForm SectionModel::form() const {
     form.points_per_cycle = station_->points_per_cycle;
     form.gaps_rad = station_->gaps_rad;
   }
-  for (std::size_t c = 0; c < form_criteria.size(); ++c) {
+  for (std::size_t c = 0; c < circles_.size(); ++c) {
     const AssociatedCircle& circle = circles_[c];
     FormCircle& out = form.circles.emplace_back();
     out.criterion = form_criteria[c];

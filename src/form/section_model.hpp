@@ -81,7 +81,7 @@ class SectionModel {
 
  private:
   void make_filter(const FormOptions& options);
-  void associate_circles();
+  void associate_circles(bool all_references);
   void make_slope(const FormOptions& options);
 
   std::vector<NamedValue> values_of(const std::vector<std::vector<double>>& off_mm,

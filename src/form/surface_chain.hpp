@@ -22,7 +22,7 @@ struct SurfacePosterior {
 };
 
 /// A Markov chain of the surface's coefficients, of which terms are there at all, how large those
-/// are, and of the noise (Eqs. 319-321). Radius, cone and axis (orders 0 and 1 of degrees 0 and 1)
+/// are, and of the noise (Eqs. 319, 320). Radius, cone and axis (orders 0 and 1 of degrees 0 and 1)
 /// have no prior. Deterministic.
 SurfacePosterior sample_surface(const SurfaceTerms& terms, SurfaceSums sums,
                                 const ChainOptions& options);

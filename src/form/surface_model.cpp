@@ -20,13 +20,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int least_draws = 200;
+constexpr int least_draws = 100;
 constexpr double orders_over_cutoff = 1.5;  // the filter lets 21 % of these through
 constexpr std::size_t readings_an_order = 5;
 constexpr int fewest_degrees = 2, most_degrees = 10;
 constexpr int more_stations = 3;  // than degrees
 constexpr double seen = 0.05, certain = 0.999;
-constexpr std::size_t angles_a_wave = 16, fewest_angles = 96, most_angles = 720;
+constexpr std::size_t angles_a_wave = 32, angles_of_doubtful = 3;  // an order more likely absent
+constexpr std::size_t fewest_angles = 96, most_angles = 720;
 constexpr double turns_about_a_station = 3.0;
 constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is no gap
 constexpr int alignments = 3;
@@ -98,7 +99,7 @@ void SurfaceModel::make_grid() {
   std::size_t count = fewest_angles;
   for (int n = 2; n <= terms_.orders; ++n) {
     const double share = posterior_.order_is_there[n];
-    const std::size_t a_wave = share > 0.5 ? angles_a_wave : share > seen ? angles_a_wave / 2 : 0;
+    const std::size_t a_wave = share > 0.5 ? angles_a_wave : share > seen ? angles_of_doubtful : 0;
     count = std::max(count, a_wave * static_cast<std::size_t>(n));
   }
   count = std::min(count, most_angles);

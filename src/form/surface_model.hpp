@@ -13,7 +13,7 @@
 namespace trueaxis::form {
 
 /// A surface of revolution with its form, by all readings together: what they show of it as draws
-/// (`surface_chain.hpp`), read off at angles of stations along Z. Eqs. 317-323.
+/// (`surface_chain.hpp`), read off at angles of stations along Z. Eqs. 317-321.
 class SurfaceModel {
  public:
   SurfaceModel(const SurfaceReadings& readings, const FormOptions& options);

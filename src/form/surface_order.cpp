@@ -9,8 +9,8 @@
 namespace trueaxis::form {
 namespace {
 
-constexpr double reaches[] = {1.0, 2.0, 4.0, 8.0};  // degrees that a course holds
-constexpr double shares[] = {0.05, 0.5, 5.0};       // of what changes, over what stays
+constexpr double reaches[] = {0.3, 1.5, 4.0, 8.0};  // degrees that a course holds; 0.3: a line
+constexpr double shares[] = {0.1, 2.0};             // of what changes, over what stays
 constexpr double least_weight = 1e-4;
 
 }  // namespace

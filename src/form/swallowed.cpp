@@ -103,6 +103,10 @@ void withhold_swallowed(FormResult& result) {
     for (FormValue& one : values) {
       if (std::ranges::find(resting_on_lobes, one.name) == resting_on_lobes.end()) continue;
       Estimate& e = one.estimate;
+      if (one.unresolved) {
+        e.interval->back() += lost_mm;
+        continue;
+      }
       const double U_mm = k * e.u + lost_mm;
       e = {.unit = e.unit,
            .why_not = why,

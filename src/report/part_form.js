@@ -72,7 +72,7 @@ function partFormBlock(form, diagnosed = true) {
     form.values.map((row) => [formNames[row.name] ?? row.name, formReferences[row.reference] ?? '–', ...row.cases.map((one) => formCell(one, k))]), 2, true));
   if (!form.worst) return block('Form of the part', ...parts);
   parts.push(element('div', {class: 'pair'}, [formPolar(form), formHarmonics(form)].filter(Boolean)));
-  parts.push(table(`This section about each circle ± U, ${form.filter}`, ['Value', 'least squares (LSCI)', 'minimum zone (MZCI)', 'circumscribed (MCCI)', 'inscribed (MICI)'],
+  parts.push(table(`This section about each circle ± U, ${form.filter}`, ['Value', 'least squares (LSCI)', 'minimum zone (MZCI)'],
     form.worst.values.map((row) => [row.name, ...row.about.map((one) => formCell(one, k))])));
   if (form.section_count > 1) {
     const more = form.section_count > form.sections.length ? `, the ${form.sections.length} largest of ${form.section_count}` : '';

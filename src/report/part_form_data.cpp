@@ -135,7 +135,7 @@ Json worst_data(const FormResult& form) {
                                 {"phase_deg", rounded(one.phase_rad / rad_per_deg, 1)}});
   for (const char* name : {"RONt", "RONp", "RONv", "RONq"}) {
     Json row{{"name", name}, {"about", Json::array()}};
-    for (const char* circle : {"LSCI", "MZCI", "MCCI", "MICI"})
+    for (const char* circle : {"LSCI", "MZCI"})
       row["about"].push_back(estimate_data(of(section, name, circle)));
     data["values"].push_back(std::move(row));
   }

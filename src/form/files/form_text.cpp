@@ -27,7 +27,7 @@ const FormValue* find(std::span<const FormValue> values, std::string_view name,
 /// In µm; slopes in µm a degree, angles in mrad.
 std::string cell(const FormValue* one, double k) {
   if (!one) return "";
-  if (std::abs(one->estimate.value) < nothing_mm && one->estimate.u < nothing_mm) return "0";
+  if (size_of(*one) < nothing_mm && (one->unresolved || one->estimate.u < nothing_mm)) return "0";
   const bool slope = one->estimate.unit == "mm/rad";
   const double scale = slope ? rad_per_deg / mm_per_um : 1e3;
   if (one->estimate.determined() && scale * k * one->estimate.u < least_shown)
@@ -56,7 +56,8 @@ std::string heading(const FormResult& result) {
   const SectionForm& first = result.sections.front();
   if (result.surface)
     return fmt::format(
-        "{}, one surface of {} readings at {} stations; values in µm ± U (k = {:g})\n",
+        "{}, one surface of {} readings at {} stations; values in µm ± U (k = {:g}), < a "
+        "bound (95 %)\n",
         filter_text(result.options), result.surface->readings, result.sections.size(),
         result.options.coverage_factor);
   std::string text =
