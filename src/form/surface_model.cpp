@@ -31,6 +31,7 @@ constexpr std::size_t fewest_angles = 96, most_angles = 720;
 constexpr double turns_about_a_station = 3.0;
 constexpr double widest_of_steps = 2.5;  // of a turn's: a step that is no gap
 constexpr int alignments = 3;
+constexpr double robust_medians = 4.4478;  // 3 σ of normal noise
 
 }  // namespace
 
@@ -45,11 +46,8 @@ SurfaceModel::SurfaceModel(const SurfaceReadings& readings, const FormOptions& o
   terms_.orders = std::clamp(static_cast<int>(std::ceil(orders_over_cutoff * options.high_upr)), 2,
                              std::max(2, most));
   terms_.degrees = std::clamp(static_cast<int>(turns_), fewest_degrees, most_degrees);
-  posterior_ = sample_surface(terms_, surface_sums(terms_, angle_rad_, t_, off_mm_),
-                              {.draws = std::max(options.trials, least_draws),
-                               .seed = options.seed,
-                               .least_noise_mm = options.noise_mm.value_or(0.0)});
-  keep_coefficients();
+  sample();
+  if (options.filter == ProfileFilter::robust_gaussian && leave_out_far()) sample();
   for (int n = 0; n <= terms_.orders; ++n) band_.push_back(passed_by_band(options, n));
   make_grid();
 }
@@ -84,6 +82,44 @@ void SurfaceModel::put_about_axis(const SurfaceReadings& readings) {
       off_mm_[i] = std::hypot(x, y) - radius_mm_;
     }
   }
+}
+
+void SurfaceModel::sample() {
+  posterior_ = sample_surface(terms_, surface_sums(terms_, angle_rad_, t_, off_mm_),
+                              {.draws = std::max(options_.trials, least_draws),
+                               .seed = options_.seed,
+                               .least_noise_mm = options_.noise_mm.value_or(0.0)});
+  keep_coefficients();
+}
+
+/// Those that Eq. 263 gives no weight.
+bool SurfaceModel::leave_out_far() {
+  std::vector<double> off;
+  for (std::size_t i = 0; i < t_.size(); ++i) {
+    const VectorXd f = along(terms_.degrees, t_[i]);
+    double h = 0.0;
+    for (int n = 0; n <= terms_.orders; ++n) {
+      const Eigen::Vector2d amplitude = amplitudes(f, n, mean_);
+      if (!amplitude.isZero(0.0))
+        h +=
+            amplitude[0] * std::cos(n * angle_rad_[i]) + amplitude[1] * std::sin(n * angle_rad_[i]);
+    }
+    off.push_back(std::abs(off_mm_[i] - h));
+  }
+  const double most = robust_medians * median(off);
+  kept_.clear();
+  for (std::size_t i = 0; i < off.size(); ++i)
+    if (off[i] < most) kept_.push_back(i);
+  if (kept_.size() == off.size()) return false;
+  for (std::vector<double>* column : {&angle_rad_, &t_, &z_mm_, &off_mm_})
+    *column = kept_of(*column);
+  return true;
+}
+
+std::vector<double> SurfaceModel::kept_of(std::span<const double> column) const {
+  std::vector<double> out;
+  for (const std::size_t i : kept_) out.push_back(column[i]);
+  return out;
 }
 
 void SurfaceModel::keep_coefficients() {
@@ -153,13 +189,13 @@ void SurfaceModel::add_station(double z_mm, std::span<const std::size_t> by_z) {
   stations_.push_back(std::move(station));
 }
 
-Eigen::Vector2d SurfaceModel::at(const Station& station, int order,
-                                 const Eigen::Ref<const VectorXd>& q) const {
+Eigen::Vector2d SurfaceModel::amplitudes(const VectorXd& f, int order,
+                                         const Eigen::Ref<const VectorXd>& q) const {
   Eigen::Vector2d out = Eigen::Vector2d::Zero();
   const Index column = terms_.column(order, 0);
   for (int d = 0; d <= terms_.degrees_of(order); ++d)
     for (int w = 0; w < SurfaceTerms::width(order); ++w)
-      out[w] += station.along[d] * q[column + d * SurfaceTerms::width(order) + w];
+      out[w] += f[d] * q[column + d * SurfaceTerms::width(order) + w];
   return out;
 }
 
@@ -169,8 +205,8 @@ std::vector<double> SurfaceModel::profile(const Station& station,
                                           bool filtered) const {
   std::vector<double> out(station.place.size(), 0.0);
   for (int n = 0; n <= terms_.orders; ++n) {
-    Eigen::Vector2d amplitude = at(station, n, q);
-    if (n < 2) amplitude -= at(station, n, mean_);
+    Eigen::Vector2d amplitude = amplitudes(station.along, n, q);
+    if (n < 2) amplitude -= amplitudes(station.along, n, mean_);
     if (filtered) amplitude *= band_[static_cast<std::size_t>(n)];
     if (amplitude.isZero(0.0)) continue;
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -184,11 +220,12 @@ std::vector<double> SurfaceModel::profile(const Station& station,
 std::vector<Order> SurfaceModel::orders_at(const Station& station) const {
   std::vector<Order> out;
   for (int n = 0; n <= terms_.orders; ++n) {
-    const Eigen::Vector2d mean = at(station, n, mean_);
+    const Eigen::Vector2d mean = amplitudes(station.along, n, mean_);
     double squares = 0.0;
     const bool absent = n >= 2 && posterior_.order_is_there[n] == 0.0;
     for (Index draw = 0; !absent && draw < posterior_.coefficients.cols(); ++draw)
-      squares += (at(station, n, posterior_.coefficients.col(draw)) - mean).squaredNorm();
+      squares +=
+          (amplitudes(station.along, n, posterior_.coefficients.col(draw)) - mean).squaredNorm();
     const double u = std::sqrt(squares / static_cast<double>(draws()) / SurfaceTerms::width(n));
     // Of an order that no draw has, that of least squares.
     const double flat = std::sqrt(SurfaceTerms::width(n) / static_cast<double>(off_mm_.size()));
@@ -204,11 +241,11 @@ std::vector<SectionModel> SurfaceModel::sections() const {
   for (const Station& station : stations_) {
     StationOfSurface one;
     const auto [x0, y0] = axis_.at(station.z_mm);
-    const Eigen::Vector2d centre = at(station, 1, mean_);
+    const Eigen::Vector2d centre = amplitudes(station.along, 1, mean_);
     one.z_mm = station.z_mm;
     one.x_mm = x0 + centre[0];
     one.y_mm = y0 + centre[1];
-    one.mean_mm = radius_mm_ + at(station, 0, mean_)[0];
+    one.mean_mm = radius_mm_ + amplitudes(station.along, 0, mean_)[0];
     one.raw.period = two_pi;
     for (const std::size_t k : station.place)
       one.raw.at.push_back(two_pi * static_cast<double>(k) / static_cast<double>(cosine_.size()));
@@ -244,7 +281,8 @@ void SurfaceModel::add_taken_off(std::span<const std::vector<double>> columns_mm
   Eigen::MatrixXd right(terms_.size(), count);
   SurfaceSums sums;
   for (Index k = 0; k < count; ++k) {
-    sums = surface_sums(terms_, angle_rad_, t_, columns_mm[static_cast<std::size_t>(k)]);
+    const std::vector<double>& column = columns_mm[static_cast<std::size_t>(k)];
+    sums = surface_sums(terms_, angle_rad_, t_, kept_.empty() ? column : kept_of(column));
     right.col(k) = sums.right;
   }
   std::vector<Index> there;

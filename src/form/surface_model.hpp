@@ -47,9 +47,12 @@ class SurfaceModel {
   void make_grid();
   void add_station(double z_mm, std::span<const std::size_t> by_z);
   void keep_coefficients();
-  /// Amplitudes of cos and sin of an order at a station.
-  Eigen::Vector2d at(const Station& station, int order,
-                     const Eigen::Ref<const Eigen::VectorXd>& q) const;
+  void sample();
+  bool leave_out_far();
+  std::vector<double> kept_of(std::span<const double> column) const;
+  /// Amplitudes of cos and sin of an order where the degrees are f.
+  Eigen::Vector2d amplitudes(const Eigen::VectorXd& f, int order,
+                             const Eigen::Ref<const Eigen::VectorXd>& q) const;
   std::vector<Order> orders_at(const Station& station) const;
   /// @param filtered through the band, else as it is
   std::vector<double> profile(const Station& station, const Eigen::Ref<const Eigen::VectorXd>& q,
@@ -61,6 +64,7 @@ class SurfaceModel {
   bool radius_known_ = true;
   AxisLine axis_;
   std::vector<double> angle_rad_, t_, z_mm_, off_mm_;  ///< of the readings, about the axis
+  std::vector<std::size_t> kept_;                      ///< of them by a robust filter; empty: all
   SurfacePosterior posterior_;
   Eigen::VectorXd mean_, spread_;  ///< of the coefficients
   double noise_mm_ = 0.0;

@@ -157,6 +157,8 @@ Json part_form_data(const PartForm& form) {
   data["filter"] = filtered ? filter_words(form.probed.options) : "not filtered";
   data["carried_upr"] = form.carried_upr;
   data["high_upr"] = form.probed.options.high_upr;
+  data["surface_readings"] =
+      form.probed.surface ? Json(form.probed.surface->readings) : Json(nullptr);
   data["section_count"] = form.probed.sections.size();
   data["motion"] = form.motion;
   data["open"] = form.open;

@@ -136,6 +136,20 @@ TEST(FormSurface, AKeywayIsNotFilledIn) {
   }
 }
 
+// Chips of 50 µm on one reading of 40: the robust filter leaves them out.
+TEST(FormSurface, ARobustFilterLeavesOutliersOut) {
+  ProbeStream stream =
+      helix([](double c, double) { return 20.0 + 3e-3 * std::cos(3.0 * c); }, 1e-3, 6);
+  for (std::size_t i = 7; i < stream.size(); i += 40) stream.reading_mm[i] += 0.05;
+  const FormResult result = assess_form(stream, quick(ProfileFilter::robust_gaussian, 15.0));
+  ASSERT_TRUE(result.surface);
+  EXPECT_LE(result.surface->readings, stream.size() - stream.size() / 40);
+  const FormValue& value = value_of(result.sections[4].values, "RONt", "MZCI");
+  // Its transmission of 3 UPR at 15 is above 0.99.
+  EXPECT_NEAR(value.estimate.value, 6e-3, 4.0 * value.estimate.u + 0.01 * 6e-3);
+  EXPECT_NEAR(result.surface->noise_mm, 1e-3, 1e-4);
+}
+
 TEST(FormSurface, ThreadsChangeNoDigit) {
   const ProbeStream stream =
       helix([](double c, double z) { return 20.0 + 1e-4 * z * std::cos(4.0 * c); }, 1e-3, 9);

@@ -116,9 +116,11 @@ std::string form_json(const FormResult& result) {
 }
 
 std::string form_profile_csv(const FormResult& result) {
-  std::string text =
-      "# schema: trueaxis.form_profile/1\n# of each section about its least-squares circle: the "
-      "readings, and what the filter lets through\nsection,Z[mm],C[deg],raw[um],filtered[um]\n";
+  std::string text = "# schema: trueaxis.form_profile/1\n# of each ";
+  text += result.surface
+              ? "station of the surface about its least-squares circle: before the filter"
+              : "section about its least-squares circle: the readings";
+  text += ", and what the filter lets through\nsection,Z[mm],C[deg],raw[um],filtered[um]\n";
   for (std::size_t s = 0; s < result.sections.size(); ++s) {
     const SectionForm& section = result.sections[s];
     for (std::size_t i = 0; i < section.profile.angle_rad.size(); ++i)
